@@ -1,0 +1,37 @@
+// The one exception type for what a user or a machine can cause. What only our own code can cause asserts.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace lightgrid {
+
+enum class ErrorKind {
+  input = 2,    // the arguments or a file are wrong; the message names the file, the field and the value
+  machine = 3,  // this machine cannot do it (no device, out of memory); the message says what would help
+};
+
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
+  int exit_code() const { return static_cast<int>(kind_); }
+
+ private:
+  ErrorKind kind_;
+};
+
+// throw input_error("{}: light {} \"{}\": radius is NaN", path, i, name);
+template <typename... Args>
+Error input_error(fmt::format_string<Args...> format, Args&&... args) {
+  return {ErrorKind::input, fmt::format(format, std::forward<Args>(args)...)};
+}
+
+template <typename... Args>
+Error machine_error(fmt::format_string<Args...> format, Args&&... args) {
+  return {ErrorKind::machine, fmt::format(format, std::forward<Args>(args)...)};
+}
+
+}  // namespace lightgrid

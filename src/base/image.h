@@ -1,0 +1,39 @@
+// Images in memory and as files. Linear light, float, row 0 at the bottom (as OpenGL has it); the file writers
+// turn them over.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace lightgrid {
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> pixels;  // linear RGBA, scene-referred; alpha is coverage
+
+  Image() = default;
+  Image(int width, int height) : width(width), height(height), pixels(size_t(width) * height, glm::vec4(0)) {}
+  glm::vec4& at(int x, int y) { return pixels[size_t(y) * width + x]; }
+  const glm::vec4& at(int x, int y) const { return pixels[size_t(y) * width + x]; }
+};
+
+// The one tone map of this project: Khronos PBR Neutral (Khronos Group 2024), which leaves colours below 0.8
+// as they are and rolls brighter ones off to white, then the sRGB transfer function. Linear in, sRGB bytes out.
+glm::vec3 tone_map_neutral(glm::vec3 linear);
+float srgb_from_linear(float linear);
+float linear_from_srgb(float srgb);
+
+// Bytes as they go to a file: row 0 at the top, RGB. Deterministic.
+std::vector<uint8_t> srgb_bytes(const Image& image);
+
+std::vector<uint8_t> encode_png(int width, int height, int channels, const std::vector<uint8_t>& bytes);
+void save_png(const std::filesystem::path& path, const Image& image);
+void save_exr(const std::filesystem::path& path, const Image& image);  // 32-bit float RGB, linear
+
+// By extension: .png through the tone map, .exr linear; anything else is an input error.
+void save_image(const std::filesystem::path& path, const Image& image);
+
+}  // namespace lightgrid

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace lightgrid {
+
+class Timer {
+ public:
+  double elapsed_ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Spread {
+  double min = 0, median = 0, p90 = 0, max = 0;
+  int runs = 0;
+};
+
+inline Spread spread_of(std::vector<double> samples) {
+  if (samples.empty()) return {};
+  std::sort(samples.begin(), samples.end());
+  const size_t n = samples.size();
+  return {samples[0], samples[n / 2], samples[std::min(n - 1, n * 9 / 10)], samples[n - 1], static_cast<int>(n)};
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,49 @@
+// One buffer that OpenCL writes or reads and OpenGL reads or writes.
+#pragma once
+
+#include <memory>
+
+#include "cl/device.h"
+#include "gl/context.h"
+#include "gl/gl.h"
+
+namespace lightgrid {
+
+enum class BridgeKind {
+  mapped,  // one memory: a persistently mapped GL buffer is the OpenCL buffer's host pointer
+  staged,  // two memories: copied through the host at each hand-over
+};
+
+// What these two devices allow: mapped on a CPU OpenCL device beside a software GL.
+// LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison).
+BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl);
+
+const char* to_string(BridgeKind kind);
+
+// Fixed size, made once and reused; bytes are the same whichever way they travel.
+class SharedBuffer {
+ public:
+  SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes);
+  ~SharedBuffer();
+  SharedBuffer(SharedBuffer&&) noexcept;
+  SharedBuffer& operator=(SharedBuffer&&) noexcept;
+
+  size_t size() const { return bytes_; }
+  cl::Buffer& cl_buffer() { return cl_buffer_; }
+  GLuint gl_buffer() const { return gl_buffer_; }
+
+  // After OpenCL wrote the first `bytes`: waits for the queue and makes them visible to GL.
+  void hand_to_gl(size_t bytes);
+  // After GL wrote the first `bytes` (a glReadPixels into it, say): waits for GL and makes them visible to OpenCL.
+  void hand_to_cl(size_t bytes);
+
+ private:
+  ClDevice* cl_ = nullptr;
+  BridgeKind kind_ = BridgeKind::staged;
+  size_t bytes_ = 0;
+  GLuint gl_buffer_ = 0;
+  void* mapped_ = nullptr;  // the GL buffer's memory, in both kinds
+  cl::Buffer cl_buffer_;
+};
+
+}  // namespace lightgrid

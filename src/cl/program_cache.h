@@ -1,0 +1,40 @@
+// OpenCL programs, built once: kept in memory and on disk.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "cl/device.h"
+
+namespace lightgrid {
+
+class ProgramCache {
+ public:
+  // Binaries live under `folder` (default: $XDG_CACHE_HOME/lightgrid/cl or ~/.cache/lightgrid/cl), keyed by
+  // source, options, device and driver. Files are written whole and renamed, so that two processes may share the
+  // folder; a file that does not load is rebuilt and replaced. LIGHTGRID_CL_CACHE=off switches the disk part off.
+  explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
+
+  // The kernel `entry` of the embedded file "kernels/<entry>.cl" with its includes, built with the options that
+  // all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16 -DTILE=16").
+  cl::Kernel kernel(const std::string& entry, const std::string& defines);
+
+  struct Counts {
+    int built = 0;        // compiled from source
+    int from_disk = 0;    // loaded from a binary
+    int from_memory = 0;
+  };
+  const Counts& counts() const { return counts_; }
+
+  static std::filesystem::path default_folder();
+
+ private:
+  ClDevice& device_;
+  std::filesystem::path folder_;
+  std::map<std::string, cl::Program> programs_;
+  Counts counts_;
+};
+
+}  // namespace lightgrid

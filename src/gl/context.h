@@ -1,0 +1,33 @@
+// A headless OpenGL 4.5 core context: OSMesa or surfaceless EGL (Mesa's or a vendor's), opened at run time.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace lightgrid {
+
+enum class GlBackend { automatic, osmesa, egl };
+
+// "auto", "osmesa" or "egl"; anything else is an input error.
+GlBackend parse_gl_backend(const std::string& name);
+
+class GlContext {
+ public:
+  // Makes a context and makes it current on this thread. automatic: EGL where it gives a hardware device, else
+  // OSMesa, else EGL. Throws Error(machine) that says what was tried and which package would help.
+  static std::unique_ptr<GlContext> create(GlBackend backend = GlBackend::automatic);
+  virtual ~GlContext() = default;
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  virtual void make_current() = 0;
+
+  std::string backend;   // "osmesa" or "egl"
+  std::string vendor, renderer, version;
+  bool software = false;  // llvmpipe or softpipe: its memory is the CPU's own
+
+ protected:
+  GlContext() = default;
+};
+
+}  // namespace lightgrid

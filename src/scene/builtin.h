@@ -1,0 +1,24 @@
+// Scenes made in code, the same on every machine.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+struct BuiltinScene {
+  const char* name;
+  const char* summary;  // one line for `lightgrid scenes`
+  Scene (*make)();
+};
+
+// hall, spheres, terrain, street.
+const std::vector<BuiltinScene>& builtin_scenes();
+
+// nullptr where there is none of that name.
+const BuiltinScene* find_builtin_scene(std::string_view name);
+
+}  // namespace lightgrid

@@ -1,0 +1,26 @@
+// glTF 2.0 into a Scene (Khronos, glTF 2.0 specification, 2021). The only user of tinygltf.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+// Bounds on what a file may ask for, so that no input can exhaust the machine.
+struct GltfLimits {
+  int max_image_side = 8192;
+  size_t max_image_bytes = size_t(1) << 30;    // all images, decoded
+  size_t max_vertices = 50'000'000;            // all meshes
+  size_t max_instances = 1'000'000;
+  int max_node_depth = 1000;
+  size_t max_file_bytes = size_t(2) << 30;
+};
+
+// Loads .gltf or .glb by content, scene `scene` of the file or its default one at -1.
+// Throws Error(input) in one line that names the file, the field and the value. What is optional and not
+// supported (an extension, skin, morph target, animation) is one warning on stderr each; rest pose is used.
+// Reads only regular files in the file's own folder and below. Deterministic.
+Scene load_gltf(const std::filesystem::path& path, int scene = -1, const GltfLimits& limits = {});
+
+}  // namespace lightgrid

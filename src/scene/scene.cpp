@@ -1,0 +1,21 @@
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+WorldBox world_box(const Scene& scene) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  WorldBox box{glm::dvec3(inf), glm::dvec3(-inf)};
+  for (const Instance& instance : scene.instances) {
+    const Aabb& bounds = scene.meshes[instance.mesh].bounds;
+    if (bounds.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                         corner & 4 ? bounds.max.z : bounds.min.z, 1);
+      const glm::dvec3 world(instance.world_from_object * p);
+      box.min = glm::min(box.min, world), box.max = glm::max(box.max, world);
+    }
+  }
+  return box;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,127 @@
+// A scene as plain data. World space is right-handed, y up, in metres (glTF's own); angles are in radians,
+// colours linear. Nodes are already flattened: every instance carries its world matrix in double.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace lightgrid {
+
+struct Aabb {
+  glm::vec3 min = glm::vec3(std::numeric_limits<float>::max());
+  glm::vec3 max = glm::vec3(std::numeric_limits<float>::lowest());
+  bool empty() const { return min.x > max.x; }
+  void add(glm::vec3 p) { min = glm::min(min, p), max = glm::max(max, p); }
+};
+
+// One glTF primitive as an indexed triangle list. Attribute arrays are either empty or as long as positions.
+struct Mesh {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;   // never empty: flat normals are made where the file has none
+  std::vector<glm::vec4> tangents;  // xyz and handedness; present whenever the material has a normal map
+  std::vector<glm::vec2> uv0, uv1;
+  std::vector<glm::vec4> colors;    // linear RGBA, multiplies base colour
+  std::vector<uint32_t> indices;    // three a triangle, counter-clockwise front
+  int material = 0;                 // always valid: a default material is added where the file has none
+  Aabb bounds;                      // of positions
+};
+
+enum class Wrap { repeat, clamp, mirror };
+enum class Filter { nearest, linear, nearest_mip, linear_mip };  // linear_mip is trilinear
+
+struct Bitmap {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<uint8_t> rgba;  // row 0 is v = 0, four bytes a pixel
+};
+
+struct Texture {
+  int bitmap = -1;
+  bool srgb = false;  // colours are stored through the sRGB curve, data is not
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  Filter min_filter = Filter::linear_mip;
+  bool mag_linear = true;
+};
+
+// A texture as one material uses it: KHR_texture_transform is folded into uv_from_vertex.
+struct TextureSlot {
+  int texture = -1;                             // -1: none
+  int uv_set = 0;                               // 0 or 1
+  glm::mat3x2 uv_from_vertex{1, 0, 0, 1, 0, 0};  // columns: u axis, v axis, offset
+  bool transformed() const { return uv_from_vertex != glm::mat3x2{1, 0, 0, 1, 0, 0}; }
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1};
+  float metallic = 1, roughness = 1;
+  glm::vec3 emissive{0};  // emissive factor times KHR_materials_emissive_strength
+  float normal_scale = 1, occlusion_strength = 1;
+  TextureSlot base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  bool unlit = false;  // KHR_materials_unlit
+};
+
+struct Instance {
+  std::string name;  // the node's
+  int mesh = 0;
+  glm::dmat4 world_from_object{1};
+};
+
+enum class LightType { point, spot, directional };
+
+// KHR_lights_punctual. A light's range is the radius at which its contribution is exactly zero, through the
+// window that the extension recommends: clamp(1 - (d / radius)^4, 0, 1) / d^2.
+struct Light {
+  std::string name;
+  LightType type = LightType::point;
+  glm::dvec3 position{0};           // world, metres; unused by directional
+  glm::vec3 direction{0, 0, -1};    // world, unit; where the light shines
+  glm::vec3 color{1};
+  float intensity = 1;              // candela for point and spot, lux for directional
+  float radius_m = std::numeric_limits<float>::infinity();  // infinite: no window, reaches everything
+  float inner_cone_rad = 0;         // half-angles, 0 <= inner < outer; only spots
+  float outer_cone_rad = 0.78539816f;
+};
+
+struct Camera {
+  std::string name;
+  glm::dmat4 world_from_view{1};  // rigid; looks along its -z, y up
+  bool orthographic = false;
+  double fov_y_rad = 1.0471975511965976;  // perspective
+  double aspect = 0;                      // perspective, width / height; 0: the image's own
+  double half_width_m = 1, half_height_m = 1;  // orthographic
+  double near_m = 0.1;
+  double far_m = std::numeric_limits<double>::infinity();
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;
+  std::vector<Bitmap> bitmaps;
+  std::vector<Texture> textures;
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  glm::vec3 ambient{0.02f};  // constant radiance from all sides; what occlusion maps darken
+  glm::vec3 background{0};   // radiance where nothing is
+};
+
+// The box around all instances, in world space; empty for a scene without geometry.
+struct WorldBox {
+  glm::dvec3 min, max;
+  bool empty() const { return !(min.x <= max.x); }
+};
+WorldBox world_box(const Scene& scene);
+
+}  // namespace lightgrid

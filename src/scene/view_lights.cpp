@@ -1,0 +1,27 @@
+#include "scene/view_lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightgrid {
+
+std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view) {
+  const glm::dmat3 rotation(view.view_from_world);
+  const glm::dvec3 eye = -glm::transpose(rotation) * glm::dvec3(view.view_from_world[3]);
+  std::vector<ViewLight> lights;
+  lights.reserve(scene.lights.size());
+  for (const Light& light : scene.lights) {
+    ViewLight& out = lights.emplace_back();
+    out.type = light.type;
+    out.position = rotation * (light.position - eye);
+    out.direction = glm::normalize(rotation * glm::dvec3(light.direction));
+    out.radiant_intensity = glm::dvec3(light.color) * double(light.intensity);
+    out.radius_m = light.type == LightType::directional ? std::numeric_limits<double>::infinity() : light.radius_m;
+    out.cos_outer = std::cos(double(light.outer_cone_rad));
+    // KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)): a step is softened, never infinite.
+    out.cos_inner = std::max(std::cos(double(light.inner_cone_rad)), out.cos_outer + 0.001);
+  }
+  return lights;
+}
+
+}  // namespace lightgrid

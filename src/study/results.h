@@ -1,0 +1,77 @@
+// What one technique did on one view, as `render --json` and `compare`'s results.json tell it (docs/results_json.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/image.h"
+#include "base/timer.h"
+
+namespace lightgrid {
+
+struct PassResult {
+  std::string name;
+  std::string on;  // "gl", "cl" or "cpu"
+  double median_ms = 0;
+  size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs, not measured
+};
+
+// (pixel, light) pairs over the image. lit: by the double-precision oracle.
+struct PairCounts {
+  uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
+};
+
+// Linear light, over all pixels and the three colour channels.
+struct ImageError {
+  double max_abs = 0;
+  double max_rel = 0;  // max_abs over the reference's brightest channel
+  double rmse = 0;
+  double p99 = 0;      // of absolute error per pixel, its largest channel
+  std::optional<double> flip_mean;
+  bool bit_identical = true;
+};
+
+struct SkippedEffect {
+  std::string effect, why;
+};
+
+struct RunResult {
+  std::string technique;
+  std::map<std::string, std::string> settings;
+  int lights_total = 0, lights_in_view = 0;
+  Spread frame_ms;
+  std::vector<PassResult> passes;
+  size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
+  std::optional<PairCounts> pairs;   // absent where no oracle was asked for
+  std::optional<ImageError> error;   // technique error: this image against the float image with every light
+  uint64_t nan_pixels = 0, overflow = 0;
+  std::vector<SkippedEffect> skipped;
+};
+
+nlohmann::json to_json(const RunResult& result);
+
+// The parts of the error that are the same for every technique (docs/conventions.md#errors).
+struct ReferenceErrors {
+  ImageError model;      // range window on against off, both in double
+  ImageError precision;  // every light in float against every light in double
+  uint64_t pixels_left_out = 0;  // covered by blended surfaces, which the oracle does not shade
+};
+
+// Everything the report of one view shows.
+struct CompareReport {
+  std::string scene;
+  int width = 0, height = 0;
+  std::string cl_device, gl_device, commit;
+  std::string reference;  // the technique the images are compared with
+  std::vector<RunResult> rows;
+  std::vector<Image> images;                   // one a row, linear
+  std::vector<std::vector<uint32_t>> listed;   // one a row, lights listed per pixel, row 0 at the bottom
+  std::vector<uint32_t> lit;                   // per pixel, by the oracle; empty without one
+  std::optional<ReferenceErrors> reference_errors;
+};
+
+}  // namespace lightgrid

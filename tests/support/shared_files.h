@@ -1,0 +1,21 @@
+// Test input that is not part of the project: scenes and frames in a folder named shared beside the checkout.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace lightgrid {
+
+inline std::filesystem::path shared_folder() {
+  const char* given = std::getenv("LIGHTGRID_SHARED");
+  return given ? given : LIGHTGRID_SHARED_DIR;
+}
+
+}  // namespace lightgrid
+
+// First line of a test that needs it: skips, and says so, where it is absent.
+#define LIGHTGRID_NEEDS_SHARED(relative)                                           \
+  if (!std::filesystem::exists(lightgrid::shared_folder() / (relative)))           \
+  GTEST_SKIP() << "needs " << lightgrid::shared_folder() / (relative) << ", which is absent"
