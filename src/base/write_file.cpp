@@ -1,0 +1,70 @@
+#include "base/write_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error write_error(const fs::path& path, int code) {
+  const bool machine = code == ENOSPC || code == EDQUOT || code == EIO || code == EMFILE || code == ENFILE;
+  const auto message = fmt::format("{}: cannot be written: {}", path.string(), std::strerror(code));
+  return {machine ? ErrorKind::machine : ErrorKind::input, message};
+}
+
+// Zero, or the errno of what failed.
+int write_to(const fs::path& path, const void* data, size_t size) {
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (!file) return errno;
+  const bool written = std::fwrite(data, 1, size, file) == size && std::fflush(file) == 0;
+  const int failure = written ? 0 : (errno ? errno : EIO);
+  const bool closed = std::fclose(file) == 0;
+  return failure ? failure : closed ? 0 : (errno ? errno : EIO);
+}
+
+void write_whole(const fs::path& path, const void* data, size_t size) {
+  std::error_code ignored;
+  const auto at_path = fs::symlink_status(path, ignored).type();
+  if (fs::is_directory(path, ignored)) throw input_error("{}: is a folder, not a file", path.string());
+  const bool replaceable = at_path == fs::file_type::regular || at_path == fs::file_type::symlink ||
+                           at_path == fs::file_type::not_found || at_path == fs::file_type::none;
+  if (!replaceable) {
+    if (const int failure = write_to(path, data, size)) throw write_error(path, failure);
+    return;
+  }
+  auto partial = path;
+  partial += fmt::format(".{}.part", getpid());
+  int failure = write_to(partial, data, size);
+  if (!failure && std::rename(partial.c_str(), path.c_str()) != 0) failure = errno;
+  if (failure) {
+    fs::remove(partial, ignored);
+    throw write_error(path, failure);
+  }
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, const std::vector<uint8_t>& bytes) {
+  write_whole(path, bytes.data(), bytes.size());
+}
+
+void write_file(const fs::path& path, std::string_view text) { write_whole(path, text.data(), text.size()); }
+
+void make_folder(const fs::path& path) {
+  std::error_code failure;
+  fs::create_directories(path, failure);
+  if (!fs::is_directory(path)) {
+    const auto why = failure ? failure.message() : std::string("it is a file");
+    throw input_error("{}: cannot be made a folder: {}", path.string(), why);
+  }
+}
+
+}  // namespace lightgrid
