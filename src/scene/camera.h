@@ -12,16 +12,32 @@ namespace lightgrid {
 struct View {
   int width = 0, height = 0;
   glm::dmat4 view_from_world{1};
+  glm::dvec3 eye{
+      0};  // world, exactly as the camera had it: view_from_world's translation is -rotation * eye, rounded
   glm::dmat4 clip_from_view{1};
   double near_m = 0.1;
   double far_m = std::numeric_limits<double>::infinity();
   bool orthographic = false;
 };
 
+// The camera's vertical field is kept and the image's own aspect used (Camera::aspect and half_width_m are
+// not). A camera matrix with scale, shear or mirroring is made rigid: direction first, then up. Throws
+// Error(input) for a field, near, far or matrix that makes no projection; an orthographic camera needs a
+// finite far.
 View make_view(const Camera& camera, int width, int height);
 
+// Subtracts the eye in double before it rotates, so that a scene and a camera moved together by an exact
+// amount give the same bits; view_from_world * world_from_object does not.
+glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_object);
+
+// A camera at `eye` that looks at `target` with y up (where it looks straight up or down: -z up). Unnamed, 60
+// degrees, near 0.1 m, far infinite.
+Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
+
 // NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg" (fov vertical, 60 where absent). Empty: the scene's first
-// camera, or, without one, a camera that sees the whole scene. Throws Error(input) for a name or form unknown.
+// camera, or, without one, a camera that sees the whole scene. Near is a thousandth of the scene's size, for
+// the "eye:" form 0.1 m at most; far is infinite. Throws Error(input) for a name or form unknown, a number
+// that is none, a field outside 0..180 degrees, and a target at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish);
 
 }  // namespace lightgrid

@@ -13,9 +13,9 @@ struct ScatterSettings {
   uint64_t seed = 1;
 };
 
-// Point lights (one in eight a spot) near surfaces: a triangle by area, a point on it, then up to half a radius
-// along its normal. The first n of a larger count are those of the smaller one, for equal radii; same on every
-// machine (own integer generator, no library distributions).
+// Point lights (one in eight a spot) near surfaces: a triangle by area, a point on it, then up to half a
+// radius along its normal. The first n of a larger count are those of the smaller one, for equal radii; same
+// on every machine (own integer generator, no library distributions).
 std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& settings);
 
 }  // namespace lightgrid

@@ -10,8 +10,8 @@ namespace lightgrid {
 // Bounds on what a file may ask for, so that no input can exhaust the machine.
 struct GltfLimits {
   int max_image_side = 8192;
-  size_t max_image_bytes = size_t(1) << 30;    // all images, decoded
-  size_t max_vertices = 50'000'000;            // all meshes
+  size_t max_image_bytes = size_t(1) << 30;  // all images, decoded
+  size_t max_vertices = 50'000'000;          // all meshes
   size_t max_instances = 1'000'000;
   int max_node_depth = 1000;
   size_t max_file_bytes = size_t(2) << 30;

@@ -25,10 +25,10 @@ struct Mesh {
   std::vector<glm::vec3> normals;   // never empty: flat normals are made where the file has none
   std::vector<glm::vec4> tangents;  // xyz and handedness; present whenever the material has a normal map
   std::vector<glm::vec2> uv0, uv1;
-  std::vector<glm::vec4> colors;    // linear RGBA, multiplies base colour
-  std::vector<uint32_t> indices;    // three a triangle, counter-clockwise front
-  int material = 0;                 // always valid: a default material is added where the file has none
-  Aabb bounds;                      // of positions
+  std::vector<glm::vec4> colors;  // linear RGBA, multiplies base colour
+  std::vector<uint32_t> indices;  // three a triangle, counter-clockwise front
+  int material = 0;               // always valid: a default material is added where the file has none
+  Aabb bounds;                    // of positions
 };
 
 enum class Wrap { repeat, clamp, mirror };
@@ -50,8 +50,8 @@ struct Texture {
 
 // A texture as one material uses it: KHR_texture_transform is folded into uv_from_vertex.
 struct TextureSlot {
-  int texture = -1;                             // -1: none
-  int uv_set = 0;                               // 0 or 1
+  int texture = -1;                              // -1: none
+  int uv_set = 0;                                // 0 or 1
   glm::mat3x2 uv_from_vertex{1, 0, 0, 1, 0, 0};  // columns: u axis, v axis, offset
   bool transformed() const { return uv_from_vertex != glm::mat3x2{1, 0, 0, 1, 0, 0}; }
 };
@@ -84,12 +84,12 @@ enum class LightType { point, spot, directional };
 struct Light {
   std::string name;
   LightType type = LightType::point;
-  glm::dvec3 position{0};           // world, metres; unused by directional
-  glm::vec3 direction{0, 0, -1};    // world, unit; where the light shines
+  glm::dvec3 position{0};         // world, metres; unused by directional
+  glm::vec3 direction{0, 0, -1};  // world, unit; where the light shines
   glm::vec3 color{1};
-  float intensity = 1;              // candela for point and spot, lux for directional
+  float intensity = 1;                                      // candela for point and spot, lux for directional
   float radius_m = std::numeric_limits<float>::infinity();  // infinite: no window, reaches everything
-  float inner_cone_rad = 0;         // half-angles, 0 <= inner < outer; only spots
+  float inner_cone_rad = 0;                                 // half-angles, 0 <= inner < outer; only spots
   float outer_cone_rad = 0.78539816f;
 };
 
@@ -97,8 +97,8 @@ struct Camera {
   std::string name;
   glm::dmat4 world_from_view{1};  // rigid; looks along its -z, y up
   bool orthographic = false;
-  double fov_y_rad = 1.0471975511965976;  // perspective
-  double aspect = 0;                      // perspective, width / height; 0: the image's own
+  double fov_y_rad = 1.0471975511965976;       // perspective
+  double aspect = 0;                           // perspective, width / height; 0: the image's own
   double half_width_m = 1, half_height_m = 1;  // orthographic
   double near_m = 0.1;
   double far_m = std::numeric_limits<double>::infinity();

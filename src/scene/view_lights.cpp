@@ -7,13 +7,12 @@ namespace lightgrid {
 
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view) {
   const glm::dmat3 rotation(view.view_from_world);
-  const glm::dvec3 eye = -glm::transpose(rotation) * glm::dvec3(view.view_from_world[3]);
   std::vector<ViewLight> lights;
   lights.reserve(scene.lights.size());
   for (const Light& light : scene.lights) {
     ViewLight& out = lights.emplace_back();
     out.type = light.type;
-    out.position = rotation * (light.position - eye);
+    out.position = rotation * (light.position - view.eye);
     out.direction = glm::normalize(rotation * glm::dvec3(light.direction));
     out.radiant_intensity = glm::dvec3(light.color) * double(light.intensity);
     out.radius_m = light.type == LightType::directional ? std::numeric_limits<double>::infinity() : light.radius_m;

@@ -1,4 +1,5 @@
-// The scene's lights as one view sees them, in double: what the oracle uses as it is and the renderer rounds once.
+// The scene's lights as one view sees them, in double: what the oracle uses as it is and the renderer rounds
+// once.
 #pragma once
 
 #include <vector>
@@ -10,9 +11,9 @@ namespace lightgrid {
 
 struct ViewLight {
   LightType type = LightType::point;
-  glm::dvec3 position{0};            // view space, metres
-  glm::dvec3 direction{0, 0, -1};    // view space, unit
-  glm::dvec3 radiant_intensity{1};   // colour times intensity: candela, or lux for directional
+  glm::dvec3 position{0};           // view space, metres
+  glm::dvec3 direction{0, 0, -1};   // view space, unit
+  glm::dvec3 radiant_intensity{1};  // colour times intensity: candela, or lux for directional
   double radius_m = std::numeric_limits<double>::infinity();
   double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner > cos_outer by 0.001 at least
 };

@@ -1,0 +1,24 @@
+#include "scene/builtin.h"
+
+#include <algorithm>
+
+#include "scene/builtin/scenes.h"
+
+namespace lightgrid {
+
+const std::vector<BuiltinScene>& builtin_scenes() {
+  static const std::vector<BuiltinScene> scenes = {
+      {"hall", "a vaulted hall: columns, niches, glass, iron lattices, lamps of many colours", make_hall},
+      {"spheres", "600 spheres floating in the dark, 2 to 90 m away: depth steps everywhere", make_spheres},
+  };
+  return scenes;
+}
+
+const BuiltinScene* find_builtin_scene(std::string_view name) {
+  const auto& scenes = builtin_scenes();
+  const auto found =
+      std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.name == name; });
+  return found == scenes.end() ? nullptr : &*found;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,13 @@
+// The makers behind builtin_scenes().
+#pragma once
+
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+Scene make_hall();
+Scene make_spheres();
+Scene make_terrain();
+Scene make_street();
+
+}  // namespace lightgrid

@@ -1,0 +1,226 @@
+#include "scene/camera.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "scene/builtin.h"
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double quarter_turn = std::numbers::pi / 2;
+
+glm::dvec3 ndc(const View& view, glm::dvec3 point_view) {
+  const glm::dvec4 clip = view.clip_from_view * glm::dvec4(point_view, 1);
+  return glm::dvec3(clip) / clip.w;
+}
+
+std::string message_of(const auto& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "no error";
+}
+
+Camera simple_camera() {
+  Camera camera;
+  camera.name = "simple";
+  camera.fov_y_rad = quarter_turn;
+  camera.near_m = 0.5;
+  camera.far_m = 8.5;
+  return camera;
+}
+
+TEST(MakeView, PerspectiveWorkedOutByHand) {
+  // f = 1 / tan(45 degrees) = 1; aspect 2; near/(far - near) = 1/16; far * near/(far - near) = 4.25/8 =
+  // 17/32.
+  const View view = make_view(simple_camera(), 200, 100);
+  const double f = 1 / std::tan(quarter_turn / 2);
+  const glm::dmat4 expected(f / 2, 0, 0, 0, 0, f, 0, 0, 0, 0, 0.0625, -1, 0, 0, 0.53125, 0);
+  EXPECT_EQ(view.clip_from_view, expected);
+  EXPECT_EQ(view.view_from_world, glm::dmat4(1));
+}
+
+TEST(MakeView, DepthIsOneAtNearAndZeroAtFar) {
+  const View view = make_view(simple_camera(), 17, 9);
+  EXPECT_DOUBLE_EQ(ndc(view, {0, 0, -0.5}).z, 1);
+  EXPECT_DOUBLE_EQ(ndc(view, {0, 0, -8.5}).z, 0);
+  // (17/32 - 2/16) / 2 = 13/64.
+  EXPECT_DOUBLE_EQ(ndc(view, {0, 0, -2}).z, 13.0 / 64);
+}
+
+TEST(MakeView, InfiniteFarIsNearOverDistance) {
+  Camera camera = simple_camera();
+  camera.far_m = std::numeric_limits<double>::infinity();
+  const View view = make_view(camera, 1, 1);
+  EXPECT_EQ(ndc(view, {0, 0, -0.5}).z, 1);
+  EXPECT_EQ(ndc(view, {3, 1, -64}).z, 0.5 / 64);
+}
+
+TEST(MakeView, OrthographicDepthIsLinearAndReversed) {
+  Camera camera = simple_camera();
+  camera.orthographic = true;
+  camera.half_height_m = 4;
+  camera.near_m = 0;
+  camera.far_m = 16;
+  const View view = make_view(camera, 320, 160);
+  EXPECT_EQ(ndc(view, {8, 4, 0}), glm::dvec3(1, 1, 1));
+  EXPECT_EQ(ndc(view, {-8, -4, -16}), glm::dvec3(-1, -1, 0));
+  EXPECT_EQ(ndc(view, {0, 0, -4}).z, 0.75);
+}
+
+TEST(MakeView, ViewFromWorldUndoesTheCamera) {
+  const Camera camera = look_at({3, 4, 5}, {-1, 2, 0.5});
+  const View view = make_view(camera, 4, 3);
+  const glm::dmat4 product = view.view_from_world * camera.world_from_view;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) EXPECT_NEAR(product[column][row], column == row, 1e-14);
+  }
+  const glm::dvec4 target = view.view_from_world * glm::dvec4(-1, 2, 0.5, 1);
+  EXPECT_NEAR(target.x, 0, 1e-14);
+  EXPECT_NEAR(target.y, 0, 1e-14);
+  EXPECT_NEAR(target.z, -glm::length(glm::dvec3(4, 2, 4.5)), 1e-14);
+}
+
+TEST(MakeView, ScaleAndMirroringAreTakenOut) {
+  Camera camera = simple_camera();
+  camera.world_from_view[0] *= -3;
+  camera.world_from_view[1] *= 2;
+  camera.world_from_view[2] *= 5;
+  EXPECT_EQ(make_view(camera, 1, 1).view_from_world, glm::dmat4(1));
+}
+
+TEST(MakeView, SceneAndCameraMovedTogetherGiveTheSameBits) {
+  // Positions in multiples of 1/1024 m: at 2^20 m a double holds them exactly, so the move loses nothing.
+  const glm::dvec3 move(1 << 20, -(1 << 20), 1 << 20);
+  const glm::dvec3 eye(0.3125, 1.75, 13.5), target(-4.125, 3, -6.0625);
+  Scene near_scene;
+  for (int i = 0; i < 50; ++i) {
+    near_scene.lights.emplace_back().position =
+        glm::dvec3(i * 37 % 41, i * 29 % 43, i * 31 % 47) / 1024.0 * 7.0;
+  }
+  Scene far_scene = near_scene;
+  for (Light& light : far_scene.lights) light.position += move;
+  const View near_view = make_view(look_at(eye, target), 17, 9);
+  const View far_view = make_view(look_at(eye + move, target + move), 17, 9);
+  const auto near_lights = lights_in_view(near_scene, near_view),
+             far_lights = lights_in_view(far_scene, far_view);
+  for (size_t i = 0; i < near_lights.size(); ++i) EXPECT_EQ(near_lights[i].position, far_lights[i].position);
+
+  glm::dmat4 object(1), moved(1);
+  object[3] = glm::dvec4(1.5, 2.25, -3.125, 1);
+  moved[3] = object[3] + glm::dvec4(move, 0);
+  EXPECT_EQ(view_from_object(near_view, object), view_from_object(far_view, moved));
+}
+
+TEST(MakeView, RefusesWhatMakesNoProjection) {
+  const auto refused = [](const auto& change) {
+    Camera camera = simple_camera();
+    change(camera);
+    return message_of([&] { make_view(camera, 4, 4); });
+  };
+  using testing::HasSubstr;
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(refused([](Camera& c) { c.fov_y_rad = std::numbers::pi; }), HasSubstr("field of view"));
+  EXPECT_THAT(refused([&](Camera& c) { c.fov_y_rad = nan; }), HasSubstr("field of view"));
+  EXPECT_THAT(refused([](Camera& c) { c.near_m = 0; }), HasSubstr("near"));
+  EXPECT_THAT(refused([](Camera& c) { c.far_m = c.near_m; }), HasSubstr("far"));
+  EXPECT_THAT(refused([&](Camera& c) { c.far_m = nan; }), HasSubstr("far"));
+  EXPECT_THAT(refused([](Camera& c) { c.world_from_view[2] = glm::dvec4(0); }), HasSubstr("no direction"));
+  EXPECT_THAT(refused([](Camera& c) { c.world_from_view[1] = c.world_from_view[2]; }), HasSubstr("flat"));
+  EXPECT_THAT(refused([&](Camera& c) { c.world_from_view[3].y = nan; }), HasSubstr("position"));
+  EXPECT_THAT(refused([&](Camera& c) { c.orthographic = true, c.far_m = inf; }), HasSubstr("orthographic"));
+  EXPECT_THAT(refused([](Camera& c) { c.orthographic = true, c.half_height_m = 0; }),
+              HasSubstr("half height"));
+}
+
+TEST(ChooseCamera, ByNameThenIndexThenFirst) {
+  Scene scene;
+  scene.cameras.resize(3);
+  scene.cameras[0].name = "aisle";
+  scene.cameras[1].name = "0";
+  scene.cameras[2].name = "";
+  EXPECT_EQ(choose_camera(scene, "").name, "aisle");
+  EXPECT_EQ(choose_camera(scene, "aisle").name, "aisle");
+  EXPECT_EQ(choose_camera(scene, "0").name, "0");
+  EXPECT_EQ(choose_camera(scene, "1").name, "0");
+  EXPECT_EQ(choose_camera(scene, "2").name, "");
+  EXPECT_EQ(message_of([&] { choose_camera(scene, "3"); }),
+            "--camera 3: no camera of that name or index; the scene has 0 \"aisle\", 1 \"0\", 2 \"\"");
+  EXPECT_EQ(message_of([] { choose_camera(Scene(), "door"); }),
+            "--camera door: no camera of that name or index; the scene has none");
+}
+
+TEST(ChooseCamera, EyeTargetAndField) {
+  const Camera camera = choose_camera(Scene(), "eye:1,2,3,target:1,2,-5,fov:90");
+  EXPECT_EQ(camera.world_from_view, glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1));
+  EXPECT_DOUBLE_EQ(camera.fov_y_rad, quarter_turn);
+  EXPECT_DOUBLE_EQ(choose_camera(Scene(), "target:0,0,0,eye:1e3,-2.5,.5").fov_y_rad, std::numbers::pi / 3);
+}
+
+TEST(ChooseCamera, StraightUpAndDown) {
+  for (const double side : {-1.0, 1.0}) {
+    const Camera camera =
+        choose_camera(Scene(), side > 0 ? "eye:0,0,0,target:0,1,0" : "eye:0,0,0,target:0,-1,0");
+    const View view = make_view(camera, 1, 1);
+    EXPECT_EQ(glm::dvec3(view.view_from_world * glm::dvec4(0, side, 0, 1)), glm::dvec3(0, 0, -1));
+    EXPECT_EQ(glm::determinant(glm::dmat3(view.view_from_world)), 1);
+  }
+}
+
+TEST(ChooseCamera, SaysWhatIsWrong) {
+  const auto refused = [](const std::string& wish) {
+    return message_of([&] { choose_camera(Scene(), wish); });
+  };
+  using testing::HasSubstr;
+  EXPECT_EQ(refused("eye:0,0,x,target:1,1,1"), "--camera eye:0,0,x,target:1,1,1: \"x\" is not a number");
+  EXPECT_THAT(refused("eye:0,0,nan,target:1,1,1"), HasSubstr("\"nan\" is not a number"));
+  EXPECT_THAT(refused("eye:0,0,1e999,target:1,1,1"), HasSubstr("\"1e999\" is not a number"));
+  EXPECT_THAT(refused("eye:0,0,1e300,target:1,1,1"), HasSubstr("beyond 1e+12"));
+  EXPECT_THAT(refused("eye:0,0"), HasSubstr("\"\" is not a number"));
+  EXPECT_THAT(refused("eye:0,0,0"), HasSubstr("target: is missing"));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,0"), HasSubstr("target is the eye"));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,fov:0"), HasSubstr("fov 0 "));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,fov:180"), HasSubstr("fov 180 "));
+  EXPECT_THAT(refused("eye:0,0,0,eye:0,0,1"), HasSubstr("there twice"));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,roll:3"), HasSubstr("\"roll:3\""));
+}
+
+TEST(ChooseCamera, DefaultSeesTheWholeScene) {
+  for (const double size : {1e-3, 1.0, 1e6}) {
+    Scene scene;
+    scene.meshes.emplace_back().bounds = {{-1, 0, -3}, {1, 2, 3}};
+    glm::dmat4 matrix(size);
+    matrix[3] = glm::dvec4(100, -20, 7, 1);
+    scene.instances.push_back({"box", 0, matrix});
+    const Camera camera = choose_camera(scene, "");
+    const View view = make_view(camera, 100, 100);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 world =
+          matrix * glm::dvec4(corner & 1 ? 1 : -1, corner & 2 ? 2 : 0, corner & 4 ? 3 : -3, 1);
+      const glm::dvec3 p(view_from_object(view, glm::dmat4(1)) * world);
+      const glm::dvec3 screen = ndc(view, p);
+      EXPECT_LT(-p.z, 100 * size);
+      EXPECT_LT(std::abs(screen.x), 1);
+      EXPECT_LT(std::abs(screen.y), 1);
+      EXPECT_GT(screen.z, 0);
+      EXPECT_LT(screen.z, 1);
+    }
+  }
+}
+
+TEST(ChooseCamera, EmptySceneStillHasAView) {
+  const View view = make_view(choose_camera(Scene(), ""), 1, 1);
+  EXPECT_TRUE(std::isfinite(view.view_from_world[3].z));
+}
+
+}  // namespace
+}  // namespace lightgrid
