@@ -1,0 +1,26 @@
+// How much of a light's intensity arrives at a point (KHR_lights_punctual), in double.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+inline double length_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+
+// Cosine between the spot's direction and the way from the light to the point at `offset` from it; 0 at the
+// light itself, as it is for a shader whose vector to the light is zero there.
+inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, double distance) {
+  const double along =
+      offset.x * light.direction.x + offset.y * light.direction.y + offset.z * light.direction.z;
+  return along / std::max(distance, std::numeric_limits<double>::min());
+}
+
+// Points and spots: window / max(d^2, 1e-4), where the window is clamp(1 - (d / radius)^4, 0, 1), or 1
+// without `window` and for an infinite radius; spots times t^2, t = clamp((cos - cos_outer) / (cos_inner -
+// cos_outer), 0, 1). Directional lights: 1. Positive exactly where is_lit holds, if `window` is set.
+double attenuation(const ViewLight& light, const glm::dvec3& position, bool window);
+
+}  // namespace lightgrid

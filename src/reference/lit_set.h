@@ -1,0 +1,46 @@
+// Which lights reach which points: the truth that light lists are held against.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+// Nearer than the radius and, for a spot, less than the outer angle off its axis: where attenuation() with
+// its window is positive. On the boundary is not lit. Directional lights light everything.
+bool is_lit(const ViewLight& light, const glm::dvec3& position);
+
+// Ascending indices.
+std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm::dvec3& position);
+
+// A technique's light lists. Pixel p walks indices[first[c]] ... indices[first[c] + count[c] - 1], where
+// c = cell_of_pixel[p]; an empty cell_of_pixel means that all pixels walk cell 0.
+struct ListedLights {
+  std::vector<uint32_t> cell_of_pixel;  // width * height, row 0 at the bottom
+  std::vector<uint32_t> first, count;   // one a cell
+  std::vector<uint32_t> indices;        // into the lights given to count_pairs
+};
+
+// One cell of lights 0 ... count - 1 for all pixels: what a technique without lists does.
+ListedLights list_every_light(uint32_t count);
+
+// (pixel, light) pairs over the covered pixels (depth > 0). Listed counts list entries; wrong counts entries
+// that are no light (index or list out of range) or stand in the list a second time, and one for a cell out
+// of range.
+struct LitPairs {
+  std::vector<uint32_t> listed_of_pixel, lit_of_pixel;  // width * height; 0 where not covered
+  uint64_t listed = 0, lit = 0;
+  uint64_t lost = 0;  // lit but not listed
+  uint64_t wrong = 0;
+};
+
+// `depth` is the buffer that the technique shaded from: width * height, row 0 at the bottom, 0 where nothing
+// is. `lights` are those the lists index: give point and spot lights only where the lists hold no directional
+// ones. Every pair is decided by is_lit on positions in double. 1280 x 720 with 1024 lights: about a second
+// on two cores.
+LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
+                     const ListedLights& lists);
+
+}  // namespace lightgrid

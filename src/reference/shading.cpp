@@ -1,0 +1,118 @@
+#include "reference/shading.h"
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "reference/attenuation.h"
+#include "reference/pixel_tiles.h"
+#include "reference/position.h"
+
+namespace lightgrid {
+
+namespace {
+
+using glm::dvec3;
+
+dvec3 diffuse_color(const Surface& s) { return s.base_color * (1 - s.metallic); }
+dvec3 normal_reflectance(const Surface& s) { return glm::mix(dvec3(0.04), s.base_color, s.metallic); }
+
+// GGX (Walter et al. 2007) with |N x H|^2 in place of 1 - (N.H)^2, which cancels at small roughness.
+double ggx_distribution(const dvec3& normal, const dvec3& half, double alpha) {
+  const dvec3 across = glm::cross(normal, half);
+  const double along = glm::dot(normal, half) * alpha;
+  const double k = alpha / (glm::dot(across, across) + along * along);
+  return k * k * std::numbers::inv_pi;
+}
+
+// Height-correlated Smith masking (Heitz 2014), over 4 N.L N.V.
+double smith_visibility(double n_dot_v, double n_dot_l, double alpha) {
+  const double a2 = alpha * alpha;
+  return 0.5 / (n_dot_l * std::sqrt(n_dot_v * n_dot_v * (1 - a2) + a2) +
+                n_dot_v * std::sqrt(n_dot_l * n_dot_l * (1 - a2) + a2));
+}
+
+dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3& to_eye,
+                     const ViewLight& light, bool window) {
+  const double arriving = attenuation(light, position, window);
+  if (arriving == 0) return dvec3(0);
+  dvec3 to_light = -light.direction;
+  if (light.type != LightType::directional) {
+    to_light = light.position - position;
+    to_light /= std::max(length_of(to_light.x, to_light.y, to_light.z), std::numeric_limits<double>::min());
+  }
+  const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
+  if (n_dot_l == 0) return dvec3(0);
+  return brdf(surface, to_eye, to_light) * n_dot_l * light.radiant_intensity * arriving;
+}
+
+}  // namespace
+
+dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light) {
+  const dvec3 sum = to_eye + to_light;
+  // Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there: nothing is
+  // diffuse.
+  if (glm::dot(sum, sum) < 1e-8) return dvec3(0);
+  const dvec3 half = glm::normalize(sum);
+  const double roughness = std::max(surface.roughness, 0.045), alpha = roughness * roughness;
+  const double n_dot_v = std::max(glm::dot(surface.normal, to_eye), 1e-4);
+  const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
+  const dvec3 f0 = normal_reflectance(surface);
+  const dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1 - std::abs(glm::dot(to_eye, half)), 5);
+  const double specular =
+      smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(surface.normal, half, alpha);
+  return (1.0 - fresnel) * diffuse_color(surface) * std::numbers::inv_pi + fresnel * specular;
+}
+
+dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
+            const std::vector<ViewLight>& lights, const ShadeSettings& settings) {
+  if (surface.unlit) return surface.base_color;
+  const dvec3 to_eye = orthographic ? dvec3(0, 0, 1) : glm::normalize(-position);
+  dvec3 radiance =
+      settings.ambient * (diffuse_color(surface) + normal_reflectance(surface)) * surface.occlusion;
+  radiance += surface.emissive;
+  for (const ViewLight& light : lights) {
+    radiance += light_radiance(surface, position, to_eye, light, settings.window);
+  }
+  return radiance;
+}
+
+std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& depth,
+                                const std::function<Surface(uint32_t pixel)>& surface_at,
+                                const std::vector<ViewLight>& lights, const ShadeSettings& settings,
+                                const std::vector<uint32_t>& pixels) {
+  assert(depth.size() == size_t(view.width) * view.height);
+  std::vector<dvec3> radiance(pixels.size());
+  const auto tiles = group_by_tile(view.width, pixels);
+  parallel_for(int(tiles.size()), [&](int i) {
+    std::vector<dvec3> positions;
+    for (uint32_t slot : tiles[i]) {
+      const uint32_t p = pixels[slot];
+      positions.push_back(position_from_depth(view, p % view.width, p / view.width, depth[p]));
+    }
+    std::vector<ViewLight> near;
+    if (settings.window) {
+      for (uint32_t light : lights_within_reach(lights, positions)) near.push_back(lights[light]);
+    }
+    for (size_t k = 0; k < positions.size(); ++k) {
+      const uint32_t slot = tiles[i][k];
+      radiance[slot] = shade(surface_at(pixels[slot]), positions[k], view.orthographic,
+                             settings.window ? near : lights, settings);
+    }
+  });
+  return radiance;
+}
+
+std::vector<uint32_t> sample_pixels(const std::vector<uint32_t>& pixels, size_t most) {
+  if (pixels.size() <= most) return pixels;
+  std::vector<uint32_t> samples(most);
+  for (size_t i = 0; i < most; ++i) {
+    const size_t begin = i * pixels.size() / most, end = (i + 1) * pixels.size() / most;
+    const double place = double(i) * std::numbers::phi;
+    samples[i] = pixels[begin + size_t((place - std::floor(place)) * double(end - begin))];
+  }
+  return samples;
+}
+
+}  // namespace lightgrid

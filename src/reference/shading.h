@@ -1,0 +1,44 @@
+// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B) under
+// KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL follows too.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+struct Surface {
+  glm::dvec3 normal{0, 0, 1};  // view space, unit; the shading normal
+  glm::dvec3 base_color{1}, emissive{0};
+  double metallic = 0, roughness = 1;  // perceptual roughness; floored at 0.045
+  double occlusion = 1;
+  bool unlit = false;  // base_color is all there is
+};
+
+// Reflected over arriving radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr.
+glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light);
+
+struct ShadeSettings {
+  glm::dvec3 ambient{0};
+  bool window = true;  // false: lights reach everything, as if their radius were infinite
+};
+
+// Radiance towards the eye, lights added in order. Finite for finite input.
+glm::dvec3 shade(const Surface& surface, const glm::dvec3& position, bool orthographic,
+                 const std::vector<ViewLight>& lights, const ShadeSettings& settings);
+
+// Radiance of `pixels` (y * width + x each, all covered), in their order. `surface_at` is called from several
+// threads. Lights whose window is zero on a whole tile are passed over, which changes no bit.
+std::vector<glm::dvec3> shade_pixels(const View& view, const std::vector<float>& depth,
+                                     const std::function<Surface(uint32_t pixel)>& surface_at,
+                                     const std::vector<ViewLight>& lights, const ShadeSettings& settings,
+                                     const std::vector<uint32_t>& pixels);
+
+// At most `most` of `pixels`, spread evenly: one from each of `most` equal runs, at a place in the run that
+// follows the golden ratio, so that no period of the image is met. Ascending where `pixels` is;
+// deterministic.
+std::vector<uint32_t> sample_pixels(const std::vector<uint32_t>& pixels, size_t most);
+
+}  // namespace lightgrid

@@ -1,0 +1,52 @@
+#include "reference/attenuation.h"
+
+#include <gtest/gtest.h>
+
+namespace lightgrid {
+namespace {
+
+using glm::dvec3;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Attenuation, WindowAtHalfTheRadiusIsFifteenSixteenths) {
+  // 1 - (1/2)^4 = 15/16, over a distance of 1.
+  const ViewLight light{.radius_m = 2};
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, true), 15.0 / 16);
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, false), 1);
+}
+
+TEST(Attenuation, FallsWithTheSquareWhereTheRadiusIsInfinite) {
+  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0, -4}, true), 1.0 / 16);
+}
+
+TEST(Attenuation, EndsAtTheRadiusOnlyWithItsWindow) {
+  const ViewLight light{.radius_m = 2};
+  EXPECT_EQ(attenuation(light, {2, 0, 0}, true), 0);
+  EXPECT_EQ(attenuation(light, {3, 0, 0}, true), 0);
+  EXPECT_DOUBLE_EQ(attenuation(light, {2, 0, 0}, false), 0.25);
+}
+
+TEST(Attenuation, StopsGrowingWithinACentimetre) {
+  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0, 0}, true), 1e4);
+  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0.01, 0}, true), 1e4);
+  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0.1, 0}, true), 100);
+}
+
+TEST(Attenuation, RadiusZeroIsDarkEvenAtTheLight) {
+  EXPECT_EQ(attenuation({.radius_m = 0}, {0, 0, 0}, true), 0);
+}
+
+TEST(Attenuation, SpotFallsWithTheSquareBetweenItsCones) {
+  // Cosine 0.6 (3, 4, 5) halfway between 0.4 and 0.8: t = 1/2. Distance 5, no window: 1/4 * 1/25.
+  const ViewLight light{LightType::spot, {}, {0, 0, -1}, dvec3(1), infinity, 0.8, 0.4};
+  EXPECT_NEAR(attenuation(light, {4, 0, -3}, true), 0.01, 1e-17);
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 0, -5}, true), 0.04);
+  EXPECT_EQ(attenuation(light, {0, 0, 5}, true), 0);
+}
+
+TEST(Attenuation, DirectionalIsOneEverywhere) {
+  EXPECT_EQ(attenuation({.type = LightType::directional}, {1e9, -4, 0}, true), 1);
+}
+
+}  // namespace
+}  // namespace lightgrid
