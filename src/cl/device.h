@@ -1,14 +1,12 @@
-// An OpenCL device with its context and one in-order queue. OpenCL through the C++ bindings; errors of the API
-// become Error(machine) that prints the call, the code's name and, for programs, the build log.
+// An OpenCL device with its context and one in-order queue. OpenCL through the C++ bindings; errors of the
+// API become Error(machine) that prints the call, the code's name and, for programs, the build log.
 #pragma once
-
-#define CL_HPP_ENABLE_EXCEPTIONS
-#define CL_HPP_MINIMUM_OPENCL_VERSION 120
-#define CL_HPP_TARGET_OPENCL_VERSION 300
-#include <CL/opencl.hpp>
 
 #include <string>
 #include <vector>
+
+#include "cl/opencl.h"
+#include "cl/profiler.h"
 
 namespace lightgrid {
 
@@ -21,22 +19,29 @@ struct ClDeviceInfo {
 
 class ClDevice {
  public:
-  // The first device whose "platform name" holds `substring` (any case); empty: a GPU if there is one, else the
-  // first. Throws Error(machine) that lists the devices there are and, with none, the package that brings one.
+  // The first device whose "platform name" holds `substring` (any case); empty: a GPU if there is one, else
+  // the first. Throws Error(machine) that lists the devices there are and, with none, the package that brings
+  // one.
   explicit ClDevice(const std::string& substring = "");
 
   const ClDeviceInfo& info() const { return info_; }
   cl::Device& device() { return device_; }
   cl::Context& context() { return context_; }
   cl::CommandQueue& queue() { return queue_; }  // in order, profiling enabled
+  ClProfiler& profiler() { return profiler_; }
 
  private:
   ClDeviceInfo info_;
   cl::Device device_;
   cl::Context context_;
   cl::CommandQueue queue_;
+  ClProfiler profiler_;
 };
 
+// In the order of the platforms and of each platform's devices; empty where there is none.
 std::vector<ClDeviceInfo> list_cl_devices();
+
+// The index of the one that ClDevice(substring) takes; throws as it does.
+size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::string& substring);
 
 }  // namespace lightgrid

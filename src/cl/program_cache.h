@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,17 +14,22 @@ namespace lightgrid {
 class ProgramCache {
  public:
   // Binaries live under `folder` (default: $XDG_CACHE_HOME/lightgrid/cl or ~/.cache/lightgrid/cl), keyed by
-  // source, options, device and driver. Files are written whole and renamed, so that two processes may share the
-  // folder; a file that does not load is rebuilt and replaced. LIGHTGRID_CL_CACHE=off switches the disk part off.
+  // source, options, device and driver. Files are written whole and renamed, so that two processes may share
+  // the folder; a file that does not load is rebuilt and replaced. LIGHTGRID_CL_CACHE=off switches the disk
+  // part off.
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
-  // The kernel `entry` of the embedded file "kernels/<entry>.cl" with its includes, built with the options that
-  // all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16 -DTILE=16").
+  // The kernel `entry` of the embedded file "kernels/<entry>.cl" with its includes, built with the options
+  // that all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16 -DTILE=16").
   cl::Kernel kernel(const std::string& entry, const std::string& defines);
 
+  // The same for a source that is not embedded; `source` is a function of `entry` (tests, tools).
+  cl::Kernel kernel_of_source(const std::string& entry, const std::string& source,
+                              const std::string& defines);
+
   struct Counts {
-    int built = 0;        // compiled from source
-    int from_disk = 0;    // loaded from a binary
+    int built = 0;      // compiled from source
+    int from_disk = 0;  // loaded from a binary
     int from_memory = 0;
   };
   const Counts& counts() const { return counts_; }
@@ -31,6 +37,11 @@ class ProgramCache {
   static std::filesystem::path default_folder();
 
  private:
+  // `key` is that of programs_; `source` makes the text where it is not in memory.
+  cl::Kernel kernel_of(const std::string& key, const std::string& entry, const std::string& defines,
+                       const std::function<std::string()>& source);
+  cl::Program load_or_build(const std::string& entry, const std::string& options, const std::string& source);
+
   ClDevice& device_;
   std::filesystem::path folder_;
   std::map<std::string, cl::Program> programs_;

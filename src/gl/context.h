@@ -20,6 +20,7 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
+  // Makes it this thread's context and loads the functions of gl.h from its library: OSMesa's and EGL's differ.
   virtual void make_current() = 0;
 
   std::string backend;   // "osmesa" or "egl"
@@ -28,6 +29,10 @@ class GlContext {
 
  protected:
   GlContext() = default;
+
+  // For the backends, once their context is current: the names above, and in debug builds the debug output, where
+  // an OpenGL error prints its message and aborts. Throws Error(machine) below OpenGL 4.5.
+  void describe();
 };
 
 }  // namespace lightgrid

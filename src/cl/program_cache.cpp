@@ -1,0 +1,117 @@
+#include "cl/program_cache.h"
+
+#include <cstdlib>
+#include <string_view>
+
+#include "base/embedded.h"
+#include "cl/error.h"
+#include "cl/program_file.h"
+
+namespace lightgrid {
+namespace {
+
+// No -cl-mad-enable and no fast-math, ever: culling is byte-equal on every device
+// (docs/devices.md#same-bits).
+std::string common_options(const cl::Device& device) {
+  std::string options = "-cl-std=CL1.2";
+  if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
+    options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  return options;
+}
+
+bool disk_is_off() {
+  const char* setting = std::getenv("LIGHTGRID_CL_CACHE");
+  return setting && std::string_view(setting) == "off";
+}
+
+// An empty program where the driver does not take the binary, as after an update that kept its version.
+cl::Program load_binary(ClDevice& device, const std::string& options,
+                        const std::vector<unsigned char>& binary) {
+  try {
+    cl::Program program(device.context(), {device.device()}, {binary});
+    program.build(device.device(), options.c_str());
+    return program;
+  } catch (const cl::Error&) {
+    return {};
+  }
+}
+
+cl::Program build_source(ClDevice& device, const std::string& entry, const std::string& options,
+                         const std::string& source) {
+  cl::Program program;
+  try {
+    program = cl::Program(device.context(), source);
+    program.build(device.device(), options.c_str());
+  } catch (const cl::Error& error) {
+    std::string log;
+    if (program()) program.getBuildInfo(device.device(), CL_PROGRAM_BUILD_LOG, &log);
+    throw machine_error("kernels/{}.cl ({}) on {}: {} failed with {}\n{}", entry, options, device.info().name,
+                        error.what(), cl_error_name(error.err()), log);
+  }
+  return program;
+}
+
+}  // namespace
+
+std::filesystem::path ProgramCache::default_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache && *cache) return std::filesystem::path(cache) / "lightgrid" / "cl";
+  const char* home = std::getenv("HOME");
+  if (home && *home) return std::filesystem::path(home) / ".cache" / "lightgrid" / "cl";
+  return {};
+}
+
+ProgramCache::ProgramCache(ClDevice& device, std::filesystem::path folder)
+    : device_(device), folder_(disk_is_off() ? std::filesystem::path() : std::move(folder)) {}
+
+cl::Kernel ProgramCache::kernel(const std::string& entry, const std::string& defines) {
+  return kernel_of(entry + ' ' + defines, entry, defines,
+                   [&] { return with_includes("kernels/" + entry + ".cl"); });
+}
+
+cl::Kernel ProgramCache::kernel_of_source(const std::string& entry, const std::string& source,
+                                          const std::string& defines) {
+  return kernel_of(defines + '\n' + source, entry, defines, [&] { return source; });
+}
+
+cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& entry,
+                                   const std::string& defines, const std::function<std::string()>& source) {
+  cl::Program& program = programs_[key];
+  if (program()) {
+    ++counts_.from_memory;
+  } else {
+    const std::string options = common_options(device_.device()) + (defines.empty() ? "" : " " + defines);
+    program = load_or_build(entry, options, "#pragma OPENCL FP_CONTRACT OFF\n" + source());
+  }
+  try {
+    return cl::Kernel(program, entry.c_str());
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, "kernels/" + entry + ".cl");
+  }
+}
+
+cl::Program ProgramCache::load_or_build(const std::string& entry, const std::string& options,
+                                        const std::string& source) {
+  const ClDeviceInfo& info = device_.info();
+  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.name, info.version,
+                                      info.driver, options, source);
+  const std::filesystem::path file = folder_.empty() ? "" : program_file_path(folder_, entry, key);
+  if (!file.empty()) {
+    const std::vector<unsigned char> binary = read_program_file(file, key);
+    if (!binary.empty()) {
+      if (cl::Program program = load_binary(device_, options, binary); program()) {
+        ++counts_.from_disk;
+        return program;
+      }
+    }
+  }
+  cl::Program program = build_source(device_, entry, options, source);
+  ++counts_.built;
+  if (!file.empty()) {
+    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+    if (!binaries.empty() && !binaries[0].empty()) write_program_file(file, key, binaries[0]);
+  }
+  return program;
+}
+
+}  // namespace lightgrid

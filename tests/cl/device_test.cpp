@@ -1,0 +1,78 @@
+#include "cl/device.h"
+
+#include <gmock/gmock.h>
+
+#include "cl/error.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+ClDeviceInfo device(const char* platform, const char* name, bool cpu) {
+  ClDeviceInfo info;
+  info.platform = platform;
+  info.name = name;
+  info.cpu = cpu;
+  return info;
+}
+
+const std::vector<ClDeviceInfo> three = {device("Portable Computing Language", "pthread-znver3", true),
+                                         device("NVIDIA CUDA", "NVIDIA H200", false),
+                                         device("NVIDIA CUDA", "NVIDIA H100", false)};
+
+TEST(ClDeviceChoice, IsTheFirstGpuWhenNothingIsNamed) { EXPECT_EQ(choose_cl_device(three, ""), 1u); }
+
+TEST(ClDeviceChoice, IsTheFirstDeviceWhenThereIsNoGpu) {
+  EXPECT_EQ(choose_cl_device({three[0], three[0]}, ""), 0u);
+}
+
+TEST(ClDeviceChoice, TakesTheFirstWhosePlatformAndNameHoldTheSubstringInAnyCase) {
+  EXPECT_EQ(choose_cl_device(three, "h100"), 2u);
+  EXPECT_EQ(choose_cl_device(three, "nvidia"), 1u);
+  EXPECT_EQ(choose_cl_device(three, "language PTHREAD"), 0u);
+}
+
+TEST(ClDeviceChoice, ThatMatchesNothingNamesTheSubstringAndTheDevices) {
+  try {
+    choose_cl_device(three, "radeon");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_THAT(error.what(), HasSubstr("\"radeon\""));
+    EXPECT_THAT(error.what(), HasSubstr("NVIDIA CUDA NVIDIA H100"));
+    EXPECT_THAT(error.what(), HasSubstr("pthread-znver3"));
+  }
+}
+
+TEST(ClDeviceChoice, WithNoDeviceNamesThePackageThatBringsOne) {
+  try {
+    choose_cl_device({}, "");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_THAT(error.what(), HasSubstr("pocl-opencl-icd"));
+  }
+}
+
+TEST(ClDevice, IsTheOneThatTheChoiceNames) {
+  const std::vector<ClDeviceInfo> devices = list_cl_devices();
+  ClDevice made;
+  EXPECT_EQ(made.info().name, devices[choose_cl_device(devices, "")].name);
+  EXPECT_GE(made.info().compute_units, 1);
+  EXPECT_LE(made.info().max_allocation_bytes, made.info().global_bytes);
+  EXPECT_NE(made.queue().getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_PROFILING_ENABLE, 0u);
+  EXPECT_EQ(made.queue().getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, 0u);
+}
+
+TEST(ClDevice, ThatDoesNotExistIsAMachineError) { EXPECT_THROW(ClDevice("no device is called this"), Error); }
+
+TEST(ClErrors, AreNamedWithTheCallAndTheCode) {
+  EXPECT_EQ(cl_error_name(CL_INVALID_KERNEL_ARGS), "CL_INVALID_KERNEL_ARGS");
+  EXPECT_EQ(cl_error_name(-12345), "code -12345");
+  EXPECT_STREQ(cl_machine_error(cl::Error(CL_OUT_OF_RESOURCES, "clFinish"), "cull").what(),
+               "cull: clFinish failed with CL_OUT_OF_RESOURCES");
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,71 @@
+#include "cl/launch.h"
+
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#include "cl/program_cache.h"
+
+namespace lightgrid {
+namespace {
+
+struct Launch : testing::Test {
+  ClDevice device;
+  ProgramCache programs{device, ""};
+  cl::Kernel scale = programs.kernel_of_source(
+      "scale", "kernel void scale(global int* x, int by, local int* t) { x[get_global_id(0)] *= by; }", "");
+  std::vector<cl_int> host = [] {
+    std::vector<cl_int> values(17 * 9);
+    std::iota(values.begin(), values.end(), 0);
+    return values;
+  }();
+  cl::Buffer buffer{device.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, host.size() * 4, host.data()};
+
+  void run(const char* label, cl_int by) {
+    launch(device, label, scale, cl::NDRange(host.size()), cl::NDRange(17), buffer, by, cl::Local(64));
+  }
+};
+
+TEST_F(Launch, SetsTheArgumentsInOrderAndRunsEveryItem) {
+  run("scale", 3);
+  std::vector<cl_int> result(host.size());
+  device.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, result.size() * 4, result.data());
+  for (size_t i = 0; i < host.size(); ++i) EXPECT_EQ(result[i], cl_int(3 * i));
+}
+
+TEST_F(Launch, IsCountedByLabelAndTimedOnlyWhenAsked) {
+  run("a", 1);
+  EXPECT_TRUE(device.profiler().collect().empty());
+  device.profiler().time_launches(true);
+  run("b", 1);
+  run("a", 1);
+  run("b", 1);
+  const auto rows = device.profiler().collect();
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].label, "b");
+  EXPECT_EQ(rows[0].launches, 2);
+  EXPECT_EQ(rows[1].label, "a");
+  EXPECT_EQ(rows[1].launches, 1);
+  EXPECT_GT(rows[0].ms, 0);
+  EXPECT_LT(rows[0].ms, 10000);
+  EXPECT_TRUE(device.profiler().collect().empty());
+  EXPECT_EQ(device.profiler().count(), 4);
+  EXPECT_EQ(device.profiler().count("a"), 2);
+  EXPECT_EQ(device.profiler().count("never"), 0);
+}
+
+TEST_F(Launch, ThatFailsSaysWhichLabelAndCode) {
+  device.profiler().time_launches(true);
+  try {
+    launch(device, "scale wrongly", scale, cl::NDRange(16), cl::NDRange(5), buffer, cl_int(1), cl::Local(64));
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_STREQ(error.what(),
+                 "scale wrongly: clEnqueueNDRangeKernel failed with CL_INVALID_WORK_GROUP_SIZE");
+  }
+  EXPECT_TRUE(device.profiler().collect().empty());
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,186 @@
+#include "cl/program_cache.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <thread>
+
+#include "cl/launch.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string source = "kernel void fill(global int* out) { out[get_global_id(0)] = VALUE; }";
+
+struct ProgramCacheTest : testing::Test {
+  ClDevice device;
+  std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("lightgrid_cache_" + std::to_string(getpid()));
+
+  void SetUp() override { std::filesystem::remove_all(folder); }
+  void TearDown() override {
+    std::filesystem::remove_all(folder);
+    unsetenv("LIGHTGRID_CL_CACHE");
+  }
+
+  int run(ProgramCache& programs, int value) {
+    cl::Kernel kernel = programs.kernel_of_source("fill", source, "-DVALUE=" + std::to_string(value));
+    cl::Buffer out(device.context(), CL_MEM_READ_WRITE, sizeof(cl_int));
+    launch(device, "fill", kernel, cl::NDRange(1), cl::NullRange, out);
+    cl_int result = 0;
+    device.queue().enqueueReadBuffer(out, CL_TRUE, 0, sizeof result, &result);
+    return result;
+  }
+
+  std::vector<std::filesystem::path> files() const {
+    std::vector<std::filesystem::path> found;
+    if (std::filesystem::exists(folder))
+      for (const auto& entry : std::filesystem::directory_iterator(folder)) found.push_back(entry.path());
+    return found;
+  }
+
+  void expect_counts(const ProgramCache& programs, int built, int from_disk, int from_memory) {
+    EXPECT_EQ(programs.counts().built, built);
+    EXPECT_EQ(programs.counts().from_disk, from_disk);
+    EXPECT_EQ(programs.counts().from_memory, from_memory);
+  }
+};
+
+TEST_F(ProgramCacheTest, BuildsOnceThenTakesFromMemory) {
+  ProgramCache programs(device, folder);
+  EXPECT_EQ(run(programs, 7), 7);
+  EXPECT_EQ(run(programs, 7), 7);
+  expect_counts(programs, 1, 0, 1);
+}
+
+TEST_F(ProgramCacheTest, TakesFromDiskWhatAnotherBuilt) {
+  ProgramCache first(device, folder), second(device, folder);
+  EXPECT_EQ(run(first, 7), 7);
+  EXPECT_EQ(run(second, 7), 7);
+  expect_counts(second, 0, 1, 0);
+}
+
+TEST_F(ProgramCacheTest, KeepsProgramsOfOtherDefinesApart) {
+  ProgramCache first(device, folder), second(device, folder);
+  EXPECT_EQ(run(first, 1), 1);
+  EXPECT_EQ(run(first, 2), 2);
+  expect_counts(first, 2, 0, 0);
+  EXPECT_EQ(run(second, 2), 2);
+  EXPECT_EQ(run(second, 1), 1);
+  expect_counts(second, 0, 2, 0);
+}
+
+TEST_F(ProgramCacheTest, KeepsProgramsOfOtherSourcesApart) {
+  ProgramCache first(device, folder), second(device, folder);
+  first.kernel_of_source("fill", source, "-DVALUE=1");
+  first.kernel_of_source("fill", source + "\n", "-DVALUE=1");
+  expect_counts(first, 2, 0, 0);
+  second.kernel_of_source("fill", source + "\n\n", "-DVALUE=1");
+  expect_counts(second, 1, 0, 0);
+}
+
+TEST_F(ProgramCacheTest, RebuildsAndReplacesADamagedFile) {
+  ProgramCache first(device, folder);
+  run(first, 7);
+  ASSERT_EQ(files().size(), 1u);
+  const std::filesystem::path file = files()[0];
+  const auto whole = std::filesystem::file_size(file);
+  const std::vector<std::function<void()>> damages = {
+      [&] { std::filesystem::resize_file(file, 0); },
+      [&] { std::filesystem::resize_file(file, 20); },
+      [&] { std::filesystem::resize_file(file, whole / 2); },
+      [&] { std::filesystem::resize_file(file, whole + 1); },
+      [&] {
+        std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(whole - 100).put('\x55');
+      },
+      [&] { std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(40).put('\x55'); },
+      [&] { std::ofstream(file) << "not a program at all, but long enough to hold a header of its own"; },
+  };
+  for (size_t i = 0; i < damages.size(); ++i) {
+    SCOPED_TRACE(i);
+    damages[i]();
+    ProgramCache rebuilding(device, folder), after(device, folder);
+    EXPECT_EQ(run(rebuilding, 7), 7);
+    expect_counts(rebuilding, 1, 0, 0);
+    EXPECT_EQ(run(after, 7), 7);
+    expect_counts(after, 0, 1, 0);
+  }
+}
+
+TEST_F(ProgramCacheTest, TouchesNoDiskWhenSwitchedOff) {
+  setenv("LIGHTGRID_CL_CACHE", "off", 1);
+  ProgramCache first(device, folder), second(device, folder);
+  EXPECT_EQ(run(first, 7), 7);
+  EXPECT_EQ(run(second, 7), 7);
+  expect_counts(second, 1, 0, 0);
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(ProgramCacheTest, WorksInAFolderThatCannotBeMade) {
+  ProgramCache programs(device, "/dev/null/lightgrid");
+  EXPECT_EQ(run(programs, 7), 7);
+  expect_counts(programs, 1, 0, 0);
+}
+
+TEST_F(ProgramCacheTest, MayBeSharedByCachesThatBuildAtOnce) {
+  constexpr int programs_each = 6;
+  auto build_all = [&] {
+    ClDevice own;
+    ProgramCache programs(own, folder);
+    for (int i = 0; i < programs_each; ++i)
+      programs.kernel_of_source("fill", source, "-DVALUE=" + std::to_string(i));
+  };
+  { std::jthread first(build_all), second(build_all); }
+  EXPECT_EQ(files().size(), size_t(programs_each));  // no unfinished file is left either
+  ProgramCache after(device, folder);
+  for (int i = 0; i < programs_each; ++i) EXPECT_EQ(run(after, i), i);
+  expect_counts(after, 0, programs_each, 0);
+}
+
+TEST_F(ProgramCacheTest, ShowsTheBuildLogOfAnErrorWithFileDefinesAndDevice) {
+  ProgramCache programs(device, folder);
+  try {
+    programs.kernel_of_source("broken", "kernel void broken() { undeclared_thing = 1; }", "-DLANES=16");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_THAT(error.what(), HasSubstr("kernels/broken.cl"));
+    EXPECT_THAT(error.what(), HasSubstr("-DLANES=16"));
+    EXPECT_THAT(error.what(), HasSubstr("CL_BUILD_PROGRAM_FAILURE"));
+    EXPECT_THAT(error.what(), HasSubstr("undeclared_thing"));
+    EXPECT_THAT(error.what(), HasSubstr(device.info().name));
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(ProgramCacheTest, SaysWhenTheEntryIsNotInTheSource) {
+  ProgramCache programs(device, folder);
+  try {
+    programs.kernel_of_source("other", source, "-DVALUE=1");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("kernels/other.cl"));
+    EXPECT_THAT(error.what(), HasSubstr("CL_INVALID_KERNEL_NAME"));
+  }
+}
+
+TEST(ProgramCacheFolder, FollowsXdgThenHomeAndElseThereIsNone) {
+  const char* home = std::getenv("HOME");
+  const std::string kept = home ? home : "";
+  setenv("XDG_CACHE_HOME", "/x", 1);
+  setenv("HOME", "/h", 1);
+  EXPECT_EQ(ProgramCache::default_folder(), "/x/lightgrid/cl");
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_EQ(ProgramCache::default_folder(), "/h/.cache/lightgrid/cl");
+  unsetenv("HOME");
+  EXPECT_EQ(ProgramCache::default_folder(), "");
+  if (home) setenv("HOME", kept.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace lightgrid
