@@ -9,7 +9,8 @@ namespace lightgrid {
 
 struct ScatterSettings {
   int count = 256;
-  float min_radius_m = 0, max_radius_m = 0;  // both 0: chosen from the scene's size and the count
+  float min_radius_m = 0,
+        max_radius_m = 0;  // both 0: chosen so that about eight lights reach a point of surface
   uint64_t seed = 1;
 };
 

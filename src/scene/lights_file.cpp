@@ -1,0 +1,242 @@
+#include "scene/lights_file.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int max_json_depth = 32;
+constexpr double max_float = std::numeric_limits<float>::max();
+
+// Parses with a note of where it is, for messages: the parser's own name only a line and column.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) throw input_error("{}: no such file", path.string());
+    const uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) throw input_error("{}: cannot be read: {}", path.string(), error.message());
+    if (size > max_lights_file_bytes) {
+      throw input_error("{}: {} bytes are more than the {} a lights file may have", path.string(), size,
+                        max_lights_file_bytes);
+    }
+  }
+
+  Json read() {
+    std::ifstream file(path_, std::ios::binary);
+    if (!file) throw input_error("{}: cannot be opened", path_.string());
+    const auto follow = [this](int depth, Json::parse_event_t event, Json& parsed) {
+      return on_event(depth, event, parsed);
+    };
+    try {
+      return Json::parse(file, follow);
+    } catch (const Json::parse_error& error) {
+      throw input_error("{}: {}is not JSON: {}", path_.string(), place(), without_prefix(error.what()));
+    } catch (const Json::exception& error) {
+      throw input_error("{}: {}{}", path_.string(), place(), without_prefix(error.what()));
+    }
+  }
+
+ private:
+  bool on_event(int depth, Json::parse_event_t event, const Json& parsed) {
+    if (depth > max_json_depth)
+      throw input_error("{}: nested deeper than {}", path_.string(), max_json_depth);
+    if (event == Json::parse_event_t::key) {
+      if (depth == 1) in_lights_ = parsed == "lights";
+      field_ = parsed.get<std::string>();
+    }
+    if (event == Json::parse_event_t::object_start && depth == 2 && in_lights_) ++light_, field_.clear();
+    return true;
+  }
+
+  std::string place() const {
+    const std::string field = field_.empty() ? "" : fmt::format("near {:?}: ", field_);
+    return light_ < 0 ? field : fmt::format("light {}: {}", light_, field);
+  }
+
+  // "[json.exception.parse_error.101] parse error at line 1, ..."
+  static std::string without_prefix(const std::string& what) {
+    const size_t end = what.find("] ");
+    return end == std::string::npos ? what : what.substr(end + 2);
+  }
+
+  std::filesystem::path path_;
+  bool in_lights_ = false;
+  int light_ = -1;
+  std::string field_;
+};
+
+// One light's fields, each checked.
+class Fields {
+ public:
+  Fields(const std::filesystem::path& path, size_t index, const Json& json) : json_(json) {
+    where_ = fmt::format("{}: light {}", path.string(), index);
+    if (!json.is_object()) throw input_error("{}: is {}, not an object", where_, json.type_name());
+    name_ = text("name", "");
+    if (!name_.empty()) where_ += fmt::format(" {:?}", name_);
+  }
+
+  const std::string& name() const { return name_; }
+  bool has(const char* field) const { return json_.contains(field); }
+
+  template <typename Value>
+  Error error(const char* field, const std::string& fault, const Value& value) const {
+    return input_error("{}: {} {} {}", where_, field, value, fault);
+  }
+
+  std::string text(const char* field, const char* absent) const {
+    if (!has(field)) return absent;
+    if (!json_[field].is_string()) throw error(field, "is not a string", json_[field].type_name());
+    return json_[field].get<std::string>();
+  }
+
+  double number(const char* field, double absent, double low, double high) const {
+    return has(field) ? checked(field, json_[field], low, high) : absent;
+  }
+
+  glm::dvec3 vector(const char* field, double low, double high) const {
+    if (!has(field)) throw input_error("{}: {} is missing", where_, field);
+    const Json& array = json_[field];
+    if (!array.is_array() || array.size() != 3)
+      throw input_error("{}: {} is not three numbers", where_, field);
+    return {checked(field, array[0], low, high), checked(field, array[1], low, high),
+            checked(field, array[2], low, high)};
+  }
+
+ private:
+  double checked(const char* field, const Json& json, double low, double high) const {
+    if (!json.is_number()) throw error(field, "is not a number", json.type_name());
+    const double value = json.get<double>();
+    if (value < low) throw error(field, fmt::format("is below {:g}", low), value);
+    if (!(value <= high)) throw error(field, fmt::format("is above {:g}", high), value);
+    return value;
+  }
+
+  const Json& json_;
+  std::string where_, name_;
+};
+
+LightType light_type(const Fields& fields) {
+  const std::string type = fields.text("type", "point");
+  if (type == "point") return LightType::point;
+  if (type == "spot") return LightType::spot;
+  if (type == "directional") return LightType::directional;
+  throw fields.error("type", "is not point, spot or directional", fmt::format("{:?}", type));
+}
+
+glm::vec3 direction(const Fields& fields) {
+  const glm::dvec3 given = fields.vector("direction", -max_float, max_float);
+  const double length = glm::length(given);
+  // Denormal lengths included: their quotient is no direction.
+  if (!(length > 1e-150)) throw fields.error("direction", "is zero", "[0, 0, 0]");
+  // As it is where it is a unit vector to a float's precision, so that what was saved is what is loaded.
+  return glm::vec3(std::abs(length - 1) < 1e-6 ? given : given / length);
+}
+
+Light redeclipse_light(const Fields& fields) {
+  const glm::dvec3 map = fields.vector("position", -max_float, max_float) * metres_per_redeclipse_unit;
+  const double radius_m = fields.number("radius", 0, 0, max_float) * metres_per_redeclipse_unit;
+  const double lit_m = radius_m > 0 ? radius_m : 16;
+  Light light;
+  light.name = fields.name();
+  light.position = {map.x, map.z, -map.y};
+  light.color = glm::vec3(fields.vector("rgb255", 0, 255) / 255.0);
+  light.intensity = float(std::min(lit_m * lit_m / 4, max_float));
+  if (radius_m > 0) light.radius_m = float(radius_m);
+  return light;
+}
+
+Light plain_light(const Fields& fields) {
+  Light light;
+  light.name = fields.name();
+  light.type = light_type(fields);
+  if (light.type != LightType::directional) light.position = fields.vector("position", -max_float, max_float);
+  if (light.type != LightType::point) light.direction = direction(fields);
+  if (fields.has("color")) light.color = glm::vec3(fields.vector("color", 0, max_float));
+  light.intensity = float(fields.number("intensity", 1, 0, max_float));
+  light.radius_m = float(fields.number("radius", light.radius_m, 0, max_float));
+  const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
+  const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
+  light.inner_cone_rad = float(inner), light.outer_cone_rad = float(outer);
+  if (!(light.inner_cone_rad < light.outer_cone_rad)) {
+    throw fields.error("inner_cone", fmt::format("is not below outer_cone {}", outer), inner);
+  }
+  return light;
+}
+
+// The shortest decimal that reads back as the float: 0.1, where the float's double has seventeen digits.
+double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
+
+Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+
+nlohmann::ordered_json to_json(const Light& light) {
+  static constexpr const char* names[] = {"point", "spot", "directional"};
+  nlohmann::ordered_json json;
+  if (!light.name.empty()) json["name"] = light.name;
+  json["type"] = names[int(light.type)];
+  if (light.type != LightType::directional) {
+    json["position"] = {light.position.x, light.position.y, light.position.z};
+    if (std::isfinite(light.radius_m)) json["radius"] = shortest(light.radius_m);
+  }
+  if (light.type != LightType::point) json["direction"] = to_json(light.direction);
+  if (light.type == LightType::spot) {
+    json["inner_cone"] = shortest(light.inner_cone_rad);
+    json["outer_cone"] = shortest(light.outer_cone_rad);
+  }
+  json["color"] = to_json(light.color);
+  json["intensity"] = shortest(light.intensity);
+  return json;
+}
+
+Json read_object(const std::filesystem::path& path) {
+  Json json = Reader(path).read();
+  if (!json.is_object()) throw input_error("{}: is {}, not an object", path.string(), json.type_name());
+  return json;
+}
+
+}  // namespace
+
+std::vector<Light> load_lights_file(const std::filesystem::path& path) {
+  const Json json = read_object(path);
+  if (!json.contains("lights")) throw input_error("{}: lights is missing", path.string());
+  const Json& list = json["lights"];
+  if (!list.is_array()) throw input_error("{}: lights is {}, not an array", path.string(), list.type_name());
+  std::vector<Light> lights;
+  lights.reserve(list.size());
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Fields fields(path, i, list[i]);
+    lights.push_back(fields.has("rgb255") ? redeclipse_light(fields) : plain_light(fields));
+  }
+  return lights;
+}
+
+std::string camera_of_lights_file(const std::filesystem::path& path) {
+  const Json json = read_object(path);
+  if (!json.contains("camera")) return {};
+  if (!json["camera"].is_string()) {
+    throw input_error("{}: camera is {}, not a string", path.string(), json["camera"].type_name());
+  }
+  return json["camera"].get<std::string>();
+}
+
+void save_lights_file(const std::filesystem::path& path, const std::vector<Light>& lights) {
+  std::ofstream file(path, std::ios::binary);
+  file << "{\"lights\": [";
+  for (size_t i = 0; i < lights.size(); ++i) {
+    file << (i ? ",\n  " : "\n  ") << to_json(lights[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  file << "\n]}\n";
+  file.close();
+  if (!file) throw input_error("{}: cannot be written", path.string());
+}
+
+}  // namespace lightgrid
