@@ -15,34 +15,41 @@ enum class BridgeKind {
 };
 
 // What these two devices allow: mapped on a CPU OpenCL device beside a software GL.
-// LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison).
+// LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison); any other value is an input error.
 BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl);
 
 const char* to_string(BridgeKind kind);
 
-// Fixed size, made once and reused; bytes are the same whichever way they travel.
+// Fixed size, made once and reused; bytes are the same whichever way they travel. The GL context that was
+// current when it was made is current at every call, its end included, and the device outlives it.
 class SharedBuffer {
  public:
+  // The contents are undefined. Throws Error(machine), naming the size, where memory runs out.
   SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes);
   ~SharedBuffer();
   SharedBuffer(SharedBuffer&&) noexcept;
   SharedBuffer& operator=(SharedBuffer&&) noexcept;
 
   size_t size() const { return bytes_; }
+  BridgeKind kind() const { return kind_; }
   cl::Buffer& cl_buffer() { return cl_buffer_; }
   GLuint gl_buffer() const { return gl_buffer_; }
 
   // After OpenCL wrote the first `bytes`: waits for the queue and makes them visible to GL.
   void hand_to_gl(size_t bytes);
-  // After GL wrote the first `bytes` (a glReadPixels into it, say): waits for GL and makes them visible to OpenCL.
+  // After GL wrote the first `bytes` (a glReadPixels into it, say): waits for GL and makes them visible to
+  // OpenCL.
   void hand_to_cl(size_t bytes);
 
  private:
-  ClDevice* cl_ = nullptr;
+  void release();
+
+  ClDevice* cl_ = nullptr;  // null once moved from
   BridgeKind kind_ = BridgeKind::staged;
   size_t bytes_ = 0;
   GLuint gl_buffer_ = 0;
-  void* mapped_ = nullptr;  // the GL buffer's memory, in both kinds
+  GLuint staging_ = 0;      // staged only: memory that both the host and GL's copies reach
+  void* mapped_ = nullptr;  // mapped: the GL buffer's memory; staged: that of `staging_`
   cl::Buffer cl_buffer_;
 };
 

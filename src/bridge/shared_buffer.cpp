@@ -1,0 +1,126 @@
+#include "bridge/shared_buffer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include "cl/error.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr GLbitfield mapping =
+    GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+
+GLuint make_buffer(size_t bytes, GLbitfield flags) {
+  GLuint buffer = 0;
+  glCreateBuffers(1, &buffer);
+  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(bytes), nullptr, flags);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
+    glDeleteBuffers(1, &buffer);
+    throw machine_error("OpenGL has no room for a buffer of {} bytes (error {:#x})", bytes, error);
+  }
+  return buffer;
+}
+
+}  // namespace
+
+BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl) {
+  if (const char* forced = std::getenv("LIGHTGRID_BRIDGE")) {
+    if (std::string_view(forced) != "staged")
+      throw input_error("LIGHTGRID_BRIDGE: \"{}\" is not \"staged\", the one value it takes", forced);
+    return BridgeKind::staged;
+  }
+  return cl.info().cpu && gl.software ? BridgeKind::mapped : BridgeKind::staged;
+}
+
+const char* to_string(BridgeKind kind) { return kind == BridgeKind::mapped ? "mapped" : "staged"; }
+
+SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
+    : cl_(&cl), kind_(kind), bytes_(bytes) {
+  const size_t allocated = std::max<size_t>(bytes, 16);  // neither API makes an empty buffer
+  try {
+    gl_buffer_ = make_buffer(allocated, kind == BridgeKind::mapped ? mapping : 0);
+    if (kind == BridgeKind::staged) staging_ = make_buffer(allocated, mapping);
+    mapped_ = glMapNamedBufferRange(staging_ ? staging_ : gl_buffer_, 0, static_cast<GLsizeiptr>(allocated),
+                                    mapping);
+    if (!mapped_) throw machine_error("OpenGL could not map a buffer of {} bytes", bytes);
+    // OpenGL promises mappings on 64 bytes (MIN_MAP_BUFFER_ALIGNMENT), the most that a kernel's float16 asks
+    // for.
+    assert(reinterpret_cast<std::uintptr_t>(mapped_) % sizeof(cl_float16) == 0);
+    if (kind == BridgeKind::mapped)
+      cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, allocated, mapped_);
+    else
+      cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE, allocated);
+  } catch (const cl::Error& error) {
+    release();
+    throw cl_machine_error(error, fmt::format("a buffer of {} bytes", bytes));
+  } catch (...) {
+    release();
+    throw;
+  }
+}
+
+SharedBuffer::~SharedBuffer() { release(); }
+
+SharedBuffer::SharedBuffer(SharedBuffer&& other) noexcept { *this = std::move(other); }
+
+SharedBuffer& SharedBuffer::operator=(SharedBuffer&& other) noexcept {
+  std::swap(cl_, other.cl_);
+  std::swap(kind_, other.kind_);
+  std::swap(bytes_, other.bytes_);
+  std::swap(gl_buffer_, other.gl_buffer_);
+  std::swap(staging_, other.staging_);
+  std::swap(mapped_, other.mapped_);
+  std::swap(cl_buffer_, other.cl_buffer_);
+  return *this;
+}
+
+void SharedBuffer::release() {
+  if (!cl_) return;
+  // Kernels still queued may use the memory that goes away.
+  if (cl_buffer_()) clFinish(cl_->queue()());
+  cl_buffer_ = {};
+  for (GLuint buffer : {gl_buffer_, staging_})
+    if (buffer) glDeleteBuffers(1, &buffer);  // unmaps as well
+  cl_ = nullptr;
+}
+
+void SharedBuffer::hand_to_gl(size_t bytes) {
+  assert(bytes <= bytes_);
+  try {
+    if (kind_ == BridgeKind::mapped) {
+      cl_->queue().finish();
+    } else if (bytes > 0) {
+      cl_->queue().enqueueReadBuffer(cl_buffer_, CL_TRUE, 0, bytes, mapped_, nullptr,
+                                     cl_->profiler().event("hand_to_gl"));
+      glCopyNamedBufferSubData(staging_, gl_buffer_, 0, 0, static_cast<GLsizeiptr>(bytes));
+    } else {
+      cl_->queue().finish();
+    }
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, "handing a buffer to OpenGL");
+  }
+}
+
+void SharedBuffer::hand_to_cl(size_t bytes) {
+  assert(bytes <= bytes_);
+  if (kind_ == BridgeKind::staged && bytes > 0) {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glCopyNamedBufferSubData(gl_buffer_, staging_, 0, 0, static_cast<GLsizeiptr>(bytes));
+  }
+  glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  glFinish();
+  if (kind_ == BridgeKind::mapped || bytes == 0) return;
+  try {
+    cl_->queue().enqueueWriteBuffer(cl_buffer_, CL_TRUE, 0, bytes, mapped_, nullptr,
+                                    cl_->profiler().event("hand_to_cl"));
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, "handing a buffer to OpenCL");
+  }
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,232 @@
+#include "bridge/shared_buffer.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <cstring>
+#include <numeric>
+
+#include "cl/launch.h"
+#include "cl/program_cache.h"
+
+namespace lightgrid {
+namespace {
+
+using Parameters = std::tuple<GlBackend, BridgeKind>;
+
+// Every test runs through every backend and both ways; a mapped buffer is tried only where it is allowed.
+struct SharedBufferOf : testing::TestWithParam<Parameters> {
+  ClDevice cl;
+  std::unique_ptr<GlContext> gl;
+  ProgramCache programs{cl, ""};
+  BridgeKind kind = std::get<1>(GetParam());
+
+  void SetUp() override {
+    try {
+      gl = GlContext::create(std::get<0>(GetParam()));
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+    if (kind == BridgeKind::mapped && choose_bridge(cl, *gl) != kind)
+      GTEST_SKIP() << cl.info().name << " and " << gl->renderer << " do not share their memory";
+  }
+
+  // out[i] = i * i + start, in OpenCL.
+  void write_squares(SharedBuffer& buffer, cl_uint count, cl_uint start) {
+    cl::Kernel kernel = programs.kernel_of_source("squares",
+                                                  "kernel void squares(global uint* out, uint start) {"
+                                                  "  uint i = get_global_id(0); out[i] = i * i + start; }",
+                                                  "");
+    launch(cl, "squares", kernel, cl::NDRange(count), cl::NullRange, buffer.cl_buffer(), start);
+  }
+
+  std::vector<cl_uint> read_in_cl(SharedBuffer& buffer, size_t count) {
+    cl::Kernel kernel = programs.kernel_of_source("copy",
+                                                  "kernel void copy(global const uint* in, global uint* out) "
+                                                  "{ uint i = get_global_id(0); out[i] = in[i]; }",
+                                                  "");
+    std::vector<cl_uint> result(count);
+    cl::Buffer out(cl.context(), CL_MEM_READ_WRITE, count * 4);
+    launch(cl, "copy", kernel, cl::NDRange(count), cl::NullRange, buffer.cl_buffer(), out);
+    cl.queue().enqueueReadBuffer(out, CL_TRUE, 0, count * 4, result.data());
+    return result;
+  }
+};
+
+constexpr const char* copy_shader = R"(#version 450
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) readonly buffer In { uint values[]; };
+layout(std430, binding = 1) writeonly buffer Out { uint copied[]; };
+void main() { copied[gl_GlobalInvocationID.x] = values[gl_GlobalInvocationID.x]; }
+)";
+
+constexpr const char* texel_shader = R"(#version 450
+layout(local_size_x = 1) in;
+layout(binding = 0) uniform usamplerBuffer values;
+layout(std430, binding = 1) writeonly buffer Out { uint copied[]; };
+void main() { copied[gl_GlobalInvocationID.x] = texelFetch(values, int(gl_GlobalInvocationID.x)).r; }
+)";
+
+GLuint compute_program(const char* source) {
+  const GLuint shader = glCreateShader(GL_COMPUTE_SHADER), program = glCreateProgram();
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  glAttachShader(program, shader);
+  glLinkProgram(program);
+  glDeleteShader(shader);
+  GLint linked = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  EXPECT_TRUE(linked);
+  return program;
+}
+
+// What a shader reads from `buffer`, which is bound as a texture buffer or as a storage buffer.
+std::vector<cl_uint> read_in_gl(const SharedBuffer& buffer, size_t count, const char* shader) {
+  const GLuint program = compute_program(shader);
+  GLuint out = 0, texture = 0;
+  glCreateBuffers(1, &out);
+  glNamedBufferStorage(out, GLsizeiptr(count * 4), nullptr, 0);
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
+  glTextureBuffer(texture, GL_R32UI, buffer.gl_buffer());
+  glBindTextureUnit(0, texture);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.gl_buffer());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, out);
+  glUseProgram(program);
+  glDispatchCompute(GLuint(count), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<cl_uint> result(count);
+  glGetNamedBufferSubData(out, 0, GLsizeiptr(count * 4), result.data());
+  glUseProgram(0);
+  glDeleteProgram(program);
+  glDeleteTextures(1, &texture);
+  glDeleteBuffers(1, &out);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+  return result;
+}
+
+std::vector<cl_uint> squares(cl_uint count, cl_uint start) {
+  std::vector<cl_uint> values(count);
+  for (cl_uint i = 0; i < count; ++i) values[i] = i * i + start;
+  return values;
+}
+
+TEST_P(SharedBufferOf, ShowsAKernelsWritesToStorageBuffers) {
+  for (cl_uint count : {1u, 153u, 4097u}) {
+    SharedBuffer buffer(cl, kind, count * 4);
+    write_squares(buffer, count, 5);
+    buffer.hand_to_gl(count * 4);
+    EXPECT_EQ(read_in_gl(buffer, count, copy_shader), squares(count, 5)) << count;
+  }
+}
+
+TEST_P(SharedBufferOf, ShowsAKernelsWritesToTextureBuffersFrameAfterFrame) {
+  constexpr cl_uint count = 153;
+  SharedBuffer buffer(cl, kind, count * 4);
+  for (cl_uint frame = 0; frame < 3; ++frame) {
+    write_squares(buffer, count, 1000 * frame);
+    buffer.hand_to_gl(count * 4);
+    EXPECT_EQ(read_in_gl(buffer, count, texel_shader), squares(count, 1000 * frame)) << frame;
+  }
+}
+
+TEST_P(SharedBufferOf, ShowsPixelsThatGlReadBackToKernels) {
+  for (const auto& [width, height] : {std::pair(1, 1), {17, 9}, {129, 65}}) {
+    GLuint texture = 0, framebuffer = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_DEPTH_COMPONENT32F, width, height);
+    std::vector<float> depth(size_t(width) * height);
+    for (size_t i = 0; i < depth.size(); ++i) depth[i] = float(i + 1) / float(depth.size() + 1);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(texture, 0, 0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, texture, 0);
+    glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+    glNamedFramebufferReadBuffer(framebuffer, GL_NONE);
+
+    SharedBuffer buffer(cl, kind, depth.size() * 4);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.gl_buffer());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    buffer.hand_to_cl(depth.size() * 4);
+
+    std::vector<cl_uint> bits(depth.size());
+    std::memcpy(bits.data(), depth.data(), depth.size() * 4);
+    EXPECT_EQ(read_in_cl(buffer, bits.size()), bits) << width << "x" << height;
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+  }
+}
+
+TEST_P(SharedBufferOf, ShowsAShadersWritesToKernels) {
+  constexpr cl_uint count = 153;
+  SharedBuffer buffer(cl, kind, count * 4);
+  const GLuint program = compute_program(R"(#version 450
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) writeonly buffer Out { uint values[]; };
+void main() { values[gl_GlobalInvocationID.x] = 7u * gl_GlobalInvocationID.x; }
+)");
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.gl_buffer());
+  glUseProgram(program);
+  glDispatchCompute(count, 1, 1);
+  buffer.hand_to_cl(count * 4);
+  std::vector<cl_uint> expected(count);
+  for (cl_uint i = 0; i < count; ++i) expected[i] = 7 * i;
+  EXPECT_EQ(read_in_cl(buffer, count), expected);
+  glDeleteProgram(program);
+}
+
+TEST_P(SharedBufferOf, MovesWithItsContentsAndFreesOnce) {
+  constexpr cl_uint count = 17;
+  SharedBuffer made(cl, kind, count * 4);
+  write_squares(made, count, 0);
+  SharedBuffer moved(std::move(made));
+  SharedBuffer assigned(cl, kind, 4);
+  assigned = std::move(moved);
+  assigned.hand_to_gl(count * 4);
+  EXPECT_EQ(assigned.size(), count * 4);
+  EXPECT_EQ(read_in_gl(assigned, count, copy_shader), squares(count, 0));
+}
+
+TEST_P(SharedBufferOf, MayBeEmpty) {
+  SharedBuffer buffer(cl, kind, 0);
+  buffer.hand_to_gl(0);
+  buffer.hand_to_cl(0);
+  EXPECT_EQ(buffer.size(), 0u);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, SharedBufferOf,
+                         testing::Combine(testing::Values(GlBackend::osmesa, GlBackend::egl),
+                                          testing::Values(BridgeKind::mapped, BridgeKind::staged)),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param) == GlBackend::osmesa ? "osmesa_"
+                                                                                           : "egl_") +
+                                  to_string(std::get<1>(info.param));
+                         });
+
+struct BridgeChoice : testing::Test {
+  void TearDown() override { unsetenv("LIGHTGRID_BRIDGE"); }
+  ClDevice cl;
+  std::unique_ptr<GlContext> gl = GlContext::create();
+};
+
+TEST_F(BridgeChoice, IsMappedExactlyWhereBothSidesAreTheCpu) {
+  EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, cl.info().cpu && gl->software);
+  gl->software = false;
+  EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
+}
+
+TEST_F(BridgeChoice, CanBeForcedToStaged) {
+  setenv("LIGHTGRID_BRIDGE", "staged", 1);
+  EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
+}
+
+TEST_F(BridgeChoice, RefusesAnUnknownName) {
+  setenv("LIGHTGRID_BRIDGE", "telepathy", 1);
+  EXPECT_THROW(choose_bridge(cl, *gl), Error);
+}
+
+}  // namespace
+}  // namespace lightgrid
