@@ -40,6 +40,9 @@ std::vector<uint8_t> encode_png(int width, int height, int channels, const std::
 void save_png(const std::filesystem::path& path, const Image& image);
 void save_exr(const std::filesystem::path& path, const Image& image);  // 32-bit float RGB, linear
 
+// Throws Error(input) unless the extension is .png or .exr: for asking before the work.
+void check_image_path(const std::filesystem::path& path);
+
 // By extension: .png through the tone map, .exr linear; anything else is an input error.
 // All three write the file whole or not at all, and throw as write_file does (base/write_file.h).
 void save_image(const std::filesystem::path& path, const Image& image);

@@ -1,0 +1,59 @@
+// The glTF 2.0 metallic-roughness material at a fragment. Each effect's code is there only under its define, and
+// asks the material's flag: one program may then serve materials with and without it, with the same bits.
+//   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP,
+//   EMISSIVE_MAP, MASK, UNLIT
+
+#include "shared/material_params.h"
+
+#ifdef TEXTURED
+in vec2 fragment_uv0;
+#endif
+#ifdef UV1
+in vec2 fragment_uv1;
+#endif
+#ifdef VERTEX_COLOR
+in vec4 fragment_color;
+#endif
+#ifdef BASE_COLOR_MAP
+layout(binding = 0) uniform sampler2D base_color_map;
+#endif
+#ifdef METALLIC_ROUGHNESS_MAP
+layout(binding = 1) uniform sampler2D metallic_roughness_map;
+#endif
+#ifdef NORMAL_MAP
+layout(binding = 2) uniform sampler2D normal_map;
+#endif
+#ifdef OCCLUSION_MAP
+layout(binding = 3) uniform sampler2D occlusion_map;
+#endif
+#ifdef EMISSIVE_MAP
+layout(binding = 4) uniform sampler2D emissive_map;
+#endif
+
+#ifdef TEXTURED
+// slot: which of the material's five textures.
+vec2 uv_of(uint slot) {
+  vec2 uv = fragment_uv0;
+#ifdef UV1
+  if ((material.flags & (MATERIAL_UV1_FIRST << slot)) != 0u) uv = fragment_uv1;
+#endif
+#ifdef UV_TRANSFORM
+  if ((material.flags & (MATERIAL_UV_TRANSFORM_FIRST << slot)) != 0u) {
+    vec4 linear = material.uv_linear[slot];
+    uv = vec2(dot(linear.xz, uv), dot(linear.yw, uv)) + material.uv_offset[slot].xy;
+  }
+#endif
+  return uv;
+}
+#endif
+
+vec4 material_base_color() {
+  vec4 color = material.base_color;
+#ifdef BASE_COLOR_MAP
+  if ((material.flags & MATERIAL_BASE_COLOR_MAP) != 0u) color *= texture(base_color_map, uv_of(0u));
+#endif
+#ifdef VERTEX_COLOR
+  if ((material.flags & MATERIAL_VERTEX_COLOR) != 0u) color *= fragment_color;
+#endif
+  return color;
+}

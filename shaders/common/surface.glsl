@@ -1,0 +1,70 @@
+// All that shading needs to know of the surface at a fragment.
+
+#include "shaders/common/material.glsl"
+
+in vec3 normal_view;
+#ifdef NORMAL_MAP
+in vec4 tangent_view;
+#endif
+
+struct Surface {
+  vec3 normal;      // view space, unit, towards the viewer's side of the surface
+  vec3 base_color;  // linear
+  float alpha;
+  float metallic;
+  float roughness;  // perceptual
+  vec3 emissive;
+  float occlusion;  // 1: open
+  bool unlit;
+};
+
+vec3 shading_normal() {
+  vec3 n = normalize(normal_view);
+  float side = gl_FrontFacing ? 1.0 : -1.0;  // a back face is only ever seen of a double-sided material
+#ifdef NORMAL_MAP
+  if ((material.flags & MATERIAL_NORMAL_MAP) != 0u) {
+    vec3 mapped = texture(normal_map, uv_of(2u)).xyz * 2.0 - 1.0;
+    mapped.xy *= material.normal_scale;
+    vec3 t = tangent_view.xyz - n * dot(n, tangent_view.xyz);
+    float length_squared = dot(t, t);
+    if (length_squared > 1e-12) {  // no tangent: the geometric normal stands
+      t *= inversesqrt(length_squared);
+      vec3 b = cross(n, t) * tangent_view.w;
+      n = normalize(mapped.x * t + mapped.y * b + mapped.z * n);
+    }
+  }
+#endif
+  return n * side;
+}
+
+Surface surface_here() {
+  Surface s;
+  vec4 color = material_base_color();
+  s.base_color = color.rgb;
+  s.alpha = color.a;
+  s.metallic = material.metallic;
+  s.roughness = material.roughness;
+#ifdef METALLIC_ROUGHNESS_MAP
+  if ((material.flags & MATERIAL_METALLIC_ROUGHNESS_MAP) != 0u) {
+    vec2 gb = texture(metallic_roughness_map, uv_of(1u)).gb;
+    s.roughness *= gb.x;
+    s.metallic *= gb.y;
+  }
+#endif
+  s.normal = shading_normal();
+  s.occlusion = 1.0;
+#ifdef OCCLUSION_MAP
+  if ((material.flags & MATERIAL_OCCLUSION_MAP) != 0u) {
+    s.occlusion = 1.0 + material.occlusion_strength * (texture(occlusion_map, uv_of(3u)).r - 1.0);
+  }
+#endif
+  s.emissive = material.emissive.rgb;
+#ifdef EMISSIVE_MAP
+  if ((material.flags & MATERIAL_EMISSIVE_MAP) != 0u) s.emissive *= texture(emissive_map, uv_of(4u)).rgb;
+#endif
+  s.unlit = false;
+#ifdef UNLIT
+  s.unlit = (material.flags & MATERIAL_UNLIT) != 0u;
+#endif
+  return s;
+}

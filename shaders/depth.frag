@@ -1,0 +1,10 @@
+// The depth prepass writes depth alone; masked surfaces first ask their mask.
+#ifdef MASK
+#include "shaders/common/material.glsl"
+
+void main() {
+  if (material_base_color().a < material.alpha_cutoff) discard;
+}
+#else
+void main() {}
+#endif

@@ -1,0 +1,48 @@
+// Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid, else every light.
+// BLEND: output is multiplied by coverage and laid over what is there.
+
+#include "shaders/common/surface.glsl"
+#include "shaders/common/position.glsl"
+#include "shaders/common/brdf.glsl"
+#ifdef LIGHTS
+#include "shaders/lights/punctual.glsl"
+#ifdef LIGHTS_GRID
+#include "shaders/lights/grid.glsl"
+#else
+#include "shaders/lights/all.glsl"
+#endif
+#endif
+#ifdef DIRECTIONAL
+#include "shaders/lights/directional.glsl"
+#endif
+
+layout(location = 0) out vec4 radiance;
+
+void main() {
+  Surface s = surface_here();
+#ifdef MASK
+  if ((material.flags & MATERIAL_MASK) != 0u && s.alpha < material.alpha_cutoff) discard;
+#endif
+  vec3 color = s.base_color;
+#ifdef UNLIT
+  if (!s.unlit) {
+#endif
+    vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
+    ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
+    vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
+    color = s.emissive + ambient * (p.diffuse * PI + p.f0) * s.occlusion;
+#ifdef DIRECTIONAL
+    color += directional_light_sum(p);
+#endif
+#ifdef LIGHTS
+    color += light_sum(p);
+#endif
+#ifdef UNLIT
+  }
+#endif
+#ifdef BLEND
+  radiance = vec4(color * s.alpha, s.alpha);
+#else
+  radiance = vec4(color, 1.0);
+#endif
+}

@@ -1,0 +1,13 @@
+// What the oracle shades from: the surface at each pixel in 32-bit float, by the same code as the shading passes.
+#include "shaders/common/surface.glsl"
+
+layout(location = 0) out vec4 normal_roughness;
+layout(location = 1) out vec4 base_color_metallic;
+layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit
+
+void main() {
+  Surface s = surface_here();
+  normal_roughness = vec4(s.normal, s.roughness);
+  base_color_metallic = vec4(s.base_color, s.metallic);
+  emissive_occlusion = vec4(s.emissive, s.unlit ? -1.0 : s.occlusion);
+}

@@ -1,0 +1,111 @@
+#include "app/options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "scene/builtin.h"
+#include "scene/light_rigs.h"
+#include "scene/lights_file.h"
+#include "scene/load_gltf.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr int max_image_side = 16384;
+
+// Parses two numbers with a separator between them, and nothing else.
+template <typename T>
+bool parse_pair(const std::string& text, char separator, T& a, T& b) {
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto first = std::from_chars(begin, end, a);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != separator) return false;
+  const auto second = std::from_chars(first.ptr + 1, end, b);
+  return second.ec == std::errc() && second.ptr == end;
+}
+
+Scene load_scene(const std::string& name) {
+  if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
+  if (!std::filesystem::exists(name)) {
+    std::string names;
+    for (const BuiltinScene& s : builtin_scenes()) names += (names.empty() ? "" : ", ") + std::string(s.name);
+    throw input_error("{}: no such file, and no built-in scene of that name; there are {}", name, names);
+  }
+  return load_gltf(name);
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& o) {
+  command.add_option("scene", o.scene, "a .gltf or .glb file, or a built-in scene")->capture_default_str();
+  command.add_option("--size", o.size, "image size, WxH")->capture_default_str();
+  command.add_option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
+  command.add_option("--lights", o.lights, "scatter N lights; with --lights-file, its first N");
+  command.add_option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
+  command.add_option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
+  command.add_option("--seed", o.seed, "of the scatter")->capture_default_str();
+  command.add_option("--set", o.set, "a setting, KEY=VALUE; may be repeated");
+}
+
+void add_device_options(CLI::App& command, DeviceOptions& o) {
+  command.add_option("--device", o.device, "OpenCL device, by a part of its name");
+  command.add_option("--gl", o.gl, "osmesa, egl or auto")->capture_default_str();
+}
+
+void add_timing_options(CLI::App& command, TimingOptions& o) {
+  command.add_option("--frames", o.frames, "frames to time")->capture_default_str()->check(CLI::Range(1, 10000));
+  command.add_option("--warmup", o.warmup, "frames before those")->capture_default_str()->check(CLI::Range(0, 10000));
+}
+
+ChosenScene load_chosen_scene(const SceneOptions& o) {
+  int width = 0, height = 0;
+  if (!parse_pair(o.size, 'x', width, height) || width < 1 || height < 1 || width > max_image_side || height > max_image_side) {
+    throw input_error("--size {}: not WxH with sides from 1 to {}", o.size, max_image_side);
+  }
+  ChosenScene chosen{load_scene(o.scene), {}};
+  Scene& scene = chosen.scene;
+  std::string camera = o.camera;
+  if (!o.lights_file.empty()) {
+    scene.lights = load_lights_file(o.lights_file);
+    if (o.lights >= 0) {
+      if (size_t(o.lights) > scene.lights.size()) {
+        throw input_error("--lights {}: {} holds only {}", o.lights, o.lights_file, scene.lights.size());
+      }
+      scene.lights.resize(o.lights);
+    }
+    if (camera.empty()) camera = camera_of_lights_file(o.lights_file);
+  } else if (o.lights >= 0) {
+    ScatterSettings scatter;
+    scatter.count = o.lights;
+    scatter.seed = o.seed;
+    float &low = scatter.min_radius_m, &high = scatter.max_radius_m;
+    if (!o.light_radius.empty() && (!parse_pair(o.light_radius, ',', low, high) || !(low > 0) || !(high >= low) || std::isinf(high))) {
+      throw input_error("--light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", o.light_radius);
+    }
+    scene.lights = scatter_lights(scene, scatter);
+  }
+  chosen.view = make_view(choose_camera(scene, camera), width, height);
+  return chosen;
+}
+
+Settings chosen_settings(const SceneOptions& o) {
+  Settings settings;
+  for (const std::string& assignment : o.set) apply_setting(settings, assignment);
+  return settings;
+}
+
+void write_json(const std::string& destination, const std::string& text) {
+  if (destination == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fputc('\n', stdout);
+    return;
+  }
+  std::ofstream file(destination);
+  file << text << '\n';
+  if (!file.flush()) throw input_error("--json {}: cannot be written", destination);
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,53 @@
+// The options that every subcommand on a scene shares (docs/command_line.md), and what they name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "gl/context.h"
+#include "plan/settings.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+struct SceneOptions {
+  std::string scene = "hall";
+  std::string size = "1280x720";
+  std::string camera;
+  int lights = -1;  // -1: as the scene has them
+  std::string lights_file;
+  std::string light_radius;
+  uint64_t seed = 1;
+  std::vector<std::string> set;
+};
+
+struct DeviceOptions {
+  std::string device;
+  std::string gl = "auto";
+};
+
+struct TimingOptions {
+  int frames = 5;
+  int warmup = 1;
+};
+
+void add_scene_options(CLI::App& command, SceneOptions& options);
+void add_device_options(CLI::App& command, DeviceOptions& options);
+void add_timing_options(CLI::App& command, TimingOptions& options);
+
+// What the options name. Throw Error(input) that names the option and the value.
+struct ChosenScene {
+  Scene scene;
+  View view;
+};
+ChosenScene load_chosen_scene(const SceneOptions& options);
+Settings chosen_settings(const SceneOptions& options);
+
+// Writes JSON text to a file, or to stdout for "-".
+void write_json(const std::string& destination, const std::string& text);
+
+}  // namespace lightgrid

@@ -1,0 +1,47 @@
+// lightgrid plan SCENE: what this view needs, and why.
+#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+namespace {
+
+struct PlanOptions {
+  SceneOptions scene;
+  std::string technique = "forward_plus", json;
+};
+
+int plan(const PlanOptions& o) {
+  const Technique& technique = find_technique(o.technique);
+  const Settings settings = chosen_settings(o.scene);
+  const ChosenScene chosen = load_chosen_scene(o.scene);
+  const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
+  if (o.json.empty()) {
+    std::fputs(describe(plan, chosen.scene).c_str(), stdout);
+    return 0;
+  }
+  nlohmann::ordered_json json = {{"scene", chosen.scene.name}, {"technique", technique.name}, {"decisions", nlohmann::ordered_json::array()}};
+  for (const Decision& d : plan.decisions) {
+    json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
+  }
+  write_json(o.json, json.dump(1));
+  return 0;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, Command& chosen) {
+  auto o = std::make_shared<PlanOptions>();
+  CLI::App* command = app.add_subcommand("plan", "what this view needs a frame to do, and why");
+  add_scene_options(*command, o->scene);
+  command->add_option("-t,--technique", o->technique, "see `lightgrid techniques`")->capture_default_str();
+  command->add_option("--json", o->json, "as JSON into a file, - for stdout");
+  command->final_callback([o, &chosen] { chosen = [o] { return plan(*o); }; });
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,54 @@
+// lightgrid render SCENE -t TECHNIQUE -o out.png|out.exr
+#include <fmt/format.h>
+
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/error.h"
+#include "study/run_technique.h"
+
+namespace lightgrid {
+namespace {
+
+struct RenderOptions {
+  SceneOptions scene;
+  DeviceOptions devices;
+  TimingOptions timing{.frames = 1, .warmup = 0};
+  std::string technique = "forward_plus", output = "out.png", json;
+};
+
+int render(const RenderOptions& o) {
+  const Technique& technique = find_technique(o.technique);
+  const Settings settings = chosen_settings(o.scene);
+  check_image_path(o.output);
+  const ChosenScene chosen = load_chosen_scene(o.scene);
+  Devices devices = open_devices(o.devices.device, parse_gl_backend(o.devices.gl));
+  TechniqueRun run(devices, chosen.scene, chosen.view, settings, technique);
+  for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
+  for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
+  save_image(o.output, run.image());
+  if (!o.json.empty()) {
+    run.run_profiled_frame();
+    write_json(o.json, to_json(run.result()).dump(1));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Command& chosen) {
+  auto o = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "one image of a scene");
+  add_scene_options(*command, o->scene);
+  add_device_options(*command, o->devices);
+  add_timing_options(*command, o->timing);
+  command->add_option("-t,--technique", o->technique, "see `lightgrid techniques`")->capture_default_str();
+  command->add_option("-o,--output", o->output, "image file, .png or .exr")->capture_default_str();
+  command->add_option("--json", o->json, "results as JSON into a file, - for stdout");
+  command->final_callback([o, &chosen] { chosen = [o] { return render(*o); }; });
+}
+
+}  // namespace lightgrid

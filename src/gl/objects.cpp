@@ -1,0 +1,103 @@
+#include "gl/objects.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+GlCounts& counts() {
+  static GlCounts instance;
+  return instance;
+}
+
+}  // namespace
+
+const GlCounts& gl_counts() { return counts(); }
+
+template <GlKind kind>
+GlObject<kind>::GlObject(GLuint name) : name_(name) {
+  ++counts().live[int(kind)];
+  ++counts().made[int(kind)];
+}
+
+template <GlKind kind>
+GlObject<kind>::~GlObject() {
+  if (name_ == 0) return;
+  --counts().live[int(kind)];
+  if constexpr (kind == GlKind::buffer) glDeleteBuffers(1, &name_);
+  if constexpr (kind == GlKind::texture) glDeleteTextures(1, &name_);
+  if constexpr (kind == GlKind::framebuffer) glDeleteFramebuffers(1, &name_);
+  if constexpr (kind == GlKind::sampler) glDeleteSamplers(1, &name_);
+  if constexpr (kind == GlKind::vertex_array) glDeleteVertexArrays(1, &name_);
+  if constexpr (kind == GlKind::program) glDeleteProgram(name_);
+}
+
+template class GlObject<GlKind::buffer>;
+template class GlObject<GlKind::texture>;
+template class GlObject<GlKind::framebuffer>;
+template class GlObject<GlKind::sampler>;
+template class GlObject<GlKind::vertex_array>;
+template class GlObject<GlKind::program>;
+
+GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags) {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  glNamedBufferStorage(name, GLsizeiptr(std::max<size_t>(bytes, 16)), nullptr, flags | GL_DYNAMIC_STORAGE_BIT);
+  if (data && bytes) glNamedBufferSubData(name, 0, GLsizeiptr(bytes), data);
+  return GlBuffer(name);
+}
+
+GlTexture make_texture_2d(GLenum format, int width, int height, int levels) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  glTextureStorage2D(name, levels, format, width, height);
+  return GlTexture(name);
+}
+
+GlTexture make_buffer_texture(GLenum format, GLuint buffer) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+  glTextureBuffer(name, format, buffer);
+  return GlTexture(name);
+}
+
+GlSampler make_sampler() {
+  GLuint name = 0;
+  glCreateSamplers(1, &name);
+  return GlSampler(name);
+}
+
+GlVertexArray make_vertex_array() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return GlVertexArray(name);
+}
+
+GlFramebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  GlFramebuffer framebuffer(name);
+  std::vector<GLenum> buffers;
+  for (GLuint color : colors) {
+    const GLenum attachment = GL_COLOR_ATTACHMENT0 + GLenum(buffers.size());
+    glNamedFramebufferTexture(name, attachment, color, 0);
+    buffers.push_back(attachment);
+  }
+  if (depth) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth, 0);
+  if (buffers.empty()) {
+    glNamedFramebufferDrawBuffer(name, GL_NONE);
+    glNamedFramebufferReadBuffer(name, GL_NONE);
+  } else {
+    glNamedFramebufferDrawBuffers(name, GLsizei(buffers.size()), buffers.data());
+  }
+  const GLenum status = glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    throw machine_error("OpenGL: framebuffer incomplete, status 0x{:x}; the image may be too large for this device", status);
+  }
+  return framebuffer;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,54 @@
+// OpenGL objects that free themselves, counted while they live (tests of the frame plan read the counts).
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <utility>
+
+#include "gl/gl.h"
+
+namespace lightgrid {
+
+enum class GlKind { buffer, texture, framebuffer, sampler, vertex_array, program };
+
+struct GlCounts {
+  int live[6] = {};
+  int made[6] = {};
+  int of(GlKind kind) const { return live[int(kind)]; }
+};
+const GlCounts& gl_counts();
+
+template <GlKind kind>
+class GlObject {
+ public:
+  GlObject() = default;
+  explicit GlObject(GLuint name);  // takes ownership
+  ~GlObject();
+  GlObject(GlObject&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  GLuint name() const { return name_; }
+  explicit operator bool() const { return name_ != 0; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+using GlBuffer = GlObject<GlKind::buffer>;
+using GlTexture = GlObject<GlKind::texture>;
+using GlFramebuffer = GlObject<GlKind::framebuffer>;
+using GlSampler = GlObject<GlKind::sampler>;
+using GlVertexArray = GlObject<GlKind::vertex_array>;
+
+GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags = 0);
+GlTexture make_texture_2d(GLenum format, int width, int height, int levels = 1);
+GlTexture make_buffer_texture(GLenum format, GLuint buffer);
+GlSampler make_sampler();
+GlVertexArray make_vertex_array();
+
+// A framebuffer of colour attachments and a depth texture (0: none), checked for completeness.
+GlFramebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+
+}  // namespace lightgrid

@@ -1,0 +1,26 @@
+// GLSL programs from the embedded shader files.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gl/objects.h"
+
+namespace lightgrid {
+
+class GlProgram {
+ public:
+  // Vertex and fragment shader by their embedded paths, each after "#define NAME" for every name in `defines`.
+  // A failure to compile is our own: it throws Error(machine) with the log, since drivers differ.
+  GlProgram(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines);
+
+  GLuint name() const { return object_.name(); }
+  GLint uniform(const std::string& name) const;  // -1 where the program has none; cached
+
+ private:
+  GlObject<GlKind::program> object_;
+  mutable std::map<std::string, GLint> uniforms_;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,176 @@
+#include "passes/frame/frame.h"
+
+#include <cmath>
+
+#include <glm/gtc/type_ptr.hpp>
+
+namespace lightgrid {
+namespace {
+
+// What the shaders read of a light: see shaders/lights/punctual.glsl.
+struct LightTexels {
+  std::vector<glm::vec4> positions, colors, cones, directional;
+};
+
+LightTexels texels_of(const std::vector<ViewLight>& lights, const FramePlan& plan) {
+  LightTexels texels;
+  for (int i : plan.local) {
+    const ViewLight& light = lights[i];
+    const double inverse_radius_squared = std::min(1.0 / (light.radius_m * light.radius_m), 3e38);
+    texels.positions.emplace_back(glm::vec3(light.position), float(inverse_radius_squared));
+    // A light without extent lights nothing, also not the point it is at.
+    texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
+    if (!plan.spots) continue;
+    // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product and a sum.
+    const double scale = 1.0 / (light.cos_inner - light.cos_outer);
+    texels.cones.push_back(light.type == LightType::spot
+                               ? glm::vec4(glm::vec3(light.direction * scale), float(-light.cos_outer * scale))
+                               : glm::vec4(0, 0, 0, 1));
+  }
+  for (int i : plan.directional_lights) {
+    texels.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
+    texels.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
+  }
+  return texels;
+}
+
+cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum format) {
+  if (!shared.buffer || shared.buffer->size() < bytes) {
+    shared.texture = GlTexture();
+    shared.buffer.emplace(*devices.cl, devices.bridge, bytes);
+    shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
+  }
+  return shared.buffer->cl_buffer();
+}
+
+}  // namespace
+
+Devices open_devices(const std::string& cl_substring, GlBackend backend) {
+  Devices devices;
+  devices.gl = GlContext::create(backend);
+  devices.cl = std::make_unique<ClDevice>(cl_substring);
+  devices.programs = std::make_unique<ProgramCache>(*devices.cl);
+  devices.bridge = choose_bridge(*devices.cl, *devices.gl);
+  return devices;
+}
+
+cl::Buffer& SharedGridStorage::cells(size_t bytes) { return grown(devices_, cells_, bytes, GL_RG32UI); }
+
+cl::Buffer& SharedGridStorage::indices(size_t bytes) {
+  return grown(devices_, indices_, bytes, index_bits_ == 16 ? GL_R16UI : GL_R32UI);
+}
+
+Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan plan_of_frame)
+    : devices(devices),
+      scene(scene),
+      view(view),
+      plan(std::move(plan_of_frame)),
+      gpu(scene, plan),
+      params(view_params(view, plan.settings.tile, int(plan.local.size()), int(plan.directional_lights.size()), scene.ambient)),
+      timer([this](const std::string& on) { if (on == "cl") {
+          this->devices.cl->queue().finish();
+        } else {
+          glFinish();
+        } }) {
+  view_block_ = make_buffer(sizeof params, &params);
+  const LightTexels texels = texels_of(lights_in_view(scene, view), plan);
+  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones, &texels.directional};
+  const bool needed[4] = {plan.local_lights, plan.local_lights, plan.spots, plan.directional};
+  for (int i = 0; i < 4; ++i) {
+    if (!needed[i]) continue;
+    const size_t bytes = arrays[i]->size() * sizeof(glm::vec4);
+    light_buffers_[i] = make_buffer(bytes, arrays[i]->data());
+    light_textures_[i] = make_buffer_texture(GL_RGBA32F, light_buffers_[i].name());
+    light_bytes_ += bytes;
+  }
+}
+
+const GlProgram& Frame::program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
+  if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
+  std::string key = vertex + " " + fragment;
+  for (const std::string& name : defines) key += " " + name;
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return found->second;
+  const GlProgram& made = programs_.try_emplace(key, vertex, fragment, defines).first->second;
+  glUseProgram(made.name());
+  const glm::mat4 clip_from_view(view.clip_from_view);
+  glUniformMatrix4fv(made.uniform("clip_from_view"), 1, GL_FALSE, glm::value_ptr(clip_from_view));
+  return made;
+}
+
+GLuint Frame::depth_texture() {
+  if (!depth_) {
+    depth_ = make_texture_2d(GL_DEPTH_COMPONENT32F, view.width, view.height);
+    target_bytes_ += size_t(view.width) * view.height * 4;
+  }
+  return depth_.name();
+}
+
+GLuint Frame::depth_framebuffer() {
+  if (!depth_only_) depth_only_ = make_framebuffer({}, depth_texture());
+  return depth_only_.name();
+}
+
+GLuint Frame::color_framebuffer() {
+  if (!color_) {
+    color_ = make_texture_2d(GL_RGBA32F, view.width, view.height);
+    target_bytes_ += size_t(view.width) * view.height * 16;
+    color_and_depth_ = make_framebuffer({color_.name()}, depth_texture());
+  }
+  return color_and_depth_.name();
+}
+
+SharedBuffer& Frame::depth_copy() {
+  if (!depth_copy_) depth_copy_.emplace(*devices.cl, devices.bridge, size_t(view.width) * view.height * 4);
+  return *depth_copy_;
+}
+
+void Frame::bind_lights() const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_block_.name());
+  for (int i = 0; i < 4; ++i) {
+    if (light_textures_[i]) glBindTextureUnit(8 + i, light_textures_[i].name());
+  }
+}
+
+LightCuller& Frame::culler() {
+  if (!culler_) {
+    CullerOptions options;
+    options.cull_test = plan.settings.cull_test;
+    options.depth_bounds = plan.settings.depth_bounds;
+    options.shape = plan.settings.kernel_shape;
+    options.tile = plan.settings.tile;
+    options.spots = plan.spots;
+    options.blend = plan.blend_grid;
+    options.index_bits = plan.index_bits;
+    culler_.emplace(*devices.cl, *devices.programs, options);
+    const std::vector<ViewLight> lights = lights_in_view(scene, view);
+    std::vector<ViewLight> local;
+    for (int i : plan.local) local.push_back(lights[i]);
+    culler_->set_lights(local);
+    culler_->set_view(params);
+  }
+  return *culler_;
+}
+
+SharedGridStorage& Frame::opaque_grid() {
+  if (!grids_[0]) grids_[0].emplace(devices, plan.index_bits);
+  return *grids_[0];
+}
+
+SharedGridStorage& Frame::blend_grid() {
+  if (!grids_[1]) grids_[1].emplace(devices, plan.index_bits);
+  return *grids_[1];
+}
+
+size_t Frame::light_grid_bytes() const {
+  return opaque_grid_last.cell_bytes + opaque_grid_last.index_bytes + blend_grid_last.cell_bytes + blend_grid_last.index_bytes;
+}
+
+size_t Frame::memory_bytes() const {
+  size_t bytes = gpu.geometry_bytes() + gpu.texture_bytes() + target_bytes_ + light_bytes_ + light_grid_bytes();
+  if (depth_copy_) bytes += depth_copy_->size();
+  if (culler_) bytes += culler_->memory_bytes();
+  return bytes;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,92 @@
+// One view of one scene with one plan: what its passes share from frame to frame.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "bridge/shared_buffer.h"
+#include "cl/program_cache.h"
+#include "culling/light_culler.h"
+#include "gl/program.h"
+#include "passes/frame/gpu_scene.h"
+#include "passes/frame/pass_timer.h"
+
+namespace lightgrid {
+
+// The machine's side of rendering; one for the whole program.
+struct Devices {
+  std::unique_ptr<GlContext> gl;
+  std::unique_ptr<ClDevice> cl;
+  std::unique_ptr<ProgramCache> programs;
+  BridgeKind bridge = BridgeKind::staged;
+};
+
+// Opens both devices. Throws Error(machine) where one is missing.
+Devices open_devices(const std::string& cl_substring, GlBackend backend);
+
+// A buffer shared by OpenCL and OpenGL, with the texture through which shaders read it.
+struct SharedTexture {
+  std::optional<SharedBuffer> buffer;
+  GlTexture texture;
+};
+
+// Keeps a light grid where both sides see it.
+class SharedGridStorage : public GridStorage {
+ public:
+  SharedGridStorage(Devices& devices, int index_bits) : devices_(devices), index_bits_(index_bits) {}
+  cl::Buffer& cells(size_t bytes) override;
+  cl::Buffer& indices(size_t bytes) override;
+  SharedTexture cells_, indices_;
+
+ private:
+  Devices& devices_;
+  int index_bits_;
+};
+
+struct Frame {
+  Frame(Devices& devices, const Scene& scene, const View& view, FramePlan plan);
+
+  Devices& devices;
+  const Scene& scene;
+  const View& view;
+  const FramePlan plan;
+  GpuScene gpu;
+  ViewParams params;
+  PassTimer timer;
+
+  // A program of the plan's: made at first use. `features` and what else tells variants apart go into the key.
+  const GlProgram& program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
+
+  // Targets, made at first use.
+  GLuint depth_texture();
+  GLuint depth_framebuffer();
+  GLuint color_framebuffer();  // linear RGBA, 32-bit float, over the depth texture
+  SharedBuffer& depth_copy();  // where OpenCL reads depth
+
+  // Point and spot lights as the shaders read them (shaders/lights/punctual.glsl), and directional ones.
+  void bind_lights() const;
+
+  LightCuller& culler();  // made at first use: a technique without a grid has none
+  SharedGridStorage& opaque_grid();
+  SharedGridStorage& blend_grid();
+
+  size_t memory_bytes() const;        // of this frame's targets, buffers and the scene's
+  size_t light_grid_bytes() const;    // of the grids, as last built
+  void note_grid(const LightGrid& grid, bool blend) { (blend ? blend_grid_last : opaque_grid_last) = grid; }
+  LightGrid opaque_grid_last, blend_grid_last;
+
+ private:
+  GlBuffer view_block_;
+  GlBuffer light_buffers_[4];
+  GlTexture light_textures_[4];
+  std::map<std::string, GlProgram> programs_;
+  GlTexture depth_, color_;
+  GlFramebuffer depth_only_, color_and_depth_;
+  std::optional<SharedBuffer> depth_copy_;
+  std::optional<LightCuller> culler_;
+  std::optional<SharedGridStorage> grids_[2];
+  size_t target_bytes_ = 0, light_bytes_ = 0;
+};
+
+}  // namespace lightgrid

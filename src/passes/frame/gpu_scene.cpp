@@ -1,0 +1,173 @@
+#include "passes/frame/gpu_scene.h"
+
+#include <cstring>
+
+#include "passes/frame/clusters.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr uint32_t map_features[5] = {feature_base_color_map, feature_metallic_roughness_map, feature_normal_map,
+                                      feature_occlusion_map, feature_emissive_map};
+constexpr uint32_t map_flags[5] = {MATERIAL_BASE_COLOR_MAP, MATERIAL_METALLIC_ROUGHNESS_MAP, MATERIAL_NORMAL_MAP,
+                                   MATERIAL_OCCLUSION_MAP, MATERIAL_EMISSIVE_MAP};
+
+const TextureSlot* slot_of(const Material& m, int slot) {
+  const TextureSlot* slots[5] = {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emissive_map};
+  return slots[slot];
+}
+
+MaterialParams params_of(const Material& m) {
+  MaterialParams p{};
+  std::memcpy(p.base_color, &m.base_color, sizeof p.base_color);
+  std::memcpy(p.emissive, &m.emissive, sizeof m.emissive);
+  p.metallic = m.metallic, p.roughness = m.roughness;
+  p.normal_scale = m.normal_scale, p.occlusion_strength = m.occlusion_strength;
+  p.alpha_cutoff = m.alpha_cutoff;
+  // Vertex colours are white where a mesh has none: the flag needs no mesh.
+  p.flags = MATERIAL_VERTEX_COLOR;
+  if (m.alpha_mode == AlphaMode::mask) p.flags |= MATERIAL_MASK;
+  if (m.unlit) p.flags |= MATERIAL_UNLIT;
+  for (int i = 0; i < 5; ++i) {
+    const TextureSlot& slot = *slot_of(m, i);
+    if (slot.texture < 0) continue;
+    p.flags |= map_flags[i];
+    if (slot.uv_set == 1) p.flags |= MATERIAL_UV1_FIRST << i;
+    if (slot.transformed()) p.flags |= MATERIAL_UV_TRANSFORM_FIRST << i;
+    const glm::mat3x2& uv = slot.uv_from_vertex;
+    const float linear[4] = {uv[0].x, uv[0].y, uv[1].x, uv[1].y}, offset[4] = {uv[2].x, uv[2].y, 0, 0};
+    std::memcpy(p.uv_linear[i], linear, sizeof linear);
+    std::memcpy(p.uv_offset[i], offset, sizeof offset);
+  }
+  return p;
+}
+
+GLint wrap_of(Wrap wrap) {
+  return wrap == Wrap::clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
+}
+
+GLint min_filter_of(Filter filter) {
+  switch (filter) {
+    case Filter::nearest: return GL_NEAREST;
+    case Filter::linear: return GL_LINEAR;
+    case Filter::nearest_mip: return GL_NEAREST_MIPMAP_NEAREST;
+    case Filter::linear_mip: return GL_LINEAR_MIPMAP_LINEAR;
+  }
+  return GL_LINEAR;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene, const FramePlan& plan) {
+  std::vector<bool> used(scene.meshes.size(), false);
+  for (const auto* list : {&plan.opaque, &plan.blended}) {
+    for (int instance : *list) used[scene.instances[instance].mesh] = true;
+  }
+  upload_meshes(scene, plan, used);
+  upload_materials(scene, plan);
+}
+
+void GpuScene::upload_meshes(const Scene& scene, const FramePlan& plan, const std::vector<bool>& used) {
+  size_t vertices = 0;
+  std::vector<uint32_t> indices;
+  meshes_.resize(scene.meshes.size());
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (!used[i]) continue;
+    const bool blended = scene.materials[scene.meshes[i].material].alpha_mode == AlphaMode::blend;
+    meshes_[i].base_vertex = int(vertices);
+    meshes_[i].clusters = append_clusters(scene.meshes[i], blended, indices);
+    vertices += scene.meshes[i].positions.size();
+  }
+  positions_only_ = make_vertex_array();
+  all_streams_ = make_vertex_array();
+
+  // One buffer a stream; where a mesh lacks one that another has, `absent` stands in.
+  const auto stream = [&](GLuint location, auto Mesh::*member, auto absent, bool in_prepass) {
+    using Value = decltype(absent);
+    std::vector<Value> all;
+    all.reserve(vertices);
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+      if (!used[i]) continue;
+      const std::vector<Value>& values = scene.meshes[i].*member;
+      all.insert(all.end(), values.begin(), values.end());
+      if (values.empty()) all.insert(all.end(), scene.meshes[i].positions.size(), absent);
+    }
+    buffers_.push_back(make_buffer(all.size() * sizeof(Value), all.data()));
+    geometry_bytes_ += all.size() * sizeof(Value);
+    for (const GlVertexArray* array : {&all_streams_, &positions_only_}) {
+      if (array == &positions_only_ && !in_prepass) continue;
+      glVertexArrayVertexBuffer(array->name(), location, buffers_.back().name(), 0, sizeof(Value));
+      glVertexArrayAttribFormat(array->name(), location, Value::length(), GL_FLOAT, GL_FALSE, 0);
+      glVertexArrayAttribBinding(array->name(), location, location);
+      glEnableVertexArrayAttrib(array->name(), location);
+    }
+  };
+  stream(0, &Mesh::positions, glm::vec3(0), true);
+  stream(1, &Mesh::normals, glm::vec3(0, 0, 1), false);
+  if (plan.features & feature_normal_map) stream(2, &Mesh::tangents, glm::vec4(0), false);
+  if (plan.features & feature_textured) stream(3, &Mesh::uv0, glm::vec2(0), false);
+  if (plan.features & feature_uv1) stream(4, &Mesh::uv1, glm::vec2(0), false);
+  if (plan.features & feature_vertex_color) stream(5, &Mesh::colors, glm::vec4(1), false);
+
+  buffers_.push_back(make_buffer(indices.size() * sizeof(uint32_t), indices.data()));
+  geometry_bytes_ += indices.size() * sizeof(uint32_t);
+  glVertexArrayElementBuffer(positions_only_.name(), buffers_.back().name());
+  glVertexArrayElementBuffer(all_streams_.name(), buffers_.back().name());
+}
+
+void GpuScene::upload_materials(const Scene& scene, const FramePlan& plan) {
+  GLint alignment = 256;
+  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+  material_stride_ = (sizeof(MaterialParams) + alignment - 1) / alignment * alignment;
+  std::vector<char> bytes(material_stride_ * scene.materials.size());
+  slots_.resize(scene.materials.size());
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const MaterialParams params = params_of(scene.materials[i]);
+    std::memcpy(bytes.data() + i * material_stride_, &params, sizeof params);
+    for (int s = 0; s < 5; ++s) slots_[i].texture[s] = slot_of(scene.materials[i], s)->texture;
+  }
+  materials_ = make_buffer(bytes.size(), bytes.data());
+  textures_.resize(scene.textures.size());
+  samplers_.resize(scene.textures.size());
+  for (const auto* list : {&plan.opaque, &plan.blended}) {
+    for (int instance : *list) {
+      const int material = scene.meshes[scene.instances[instance].mesh].material;
+      for (int s = 0; s < 5; ++s) {
+        const int texture = slots_[material].texture[s];
+        if (texture >= 0 && (plan.features_of_instance[instance] & map_features[s]) && !textures_[texture]) {
+          upload_texture(scene, texture);
+        }
+      }
+    }
+  }
+}
+
+void GpuScene::upload_texture(const Scene& scene, int index) {
+  const Texture& texture = scene.textures[index];
+  const Bitmap& bitmap = scene.bitmaps[texture.bitmap];
+  const bool mips = texture.min_filter == Filter::linear_mip || texture.min_filter == Filter::nearest_mip;
+  int levels = 1;
+  while (mips && (std::max(bitmap.width, bitmap.height) >> levels) > 0) ++levels;
+  textures_[index] = make_texture_2d(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, bitmap.width, bitmap.height, levels);
+  const GLuint name = textures_[index].name();
+  glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE, bitmap.rgba.data());
+  if (levels > 1) glGenerateTextureMipmap(name);
+  texture_bytes_ += size_t(bitmap.width) * bitmap.height * 4 * (levels > 1 ? 4 : 3) / 3;
+  samplers_[index] = make_sampler();
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MIN_FILTER, min_filter_of(texture.min_filter));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MAG_FILTER, texture.mag_linear ? GL_LINEAR : GL_NEAREST);
+}
+
+void GpuScene::bind_material(int material, uint32_t features) const {
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), GLintptr(material * material_stride_), sizeof(MaterialParams));
+  for (int s = 0; s < 5; ++s) {
+    const int texture = slots_[material].texture[s];
+    if (!(features & map_features[s]) || texture < 0 || !textures_[texture]) continue;
+    glBindTextureUnit(s, textures_[texture].name());
+    glBindSampler(s, samplers_[texture].name());
+  }
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,57 @@
+// The scene in OpenGL's memory: what the plan names of it, and no more.
+#pragma once
+
+#include <vector>
+
+#include "gl/objects.h"
+#include "plan/frame_plan.h"
+#include "scene/scene.h"
+#include "shared/material_params.h"
+
+namespace lightgrid {
+
+// A run of triangles small enough to be in view or not as a whole.
+struct TriangleCluster {
+  uint32_t first_index = 0, index_count = 0;  // in the scene's one index buffer
+  Aabb bounds;                                // object space
+};
+
+struct GpuMesh {
+  int base_vertex = 0;
+  std::vector<TriangleCluster> clusters;  // in index order
+};
+
+class GpuScene {
+ public:
+  GpuScene(const Scene& scene, const FramePlan& plan);
+
+  const GpuMesh& mesh(int index) const { return meshes_[index]; }
+  GLuint positions_only() const { return positions_only_.name(); }  // vertex array of the depth prepass
+  GLuint all_streams() const { return all_streams_.name(); }
+
+  // Binds the material's uniform block and the textures of `features`.
+  void bind_material(int material, uint32_t features) const;
+
+  size_t geometry_bytes() const { return geometry_bytes_; }
+  size_t texture_bytes() const { return texture_bytes_; }
+
+ private:
+  void upload_meshes(const Scene& scene, const FramePlan& plan, const std::vector<bool>& used);
+  void upload_materials(const Scene& scene, const FramePlan& plan);
+  void upload_texture(const Scene& scene, int texture);
+
+  std::vector<GpuMesh> meshes_;
+  std::vector<GlBuffer> buffers_;
+  GlVertexArray positions_only_, all_streams_;
+  GlBuffer materials_;
+  size_t material_stride_ = 0;
+  struct Slots {
+    int texture[5];
+  };
+  std::vector<Slots> slots_;             // texture index per map, -1: none
+  std::vector<GlTexture> textures_;
+  std::vector<GlSampler> samplers_;
+  size_t geometry_bytes_ = 0, texture_bytes_ = 0;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,25 @@
+// Which light code a shading program holds.
+#pragma once
+
+#include "passes/passes.h"
+
+namespace lightgrid {
+
+// Binds the lights, and the grid's two textures where there is one.
+inline void bind_lights(Frame& f, const GridTextures* grid) {
+  f.bind_lights();
+  if (!grid) return;
+  glBindTextureUnit(12, grid->cells);
+  glBindTextureUnit(13, grid->indices);
+}
+
+inline std::vector<std::string> light_defines(const Frame& f, uint32_t features, const GridTextures* grid) {
+  std::vector<std::string> defines = defines_of(features);
+  if (f.plan.local_lights) defines.emplace_back("LIGHTS");
+  if (f.plan.spots) defines.emplace_back("SPOTS");
+  if (f.plan.directional) defines.emplace_back("DIRECTIONAL");
+  if (grid) defines.emplace_back("LIGHTS_GRID");
+  return defines;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,44 @@
+// The passes of a frame, in the order in which a frame runs them. Typed values in, typed values out; a technique is
+// a short recipe over these.
+#pragma once
+
+#include "base/image.h"
+#include "passes/frame/frame.h"
+
+namespace lightgrid {
+
+// Nearest opaque surfaces: reversed 32-bit float depth, 1 at the near plane, 0 where nothing is.
+struct DepthImage {
+  GLuint texture = 0;
+};
+
+// A light grid as the shading code reads it: two buffer textures.
+struct GridTextures {
+  LightGrid grid;
+  GLuint cells = 0, indices = 0;
+};
+
+struct ShadedImage {
+  GLuint framebuffer = 0;  // linear RGBA, 32-bit float
+};
+
+DepthImage depth_prepass(Frame& f);
+
+// The depth image as OpenCL reads it: row 0 at the bottom, 32-bit float.
+cl::Buffer& depth_to_cl(Frame& f, const DepthImage& depth);
+
+DepthBounds depth_bounds(Frame& f, const DepthImage& depth);
+
+// The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane.
+GridTextures cull_lights(Frame& f, const DepthBounds& bounds);
+GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds);
+
+// Shades opaque surfaces from the grid's lists, or, without a grid, from every light.
+ShadedImage shade_forward(Frame& f, const DepthImage& depth, const GridTextures* grid);
+
+// Lays blended surfaces over the image, back to front. Without a grid: from every light.
+void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid);
+
+Image read_back(Frame& f, const ShadedImage& image);
+
+}  // namespace lightgrid

@@ -1,0 +1,28 @@
+// Forward shading of the surfaces that the depth prepass found: each pixel once, at equal depth.
+#include "passes/frame/draw.h"
+#include "passes/frame/light_defines.h"
+#include "passes/passes.h"
+
+namespace lightgrid {
+
+ShadedImage shade_forward(Frame& f, const DepthImage& depth, const GridTextures* grid) {
+  auto pass = f.timer.pass("shade_forward", "gl");
+  const ShadedImage image{f.color_framebuffer()};
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
+  const float background[4] = {f.scene.background.r, f.scene.background.g, f.scene.background.b, 1};
+  glClearNamedFramebufferfv(image.framebuffer, GL_COLOR, 0, background);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE);
+  glDisable(GL_BLEND);
+  bind_lights(f, grid);
+  draw_instances(f, f.plan.opaque, DrawStreams::all, [&](uint32_t features) -> const GlProgram& {
+    return f.program("shaders/scene.vert", "shaders/forward.frag", light_defines(f, features, grid));
+  });
+  const size_t pixels = size_t(f.view.width) * f.view.height;
+  pass.moves(f.gpu.geometry_bytes() + pixels * 4 + f.light_grid_bytes(), pixels * 16);
+  (void)depth;
+  return image;
+}
+
+}  // namespace lightgrid

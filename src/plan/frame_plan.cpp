@@ -1,0 +1,170 @@
+#include "plan/frame_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/visibility.h"
+
+namespace lightgrid {
+namespace {
+
+struct FeatureName {
+  uint32_t bit;
+  const char* define;
+  const char* effect;
+};
+
+constexpr FeatureName feature_names[] = {
+    {feature_textured, "TEXTURED", "textures"},
+    {feature_uv1, "UV1", "second UV set"},
+    {feature_uv_transform, "UV_TRANSFORM", "texture transforms"},
+    {feature_vertex_color, "VERTEX_COLOR", "vertex colours"},
+    {feature_base_color_map, "BASE_COLOR_MAP", "base colour maps"},
+    {feature_metallic_roughness_map, "METALLIC_ROUGHNESS_MAP", "metallic-roughness maps"},
+    {feature_normal_map, "NORMAL_MAP", "normal maps"},
+    {feature_occlusion_map, "OCCLUSION_MAP", "occlusion maps"},
+    {feature_emissive_map, "EMISSIVE_MAP", "emissive maps"},
+    {feature_mask, "MASK", "alpha masks"},
+    {feature_unlit, "UNLIT", "unlit materials"},
+};
+
+uint32_t features_of(const Scene& scene, const Mesh& mesh) {
+  const Material& m = scene.materials[mesh.material];
+  uint32_t features = 0;
+  const auto use = [&](const TextureSlot& slot, uint32_t feature) {
+    if (slot.texture < 0) return;
+    features |= feature | feature_textured;
+    if (slot.uv_set == 1) features |= feature_uv1;
+    if (slot.transformed()) features |= feature_uv_transform;
+  };
+  use(m.base_color_map, feature_base_color_map);
+  if (!mesh.colors.empty()) features |= feature_vertex_color;
+  if (m.alpha_mode == AlphaMode::mask) features |= feature_mask;
+  if (m.unlit) return features | feature_unlit;  // what lighting needs, an unlit surface does not
+  use(m.metallic_roughness_map, feature_metallic_roughness_map);
+  use(m.normal_map, feature_normal_map);
+  use(m.occlusion_map, feature_occlusion_map);
+  use(m.emissive_map, feature_emissive_map);
+  return features;
+}
+
+std::string instance_witness(const Scene& scene, int instance) {
+  const Instance& i = scene.instances[instance];
+  const int material = scene.meshes[i.mesh].material;
+  return fmt::format("material {} \"{}\" on node {} \"{}\"", material, scene.materials[material].name, instance, i.name);
+}
+
+std::string light_witness(const Scene& scene, int light) {
+  return fmt::format("light {} \"{}\"", light, scene.lights[light].name);
+}
+
+// Looks at the instances in view: what they need, and who needed it first.
+void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
+  const Frustum frustum = frustum_of(view);
+  plan.features_of_instance.assign(scene.instances.size(), 0);
+  int first_with[std::size(feature_names)];
+  std::fill(std::begin(first_with), std::end(first_with), -1);
+  std::vector<std::pair<double, int>> blended;
+  for (int i = 0; i < int(scene.instances.size()); ++i) {
+    const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+    const glm::dmat4 view_from_object = view.view_from_world * scene.instances[i].world_from_object;
+    if (mesh.indices.empty() || !may_see_box(frustum, view_from_object, mesh.bounds)) continue;
+    const uint32_t features = features_of(scene, mesh);
+    plan.features_of_instance[i] = features;
+    plan.features |= features;
+    for (size_t f = 0; f < std::size(feature_names); ++f) {
+      if ((features & feature_names[f].bit) && first_with[f] < 0) first_with[f] = i;
+    }
+    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) {
+      const glm::dvec3 center = 0.5 * (glm::dvec3(mesh.bounds.min) + glm::dvec3(mesh.bounds.max));
+      blended.emplace_back((view_from_object * glm::dvec4(center, 1)).z, i);
+    } else {
+      plan.opaque.push_back(i);
+    }
+  }
+  std::stable_sort(blended.begin(), blended.end(), [](auto& a, auto& b) { return a.first < b.first; });
+  for (const auto& [z, i] : blended) plan.blended.push_back(i);
+  plan.blend = !blended.empty();
+  plan.mask = plan.features & feature_mask;
+  plan.decisions.push_back({"blend", plan.blend, plan.blend ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
+                                                            : "no blended material in view"});
+  for (size_t f = 0; f < std::size(feature_names); ++f) {
+    plan.decisions.push_back({feature_names[f].effect, first_with[f] >= 0,
+                              first_with[f] >= 0 ? instance_witness(scene, first_with[f]) : "no material in view has any"});
+  }
+}
+
+void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
+  const Frustum frustum = frustum_of(view);
+  const std::vector<ViewLight> lights = lights_in_view(scene, view);
+  int first_spot = -1;
+  for (int i = 0; i < int(lights.size()); ++i) {
+    const bool directional = lights[i].type == LightType::directional;
+    (directional ? plan.directional_lights : plan.local).push_back(i);
+    const bool seen = directional || may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
+    plan.lights_in_view += seen;
+    // A spot out of view still needs its cone: with it, its every contribution is zero; without, the light would
+    // be another one.
+    if (lights[i].type == LightType::spot && first_spot < 0) first_spot = i;
+  }
+  plan.local_lights = !plan.local.empty();
+  plan.spots = first_spot >= 0;
+  plan.directional = !plan.directional_lights.empty();
+  plan.index_bits = plan.local.size() <= 65536 ? 16 : 32;
+  const auto& local = plan.local;
+  plan.decisions.push_back({"point and spot lights", plan.local_lights,
+                            plan.local_lights ? light_witness(scene, local[0]) : "no light has a place"});
+  plan.decisions.push_back({"spot cones", plan.spots, plan.spots ? light_witness(scene, first_spot) : "no light is a spot"});
+  plan.decisions.push_back({"directional lights", plan.directional,
+                            plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
+  plan.decisions.push_back({"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
+}
+
+void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
+  plan.light_grid = plan.blend_grid = needs.light_grid;
+  plan.local_lights = plan.spots = plan.directional = plan.blend = plan.mask = true;
+  plan.index_bits = 32;
+  plan.features = feature_all;
+  for (int i : plan.opaque) plan.features_of_instance[i] = feature_all;
+  for (int i : plan.blended) plan.features_of_instance[i] = feature_all;
+}
+
+}  // namespace
+
+std::vector<std::string> defines_of(uint32_t features) {
+  std::vector<std::string> defines;
+  for (const FeatureName& f : feature_names) {
+    if (features & f.bit) defines.emplace_back(f.define);
+  }
+  return defines;
+}
+
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs) {
+  FramePlan plan;
+  plan.settings = settings;
+  plan_surfaces(scene, view, plan);
+  plan_lights(scene, view, plan);
+  plan.light_grid = needs.light_grid && plan.local_lights;
+  plan.blend_grid = plan.light_grid && plan.blend;
+  plan.decisions.push_back({"light grid", plan.light_grid,
+                            !needs.light_grid      ? "the technique reads none"
+                            : !plan.local_lights ? "no light has a place"
+                                                 : light_witness(scene, plan.local[0])});
+  plan.decisions.push_back({"blended light grid", plan.blend_grid,
+                            plan.blend_grid ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
+                                            : plan.light_grid ? "no blended material in view" : "no light grid"});
+  plan.decisions.push_back({"shadows", false, "no light casts one: shadows are not part of any technique yet"});
+  if (settings.everything_on) turn_everything_on(plan, needs);
+  return plan;
+}
+
+std::string describe(const FramePlan& plan, const Scene& scene) {
+  std::string text = fmt::format("{} of {} instances in view ({} opaque, {} blended), {} of {} lights\n",
+                                 plan.opaque.size() + plan.blended.size(), scene.instances.size(), plan.opaque.size(),
+                                 plan.blended.size(), plan.lights_in_view, scene.lights.size());
+  for (const Decision& d : plan.decisions) text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
+  return text;
+}
+
+}  // namespace lightgrid

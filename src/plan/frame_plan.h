@@ -1,0 +1,73 @@
+// What this scene, in this view, with these settings, needs a frame to do - and why. A pure function: what the plan
+// does not name is not compiled, allocated or run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plan/settings.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+// What a material asks of the shaders, as bits; each is one #define (defines_of).
+enum MaterialFeature : uint32_t {
+  feature_textured = 1,  // any map at all: first UV set
+  feature_uv1 = 2,
+  feature_uv_transform = 4,
+  feature_vertex_color = 8,
+  feature_base_color_map = 16,
+  feature_metallic_roughness_map = 32,
+  feature_normal_map = 64,
+  feature_occlusion_map = 128,
+  feature_emissive_map = 256,
+  feature_mask = 512,
+  feature_unlit = 1024,
+  feature_all = 2047,
+};
+
+std::vector<std::string> defines_of(uint32_t features);
+
+struct Decision {
+  std::string effect;  // "blend", "spot lights", "normal maps", ...
+  bool needed = false;
+  std::string why;     // the witness: `material 3 "glass" on node 12 "window"`, or why not
+};
+
+// What a technique asks of the plan.
+struct TechniqueNeeds {
+  bool light_grid = false;
+};
+
+struct FramePlan {
+  Settings settings;
+
+  // The instances this view may see (conservative frustum test), in scene order; blended ones back to front.
+  std::vector<int> opaque, blended;
+  std::vector<uint32_t> features_of_instance;  // as long as the scene's instances; 0 where not seen
+
+  bool light_grid = false;     // depth bounds, culling and the grid's buffers
+  bool local_lights = false;   // some point or spot light
+  bool spots = false;          // cone code
+  bool directional = false;
+  bool blend = false;          // the blended pass
+  bool blend_grid = false;     // and a grid of its own
+  bool mask = false;
+  int index_bits = 16;
+  uint32_t features = 0;       // union over the instances seen: which vertex streams and textures exist
+
+  std::vector<int> local, directional_lights;  // light indices by kind, in scene order
+  int lights_in_view = 0;                      // whose range touches the view's frustum
+
+  std::vector<Decision> decisions;
+};
+
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs);
+
+// The plan as `lightgrid plan` prints it.
+std::string describe(const FramePlan& plan, const Scene& scene);
+
+}  // namespace lightgrid

@@ -1,0 +1,101 @@
+#include "plan/settings.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+struct Choice {
+  std::string value;
+  std::function<void(Settings&)> set;
+  std::function<bool(const Settings&)> is_set;
+};
+
+struct Setting {
+  std::string key, meaning;
+  std::vector<Choice> choices;  // the default first
+};
+
+template <typename T>
+Choice choice(const char* value, T Settings::*member, T meant) {
+  return {value, [=](Settings& s) { s.*member = meant; }, [=](const Settings& s) { return s.*member == meant; }};
+}
+
+const std::vector<Setting>& all_settings() {
+  static const std::vector<Setting> settings = {
+      {"cull-test",
+       "which test decides whether a light may touch a cell",
+       {choice("planes+aabb", &Settings::cull_test, CullTest::planes_aabb),
+        choice("planes", &Settings::cull_test, CullTest::planes), choice("aabb", &Settings::cull_test, CullTest::aabb),
+        choice("sphere", &Settings::cull_test, CullTest::sphere)}},
+      {"depth-bounds",
+       "the interval of distances that a cell spans",
+       {choice("minmax", &Settings::depth_bounds, DepthBoundsMode::minmax),
+        choice("none", &Settings::depth_bounds, DepthBoundsMode::none)}},
+      {"tile",
+       "tile size in pixels",
+       {choice("16", &Settings::tile, 16), choice("8", &Settings::tile, 8), choice("32", &Settings::tile, 32),
+        choice("64", &Settings::tile, 64)}},
+      {"kernel-shape",
+       "lanes (vectors, for CPUs) or group (work-groups, for GPUs)",
+       {choice("auto", &Settings::kernel_shape, KernelShape::automatic),
+        choice("lanes", &Settings::kernel_shape, KernelShape::lanes),
+        choice("group", &Settings::kernel_shape, KernelShape::group)}},
+      {"everything-on",
+       "build and run every effect's code, called for or not (for tests of the plan)",
+       {choice("off", &Settings::everything_on, false), choice("on", &Settings::everything_on, true)}},
+  };
+  return settings;
+}
+
+}  // namespace
+
+void apply_setting(Settings& settings, const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  const std::string key = assignment.substr(0, equals);
+  const auto& all = all_settings();
+  const auto setting = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
+  if (equals == std::string::npos || setting == all.end()) {
+    std::string keys;
+    for (const Setting& s : all) keys += (keys.empty() ? "" : ", ") + s.key;
+    throw input_error("--set {}: not KEY=VALUE with a known key; keys are {}", assignment, keys);
+  }
+  const std::string value = assignment.substr(equals + 1);
+  std::string values;
+  for (const Choice& c : setting->choices) {
+    if (c.value == value) return c.set(settings);
+    values += (values.empty() ? "" : ", ") + c.value;
+  }
+  throw input_error("--set {}: \"{}\" is not a value of {}; values are {}", assignment, value, key, values);
+}
+
+std::map<std::string, std::string> to_strings(const Settings& settings) {
+  std::map<std::string, std::string> strings;
+  for (const Setting& s : all_settings()) {
+    for (const Choice& c : s.choices) {
+      if (c.is_set(settings)) {
+        std::string key = s.key;
+        std::replace(key.begin(), key.end(), '-', '_');
+        strings[key] = c.value;
+      }
+    }
+  }
+  return strings;
+}
+
+const std::vector<SettingHelp>& setting_help() {
+  static const auto help = [] {
+    std::vector<SettingHelp> rows;
+    for (const Setting& s : all_settings()) {
+      SettingHelp& row = rows.emplace_back(SettingHelp{s.key, {}, s.meaning});
+      for (const Choice& c : s.choices) row.values.push_back(c.value);
+    }
+    return rows;
+  }();
+  return help;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,34 @@
+// The settings that trade accuracy for time, by the names of the command line (docs/settings.md).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lightgrid {
+
+enum class CullTest { sphere, planes, aabb, planes_aabb };  // order as in kernels/common/light_cell_tests.h
+enum class DepthBoundsMode { none, minmax };
+enum class KernelShape { automatic, lanes, group };
+
+struct Settings {
+  CullTest cull_test = CullTest::planes_aabb;
+  DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
+  int tile = 16;  // pixels a side: 8, 16, 32 or 64
+  KernelShape kernel_shape = KernelShape::automatic;
+  bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against
+};
+
+// Applies "key=value". Throws Error(input) that lists the keys, or the values of a key.
+void apply_setting(Settings& settings, const std::string& assignment);
+
+std::map<std::string, std::string> to_strings(const Settings& settings);
+
+struct SettingHelp {
+  std::string key;
+  std::vector<std::string> values;  // the first is the default
+  std::string meaning;
+};
+const std::vector<SettingHelp>& setting_help();
+
+}  // namespace lightgrid

@@ -1,0 +1,20 @@
+// What a view may see. Conservative: what is reported outside is outside; in double.
+#pragma once
+
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+// The view's side and near planes in view space, inward: dot(normal, p) + offset >= 0. The far plane only where
+// finite.
+struct Frustum {
+  glm::dvec4 planes[6];
+  int count = 0;
+};
+Frustum frustum_of(const View& view);
+
+bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, const Aabb& box);
+bool may_see_sphere(const Frustum& frustum, glm::dvec3 center_view, double radius);
+
+}  // namespace lightgrid

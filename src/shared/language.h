@@ -1,0 +1,15 @@
+// What lets one header be C++, OpenCL C and GLSL. Shared structs hold 32-bit scalars only: they then have the same
+// layout in C++, in OpenCL C and in a GLSL std140 block, with no padding to keep in mind.
+#pragma once
+
+#if defined(__OPENCL_VERSION__)
+#define SHARED_FUNCTION static inline
+#elif defined(LIGHTGRID_GLSL)
+#define SHARED_FUNCTION
+#else
+#include <cstdint>
+#define SHARED_FUNCTION static inline
+namespace lightgrid {
+using uint = std::uint32_t;
+}
+#endif

@@ -1,0 +1,41 @@
+// A material as the shaders see it: one uniform block.
+#pragma once
+
+#include "shared/language.h"
+
+#define MATERIAL_BASE_COLOR_MAP 1u
+#define MATERIAL_METALLIC_ROUGHNESS_MAP 2u
+#define MATERIAL_NORMAL_MAP 4u
+#define MATERIAL_OCCLUSION_MAP 8u
+#define MATERIAL_EMISSIVE_MAP 16u
+#define MATERIAL_VERTEX_COLOR 32u
+#define MATERIAL_MASK 64u
+#define MATERIAL_UNLIT 128u
+#define MATERIAL_UV1_FIRST 256u             // shifted by the slot: base colour 0, metallic-roughness 1, normal 2,
+#define MATERIAL_UV_TRANSFORM_FIRST 8192u   // occlusion 3, emissive 4
+
+#ifdef LIGHTGRID_GLSL
+layout(std140, binding = 1) uniform MaterialParamsBlock {
+  vec4 base_color;
+  vec4 emissive;
+  float metallic, roughness, normal_scale, occlusion_strength;
+  float alpha_cutoff;
+  uint flags;
+  vec4 uv_linear[5];  // column by column: u axis, v axis
+  vec4 uv_offset[5];
+} material;
+#elif !defined(__OPENCL_VERSION__)
+namespace lightgrid {
+struct MaterialParams {
+  float base_color[4];
+  float emissive[4];
+  float metallic, roughness, normal_scale, occlusion_strength;
+  float alpha_cutoff;
+  uint flags;
+  float padding[2];  // a vec4 starts at a multiple of 16 bytes
+  float uv_linear[5][4];
+  float uv_offset[5][4];
+};
+static_assert(sizeof(MaterialParams) == 224);
+}  // namespace lightgrid
+#endif

@@ -1,0 +1,43 @@
+// A view in the numbers that kernels and shaders need, and the way from a pixel to its place in view space.
+#pragma once
+
+#include "shared/language.h"
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+namespace lightgrid {
+#endif
+
+#ifdef LIGHTGRID_GLSL
+#define VIEW_PARAMS_MEMBERS_ONLY
+#endif
+
+#ifndef VIEW_PARAMS_MEMBERS_ONLY
+typedef struct ViewParams {
+#else
+layout(std140, binding = 0) uniform ViewParamsBlock {
+#endif
+  // Pixel coordinate p (0 at the left or bottom edge of the image, pixel centres at .5) to the slope x / distance
+  // or y / distance there; orthographic views: to x or y itself, in metres.
+  float slope_x_scale, slope_x_offset;
+  float slope_y_scale, slope_y_offset;
+  // Reversed depth to distance along the view axis, in metres: perspective depth_b / (depth + depth_a),
+  // orthographic (depth_b - depth) * depth_a.
+  float depth_a, depth_b;
+  float near_distance;  // of the near plane
+  uint orthographic;    // 0 or 1
+  uint width, height;   // image, pixels
+  uint tile_size;       // pixels a side
+  uint tiles_x, tiles_y;
+  uint bins_x, bins_y;  // a bin is BIN_TILES x BIN_TILES tiles
+  uint light_count;     // point and spot lights
+  uint directional_count;
+  float ambient_r, ambient_g, ambient_b;
+#ifndef VIEW_PARAMS_MEMBERS_ONLY
+} ViewParams;
+#else
+} view;
+#endif
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
+#endif

@@ -1,0 +1,42 @@
+#include "study/run_technique.h"
+
+#include "study/metrics.h"
+
+namespace lightgrid {
+
+TechniqueRun::TechniqueRun(Devices& devices, const Scene& scene, const View& view, const Settings& settings,
+                           const Technique& technique)
+    : technique_(technique), frame_(devices, scene, view, plan_frame(scene, view, settings, technique.needs)) {}
+
+void TechniqueRun::run_frame(bool warmup) {
+  const Timer timer;
+  image_ = read_back(frame_, technique_.render(frame_));
+  if (!warmup) frame_ms_.push_back(timer.elapsed_ms());
+}
+
+void TechniqueRun::run_profiled_frame() {
+  frame_.timer.enabled = true;
+  image_ = read_back(frame_, technique_.render(frame_));
+  frame_.timer.enabled = false;
+}
+
+RunResult TechniqueRun::result() const {
+  RunResult result;
+  result.technique = technique_.name;
+  result.settings = to_strings(frame_.plan.settings);
+  result.lights_total = int(frame_.scene.lights.size());
+  result.lights_in_view = frame_.plan.lights_in_view;
+  result.frame_ms = spread_of(frame_ms_);
+  for (const PassRecord& record : frame_.timer.records()) {
+    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read, record.bytes_written});
+  }
+  result.memory_total = frame_.memory_bytes();
+  result.memory_light_grid = frame_.light_grid_bytes();
+  result.nan_pixels = count_nan_pixels(image_);
+  for (const Decision& decision : frame_.plan.decisions) {
+    if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
+  }
+  return result;
+}
+
+}  // namespace lightgrid

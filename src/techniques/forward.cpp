@@ -1,0 +1,15 @@
+// Every light at every pixel: the brute-force image that every other technique is compared with.
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+static ShadedImage render(Frame& f) {
+  const DepthImage depth = depth_prepass(f);
+  const ShadedImage image = shade_forward(f, depth, nullptr);
+  shade_blended(f, image, nullptr);
+  return image;
+}
+
+extern const Technique forward{"forward", "every light at every pixel", "the baseline", {.light_grid = false}, render};
+
+}  // namespace lightgrid

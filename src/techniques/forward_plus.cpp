@@ -1,0 +1,26 @@
+// Forward shading from per-tile light lists, culled in OpenCL against the depth bounds of each tile.
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+static ShadedImage render(Frame& f) {
+  const DepthImage depth = depth_prepass(f);
+  if (!f.plan.light_grid) {
+    const ShadedImage image = shade_forward(f, depth, nullptr);
+    shade_blended(f, image, nullptr);
+    return image;
+  }
+  const DepthBounds bounds = depth_bounds(f, depth);
+  const GridTextures grid = cull_lights(f, bounds);
+  const ShadedImage image = shade_forward(f, depth, &grid);
+  if (f.plan.blend_grid) {
+    const GridTextures blend_grid = cull_lights_for_blended(f, bounds);
+    shade_blended(f, image, &blend_grid);
+  }
+  return image;
+}
+
+extern const Technique forward_plus{"forward_plus", "per-tile light lists",
+                                    "Harada, McKee, Yang: Forward+, Eurographics 2012", {.light_grid = true}, render};
+
+}  // namespace lightgrid

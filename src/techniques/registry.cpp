@@ -1,0 +1,22 @@
+#include "base/error.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+extern const Technique forward, forward_plus;
+
+const std::vector<const Technique*>& techniques() {
+  static const std::vector<const Technique*> all = {&forward, &forward_plus};
+  return all;
+}
+
+const Technique& find_technique(const std::string& name) {
+  std::string names;
+  for (const Technique* technique : techniques()) {
+    if (technique->name == name) return *technique;
+    names += (names.empty() ? "" : ", ") + std::string(technique->name);
+  }
+  throw input_error("--technique: \"{}\" is not a technique; there are {}", name, names);
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,24 @@
+// A technique: a name, and a recipe over passes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/passes.h"
+
+namespace lightgrid {
+
+struct Technique {
+  const char* name;
+  const char* summary;  // one line
+  const char* source;   // paper or article, year
+  TechniqueNeeds needs;
+  ShadedImage (*render)(Frame& f);
+};
+
+const std::vector<const Technique*>& techniques();
+
+// Throws Error(input) that lists the names there are.
+const Technique& find_technique(const std::string& name);
+
+}  // namespace lightgrid
