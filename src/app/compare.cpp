@@ -1,0 +1,86 @@
+// lightgrid compare SCENE -t A,B,… -o DIR: images, results.json and index.html.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/error.h"
+#include "study/compare.h"
+#include "study/report.h"
+
+namespace lightgrid {
+namespace {
+
+struct CompareCommand {
+  SceneOptions scene;
+  DeviceOptions devices;
+  TimingOptions timing;
+  std::string output = "out/compare";
+  std::vector<std::string> techniques = {"forward", "forward_plus"};
+};
+
+void show_progress(double done, const std::string& step) {
+  constexpr int width = 32;
+  const int filled = int(done * width);
+  fmt::print(stderr, "\r[{}{}] {:<24}{}", std::string(filled, '#'), std::string(width - filled, '.'), step, done >= 1 ? "\n" : "");
+}
+
+// The names and settings of -t, as split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". What has
+// a "=" but no name before a colon is one more setting of the name before it.
+std::vector<Contestant> contestants_of(const std::vector<std::string>& items, const Settings& common) {
+  std::vector<Contestant> contestants;
+  for (const std::string& item : items) {
+    const size_t colon = item.find(':');
+    const bool setting_only = colon == std::string::npos && item.find('=') != std::string::npos;
+    if (setting_only && !contestants.empty()) {
+      apply_setting(contestants.back().settings, item);
+      continue;
+    }
+    contestants.push_back({&find_technique(item.substr(0, colon)), common});
+    if (colon != std::string::npos) apply_setting(contestants.back().settings, item.substr(colon + 1));
+  }
+  return contestants;
+}
+
+int compare(const CompareCommand& o) {
+  const Settings common = chosen_settings(o.scene);
+  const std::vector<Contestant> contestants = contestants_of(o.techniques, common);
+  const ChosenScene chosen = load_chosen_scene(o.scene);
+  Devices devices = open_devices(o.devices.device, parse_gl_backend(o.devices.gl));
+  CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup};
+  if (isatty(STDERR_FILENO)) options.progress = show_progress;
+  const CompareReport report = compare_techniques(devices, chosen.scene, chosen.view, contestants, options);
+  write_report(o.output, report);
+
+  fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
+  for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
+  bool passed = true;
+  for (const RunResult& row : report.rows) {
+    if (row.pairs->lost || row.pairs->wrong || row.nan_pixels) {
+      passed = false;
+      fmt::print(stderr, "lightgrid: {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", row.technique,
+                 row.pairs->lost, row.pairs->wrong, row.nan_pixels);
+    }
+  }
+  return passed ? 0 : 1;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Command& chosen) {
+  auto o = std::make_shared<CompareCommand>();
+  CLI::App* command = app.add_subcommand("compare", "techniques side by side, as a report to look at");
+  add_scene_options(*command, o->scene);
+  add_device_options(*command, o->devices);
+  add_timing_options(*command, o->timing);
+  command->add_option("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between")
+      ->delimiter(',')->capture_default_str();
+  command->add_option("-o,--output", o->output, "folder of the report")->capture_default_str();
+  command->final_callback([o, &chosen] { chosen = [o] { return compare(*o); }; });
+}
+
+}  // namespace lightgrid

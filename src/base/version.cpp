@@ -1,0 +1,7 @@
+#include "base/version.h"
+
+namespace lightgrid {
+
+std::string commit_of_build() { return LIGHTGRID_COMMIT; }
+
+}  // namespace lightgrid

@@ -1,0 +1,28 @@
+// Techniques side by side on one view, held against the brute-force image and the double-precision oracle.
+#pragma once
+
+#include <functional>
+
+#include "study/results.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+struct Contestant {
+  const Technique* technique;
+  Settings settings;
+};
+
+struct CompareOptions {
+  int frames = 5, warmup = 1;
+  size_t shaded_samples = 20000;  // pixels at which the oracle shades, for the model and precision errors
+  // Told of each finished step: how far (0 to 1) and what comes next.
+  std::function<void(double done, const std::string& step)> progress;
+};
+
+// Runs the contestants interleaved, frame by frame. The reference is `forward`, run in addition where it is not
+// among them. Error is against its image; pairs are counted on opaque surfaces, by reference/lit_set.h.
+CompareReport compare_techniques(Devices& devices, const Scene& scene, const View& view,
+                                 const std::vector<Contestant>& contestants, const CompareOptions& options);
+
+}  // namespace lightgrid

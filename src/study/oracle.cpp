@@ -1,0 +1,102 @@
+#include "study/oracle.h"
+
+#include "passes/surfaces.h"
+#include "reference/position.h"
+#include "reference/shading.h"
+#include "shared/light_grid.h"
+#include "study/metrics.h"
+
+namespace lightgrid {
+namespace {
+
+std::vector<ViewLight> local_lights(const Frame& f) {
+  const std::vector<ViewLight> all = lights_in_view(f.scene, f.view);
+  std::vector<ViewLight> local;
+  for (int i : f.plan.local) local.push_back(all[i]);
+  return local;
+}
+
+template <typename T>
+std::vector<T> read_buffer(GLuint buffer, size_t count) {
+  std::vector<T> values(count);
+  if (count) glGetNamedBufferSubData(buffer, 0, GLsizeiptr(count * sizeof(T)), values.data());
+  return values;
+}
+
+Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
+  Surface surface;
+  surface.normal = glm::normalize(glm::dvec3(s.normal_roughness.pixels[pixel]));
+  surface.roughness = s.normal_roughness.pixels[pixel].w;
+  surface.base_color = s.base_color_metallic.pixels[pixel];
+  surface.metallic = s.base_color_metallic.pixels[pixel].w;
+  surface.emissive = s.emissive_occlusion.pixels[pixel];
+  surface.occlusion = s.emissive_occlusion.pixels[pixel].w;
+  surface.unlit = surface.occlusion < 0;
+  return surface;
+}
+
+// A row of pixels as an image, for the metrics.
+Image as_image(const std::vector<glm::dvec3>& colors) {
+  Image image(int(colors.size()), 1);
+  for (size_t i = 0; i < colors.size(); ++i) image.pixels[i] = glm::vec4(glm::vec3(colors[i]), 1);
+  return image;
+}
+
+}  // namespace
+
+std::vector<float> read_depth(Frame& f) {
+  std::vector<float> depth(size_t(f.view.width) * f.view.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, f.depth_framebuffer());
+  glReadPixels(0, 0, f.view.width, f.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  return depth;
+}
+
+ListedLights listed_lights(Frame& f) {
+  if (!f.plan.light_grid) return list_every_light(uint32_t(f.plan.local.size()));
+  const LightGrid& grid = f.opaque_grid_last;
+  ListedLights lists;
+  lists.cell_of_pixel.reserve(size_t(f.view.width) * f.view.height);
+  for (int y = 0; y < f.view.height; ++y) {
+    for (int x = 0; x < f.view.width; ++x) {
+      lists.cell_of_pixel.push_back(cell_of_pixel(x, y, f.params.tile_size, f.params.tiles_x));
+    }
+  }
+  const auto cells = read_buffer<glm::uvec2>(f.opaque_grid().cells_.buffer->gl_buffer(), size_t(grid.cells_x) * grid.cells_y);
+  for (const glm::uvec2& cell : cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  const GLuint indices = f.opaque_grid().indices_.buffer->gl_buffer();
+  if (grid.index_bits == 16) {
+    const auto narrow = read_buffer<uint16_t>(indices, grid.index_count);
+    lists.indices.assign(narrow.begin(), narrow.end());
+  } else {
+    lists.indices = read_buffer<uint32_t>(indices, grid.index_count);
+  }
+  return lists;
+}
+
+LitPairs count_listed_pairs(Frame& f, const std::vector<float>& depth) {
+  return count_pairs(f.view, depth, local_lights(f), listed_lights(f));
+}
+
+ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,
+                                         size_t samples) {
+  const SurfaceImages surfaces = read_surfaces(f);
+  ReferenceErrors errors;
+  std::vector<uint32_t> pixels;
+  for (uint32_t pixel : covered_pixels(depth)) {
+    surfaces.blended[pixel] ? void(++errors.pixels_left_out) : pixels.push_back(pixel);
+  }
+  pixels = sample_pixels(pixels, samples);
+  const auto surface_at = [&](uint32_t pixel) { return surface_of(surfaces, pixel); };
+  const std::vector<ViewLight> lights = lights_in_view(f.scene, f.view);
+  ShadeSettings settings{.ambient = f.scene.ambient, .window = true};
+  const Image with_window = as_image(shade_pixels(f.view, depth, surface_at, lights, settings, pixels));
+  settings.window = false;
+  const Image without = as_image(shade_pixels(f.view, depth, surface_at, lights, settings, pixels));
+  Image in_float(int(pixels.size()), 1);
+  for (size_t i = 0; i < pixels.size(); ++i) in_float.pixels[i] = every_light.pixels[pixels[i]];
+  errors.model = compare_images(with_window, without);
+  errors.precision = compare_images(in_float, with_window);
+  return errors;
+}
+
+}  // namespace lightgrid

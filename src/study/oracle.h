@@ -1,0 +1,25 @@
+// Where the renderer's buffers meet the double-precision oracle (reference/).
+#pragma once
+
+#include "reference/lit_set.h"
+#include "study/results.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+// The depth image of the last frame: width * height, row 0 at the bottom, 0 where nothing is.
+std::vector<float> read_depth(Frame& f);
+
+// The lists that the last frame shaded opaque surfaces from; without a grid, every point and spot light at every
+// pixel. Indices count point and spot lights only, in scene order.
+ListedLights listed_lights(Frame& f);
+
+// Those lists against the lights that truly reach each pixel.
+LitPairs count_listed_pairs(Frame& f, const std::vector<float>& depth);
+
+// Model and precision errors at up to `samples` pixels that no blended surface covers: shades the surfaces that
+// OpenGL saw, in double. `every_light` is the float image of the technique `forward`.
+ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,
+                                         size_t samples);
+
+}  // namespace lightgrid
