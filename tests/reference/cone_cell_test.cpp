@@ -209,7 +209,7 @@ TEST(ConeTouchesCell, NeverDeniesATouchOnTheBoundary) {
     const Touch got = cone_touches_cell(cell, apex, axis, std::cos(half_angle), reach);
     ASSERT_NE(got, Touch::no) << i << " half-angle " << half_angle;
     unsure += got == Touch::unsure;
-    if (reach < 1e-5 * glm::length(apex)) continue;
+    if (distance_to_cell(cell, apex) < 1e-5 * glm::length(apex)) continue;
     // Ten times the stated tolerance past it, the answer must be certain.
     const double wider = std::cos(std::min(half_angle + 1e-7, pi));
     ASSERT_EQ(cone_touches_cell(cell, apex, axis, wider, reach * (1 + 1e-8)), Touch::yes) << i;
