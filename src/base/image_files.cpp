@@ -129,11 +129,16 @@ void save_exr(const std::filesystem::path& path, const Image& image) {
   write_file(path, bytes);
 }
 
-void save_image(const std::filesystem::path& path, const Image& image) {
+void check_image_path(const std::filesystem::path& path) {
   const auto extension = extension_of(path);
-  if (extension == ".png") return save_png(path, image);
-  if (extension == ".exr") return save_exr(path, image);
-  throw input_error("{}: an image is written as .png or .exr, not \"{}\"", path.string(), extension);
+  if (extension != ".png" && extension != ".exr") {
+    throw input_error("{}: an image is written as .png or .exr, not \"{}\"", path.string(), extension);
+  }
+}
+
+void save_image(const std::filesystem::path& path, const Image& image) {
+  check_image_path(path);
+  extension_of(path) == ".png" ? save_png(path, image) : save_exr(path, image);
 }
 
 }  // namespace lightgrid
