@@ -17,8 +17,7 @@ struct Cell {
   double scale_at(double depth_view) const { return orthographic ? 1 : depth_view; }
 };
 
-// Pixels [px0, px1) x [py0, py1), row 0 at the bottom, for any projection without an oblique depth row's
-// effect on x and y (off-centre included).
+// Of pixels [px0, px1) x [py0, py1), row 0 at the bottom; off-centre projections included.
 Cell cell_of_tile(const View& view, int px0, int py0, int px1, int py1, double near, double far);
 
 // Euclidean distance, 0 inside. Right to a few roundings of the point's distance from the eye.

@@ -21,7 +21,7 @@ dvec3 normal_reflectance(const Surface& s) { return glm::mix(dvec3(0.04), s.base
 // GGX (Walter et al. 2007) with |N x H|^2 in place of 1 - (N.H)^2, which cancels at small roughness.
 double ggx_distribution(const dvec3& normal, const dvec3& half, double alpha) {
   const dvec3 across = glm::cross(normal, half);
-  const double along = glm::dot(normal, half) * alpha;
+  const double along = std::max(glm::dot(normal, half), 0.0) * alpha;
   const double k = alpha / (glm::dot(across, across) + along * along);
   return k * k * std::numbers::inv_pi;
 }

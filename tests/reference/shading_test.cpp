@@ -47,6 +47,13 @@ TEST(Brdf, RoughDielectricLitAtSixtyDegrees) {
   expect_near(brdf({}, {0, 0, 1}, to_light), dvec3(0.9733057089 / pi), 1e-10);
 }
 
+TEST(Brdf, SeenFromBehindTheHalfVectorCountsAsLyingInTheSurface) {
+  // V + L = (1.4, 0, -0.2), of length sqrt 2: N.H < 0 counts as 0, |N x H|^2 = 0.98. Alpha 1, white metal: F
+  // = 1, D = 1 / (0.98^2 pi), N.V = 1e-4, N.L = 0.6: V = 0.5 / (0.6 + 1e-4).
+  const dvec3 got = brdf({.metallic = 1}, {0.6, 0, -0.8}, {0.8, 0, 0.6});
+  expect_near(got, dvec3(0.5 / 0.6001 / (0.9604 * pi)), 1e-15);
+}
+
 TEST(Brdf, WhiteMetalReturnsOneMinusLogTwoAtFullRoughness) {
   // V = N, alpha 1, F = 1: brdf = 1 / (2 pi (1 + mu)). Over the hemisphere, integral of mu / (1 + mu) over
   // 0 <= mu <= 1 is 1 - ln 2.
