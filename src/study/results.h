@@ -1,4 +1,5 @@
-// What one technique did on one view, as `render --json` and `compare`'s results.json tell it (docs/results_json.md).
+// What one technique did on one view, as `render --json` and `compare`'s results.json tell it
+// (docs/results_json.md).
 #pragma once
 
 #include <map>
@@ -30,7 +31,7 @@ struct ImageError {
   double max_abs = 0;
   double max_rel = 0;  // max_abs over the reference's brightest channel
   double rmse = 0;
-  double p99 = 0;      // of absolute error per pixel, its largest channel
+  double p99 = 0;  // of absolute error per pixel, its largest channel
   std::optional<double> flip_mean;
   bool bit_identical = true;
 };
@@ -46,18 +47,21 @@ struct RunResult {
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
-  std::optional<PairCounts> pairs;   // absent where no oracle was asked for
-  std::optional<ImageError> error;   // technique error: this image against the float image with every light
+  std::optional<PairCounts> pairs;  // absent where no oracle was asked for
+  std::optional<ImageError> error;  // technique error: this image against the float image with every light
   uint64_t nan_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
 };
 
 nlohmann::json to_json(const RunResult& result);
 
+// Two spaces a level and a newline at the end; bytes that are not UTF-8 (a path may hold some) become U+FFFD.
+std::string json_text(const nlohmann::json& value);
+
 // The parts of the error that are the same for every technique (docs/conventions.md#errors).
 struct ReferenceErrors {
-  ImageError model;      // range window on against off, both in double
-  ImageError precision;  // every light in float against every light in double
+  ImageError model;              // range window on against off, both in double
+  ImageError precision;          // every light in float against every light in double
   uint64_t pixels_left_out = 0;  // covered by blended surfaces, which the oracle does not shade
 };
 
@@ -68,9 +72,9 @@ struct CompareReport {
   std::string cl_device, gl_device, commit;
   std::string reference;  // the technique the images are compared with
   std::vector<RunResult> rows;
-  std::vector<Image> images;                   // one a row, linear
-  std::vector<std::vector<uint32_t>> listed;   // one a row, lights listed per pixel, row 0 at the bottom
-  std::vector<uint32_t> lit;                   // per pixel, by the oracle; empty without one
+  std::vector<Image> images;                  // one a row, linear
+  std::vector<std::vector<uint32_t>> listed;  // one a row, lights listed per pixel, row 0 at the bottom
+  std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
 };
 

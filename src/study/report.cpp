@@ -1,0 +1,110 @@
+#include "study/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/write_file.h"
+#include "study/metrics.h"
+#include "study/report_page.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_image(const CompareReport& report, size_t row) {
+  return row < report.images.size() && !report.images[row].pixels.empty();
+}
+
+bool has_counts(const CompareReport& report, size_t row) {
+  return row < report.listed.size() && !report.listed[row].empty();
+}
+
+uint32_t p99_of(std::vector<uint32_t> counts) {
+  const size_t index = (counts.size() * 99 + 99) / 100 - 1;
+  std::nth_element(counts.begin(), counts.begin() + index, counts.end());
+  return counts[index];
+}
+
+// One scale for all heat maps, so that they compare. A technique that lists the same count everywhere (every
+// light) has nothing to show and would leave no colours to the others.
+uint32_t heat_top(const CompareReport& report) {
+  uint32_t top = 0, flat_top = 1;
+  const auto take = [&](const std::vector<uint32_t>& counts) {
+    const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
+    if (*low == *high) flat_top = std::max(flat_top, *high);
+    if (*low != *high) top = std::max({top, p99_of(counts), 1u});
+  };
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (has_counts(report, i)) take(report.listed[i]);
+  }
+  if (!report.lit.empty()) take(report.lit);
+  return top ? top : flat_top;
+}
+
+HeatMap make_heat_map(const CompareReport& report, const std::vector<uint32_t>& counts, uint32_t top) {
+  const auto picture = heat_map(report.width, report.height, counts, top);
+  return {encode_png(report.width, report.height, 3, srgb_bytes_as_is(picture)),
+          std::accumulate(counts.begin(), counts.end(), 0.0) / counts.size(),
+          *std::max_element(counts.begin(), counts.end())};
+}
+
+size_t reference_index(const CompareReport& report) {
+  const auto found = std::find_if(report.rows.begin(), report.rows.end(),
+                                  [&](const RunResult& row) { return row.technique == report.reference; });
+  return found - report.rows.begin();
+}
+
+}  // namespace
+
+std::vector<std::string> row_names(const CompareReport& report) {
+  std::map<std::string, int> seen;
+  std::vector<std::string> names;
+  for (const auto& row : report.rows) {
+    const int number = ++seen[row.technique];
+    names.push_back(number == 1 ? row.technique : fmt::format("{}-{}", row.technique, number));
+  }
+  return names;
+}
+
+void write_report(const fs::path& folder, const CompareReport& report) {
+  make_folder(folder);
+  const size_t reference = reference_index(report);
+  const auto names = row_names(report);
+
+  ReportPictures pictures;
+  pictures.heat_top = heat_top(report);
+  pictures.rows.resize(report.rows.size());
+  parallel_for(static_cast<int>(report.rows.size()), [&](int i) {
+    auto& row = pictures.rows[i];
+    row.name = names[i];
+    if (has_image(report, i)) {
+      const auto& image = report.images[i];
+      row.image = encode_png(image.width, image.height, 3, srgb_bytes(image));
+      write_file(folder / (row.name + ".png"), row.image);
+      save_exr(folder / (row.name + ".exr"), image);
+      if (has_image(report, reference)) {
+        const auto difference = difference_image(image, report.images[reference]);
+        row.difference = encode_png(image.width, image.height, 3, srgb_bytes_as_is(difference));
+        write_file(folder / (row.name + ".difference.png"), row.difference);
+      }
+    }
+    if (has_counts(report, i)) {
+      row.listed = make_heat_map(report, report.listed[i], pictures.heat_top);
+      write_file(folder / (row.name + ".heat.png"), row.listed->png);
+    }
+  });
+  if (!report.lit.empty()) {
+    pictures.lit = make_heat_map(report, report.lit, pictures.heat_top);
+    write_file(folder / "lit.heat.png", pictures.lit->png);
+  }
+  write_file(folder / "results.json", json_text(to_json(report)));
+  write_file(folder / "index.html", report_page(report, pictures));
+}
+
+}  // namespace lightgrid

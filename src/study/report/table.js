@@ -1,0 +1,47 @@
+// The table of figures, sorted by the heading clicked.
+
+// columns: [{ title, value(row) -> number, string or null, text(value), best: "low" or "high", gate }];
+// a gate's value must be 0.
+function showTable(table, columns, rows, tagOf) {
+  const body = make("tbody");
+
+  const cell = (column, row) => {
+    const value = column.value(row);
+    const text = value === null ? "\u2013" : column.text ? column.text(value) : value;
+    const data = make("td", {}, text);
+    if (column.gate && value !== null) data.className = value === 0 ? "good" : "bad";
+    return data;
+  };
+  const lines = rows.map((row) => {
+    const line = make("tr", {}, ...columns.map((column) => cell(column, row)));
+    const tag = tagOf(row);
+    if (tag) line.firstChild.append(" ", make("span", { class: "tag" }, tag));
+    return { row, line };
+  });
+
+  // Absent figures come last in both directions.
+  const compare = (a, b, sign) => {
+    if (a === null || b === null) return (a === null) - (b === null);
+    return sign * (typeof a === "string" ? a.localeCompare(b) : a - b);
+  };
+  const sortBy = (column, direction) => {
+    const sign = direction === "ascending" ? 1 : -1;
+    lines.sort((a, b) => compare(column.value(a.row), column.value(b.row), sign));
+    body.replaceChildren(...lines.map(({ line }) => line));
+    for (const heading of headings) heading.removeAttribute("aria-sort");
+    headings[columns.indexOf(column)].setAttribute("aria-sort", direction);
+  };
+
+  const headings = columns.map((column) => {
+    const button = make("button", { type: "button" }, column.title);
+    const heading = make("th", { scope: "col" }, button);
+    button.addEventListener("click", () => {
+      const first = column.best === "high" ? "descending" : "ascending";
+      const second = first === "ascending" ? "descending" : "ascending";
+      sortBy(column, heading.getAttribute("aria-sort") === first ? second : first);
+    });
+    return heading;
+  });
+  table.replaceChildren(make("thead", {}, make("tr", {}, ...headings)), body);
+  sortBy(columns[1], "ascending");
+}

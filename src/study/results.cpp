@@ -1,0 +1,108 @@
+#include "study/results.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "study/report.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+
+// JSON has neither infinity nor NaN.
+json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+// "cull-test" on the command line is "cull_test" here.
+std::string key_of(std::string setting) {
+  std::replace(setting.begin(), setting.end(), '-', '_');
+  return setting;
+}
+
+template <typename Number>
+bool parse_whole(const std::string& text, Number& number) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+json value_of(const std::string& setting) {
+  int64_t whole = 0;
+  double real = 0;
+  if (setting == "true" || setting == "false") return setting == "true";
+  if (parse_whole(setting, whole)) return whole;
+  if (parse_whole(setting, real) && std::isfinite(real)) return real;
+  return setting;
+}
+
+json to_json(const ImageError& error) {
+  return {{"max_abs", finite_or_null(error.max_abs)},
+          {"max_rel", finite_or_null(error.max_rel)},
+          {"rmse", finite_or_null(error.rmse)},
+          {"p99", finite_or_null(error.p99)},
+          {"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
+          {"bit_identical", error.bit_identical}};
+}
+
+json to_json(const PairCounts& pairs) {
+  return {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
+}
+
+json to_json(const PassResult& pass) {
+  return {{"name", pass.name},
+          {"on", pass.on},
+          {"median_ms", finite_or_null(pass.median_ms)},
+          {"bytes_read", pass.bytes_read},
+          {"bytes_written", pass.bytes_written}};
+}
+
+}  // namespace
+
+json to_json(const RunResult& result) {
+  json settings = json::object(), passes = json::array(), skipped = json::array();
+  for (const auto& [name, value] : result.settings) settings[key_of(name)] = value_of(value);
+  for (const auto& pass : result.passes) passes.push_back(to_json(pass));
+  for (const auto& skip : result.skipped) skipped.push_back({{"effect", skip.effect}, {"why", skip.why}});
+  return {{"technique", result.technique},
+          {"settings", settings},
+          {"lights", {{"total", result.lights_total}, {"in_view", result.lights_in_view}}},
+          {"frame_ms",
+           {{"min", finite_or_null(result.frame_ms.min)},
+            {"median", finite_or_null(result.frame_ms.median)},
+            {"max", finite_or_null(result.frame_ms.max)},
+            {"runs", result.frame_ms.runs}}},
+          {"passes", passes},
+          {"memory_bytes",
+           {{"total", result.memory_total},
+            {"light_grid", result.memory_light_grid},
+            {"gbuffer", result.memory_gbuffer}}},
+          {"pairs", result.pairs ? to_json(*result.pairs) : json()},
+          {"error", result.error ? to_json(*result.error) : json()},
+          {"nan_pixels", result.nan_pixels},
+          {"overflow", result.overflow},
+          {"skipped", skipped}};
+}
+
+json to_json(const CompareReport& report) {
+  json rows = json::array(), reference_errors;
+  for (const auto& row : report.rows) rows.push_back(to_json(row));
+  if (const auto& errors = report.reference_errors) {
+    reference_errors = {{"model", to_json(errors->model)},
+                        {"precision", to_json(errors->precision)},
+                        {"pixels_left_out", errors->pixels_left_out}};
+  }
+  return {{"scene", report.scene},
+          {"size", {report.width, report.height}},
+          {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
+          {"commit", report.commit},
+          {"reference", report.reference},
+          {"reference_errors", reference_errors},
+          {"rows", rows}};
+}
+
+std::string json_text(const json& value) {
+  return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "study/report.h"
+
+namespace lightgrid {
+namespace {
+
+// 2420 -> "2,420"
+std::string with_commas(uint64_t value) {
+  auto text = std::to_string(value);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(text.begin() + at, ',');
+  return text;
+}
+
+// Three digits that count: "2,420", "214", "11.3", "0.59".
+std::string short_number(double value) {
+  if (value >= 100) return with_commas(std::llround(value));
+  return value >= 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
+}
+
+std::string lights_number(double value) {
+  return value >= 100 ? short_number(value) : fmt::format("{:.1f}", value);
+}
+
+bool passes_gates(const RunResult& row) {
+  return row.nan_pixels == 0 && (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
+}
+
+std::string failed_gates(const RunResult& row) {
+  std::vector<std::string> failures;
+  if (row.pairs && row.pairs->lost) failures.push_back(with_commas(row.pairs->lost) + " lost pairs");
+  if (row.pairs && row.pairs->wrong) failures.push_back(with_commas(row.pairs->wrong) + " wrong pairs");
+  if (row.nan_pixels) failures.push_back(with_commas(row.nan_pixels) + " NaN pixels");
+  return fmt::format("{}", fmt::join(failures, " and "));
+}
+
+// The row of least median time among those that `counts` takes; null where there is none.
+template <typename Counts>
+const RunResult* fastest(const CompareReport& report, const Counts& counts) {
+  const RunResult* best = nullptr;
+  for (const auto& row : report.rows) {
+    const bool timed = row.frame_ms.runs > 0;
+    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
+  }
+  return best;
+}
+
+const RunResult* fastest_that_passes(const CompareReport& report) { return fastest(report, passes_gates); }
+
+const RunResult* fastest_of_all(const CompareReport& report) {
+  return fastest(report, [](const RunResult&) { return true; });
+}
+
+const RunResult* reference_row(const CompareReport& report) {
+  const auto found = std::find_if(report.rows.begin(), report.rows.end(),
+                                  [&](const RunResult& row) { return row.technique == report.reference; });
+  return found == report.rows.end() ? nullptr : &*found;
+}
+
+size_t index_of(const CompareReport& report, const RunResult& row) { return &row - report.rows.data(); }
+
+std::string name_of(const CompareReport& report, const RunResult& row) {
+  return row_names(report)[index_of(report, row)];
+}
+
+// Mean over the pixels; negative where it was not counted.
+double listed_per_pixel(const CompareReport& report, const RunResult& row) {
+  const double pixels = double(report.width) * report.height;
+  if (row.pairs && pixels > 0) return row.pairs->listed / pixels;
+  const size_t i = index_of(report, row);
+  if (i >= report.listed.size() || report.listed[i].empty()) return -1;
+  return std::accumulate(report.listed[i].begin(), report.listed[i].end(), 0.0) / report.listed[i].size();
+}
+
+std::string time_figure(const CompareReport& report, const RunResult& row, const RunResult* reference) {
+  const auto& time = row.frame_ms;
+  const auto runs = time.runs > 1 ? fmt::format("median of {}", time.runs) : "one run";
+  if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
+    return fmt::format("{} is {} times faster than {}: {} ms against {} ms a frame ({})",
+                       name_of(report, row), short_number(reference->frame_ms.median / time.median),
+                       reference->technique, short_number(time.median),
+                       short_number(reference->frame_ms.median), runs);
+  }
+  return fmt::format("{} takes {} ms a frame ({})", name_of(report, row), short_number(time.median), runs);
+}
+
+bool same_colour(const glm::vec4& a, const glm::vec4& b) {
+  for (int c = 0; c < 3; ++c) {
+    if (std::bit_cast<uint32_t>(a[c]) != std::bit_cast<uint32_t>(b[c])) return false;
+  }
+  return true;
+}
+
+// "3 of 153 pixels differ", or nothing where an image is absent.
+std::string differing_pixels(const CompareReport& report, size_t a, size_t b) {
+  if (a >= report.images.size() || b >= report.images.size()) return "";
+  const auto &first = report.images[a].pixels, &second = report.images[b].pixels;
+  if (first.empty() || first.size() != second.size()) return "";
+  const auto same =
+      std::inner_product(first.begin(), first.end(), second.begin(), size_t(0), std::plus<>(), same_colour);
+  return fmt::format("{} of {} pixels differ", with_commas(first.size() - same), with_commas(first.size()));
+}
+
+std::string image_figure(const CompareReport& report, const RunResult& row, const RunResult& reference) {
+  const auto pixels = differing_pixels(report, index_of(report, row), index_of(report, reference));
+  if (row.error->bit_identical) {
+    return fmt::format("images are bit-identical{}{}", pixels.empty() ? "" : ": ", pixels);
+  }
+  return fmt::format("images differ: {}by at most {:.1e} of the brightest channel, rmse {:.1e}",
+                     pixels.empty() ? "" : pixels + ", ", row.error->max_rel, row.error->rmse);
+}
+
+std::string lights_figure(const CompareReport& report, const RunResult& row) {
+  auto line = fmt::format("lights per pixel: {} listed", lights_number(listed_per_pixel(report, row)));
+  if (row.pairs) {
+    const double pixels = double(report.width) * report.height;
+    line += fmt::format(", {} lit, {} lost", lights_number(row.pairs->lit / pixels),
+                        with_commas(row.pairs->lost));
+    if (row.pairs->wrong) line += fmt::format(", {} wrong", with_commas(row.pairs->wrong));
+  }
+  return line;
+}
+
+std::string why_faster(const CompareReport& report, const RunResult& row, const RunResult& reference) {
+  const double own = listed_per_pixel(report, row), other = listed_per_pixel(report, reference);
+  if (own >= 0 && other > own * 1.05) {
+    return fmt::format("because it goes through {} lights a pixel where {} goes through {}",
+                       lights_number(own), reference.technique, lights_number(other));
+  }
+  const auto costliest = std::max_element(reference.passes.begin(), reference.passes.end(),
+                                          [](auto& a, auto& b) { return a.median_ms < b.median_ms; });
+  if (costliest == reference.passes.end()) return "";
+  return fmt::format("most of {}'s frame is {} ({} ms)", reference.technique, costliest->name,
+                     short_number(costliest->median_ms));
+}
+
+std::string image_clause(const RunResult& row) {
+  if (!row.error) return "";
+  if (row.error->bit_identical) return "; its image is the same to the last bit";
+  return fmt::format("; its image differs by at most {:.1e} of the brightest channel", row.error->max_rel);
+}
+
+std::string fastest_clause(const CompareReport& report, const RunResult& row) {
+  return fmt::format("{} is the fastest at {} ms a frame", name_of(report, row),
+                     short_number(row.frame_ms.median));
+}
+
+std::string unbeaten_clause(const CompareReport& report, const RunResult& reference) {
+  const auto* next =
+      fastest(report, [&](const RunResult& row) { return &row != &reference && passes_gates(row); });
+  if (!next) return fastest_clause(report, reference);
+  return fmt::format("Nothing beats {}: {} ms a frame; {} comes next at {} ms", reference.technique,
+                     short_number(reference.frame_ms.median), name_of(report, *next),
+                     short_number(next->frame_ms.median));
+}
+
+std::string winner_clause(const CompareReport& report, const RunResult& row, const RunResult& reference) {
+  const auto why = why_faster(report, row, reference);
+  const double ratio = reference.frame_ms.median / std::max(row.frame_ms.median, 1e-9);
+  return fmt::format("{} wins: {} ms a frame, {} times faster than {}{}{}{}", name_of(report, row),
+                     short_number(row.frame_ms.median), short_number(ratio), reference.technique,
+                     why.empty() ? "" : ", ", why, image_clause(row));
+}
+
+}  // namespace
+
+std::vector<std::string> telling_figures(const CompareReport& report) {
+  const auto* passing = fastest_that_passes(report);
+  const auto* row = passing ? passing : fastest_of_all(report);
+  if (!row) return {};
+  const auto* reference = reference_row(report);
+  std::vector<std::string> lines = {time_figure(report, *row, reference)};
+  if (reference && reference != row && row->error) lines.push_back(image_figure(report, *row, *reference));
+  if (listed_per_pixel(report, *row) >= 0) lines.push_back(lights_figure(report, *row));
+  return lines;
+}
+
+std::string verdict(const CompareReport& report) {
+  const auto* row = fastest_that_passes(report);
+  const auto* quickest = fastest_of_all(report);
+  if (!quickest) return "Nothing was timed.";
+  if (!row)
+    return fmt::format("No technique passes: {} has {}.", name_of(report, *quickest),
+                       failed_gates(*quickest));
+
+  const auto* reference = reference_row(report);
+  auto text = !reference || reference->frame_ms.runs == 0 ? fastest_clause(report, *row)
+              : reference == row                          ? unbeaten_clause(report, *row)
+                                                          : winner_clause(report, *row, *reference);
+  if (quickest != row) {
+    text += fmt::format(". {} is quicker still ({} ms) but has {}", name_of(report, *quickest),
+                        short_number(quickest->frame_ms.median), failed_gates(*quickest));
+  }
+  return text + ".";
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,86 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "study/report.h"
+#include "study/synthetic_report.h"
+#include "support/temp_folder.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST(WriteReport, MakesTheFolderAndTheDocumentedFiles) {
+  const TempFolder folder;
+  write_report(folder.path / "new" / "report", synthetic_report(17, 9));
+  std::set<std::string> expected = {"index.html", "results.json", "lit.heat.png"};
+  for (const std::string row :
+       {"forward", "forward_plus", "clustered", "deferred_tiled", "lidr", "forward_plus-2"}) {
+    for (const char* end : {".png", ".exr", ".difference.png", ".heat.png"}) expected.insert(row + end);
+  }
+  EXPECT_EQ(names_in(folder.path / "new" / "report"), expected);
+}
+
+TEST(WriteReport, IsTheSameEachTime) {
+  const TempFolder first, second;
+  write_report(first.path, synthetic_report(17, 9));
+  write_report(second.path, synthetic_report(17, 9));
+  for (const auto& name : names_in(first.path))
+    EXPECT_EQ(text_of(first.path / name), text_of(second.path / name)) << name;
+}
+
+TEST(WriteReport, TakesARunThatFailedHalfway) {
+  auto report = synthetic_report(17, 9);
+  report.images.resize(2);
+  report.listed.clear();
+  report.lit.clear();
+  report.reference_errors.reset();
+  report.rows[1].pairs.reset();
+  const TempFolder folder;
+  write_report(folder.path, report);
+  EXPECT_TRUE(fs::exists(folder.path / "forward_plus.difference.png"));
+  EXPECT_FALSE(fs::exists(folder.path / "clustered.png"));
+  EXPECT_FALSE(fs::exists(folder.path / "lit.heat.png"));
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder.path / "results.json")), to_json(report));
+}
+
+TEST(WriteReport, RefusesAFileWhereTheFolderShouldBe) {
+  const TempFolder folder;
+  std::ofstream(folder.path / "taken") << "x";
+  try {
+    write_report(folder.path / "taken", synthetic_report(1, 1));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_THAT(error.what(), testing::HasSubstr("taken"));
+  }
+}
+
+TEST(WriteReport, LetsNoNameEndTheScript) {
+  auto report = synthetic_report(1, 1);
+  report.scene = "a</script><img src=x onerror=alert(1)>{{style}}.glb";
+  const TempFolder folder;
+  write_report(folder.path, report);
+  const auto page = text_of(folder.path / "index.html");
+  EXPECT_EQ(page.find("a</script>"), page.npos);
+  EXPECT_NE(page.find("{{style}}.glb"), page.npos);
+}
+
+}  // namespace
+}  // namespace lightgrid
