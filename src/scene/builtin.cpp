@@ -10,6 +10,8 @@ const std::vector<BuiltinScene>& builtin_scenes() {
   static const std::vector<BuiltinScene> scenes = {
       {"hall", "a vaulted hall: columns, niches, glass, iron lattices, lamps of many colours", make_hall},
       {"spheres", "600 spheres floating in the dark, 2 to 90 m away: depth steps everywhere", make_spheres},
+      {"terrain", "hills under 255 small coloured lights, seen from above", make_terrain},
+      {"street", "a wet street 360 m long at night: shops, lamp posts, cars, garlands", make_street},
   };
   return scenes;
 }

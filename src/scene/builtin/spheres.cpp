@@ -37,7 +37,7 @@ glm::vec3 palette(float hue) {
 Scene make_spheres() {
   Scene scene;
   scene.name = "spheres";
-  scene.ambient = glm::vec3(0.035f, 0.04f, 0.055f);
+  scene.ambient = glm::vec3(0.05f, 0.055f, 0.07f);
   Random random(7);
 
   const struct {
@@ -51,16 +51,18 @@ Scene make_spheres() {
   constexpr int look_count = std::size(looks);
   for (const auto& look : looks) {
     const int material = add_material(scene, look.name, look.color, look.metallic, look.roughness);
-    Mesh mesh;
-    shapes::add_sphere(mesh, glm::vec3(0), 1, 8);
-    add_mesh(scene, shapes::finished(std::move(mesh), std::string("sphere of ") + look.name, material));
+    for (const int cells : {4, 6}) {
+      Mesh mesh;
+      shapes::add_sphere(mesh, glm::vec3(0), 1, cells);
+      add_mesh(scene, shapes::finished(std::move(mesh), std::string("sphere of ") + look.name, material));
+    }
   }
 
   for (int i = 0; i < sphere_count; ++i) {
     const glm::vec3 center = in_frustum(random);
     // Small beside their distance, so that none fills the picture.
-    const float radius = -center.z * random.uniform(0.012f, 0.045f) + 0.03f;
-    add_instance(scene, "sphere " + std::to_string(i), i % look_count,
+    const float apparent = random.uniform(0.012f, 0.045f), radius = -center.z * apparent + 0.03f;
+    add_instance(scene, "sphere " + std::to_string(i), i % look_count * 2 + (apparent > 0.028f),
                  placed(center, 360.0 * random.uniform(), radius));
   }
   for (int i = 0; i < light_count; ++i) {
@@ -68,7 +70,7 @@ Scene make_spheres() {
     const float radius = -position.z * random.uniform(0.08f, 0.2f) + 0.4f;
     // A light lights half its radius away as brightly whatever its size.
     add_point(scene, "light " + std::to_string(i), position, palette(random.uniform()),
-              1.1f * radius * radius, radius);
+              0.75f * radius * radius, radius);
   }
 
   add_camera(scene, "front", {0, 0, 0}, {0, 0, -1}, 60);

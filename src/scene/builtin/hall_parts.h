@@ -1,0 +1,77 @@
+// What the hall is made of: materials and meshes, without their places.
+//
+// The hall is 30 m along z and 12 m along x: a nave 6 m wide under a barrel vault, an aisle on each side,
+// eight bays of 3.75 m. Parts of a bay are those of the right side (x > 0), their z from the middle of the
+// bay; the left side is the same turned by half.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace lightgrid::hall {
+
+inline constexpr float half_length_m = 15, half_width_m = 6, bay_m = 3.75f, nave_half_width_m = 3,
+                       wall_m = 0.6f;
+inline constexpr int bays = 8;
+inline constexpr float springing_m = 4.8f, vault_springing_m = 6.8f, aisle_height_m = 6.6f;
+inline constexpr float column_x_m = nave_half_width_m + wall_m / 2;
+
+struct Materials {
+  int stone, brick, trim, marble, floor, wood, vault, carpet, mosaic;
+  int bronze, gold, iron, lattice, porcelain, jade;
+  int clear_glass, stained_glass, rose_window;
+  int lamp_warm, lamp_rose, lamp_violet, lamp_blue, lamp_teal;
+};
+Materials add_materials(Scene& scene);
+
+// A wall with an arched opening, in the plane of `right` and `up` through `origin` (at the opening's middle).
+struct ArchedWall {
+  glm::vec3 origin, right, up;
+  float half_width, bottom, top;
+  float opening_half_width, sill, springing;
+  int segments = 16;
+};
+void add_front(Mesh& mesh, const ArchedWall& wall);
+void add_reveal(Mesh& mesh, const ArchedWall& wall, float depth_m);  // the opening's sides, arch and sill
+void add_back(Mesh& mesh, const ArchedWall& wall, float depth_m);    // closes it
+
+// Of a bay, right side.
+Mesh bay_stone(const Materials& m);     // arcade wall on both faces, outer wall
+Mesh bay_brick(const Materials& m);     // niche
+Mesh bay_trim(const Materials& m);      // arch, its moulding, cornice, plinth of the urn
+Mesh bay_wood(const Materials& m);      // aisle ceiling
+Mesh bay_tympanum(const Materials& m);  // stained glass in the arch
+Mesh bay_lattice(const Materials& m);   // iron gate between the columns
+Mesh bay_lattice_frame(const Materials& m);
+Mesh bay_vitrine(const Materials& m);  // a pane before the niche
+
+// A standing screen across x, seen from both sides.
+Mesh screen_glass(const Materials& m);
+Mesh screen_frame(const Materials& m);
+
+// About the y axis through the origin, standing on y = 0, but for the rib (about z = 0).
+Mesh column_shaft(const Materials& m);
+Mesh column_stone(const Materials& m);
+Mesh column_rings(const Materials& m);
+Mesh rib(const Materials& m);
+Mesh urn(int material);
+Mesh chandelier(const Materials& m);
+Mesh candle_stand(const Materials& m);
+Mesh sconce(const Materials& m);
+Mesh lantern(const Materials& m);
+Mesh lamp_globe(int material, float radius_m);
+Mesh baluster(const Materials& m);
+Mesh armillary(const Materials& m);
+Mesh pedestal(const Materials& m);
+
+// In place.
+Mesh floor_slab(const Materials& m);
+Mesh carpet(const Materials& m);
+Mesh vault(const Materials& m);
+Mesh end_walls(const Materials& m);
+Mesh apse(const Materials& m);
+Mesh dais(const Materials& m);
+Mesh rose_window(const Materials& m);
+Mesh door(const Materials& m);
+Mesh balcony(const Materials& m);
+
+}  // namespace lightgrid::hall

@@ -1,0 +1,47 @@
+// What the street is made of. It runs along -z from z = 0; a house's parts are those of the right side (its
+// front at x = front_x_m, facing -x), z from its middle; a car's face -z.
+#pragma once
+
+#include <array>
+
+#include "scene/scene.h"
+
+namespace lightgrid::street {
+
+inline constexpr float length_m = 360, house_m = 9, front_x_m = 8, kerb_x_m = 5;
+inline constexpr int houses_a_side = 40, lamp_posts_a_side = 30, cars = 36;
+inline constexpr float lamp_spacing_m = 12;
+
+struct Materials {
+  int asphalt, paving, marking, iron, glass, warm_lamp, tyre, car_window, head_lamp, tail_lamp, interior,
+      dark_window, lit_window;
+  std::array<int, 4> walls, paints;
+  int trim;
+  std::array<int, 7> neon;
+};
+Materials add_materials(Scene& scene, const std::array<glm::vec3, 7>& neon);
+
+Mesh road(const Materials& m);
+Mesh pavements(const Materials& m);
+Mesh markings(const Materials& m);
+
+// Houses of four kinds; kinds 1 and 3 have a floor more. Windows by kind % 2 and one of two patterns of lit
+// and dark: [2 * (kind % 2) + pattern].
+std::vector<Mesh> facades(const Materials& m);
+std::vector<Mesh> lit_windows(const Materials& m);
+std::vector<Mesh> dark_windows(const Materials& m);
+std::vector<Mesh> house_trims(const Materials& m);  // [kind % 2]
+Mesh shop_inside(const Materials& m);
+Mesh shop_window(const Materials& m);
+std::vector<Mesh> sign_meshes(const Materials& m);
+
+Mesh lamp_post(const Materials& m);
+Mesh lamp_head(const Materials& m);
+std::vector<Mesh> bulb_meshes(const Materials& m);
+
+std::vector<Mesh> car_bodies(const Materials& m);
+Mesh car_glass(const Materials& m);
+Mesh car_wheels(const Materials& m);
+Mesh car_lamps(const Materials& m, bool head);
+
+}  // namespace lightgrid::street
