@@ -137,6 +137,27 @@ TEST_P(BuiltinScenes, TwiceTheSame) {
 INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::Values("hall", "spheres", "terrain", "street"),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(BuiltinSceneList, CountsAreThoseOfTheDocumentation) {
+  const struct {
+    const char* name;
+    size_t triangles;
+    int points, spots, directional;
+  } documented[] = {{"hall", 87'372, 221, 16, 0},
+                    {"spheres", 188'160, 1024, 0, 0},
+                    {"terrain", 52568, 255, 0, 1},
+                    {"street", 91'136, 658, 132, 1}};
+  ASSERT_EQ(builtin_scenes().size(), std::size(documented));
+  for (const auto& expected : documented) {
+    const Scene scene = find_builtin_scene(expected.name)->make();
+    size_t triangles = 0;
+    int lights[3] = {};
+    for (const Instance& i : scene.instances) triangles += scene.meshes[i.mesh].indices.size() / 3;
+    for (const Light& light : scene.lights) ++lights[int(light.type)];
+    EXPECT_EQ(triangles, expected.triangles) << expected.name;
+    EXPECT_THAT(lights, testing::ElementsAre(expected.points, expected.spots, expected.directional));
+  }
+}
+
 TEST(BuiltinSceneList, UnknownNamesAreNotFound) {
   EXPECT_EQ(find_builtin_scene("cellar"), nullptr);
   EXPECT_EQ(find_builtin_scene(""), nullptr);

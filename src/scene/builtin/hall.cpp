@@ -34,7 +34,7 @@ class Hall {
     add_balcony();
     add_key_lights();
     add_camera(scene_, "entrance", {-0.9, 1.75, 11.6}, {0.35, 3.05, -6}, 62);
-    add_camera(scene_, "aisle", {4.45, 1.7, 10.5}, {1.6, 2.35, -3}, 62);
+    add_camera(scene_, "aisle", {4.7, 1.75, 10.4}, {2.3, 2.45, -1}, 62);
     add_camera(scene_, "balcony", {1.1, 6.1, 13.4}, {-0.4, 2.9, -6}, 60);
     return std::move(scene_);
   }
@@ -71,7 +71,7 @@ class Hall {
     const int screen = add_mesh(scene_, screen_glass(m_)), screen_bars = add_mesh(scene_, screen_frame(m_));
     for (int bay = 0; bay < bays; ++bay) {
       for (const int side : {-1, 1}) {
-        if (bay % 2 == 1) {
+        if (bay % 2 == 1 && (bay > 1 || side < 0)) {
           const glm::dmat4 stand = placed({side * 4.95, 0, bay_z(bay) - bay_m / 2}, side * 12);
           add_instance(scene_, "screen", screen, stand);
           add_instance(scene_, "screen frame", screen_bars, stand);

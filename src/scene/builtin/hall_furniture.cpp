@@ -109,7 +109,7 @@ Mesh urn(int material) {
                  {0.145f, 0.88f},
                  {0.09f, 0.87f},
                  {0.06f, 0.8f}},
-                20, "urn", material);
+                18, "urn", material);
 }
 
 Mesh chandelier(const Materials& m) {
@@ -139,7 +139,7 @@ Mesh candle_stand(const Materials& m) {
                        {0.07f, 0.3f},
                        {0.07f, 0.33f},
                        {0.01f, 0.33f}}),
-                9, "candle stand", m.bronze);
+                8, "candle stand", m.bronze);
 }
 
 Mesh sconce(const Materials& m) {
@@ -165,7 +165,8 @@ Mesh lantern(const Materials& m) {
 
 Mesh lamp_globe(int material, float radius_m) {
   Mesh mesh;
-  add_sphere(mesh, glm::vec3(0), radius_m, 3);
+  // Small ones are a few pixels wide.
+  add_sphere(mesh, glm::vec3(0), radius_m, radius_m < 0.07f ? 2 : radius_m < 0.2f ? 3 : 6);
   return finished(std::move(mesh), "lamp", material);
 }
 

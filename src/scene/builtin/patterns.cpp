@@ -24,6 +24,15 @@ uint8_t srgb_byte(float linear) {
 
 float unit_of(uint64_t hash) { return float(hash >> 40) * 0x1p-24f; }
 
+Bitmap blank(const std::string& name, int size) {
+  return {name, size, size, std::vector<uint8_t>(size_t(size) * size * 4)};
+}
+
+uint8_t* put(uint8_t* texel, uint8_t r, uint8_t g, uint8_t b, uint8_t a) {
+  texel[0] = r, texel[1] = g, texel[2] = b, texel[3] = a;
+  return texel + 4;
+}
+
 void add_octave(Field& field, int cells_x, int cells_y, float weight, uint64_t seed) {
   const int size = field.size();
   std::vector<float> lattice(size_t(cells_x) * cells_y);
@@ -79,35 +88,35 @@ Cell cell_at(int x, int y, int size, int columns, int rows, bool bond) {
 }
 
 Bitmap color_bitmap(const std::string& name, int size, const ColorAt& color) {
-  Bitmap bitmap{name, size, size, {}};
-  bitmap.rgba.reserve(size_t(size) * size * 4);
+  Bitmap bitmap = blank(name, size);
+  uint8_t* texel = bitmap.rgba.data();
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const glm::vec4 c = color(x, y);
-      bitmap.rgba.insert(bitmap.rgba.end(), {srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b), byte(c.a)});
+      texel = put(texel, srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b), byte(c.a));
     }
   }
   return bitmap;
 }
 
 Bitmap roughness_bitmap(const std::string& name, const Field& roughness) {
-  Bitmap bitmap{name, roughness.size(), roughness.size(), {}};
+  Bitmap bitmap = blank(name, roughness.size());
+  uint8_t* texel = bitmap.rgba.data();
   for (int y = 0; y < roughness.size(); ++y) {
-    for (int x = 0; x < roughness.size(); ++x) {
-      bitmap.rgba.insert(bitmap.rgba.end(), {255, byte(roughness.at(x, y)), 255, 255});
-    }
+    for (int x = 0; x < roughness.size(); ++x) texel = put(texel, 255, byte(roughness.at(x, y)), 255, 255);
   }
   return bitmap;
 }
 
 Bitmap normal_bitmap(const std::string& name, const Field& height_px) {
-  Bitmap bitmap{name, height_px.size(), height_px.size(), {}};
+  Bitmap bitmap = blank(name, height_px.size());
+  uint8_t* texel = bitmap.rgba.data();
   for (int y = 0; y < height_px.size(); ++y) {
     for (int x = 0; x < height_px.size(); ++x) {
       const float along_u = (height_px.at(x + 1, y) - height_px.at(x - 1, y)) / 2;
       const float along_v = (height_px.at(x, y + 1) - height_px.at(x, y - 1)) / 2;
       const glm::vec3 n = glm::normalize(glm::vec3(-along_u, along_v, 1)) * 0.5f + 0.5f;
-      bitmap.rgba.insert(bitmap.rgba.end(), {byte(n.x), byte(n.y), byte(n.z), 255});
+      texel = put(texel, byte(n.x), byte(n.y), byte(n.z), 255);
     }
   }
   return bitmap;

@@ -25,7 +25,7 @@ class Street {
  public:
   Scene make() {
     scene_.name = "street";
-    scene_.ambient = glm::vec3(0.016f, 0.020f, 0.034f);
+    scene_.ambient = glm::vec3(0.024f, 0.028f, 0.045f);
     scene_.background = glm::vec3(0.006f, 0.009f, 0.022f);
     add_instance(scene_, "road", add_mesh(scene_, road(m_)));
     add_instance(scene_, "pavements", add_mesh(scene_, pavements(m_)));
@@ -39,9 +39,9 @@ class Street {
     for (int i = 0; i < cars; ++i) add_car(i);
     add_garlands();
     add_moon();
-    add_camera(scene_, "pavement", {-4.9, 1.65, -5}, {1.2, 2.5, -35}, 60);
-    add_camera(scene_, "road", {1.6, 1.4, -40}, {0.4, 2.2, -80}, 50);
-    add_camera(scene_, "roof", {-5.5, 15, -20}, {2, 0, -70}, 60);
+    add_camera(scene_, "pavement", {-4.2, 1.7, -7.4}, {1.4, 2.5, -37}, 60);
+    add_camera(scene_, "road", {0.1, 1.5, -46}, {0.6, 2.3, -80}, 50);
+    add_camera(scene_, "roof", {-3, 11.5, -14}, {0.5, 0, -50}, 60);
     return std::move(scene_);
   }
 
@@ -61,14 +61,15 @@ class Street {
     add_instance(scene_, "lit windows", lit_windows_[windows], matrix);
     add_instance(scene_, "dark windows", dark_windows_[windows], matrix);
 
-    const float front = side * front_x_m, z = house_z(house);
-    for (const float along : {-2.6f, 2.6f}) {
-      add_point(scene_, "shop", {front + side * 1.1f, 2.6f, z + along}, glm::mix(sodium, neon[shop], 0.35f),
-                5, 5);
-    }
-    add_point(scene_, "sign", {front - side * 0.55f, 3.75f, z}, neon[shop], 2.6f, 5);
-    add_point(scene_, "sign", {front - side * 0.55f, 3.75f, z + side * 2.2f}, neon[shop], 2.0f, 4.5f);
-    add_point(scene_, "door", {front - side * 0.4f, 2.5f, z - side * 3.6f}, sodium, 1.2f, 3.5f);
+    const auto at = [&](float out, float height, float along) {
+      return glm::vec3(matrix * glm::dvec4(front_x_m + out, height, along, 1));
+    };
+    const glm::vec3 shop_color = glm::mix(sodium, neon[shop], 0.3f);
+    for (const float along : {-2.1f, 1.2f})
+      add_point(scene_, "shop", at(1.2f, 2.6f, along), shop_color, 5, 5);
+    add_point(scene_, "sign", at(-0.55f, 3.75f, -1.6f), neon[shop], 2.4f, 5);
+    add_point(scene_, "sign", at(-0.55f, 3.75f, 0.9f), neon[shop], 2.4f, 5);
+    add_point(scene_, "door", at(-0.4f, 2.6f, 3.6f), sodium, 1.2f, 3.5f);
   }
 
   void add_lamp_post(int i, int side) {
@@ -79,8 +80,8 @@ class Street {
     // Half-angles 30 to 60 degrees; one post in nine is a flood light past 60.
     const bool flood = i % 9 == 4 && side > 0;
     const float outer = flood ? 72.f : 30.f + 30.f * random_.uniform();
-    add_spot(scene_, "lamp post", lamp, lamp - glm::vec3(side * 0.4f, 5, 0), sodium, flood ? 70.f : 95.f, 14,
-             0.6f * outer, outer);
+    add_spot(scene_, "lamp post", lamp, lamp - glm::vec3(side * 1.6f, 5, 0), sodium, flood ? 120.f : 170.f,
+             14, 0.6f * outer, outer);
     add_point(scene_, "lamp glow", lamp + glm::vec3(0, 0.25f, 0), sodium, 2.5f, 4);
   }
 
@@ -107,9 +108,10 @@ class Street {
   void add_garlands() {
     for (int i = 0; i < 14; ++i) {
       const float z = -18 - 24.f * i;
+      add_instance(scene_, "wire", wire_, placed({0, 0, z}));
       for (int bulb = 0; bulb < 9; ++bulb) {
         const float t = (bulb + 0.5f) / 9 * 2 - 1;
-        const glm::vec3 at(t * front_x_m, 5.4f + 1.5f * t * t, z);
+        const glm::vec3 at(t * front_x_m, garland_height_m(t) - 0.08f, z);
         const int color = (bulb + i) % int(neon.size());
         add_instance(scene_, "bulb", bulbs_[color], placed(at));
         add_point(scene_, "bulb", at, neon[color], 1.6f, 4.5f);
@@ -123,7 +125,7 @@ class Street {
     moon.type = LightType::directional;
     moon.direction = glm::normalize(glm::vec3(0.45f, -0.75f, -0.4f));
     moon.color = {0.55f, 0.68f, 1};
-    moon.intensity = 0.14f;
+    moon.intensity = 0.3f;
   }
 
   Scene scene_;
@@ -137,7 +139,7 @@ class Street {
             post_ = add_mesh(scene_, lamp_post(m_)), lamp_ = add_mesh(scene_, lamp_head(m_)),
             car_glass_ = add_mesh(scene_, car_glass(m_)), car_wheels_ = add_mesh(scene_, car_wheels(m_)),
             car_heads_ = add_mesh(scene_, car_lamps(m_, true)),
-            car_tails_ = add_mesh(scene_, car_lamps(m_, false));
+            car_tails_ = add_mesh(scene_, car_lamps(m_, false)), wire_ = add_mesh(scene_, garland_wire(m_));
 
   std::vector<int> added(std::vector<Mesh> meshes) {
     std::vector<int> indices;

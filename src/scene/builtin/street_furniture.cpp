@@ -1,4 +1,6 @@
 // Lamp posts, garlands and cars.
+#include <algorithm>
+
 #include "scene/builtin/shapes.h"
 #include "scene/builtin/street_parts.h"
 
@@ -45,10 +47,22 @@ std::vector<Mesh> bulb_meshes(const Materials& m) {
   std::vector<Mesh> meshes;
   for (const int neon : m.neon) {
     Mesh mesh;
-    add_sphere(mesh, glm::vec3(0), 0.09f, 3);
+    add_sphere(mesh, glm::vec3(0), 0.09f, 2);
     meshes.push_back(finished(std::move(mesh), "bulb", neon));
   }
   return meshes;
+}
+
+Mesh garland_wire(const Materials& m) {
+  std::vector<glm::vec3> line;
+  for (int i = -12; i <= 12; ++i)
+    line.emplace_back(front_x_m * i / 12.f, garland_height_m(i / 12.f), -0.012f);
+  Mesh mesh;
+  add_sweep(mesh, line, {0, 0.024f, 0}, true);
+  std::reverse(line.begin(), line.end());
+  for (glm::vec3& p : line) p.z = 0.012f;
+  add_sweep(mesh, line, {0, 0.024f, 0}, true);
+  return finished(std::move(mesh), "garland wire", m.iron);
 }
 
 std::vector<Mesh> car_bodies(const Materials& m) {
@@ -77,7 +91,7 @@ Mesh car_glass(const Materials& m) {
 Mesh car_wheels(const Materials& m) {
   Mesh mesh;
   for (const float x : {-0.8f, 0.8f}) {
-    for (const float z : {-1.35f, 1.4f}) add_torus(mesh, {x, 0.32f, z}, {1, 0, 0}, 0.2f, 0.12f, 18, 8);
+    for (const float z : {-1.35f, 1.4f}) add_torus(mesh, {x, 0.32f, z}, {1, 0, 0}, 0.2f, 0.12f, 14, 5);
   }
   return finished(std::move(mesh), "wheels", m.tyre);
 }

@@ -178,7 +178,7 @@ std::vector<Mesh> sign_meshes(const Materials& m) {
               {front_x_m - 0.03f, 3.66f, z + (i % 3 == 1 ? 0.08f : 0.3f)});
     }
     // A blade sign at right angles to the front.
-    add_box(mesh, {front_x_m - 0.95f, 4.3f, 4.15f}, {front_x_m - 0.15f, 5.6f, 4.23f});
+    add_box(mesh, {front_x_m - 0.65f, 4.5f, 4.15f}, {front_x_m - 0.15f, 5.5f, 4.21f});
     meshes.push_back(finished(std::move(mesh), "sign", neon));
   }
   return meshes;

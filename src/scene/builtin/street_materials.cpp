@@ -63,7 +63,7 @@ Materials add_materials(Scene& scene, const std::array<glm::vec3, 7>& neon) {
   scene.materials[m.glass].alpha_mode = AlphaMode::blend;
   scene.materials[m.glass].double_sided = true;
   const glm::vec3 paints[] = {
-      {0.45f, 0.04f, 0.04f}, {0.05f, 0.13f, 0.35f}, {0.55f, 0.56f, 0.58f}, {0.06f, 0.06f, 0.065f}};
+      {0.55f, 0.05f, 0.04f}, {0.08f, 0.22f, 0.50f}, {0.62f, 0.63f, 0.65f}, {0.30f, 0.36f, 0.22f}};
   for (int i = 0; i < 4; ++i) m.paints[i] = add_material(scene, "car paint", paints[i], 0.2f, 0.25f);
   for (size_t i = 0; i < neon.size(); ++i) m.neon[i] = add_glowing(scene, "neon", neon[i], 0.95f);
   return m;

@@ -12,6 +12,9 @@ inline constexpr float length_m = 360, house_m = 9, front_x_m = 8, kerb_x_m = 5;
 inline constexpr int houses_a_side = 40, lamp_posts_a_side = 30, cars = 36;
 inline constexpr float lamp_spacing_m = 12;
 
+// Of a string across the street, -1..1 from side to side.
+inline float garland_height_m(float across) { return 5.5f + 1.5f * across * across; }
+
 struct Materials {
   int asphalt, paving, marking, iron, glass, warm_lamp, tyre, car_window, head_lamp, tail_lamp, interior,
       dark_window, lit_window;
@@ -38,6 +41,7 @@ std::vector<Mesh> sign_meshes(const Materials& m);
 Mesh lamp_post(const Materials& m);
 Mesh lamp_head(const Materials& m);
 std::vector<Mesh> bulb_meshes(const Materials& m);
+Mesh garland_wire(const Materials& m);  // at z = 0
 
 std::vector<Mesh> car_bodies(const Materials& m);
 Mesh car_glass(const Materials& m);

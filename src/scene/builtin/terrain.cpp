@@ -99,7 +99,7 @@ Scene make_terrain() {
     const int lamp = add_material(scene, "lamp", color * 0.3f, 0, 0.5f);
     scene.materials[lamp].emissive = color;
     Mesh mesh;
-    shapes::add_sphere(mesh, glm::vec3(0), 0.16f, 3);
+    shapes::add_sphere(mesh, glm::vec3(0), 0.16f, 2);
     lamps.push_back(add_mesh(scene, shapes::finished(std::move(mesh), "lamp", lamp)));
   }
   Random random(5);
@@ -111,14 +111,14 @@ Scene make_terrain() {
     const glm::vec3 at(x, hills.height(x, z) + above, z);
     const int color = int(random.next() >> 61);
     add_instance(scene, "lamp", lamps[color], placed(at));
-    add_point(scene, "light " + std::to_string(i), at, colors[color], 3.2f * above * above, radius);
+    add_point(scene, "light " + std::to_string(i), at, colors[color], 4.0f * above * above, radius);
   }
   Light& moon = scene.lights.emplace_back();
   moon.name = "moon";
   moon.type = LightType::directional;
   moon.direction = glm::normalize(glm::vec3(-0.5f, -0.6f, 0.35f));
   moon.color = {0.55f, 0.68f, 1};
-  moon.intensity = 0.12f;
+  moon.intensity = 0.22f;
 
   add_camera(scene, "ridge", {-6, 33, 66}, {2, 3, -4}, 55);
   add_camera(scene, "valley", {3, hills.height(3, 30) + 4.0, 30}, {-2, hills.height(-2, -20) + 2.0, -20}, 60);
