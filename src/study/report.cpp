@@ -54,10 +54,19 @@ HeatMap make_heat_map(const CompareReport& report, const std::vector<uint32_t>& 
           *std::max_element(counts.begin(), counts.end())};
 }
 
-size_t reference_index(const CompareReport& report) {
-  const auto found = std::find_if(report.rows.begin(), report.rows.end(),
-                                  [&](const RunResult& row) { return row.technique == report.reference; });
-  return found - report.rows.begin();
+const Image& reference_image(const CompareReport& report) {
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (report.rows[i].technique == report.reference && has_image(report, i)) return report.images[i];
+  }
+  return report.reference_image;
+}
+
+// Writes NAME.png and NAME.exr; the PNG file is given back.
+std::vector<uint8_t> save_picture(const fs::path& folder, const std::string& name, const Image& image) {
+  const auto png = encode_png(image.width, image.height, 3, srgb_bytes(image));
+  write_file(folder / (name + ".png"), png);
+  save_exr(folder / (name + ".exr"), image);
+  return png;
 }
 
 }  // namespace
@@ -74,7 +83,7 @@ std::vector<std::string> row_names(const CompareReport& report) {
 
 void write_report(const fs::path& folder, const CompareReport& report) {
   make_folder(folder);
-  const size_t reference = reference_index(report);
+  const Image& reference = reference_image(report);
   const auto names = row_names(report);
 
   ReportPictures pictures;
@@ -85,11 +94,9 @@ void write_report(const fs::path& folder, const CompareReport& report) {
     row.name = names[i];
     if (has_image(report, i)) {
       const auto& image = report.images[i];
-      row.image = encode_png(image.width, image.height, 3, srgb_bytes(image));
-      write_file(folder / (row.name + ".png"), row.image);
-      save_exr(folder / (row.name + ".exr"), image);
-      if (has_image(report, reference)) {
-        const auto difference = difference_image(image, report.images[reference]);
+      row.image = save_picture(folder, row.name, image);
+      if (!reference.pixels.empty()) {
+        const auto difference = difference_image(image, reference);
         row.difference = encode_png(image.width, image.height, 3, srgb_bytes_as_is(difference));
         write_file(folder / (row.name + ".difference.png"), row.difference);
       }
@@ -99,6 +106,9 @@ void write_report(const fs::path& folder, const CompareReport& report) {
       write_file(folder / (row.name + ".heat.png"), row.listed->png);
     }
   });
+  if (&reference == &report.reference_image && !reference.pixels.empty()) {
+    pictures.reference = save_picture(folder, report.reference, reference);
+  }
   if (!report.lit.empty()) {
     pictures.lit = make_heat_map(report, report.lit, pictures.heat_top);
     write_file(folder / "lit.heat.png", pictures.lit->png);

@@ -10,8 +10,8 @@ namespace lightgrid {
 // Into `folder`, made if needed: TECHNIQUE.png and .exr, TECHNIQUE.difference.png (log scale, against the
 // reference row), TECHNIQUE.heat.png (lights listed per pixel), lit.heat.png (lights lit, where an oracle
 // counted them), results.json and a self-contained index.html. The second row of a technique is named
-// TECHNIQUE-2. All heat maps share one scale. A row without an image or without counts goes without those
-// files.
+// TECHNIQUE-2. A reference that is not a row has its picture there too. All heat maps share one scale. A row
+// without an image or without counts goes without those files.
 void write_report(const std::filesystem::path& folder, const CompareReport& report);
 
 nlohmann::json to_json(const CompareReport& report);

@@ -71,6 +71,7 @@ json page_data(const CompareReport& report, const ReportPictures& pictures) {
   json data = {{"verdict", verdict(report)},
                {"figures", telling_figures(report)},
                {"rows", rows},
+               {"reference", store.number_of(pictures.reference)},
                {"lit", heat_entry(store, pictures.lit)},
                {"heat_top", pictures.heat_top},
                {"difference_legend", store.number_of(legend_png(difference_ramp()))},

@@ -24,7 +24,8 @@ struct RowPictures {
 };
 
 struct ReportPictures {
-  std::vector<RowPictures> rows;  // as the report's rows
+  std::vector<RowPictures> rows;   // as the report's rows
+  std::vector<uint8_t> reference;  // where no row is the reference
   std::optional<HeatMap> lit;
   uint32_t heat_top = 1;  // the count at the upper end of every heat map's colours
 };

@@ -73,6 +73,7 @@ struct CompareReport {
   std::string reference;  // the technique the images are compared with
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear
+  Image reference_image;                      // needed only where no row is the reference
   std::vector<std::vector<uint32_t>> listed;  // one a row, lights listed per pixel, row 0 at the bottom
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;

@@ -37,6 +37,17 @@ TEST(WriteReport, MakesTheFolderAndTheDocumentedFiles) {
   EXPECT_EQ(names_in(folder.path / "new" / "report"), expected);
 }
 
+TEST(WriteReport, ComparesWithAReferenceThatIsNoRow) {
+  auto report = synthetic_report(17, 9);
+  report.reference = "exact";
+  report.reference_image = report.images[0];
+  const TempFolder folder;
+  write_report(folder.path, report);
+  EXPECT_EQ(text_of(folder.path / "exact.png"), text_of(folder.path / "forward.png"));
+  EXPECT_TRUE(fs::exists(folder.path / "lidr.difference.png"));
+  EXPECT_FALSE(fs::exists(folder.path / "exact.difference.png"));
+}
+
 TEST(WriteReport, IsTheSameEachTime) {
   const TempFolder first, second;
   write_report(first.path, synthetic_report(17, 9));

@@ -43,14 +43,15 @@ function startSlider() {
     page.rows.filter((row) => pick(row) !== null)
       .map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note }));
   const lit = page.lit ? [{ label: "truly lit", url: pictureUrl(page.lit.picture), note: heatNote() }] : [];
+  const reference = page.reference === null ? [] : [{ label: results.reference, url: pictureUrl(page.reference) }];
   const groups = [
-    { label: "Pictures", choices: choicesOf((row) => row.image, "") },
+    { label: "Pictures", choices: [...reference, ...choicesOf((row) => row.image, "")] },
     { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },
     { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote()), ...lit] },
   ].filter((group) => group.choices.length > 0);
   const others = results.rows.filter((row) => row !== referenceRow);
   const fastest = others.sort((a, b) => passesGates(b) - passesGates(a) || a.frame_ms.median - b.frame_ms.median)[0];
-  showSlider(groups, referenceRow ? nameOf(referenceRow) : "", fastest ? nameOf(fastest) : "");
+  showSlider(groups, results.reference, fastest ? nameOf(fastest) : "");
 }
 
 const COLUMNS = [

@@ -1,7 +1,7 @@
 // Stacked bars of the time per pass, one a technique, in inline SVG.
 
 const PASS_COLOURS = ["#3b6fb6", "#d9822b", "#3f9b58", "#b5475d", "#7d5bb0", "#2a9aa0", "#a5762c", "#c25aa0", "#6b8e23", "#4e5fa8"];
-const REST = "waiting and hand-over";
+const REST = "the rest of the frame";
 const REST_COLOUR = "#8a857c";
 
 // [{ name, ms }]: the passes in order, then what the frame's median holds beyond them.
