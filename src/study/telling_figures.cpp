@@ -111,7 +111,7 @@ std::string image_figure(const CompareReport& report, const RunResult& row, cons
   if (row.error->bit_identical) {
     return fmt::format("images are bit-identical{}{}", pixels.empty() ? "" : ": ", pixels);
   }
-  return fmt::format("images differ: {}by at most {:.1e} of the brightest channel, rmse {:.1e}",
+  return fmt::format("images differ: {}by at most {:.1e} of the brightest channel; absolute RMSE {:.1e}",
                      pixels.empty() ? "" : pixels + ", ", row.error->max_rel, row.error->rmse);
 }
 

@@ -43,9 +43,9 @@ TEST(TellingFigures, CountThePixelsThatDiffer) {
   auto report = two_rows();
   report.rows[1].error = ImageError{0.1, 3.14e-5, 2.2e-7, 0, {}, false};
   for (int x = 0; x < 7; ++x) report.images[1].at(x, 3).g = 0.1f;
-  EXPECT_EQ(
-      telling_figures(report)[1],
-      "images differ: 7 of 100 pixels differ, by at most 3.1e-05 of the brightest channel, rmse 2.2e-07");
+  EXPECT_EQ(telling_figures(report)[1],
+            "images differ: 7 of 100 pixels differ, by at most 3.1e-05 of the brightest channel; absolute "
+            "RMSE 2.2e-07");
 }
 
 TEST(TellingFigures, WithoutImagesOrOracleSayWhatIsLeft) {

@@ -34,5 +34,5 @@ function byteNumber(value) {
 function errorInWords(error) {
   if (error.bit_identical) return "bit-identical";
   if (error.max_rel === null) return "not finite: a NaN, or a black reference";
-  return `at most ${errorNumber(error.max_rel)} of the brightest channel, RMSE ${errorNumber(error.rmse)}`;
+  return `at most ${errorNumber(error.max_abs)}, which is ${errorNumber(error.max_rel)} of the brightest channel; RMSE ${errorNumber(error.rmse)}`;
 }
