@@ -1,0 +1,41 @@
+// Elements of accessors, whatever their layout: interleaved, sparse, normalised, compressed.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf/document.h"
+
+namespace lightgrid::gltf {
+
+// A buffer view's bytes, decoded where EXT_meshopt_compression says so (each view once).
+std::span<const uint8_t> view_bytes(Document& doc, int view, const std::string& place);
+
+struct FloatArray {
+  int components = 0;
+  std::vector<float> values;
+  size_t count() const { return components ? values.size() / static_cast<size_t>(components) : 0; }
+};
+
+// always: for colours, normals, tangents and weights, whose integers have no other meaning.
+enum class Normalize { as_accessor_says, always };
+
+// All elements of an accessor of SCALAR … VEC4 or MAT4, finite. At most max_count of them.
+FloatArray read_floats(Document& doc, int accessor, size_t max_count, Normalize normalize,
+                       const std::string& place);
+
+// An index accessor's elements: unsigned scalars.
+std::vector<uint32_t> read_indices(Document& doc, int accessor, size_t max_count, const std::string& place);
+
+// Components that the array lacks are `fill`. The array must have min_components to N of them.
+template <int N>
+std::vector<glm::vec<N, float>> to_vectors(const Document& doc, const FloatArray& array, int min_components,
+                                           float fill, const std::string& place) {
+  if (array.components < min_components || array.components > N)
+    throw doc.error("{}: has {} components instead of {}", place, array.components, N);
+  std::vector<glm::vec<N, float>> out(array.count(), glm::vec<N, float>(fill));
+  for (size_t i = 0; i < out.size(); ++i)
+    for (int c = 0; c < array.components; ++c) out[i][c] = array.values[i * array.components + c];
+  return out;
+}
+
+}  // namespace lightgrid::gltf

@@ -1,0 +1,51 @@
+// A glTF file taken apart: its JSON as tinygltf has it, and the bytes of its buffers. Internal to load_gltf.
+#pragma once
+
+#include <tiny_gltf.h>
+#include <map>
+#include <span>
+
+#include "scene/gltf/json.h"
+#include "scene/gltf/resources.h"
+#include "scene/load_gltf.h"
+
+namespace lightgrid::gltf {
+
+struct Document : Reporter {
+  explicit Document(const std::filesystem::path& path)
+      : Reporter(path.string()), folder(path.parent_path()) {}
+
+  std::filesystem::path folder;
+  GltfLimits limits;
+  tinygltf::Model model;  // without buffers and images
+  std::vector<ImageEntry> images;
+  std::vector<std::span<const uint8_t>> buffers;  // empty for a fallback without bytes
+  std::vector<std::vector<uint8_t>> owned;        // what `buffers` point into
+  std::map<int, std::vector<uint8_t>> decoded_views;
+};
+
+// Reads the file and its buffers, and hands the JSON to tinygltf. Required extensions that are not supported
+// are an error, others a warning. Indices in `model` are not checked yet: `checked` does that where one is
+// used.
+Document read_document(const std::filesystem::path& path, const GltfLimits& limits);
+
+// items[index], or an error "place: what is index, but there are size".
+template <typename Items>
+auto& checked(const Document& doc, Items& items, int index, const std::string& place, const char* what) {
+  if (index < 0 || static_cast<size_t>(index) >= items.size())
+    throw doc.error("{}: {} is {}, but there are {}", place, what, index, items.size());
+  return items[static_cast<size_t>(index)];
+}
+
+// The extension's value, or nullptr.
+const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);
+
+// A finite number of an extension, `absent` where there is none.
+double number_or(const Document& doc, const tinygltf::Value& object, const char* key, double absent,
+                 const std::string& place);
+
+// A non-negative integer of an extension, `absent` where there is none.
+size_t size_or(const Document& doc, const tinygltf::Value& object, const char* key, size_t absent,
+               const std::string& place);
+
+}  // namespace lightgrid::gltf

@@ -1,0 +1,198 @@
+#include "scene/gltf/json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace lightgrid::gltf {
+namespace {
+
+using nlohmann::json;
+
+constexpr int max_nesting = 64;  // the format itself needs about 10
+
+constexpr const char* supported_extensions[] = {
+    "EXT_meshopt_compression", "KHR_draco_mesh_compression",      "KHR_lights_punctual",
+    "KHR_materials_unlit",     "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+    "KHR_texture_transform"};
+
+constexpr const char* collections[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
+                                       "images",    "materials",  "meshes",      "nodes",   "samplers",
+                                       "scenes",    "skins",      "textures"};
+
+bool contains(const auto& names, std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+json parse(const Reporter& report, std::string_view text) {
+  const auto bounded = [&](int depth, json::parse_event_t, json&) {
+    if (depth > max_nesting) throw report.error("JSON is nested deeper than {}", max_nesting);
+    return true;
+  };
+  try {
+    return json::parse(text.begin(), text.end(), bounded);
+  } catch (const json::exception& failure) {
+    const std::string_view what = failure.what();  // "[json.exception.…] text"
+    throw report.error("{}", what.substr(std::min(what.size(), what.find(']') + 2)));
+  }
+}
+
+class Tidier {
+ public:
+  explicit Tidier(const Reporter& report) : report_(report) {}
+
+  void tidy_object(json& object, bool is_root = false) {
+    object.erase("extras");
+    if (auto it = object.find("extensions"); it != object.end() && it->is_object()) keep_supported(*it);
+    for (auto& [key, value] : object.items()) {
+      const size_t length = path_.size();
+      path_ += (path_.empty() ? "" : ".") + key;
+      if (is_index(key)) require_index(value);
+      if (key == "attributes" && value.is_object())
+        for (json& index : value) require_index(tidy_number(index, key));
+      if ((key == "children" || key == "joints" || (key == "nodes" && !is_root)) && value.is_array())
+        for (json& index : value) require_index(tidy_number(index, key));
+      tidy(value, key);
+      path_.resize(length);
+    }
+  }
+
+ private:
+  static bool is_index(std::string_view key) {
+    static constexpr const char* keys[] = {
+        "buffer", "bufferView",          "camera",  "index", "indices",  "light", "material", "mesh",
+        "node",   "inverseBindMatrices", "sampler", "scene", "skeleton", "skin",  "source",   "texCoord"};
+    return contains(keys, key);
+  }
+
+  static bool is_size(std::string_view key) {
+    return key == "byteLength" || key == "byteOffset" || key == "count" || key == "byteStride";
+  }
+
+  void keep_supported(json& extensions) {
+    for (auto it = extensions.begin(); it != extensions.end();)
+      it = is_supported_extension(it.key()) ? std::next(it) : extensions.erase(it);
+  }
+
+  void tidy(json& value, const std::string& key) {
+    if (value.is_object()) return tidy_object(value);
+    if (value.is_number()) tidy_number(value, key);
+    if (!value.is_array()) return;
+    const size_t length = path_.size();
+    for (size_t i = 0; i < value.size(); ++i) {
+      if (value[i].is_structured()) path_ += fmt::format("[{}]", i);
+      tidy(value[i], key);
+      path_.resize(length);
+    }
+  }
+
+  json& tidy_number(json& value, std::string_view key) {
+    constexpr double largest = std::numeric_limits<int>::max();
+    if (!value.is_number()) return value;
+    const double number = value.get<double>();
+    if (value.is_number_float()) {
+      if (std::abs(number) > largest || std::trunc(number) != number) return value;
+      if (number >= 0)
+        value = static_cast<uint64_t>(number);
+      else
+        value = static_cast<int64_t>(number);
+    } else if (std::abs(number) > largest && !is_size(key)) {
+      value = number;
+    }
+    return value;
+  }
+
+  void require_index(const json& value) {
+    if (value.is_structured()) return;  // "indices" of a sparse accessor, and what tinygltf refuses itself
+    const bool integral = value.is_number_integer() ||
+                          (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>());
+    if (integral && value.get<double>() >= 0 && value.get<double>() <= std::numeric_limits<int>::max())
+      return;
+    throw report_.error("{} is {}: not an index", path_,
+                        value.dump(-1, ' ', false, json::error_handler_t::replace));
+  }
+
+  const Reporter& report_;
+  std::string path_;
+};
+
+std::string string_of(const json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+std::vector<BufferEntry> take_buffers(const Reporter& report, json& root) {
+  std::vector<BufferEntry> out;
+  for (json& buffer : root["buffers"]) {
+    const auto length = buffer.find("byteLength");
+    if (length == buffer.end() || !length->is_number_unsigned() || length->get<uint64_t>() == 0)
+      throw report.error("buffers[{}].byteLength is not a positive integer", out.size());
+    if (buffer.contains("uri") && !buffer["uri"].is_string())
+      throw report.error("buffers[{}].uri is not a string", out.size());
+    BufferEntry entry{.uri = string_of(buffer, "uri"), .byte_length = length->get<size_t>()};
+    const json::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
+    if (buffer.contains(fallback))
+      entry.fallback = buffer[fallback].is_boolean() && buffer[fallback].get<bool>();
+    out.push_back(std::move(entry));
+  }
+  root.erase("buffers");
+  return out;
+}
+
+std::vector<ImageEntry> take_images(const Reporter& report, json& root) {
+  std::vector<ImageEntry> out;
+  for (json& image : root["images"]) {
+    ImageEntry entry{.name = string_of(image, "name"), .uri = string_of(image, "uri")};
+    if (image.contains("bufferView") == image.contains("uri"))
+      throw report.error("images[{}] must have either a bufferView or a uri", out.size());
+    if (image.contains("uri") && entry.uri.empty())
+      throw report.error("images[{}].uri is not a string", out.size());
+    if (image.contains("bufferView"))
+      entry.view = image["bufferView"].is_number() ? image["bufferView"].get<int>() : -1;
+    if (entry.view < 0 && entry.uri.empty())
+      throw report.error("images[{}].bufferView is not an index", out.size());
+    out.push_back(std::move(entry));
+  }
+  root.erase("images");
+  return out;
+}
+
+}  // namespace
+
+bool is_supported_extension(std::string_view name) { return contains(supported_extensions, name); }
+
+PreparedJson prepare_json(const Reporter& report, std::string_view text) {
+  json root = parse(report, text);
+  if (!root.is_object()) throw report.error("JSON is not an object");
+  for (const char* name : collections) {
+    if (!root.contains(name)) continue;
+    if (!root[name].is_array()) throw report.error("{} is not an array", name);
+    for (size_t i = 0; i < root[name].size(); ++i)
+      if (!root[name][i].is_object()) throw report.error("{}[{}] is not an object", name, i);
+  }
+  Tidier(report).tidy_object(root, true);
+
+  PreparedJson out;
+  out.buffers = take_buffers(report, root);
+  out.images = take_images(report, root);
+  out.has_animations = root.contains("animations") && !root["animations"].empty();
+  root.erase("animations");
+  if (!root.contains("bufferViews")) root["bufferViews"] = json::array();
+  out.absent_view = static_cast<int>(root["bufferViews"].size());
+  root["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+  if (root.contains("accessors"))
+    for (json& accessor : root["accessors"]) {
+      if (accessor.contains("bufferView") && accessor["bufferView"] == out.absent_view)
+        throw report.error("an accessor's bufferView is {0}, but there are {0}", out.absent_view);
+      if (!accessor.contains("bufferView")) accessor["bufferView"] = out.absent_view;
+    }
+  // Optional in glTF, missed as an error by tinygltf.
+  if (root.contains("skins"))
+    for (json& skin : root["skins"])
+      if (!skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
+  out.text = root.dump(-1, ' ', false, json::error_handler_t::replace);
+  return out;
+}
+
+}  // namespace lightgrid::gltf

@@ -1,0 +1,42 @@
+// The JSON of a glTF file made ready for tinygltf, which trusts much of what it is given.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/gltf/reporter.h"
+
+namespace lightgrid::gltf {
+
+struct BufferEntry {
+  std::string uri;  // empty: the binary chunk, or a fallback without bytes
+  size_t byte_length = 0;
+  bool fallback = false;  // EXT_meshopt_compression: its views are decoded from elsewhere
+};
+
+struct ImageEntry {
+  std::string name, uri;
+  int view = -1;  // buffer view; -1: uri
+};
+
+struct PreparedJson {
+  std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
+  std::vector<BufferEntry> buffers;
+  std::vector<ImageEntry> images;
+  bool has_animations = false;
+  // tinygltf refuses indices without a buffer view, which Draco and sparse accessors may have: those
+  // accessors refer to this one, past the end of the file's own.
+  int absent_view = 0;
+};
+
+// Checks nesting, that collections are arrays of objects, and that every index is an integer in [0, 2^31);
+// numbers such as 3.0 become integers, and integers past 32 bits (which tinygltf would wrap) become doubles.
+// Buffers and images are taken out, because tinygltf reads them all at once, keeps copies, wants file sizes
+// to match exactly, knows no fallback buffers and reads a view's bytes unchecked.
+PreparedJson prepare_json(const Reporter& report, std::string_view text);
+
+bool is_supported_extension(std::string_view name);
+
+}  // namespace lightgrid::gltf

@@ -1,0 +1,144 @@
+#include "scene/gltf/lights.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace lightgrid::gltf {
+namespace {
+
+float checked_amount(const Document& doc, double value, const std::string& place, const char* what) {
+  const auto out = static_cast<float>(value);
+  if (!(value >= 0) || !std::isfinite(out)) throw doc.error("{}: {} is {}", place, what, value);
+  return out;
+}
+
+// The extension's own rule, to the letter: half of pi rounded to float is above half of pi, and refused.
+void read_cone(const Document& doc, const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
+  const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
+  if (!(outer > 0) || !(outer <= glm::half_pi<double>()))
+    throw doc.error("{}: spot.outerConeAngle is {}, outside 0 to {} (90 degrees)", place, outer,
+                    glm::half_pi<double>());
+  if (!(inner >= 0) || !(inner < outer))
+    throw doc.error("{}: spot.innerConeAngle is {}, not below outerConeAngle {}", place, inner, outer);
+  light.outer_cone_rad = static_cast<float>(outer);
+  // Two doubles may round to one float.
+  light.inner_cone_rad = std::min(static_cast<float>(inner), std::nextafter(light.outer_cone_rad, 0.0f));
+}
+
+// What does not depend on the node.
+Light read_light(const Document& doc, const tinygltf::Light& in, bool has_range, const std::string& place) {
+  Light out;
+  if (in.type == "point") {
+    out.type = LightType::point;
+  } else if (in.type == "spot") {
+    out.type = LightType::spot;
+    read_cone(doc, in.spot, place, out);
+  } else if (in.type == "directional") {
+    out.type = LightType::directional;
+  } else {
+    throw doc.error("{}: type is \"{}\"", place, in.type);
+  }
+  if (!in.color.empty() && in.color.size() != 3)
+    throw doc.error("{}: color has {} numbers instead of 3", place, in.color.size());
+  for (size_t i = 0; i < in.color.size(); ++i)
+    out.color[i] = checked_amount(doc, in.color[i], place, "color");
+  out.intensity = checked_amount(doc, in.intensity, place, "intensity");
+  if (has_range && out.type != LightType::directional) {
+    out.radius_m = checked_amount(doc, in.range, place, "range");
+    if (out.radius_m == 0) throw doc.error("{}: range is {}; it must be more than 0", place, in.range);
+  }
+  return out;
+}
+
+// tinygltf makes an absent range 0; a range of 0 in the file is an error.
+bool has_range(const Document& doc, int light) {
+  const tinygltf::Value* extension = find_extension(doc.model.extensions, "KHR_lights_punctual");
+  if (!extension || !extension->Get("lights").IsArray()) return false;
+  const tinygltf::Value& value = extension->Get("lights").Get(light);
+  return value.IsObject() && value.Has("range");
+}
+
+}  // namespace
+
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
+  std::vector<Light> templates;
+  for (size_t i = 0; i < doc.model.lights.size(); ++i)
+    templates.push_back(read_light(doc, doc.model.lights[i], has_range(doc, static_cast<int>(i)),
+                                   label("light", static_cast<int>(i), doc.model.lights[i].name)));
+  std::vector<Light> out;
+  for (const PlacedNode& placed : nodes) {
+    const tinygltf::Node& node = doc.model.nodes[placed.node];
+    const tinygltf::Value* extension = find_extension(node.extensions, "KHR_lights_punctual");
+    if (!extension) continue;
+    const std::string place = node_label(doc, placed.node);
+    if (!extension->Has("light")) throw doc.error("{}: KHR_lights_punctual has no light", place);
+    const int index = static_cast<int>(size_or(doc, *extension, "light", 0, place));
+    Light light = checked(doc, templates, index, place, "KHR_lights_punctual.light");
+    light.name = node.name.empty() ? doc.model.lights[index].name : node.name;
+    light.position = glm::dvec3(placed.world_from_node[3]);
+    const glm::dvec3 along = -glm::dvec3(placed.world_from_node[2]);
+    const double length = glm::length(along);
+    if (length > 0 && std::isfinite(length))
+      light.direction = glm::vec3(along / length);
+    else if (light.type != LightType::point)
+      throw doc.error("{}: light {} has no direction: its node is scaled to {}", place, index, length);
+    out.push_back(std::move(light));
+  }
+  return out;
+}
+
+namespace {
+
+void read_perspective(const Document& doc, const tinygltf::PerspectiveCamera& in, const std::string& place,
+                      Camera& out) {
+  if (!(in.yfov > 0 && in.yfov < glm::pi<double>())) throw doc.error("{}: yfov is {}", place, in.yfov);
+  if (!(in.znear > 0)) throw doc.error("{}: znear is {}", place, in.znear);
+  if (!(in.aspectRatio >= 0)) throw doc.error("{}: aspectRatio is {}", place, in.aspectRatio);
+  if (in.zfar != 0 && !(in.zfar > in.znear))
+    throw doc.error("{}: zfar is {}, not beyond znear {}", place, in.zfar, in.znear);
+  out.fov_y_rad = in.yfov, out.aspect = in.aspectRatio, out.near_m = in.znear;
+  if (in.zfar != 0) out.far_m = in.zfar;
+}
+
+void read_orthographic(const Document& doc, const tinygltf::OrthographicCamera& in, const std::string& place,
+                       Camera& out) {
+  if (in.xmag == 0 || in.ymag == 0) throw doc.error("{}: xmag is {}, ymag is {}", place, in.xmag, in.ymag);
+  if (!(in.znear >= 0 && in.zfar > in.znear))
+    throw doc.error("{}: znear is {}, zfar is {}", place, in.znear, in.zfar);
+  out.orthographic = true;
+  out.half_width_m = std::abs(in.xmag), out.half_height_m = std::abs(in.ymag);
+  out.near_m = in.znear, out.far_m = in.zfar;
+}
+
+glm::dmat4 without_scale(const Document& doc, const glm::dmat4& world, const std::string& place) {
+  const glm::dvec3 back(world[2]), up(world[1]);
+  const glm::dvec3 z = back / glm::length(back);
+  const glm::dvec3 across = up - z * glm::dot(up, z);
+  const glm::dvec3 y = across / glm::length(across);
+  if (!std::isfinite(z.x + z.y + z.z + y.x + y.y + y.z))
+    throw doc.error("{}: its camera's axes are scaled to nothing", place);
+  return {glm::dvec4(glm::cross(y, z), 0), glm::dvec4(y, 0), glm::dvec4(z, 0), world[3]};
+}
+
+}  // namespace
+
+std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& nodes) {
+  std::vector<Camera> out;
+  for (const PlacedNode& placed : nodes) {
+    const tinygltf::Node& node = doc.model.nodes[placed.node];
+    if (node.camera < 0) continue;
+    const std::string place = node_label(doc, placed.node);
+    const tinygltf::Camera& in = checked(doc, doc.model.cameras, node.camera, place, "camera");
+    const std::string camera_place = label("camera", node.camera, in.name);
+    Camera camera{.name = node.name.empty() ? in.name : node.name};
+    if (in.type == "orthographic")
+      read_orthographic(doc, in.orthographic, camera_place, camera);
+    else
+      read_perspective(doc, in.perspective, camera_place, camera);
+    camera.world_from_view = without_scale(doc, placed.world_from_node, place);
+    out.push_back(std::move(camera));
+  }
+  return out;
+}
+
+}  // namespace lightgrid::gltf

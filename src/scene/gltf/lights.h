@@ -1,0 +1,17 @@
+// KHR_lights_punctual (Khronos, 2018) and cameras, placed by their nodes.
+#pragma once
+
+#include "scene/gltf/nodes.h"
+#include "scene/scene.h"
+
+namespace lightgrid::gltf {
+
+// One light for each node that carries one. A light looks along its node's -z; the node's scale changes
+// neither range nor cone. Errors name light and field: colour, intensity or range that is negative or not
+// finite, 0 <= inner < outer <= pi/2 not kept.
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes);
+
+// One camera for each node that carries one; the node's scale is dropped.
+std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& nodes);
+
+}  // namespace lightgrid::gltf

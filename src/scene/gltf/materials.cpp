@@ -1,0 +1,132 @@
+#include "scene/gltf/materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightgrid::gltf {
+namespace {
+
+float finite(const Document& doc, double value, const std::string& place, const char* what) {
+  const auto out = static_cast<float>(value);
+  if (!std::isfinite(out)) throw doc.error("{}: {} is {}", place, what, value);
+  return out;
+}
+
+// A little outside is an exporter's rounding.
+float in_unit(const Document& doc, double value, const std::string& place, const char* what) {
+  const float out = finite(doc, value, place, what);
+  if (out < -1e-3f || out > 1 + 1e-3f) throw doc.error("{}: {} is {}, outside 0 to 1", place, what, value);
+  return std::clamp(out, 0.0f, 1.0f);
+}
+
+float not_negative(const Document& doc, double value, const std::string& place, const char* what) {
+  const float out = finite(doc, value, place, what);
+  if (out < 0) throw doc.error("{}: {} is {}", place, what, value);
+  return out;
+}
+
+glm::vec2 pair_or(const Document& doc, const tinygltf::Value& object, const char* key, glm::vec2 absent,
+                  const std::string& place) {
+  if (!object.Has(key)) return absent;
+  const tinygltf::Value& value = object.Get(key);
+  if (!value.IsArray() || value.ArrayLen() != 2 || !value.Get(0).IsNumber() || !value.Get(1).IsNumber())
+    throw doc.error("{}: {} is not a pair of numbers", place, key);
+  return {finite(doc, value.Get(0).GetNumberAsDouble(), place, key),
+          finite(doc, value.Get(1).GetNumberAsDouble(), place, key)};
+}
+
+// KHR_texture_transform: translation * rotation * scale. Counter-clockwise where v points down, as the
+// extension's sample model has it (the listing in its text turns the other way: Khronos glTF issue 1563).
+void read_transform(Document& doc, const tinygltf::Value& extension, const std::string& place,
+                    TextureSlot& slot, int& uv_set) {
+  const glm::vec2 offset = pair_or(doc, extension, "offset", {0, 0}, place);
+  const glm::vec2 scale = pair_or(doc, extension, "scale", {1, 1}, place);
+  const double turn = number_or(doc, extension, "rotation", 0, place);
+  const auto c = static_cast<float>(std::cos(turn)), s = static_cast<float>(std::sin(turn));
+  slot.uv_from_vertex = {scale.x * c, -scale.x * s, scale.y * s, scale.y * c, offset.x, offset.y};
+  uv_set = static_cast<int>(size_or(doc, extension, "texCoord", static_cast<size_t>(uv_set), place));
+}
+
+TextureSlot read_slot(Document& doc, const auto& info, const std::string& place) {
+  if (info.index < 0) return {};
+  const auto& texture = checked(doc, doc.model.textures, info.index, place, "texture");
+  if (texture.source < 0) {
+    doc.warn("texture without image", "{}: texture {} has no image that is supported; left out", place,
+             info.index);
+    return {};
+  }
+  TextureSlot slot{.texture = info.index};
+  int uv_set = info.texCoord;
+  if (const auto* transform = find_extension(info.extensions, "KHR_texture_transform"))
+    read_transform(doc, *transform, place, slot, uv_set);
+  if (uv_set < 0 || uv_set > 1) {
+    doc.warn("uv set", "{}: uses TEXCOORD_{}; only two sets are supported, left out", place, uv_set);
+    return {};
+  }
+  slot.uv_set = uv_set;
+  return slot;
+}
+
+AlphaMode read_alpha_mode(const Document& doc, const std::string& mode, const std::string& place) {
+  if (mode == "OPAQUE") return AlphaMode::opaque;
+  if (mode == "MASK") return AlphaMode::mask;
+  if (mode == "BLEND") return AlphaMode::blend;
+  throw doc.error("{}: alphaMode is \"{}\"", place, mode);
+}
+
+Material read_material(Document& doc, const tinygltf::Material& in, const std::string& place) {
+  const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
+  Material out{.name = in.name};
+  for (int i = 0; i < 4; ++i)
+    out.base_color[i] = in_unit(doc, pbr.baseColorFactor.at(i), place, "baseColorFactor");
+  out.metallic = in_unit(doc, pbr.metallicFactor, place, "metallicFactor");
+  out.roughness = in_unit(doc, pbr.roughnessFactor, place, "roughnessFactor");
+  double strength = 1;
+  if (const auto* emissive = find_extension(in.extensions, "KHR_materials_emissive_strength"))
+    strength =
+        not_negative(doc, number_or(doc, *emissive, "emissiveStrength", 1, place), place, "emissiveStrength");
+  for (int i = 0; i < 3; ++i) {
+    // Above 1 needs the extension by the letter, but was common before there was one.
+    const double factor = not_negative(doc, in.emissiveFactor.at(i), place, "emissiveFactor");
+    out.emissive[i] = not_negative(doc, factor * strength, place, "emissive light");
+  }
+  out.normal_scale = finite(doc, in.normalTexture.scale, place, "normalTexture.scale");
+  out.occlusion_strength = in_unit(doc, in.occlusionTexture.strength, place, "occlusionTexture.strength");
+  out.base_color_map = read_slot(doc, pbr.baseColorTexture, place + ": baseColorTexture");
+  out.metallic_roughness_map =
+      read_slot(doc, pbr.metallicRoughnessTexture, place + ": metallicRoughnessTexture");
+  out.normal_map = read_slot(doc, in.normalTexture, place + ": normalTexture");
+  out.occlusion_map = read_slot(doc, in.occlusionTexture, place + ": occlusionTexture");
+  out.emissive_map = read_slot(doc, in.emissiveTexture, place + ": emissiveTexture");
+  out.alpha_mode = read_alpha_mode(doc, in.alphaMode, place);
+  out.alpha_cutoff = not_negative(doc, in.alphaCutoff, place, "alphaCutoff");
+  out.double_sided = in.doubleSided;
+  out.unlit = find_extension(in.extensions, "KHR_materials_unlit") != nullptr;
+  return out;
+}
+
+}  // namespace
+
+std::vector<Material> read_materials(Document& doc) {
+  std::vector<Material> out;
+  for (const tinygltf::Material& material : doc.model.materials)
+    out.push_back(
+        read_material(doc, material, label("material", static_cast<int>(out.size()), material.name)));
+  out.push_back({.name = "default"});
+  return out;
+}
+
+void keep_used_materials(Scene& scene) {
+  std::vector<int> new_index(scene.materials.size(), -1);
+  for (const Mesh& mesh : scene.meshes) new_index[mesh.material] = 0;
+  std::vector<Material> kept;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (new_index[i] < 0) continue;
+    new_index[i] = static_cast<int>(kept.size());
+    kept.push_back(std::move(scene.materials[i]));
+  }
+  scene.materials = std::move(kept);
+  for (Mesh& mesh : scene.meshes) mesh.material = new_index[mesh.material];
+}
+
+}  // namespace lightgrid::gltf

@@ -1,0 +1,49 @@
+// Errors and warnings of one input file, each a single line that begins with its name.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "base/error.h"
+#include "base/log.h"
+
+namespace lightgrid::gltf {
+
+class Reporter {
+ public:
+  explicit Reporter(std::string file) : file_(std::move(file)) {}
+
+  template <typename... Args>
+  Error error(fmt::format_string<Args...> format, Args&&... args) const {
+    return {ErrorKind::input, one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...))};
+  }
+
+  // The first of each kind only: a thousand skinned meshes are one line.
+  template <typename... Args>
+  void warn(const std::string& kind, fmt::format_string<Args...> format, Args&&... args) {
+    if (!warned_.insert(kind).second) return;
+    log_warning_line(one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...)));
+  }
+
+ private:
+  // Names in a file may hold line ends, terminal escapes, or a megabyte.
+  static std::string one_line(std::string text) {
+    for (char& c : text)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    constexpr size_t longest = 600;
+    if (text.size() > longest)
+      text = text.substr(0, longest / 2) + " … " + text.substr(text.size() - longest / 2);
+    return text;
+  }
+
+  std::string file_;
+  std::set<std::string> warned_;
+};
+
+// mesh 3 "lamp", or mesh 3 where it has no name.
+inline std::string label(const char* kind, int index, const std::string& name) {
+  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} \"{}\"", kind, index, name);
+}
+
+}  // namespace lightgrid::gltf
