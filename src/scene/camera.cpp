@@ -98,7 +98,8 @@ Camera overview(const WorldBox& box) {
   }
   camera.name = "overview";
   camera.near_m = 1e-3 * size_of(box);
-  camera.world_from_view[3] = glm::dvec4(center + glm::dvec3(camera.world_from_view[2]) * (1.05 * distance), 1);
+  camera.world_from_view[3] =
+      glm::dvec4(center + glm::dvec3(camera.world_from_view[2]) * (1.05 * distance), 1);
   return camera;
 }
 
