@@ -31,18 +31,21 @@ ShadingPoint shading_point(vec3 position, vec3 to_viewer, vec3 normal, vec3 base
 // BRDF times the cosine at the surface. to_light is a unit vector.
 vec3 reflected(ShadingPoint p, vec3 to_light) {
   float n_dot_l = clamp(dot(p.normal, to_light), 0.0, 1.0);
-  vec3 half_sum = to_light + p.to_viewer;
-  vec3 h = half_sum * inversesqrt(max(dot(half_sum, half_sum), 1e-12));
-  float n_dot_h = clamp(dot(p.normal, h), 0.0, 1.0);
-  float v_dot_h = clamp(dot(p.to_viewer, h), 0.0, 1.0);
-  // 1 - n_dot_h^2 as a cross product: it does not cancel at the peak.
+  // The half vector is left unnormalised: |h|^2 goes into the formulas instead. It vanishes only where viewer and
+  // light face each other through the surface, and n_dot_l is 0.
+  vec3 h = to_light + p.to_viewer;
+  float h_squared = max(dot(h, h), 1e-8);
+  float n_dot_h = max(dot(p.normal, h), 0.0);
+  // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
   vec3 across = cross(p.normal, h);
-  float a = n_dot_h * p.alpha;
-  float k = p.alpha / (dot(across, across) + a * a);
-  float d = k * k * (1.0 / PI);
-  float v = 0.5 / (n_dot_l * p.smith_view + p.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - p.alpha_squared) + p.alpha_squared));
-  float grazing = 1.0 - v_dot_h;
+  float width = dot(across, across) + n_dot_h * n_dot_h * p.alpha_squared;
+  // GGX D = (alpha |h|^2 / width)^2 / pi, times Smith's V = 0.5 / (...), in one division.
+  float peak = p.alpha * h_squared;
+  float smith = n_dot_l * p.smith_view + p.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - p.alpha_squared) + p.alpha_squared);
+  float specular = peak * peak * (0.5 / PI) / (width * width * smith);
+  // v.h = |h| / 2 for unit vectors.
+  float grazing = max(1.0 - 0.5 * sqrt(h_squared), 0.0);
   float grazing2 = grazing * grazing;
   vec3 f = p.f0 + (1.0 - p.f0) * (grazing2 * grazing2 * grazing);
-  return ((1.0 - f) * p.diffuse + f * (d * v)) * n_dot_l;
+  return (p.diffuse + f * (specular - p.diffuse)) * n_dot_l;
 }

@@ -12,10 +12,10 @@ vec3 punctual_light(ShadingPoint p, int light) {
   vec3 to_light = place.xyz - p.position;
   float distance_squared = dot(to_light, to_light);
   float ratio = distance_squared * place.w;
-  float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
-  if (window <= 0.0) return vec3(0.0);
-  float attenuation = window / max(distance_squared, 1e-4);
-  to_light *= inversesqrt(max(distance_squared, 1e-12));
+  float inverse_distance = inversesqrt(max(distance_squared, 1e-12));
+  to_light *= inverse_distance;
+  // No branch on the range: what is past it is multiplied by an exact zero.
+  float attenuation = clamp(1.0 - ratio * ratio, 0.0, 1.0) * min(inverse_distance * inverse_distance, 1e4);
 #ifdef SPOTS
   vec4 cone = texelFetch(light_cones, light);
   float angular = clamp(cone.w - dot(cone.xyz, to_light), 0.0, 1.0);
