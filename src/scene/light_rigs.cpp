@@ -97,7 +97,7 @@ Light scatter_one(const Surface& surface, uint64_t seed, int index, float min_ra
   Light light;
   light.radius_m = random.uniform(min_radius, max_radius);
   light.color = color_of_hue(6 * random.uniform());
-  light.intensity = light.radius_m * light.radius_m / 4;
+  light.intensity = light.radius_m * light.radius_m / 8;
 
   const Triangle t = surface.pick(share);
   const glm::dvec3 normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));

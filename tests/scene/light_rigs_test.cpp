@@ -43,6 +43,7 @@ TEST(ScatterLights, TheFirstLightIsTheSameEverywhere) {
   const Light light = scatter_lights(floor_scene(), {8, 1, 2, 1}).at(0);
   EXPECT_EQ(light.position, glm::dvec3(0x1.8fb61441c6f51p+0, 0x1.278ae8dd40280p-1, -0x1.94ba22bf5ea16p+1));
   EXPECT_EQ(light.radius_m, 0x1.58ecdcp+0f);
+  EXPECT_EQ(light.intensity, 0x1.58ecdcp+0f * 0x1.58ecdcp+0f / 8);
   EXPECT_EQ(light.color, glm::vec3(0x1.cfc198p-1f, 1, 0.25f));
 }
 
