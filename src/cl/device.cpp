@@ -14,7 +14,8 @@
 namespace lightgrid {
 namespace {
 
-// PoCL pins worker i to processor i and aborts where that processor is not ours, as inside a smaller cpuset.
+// PoCL pins worker i to processor i, also where this process may use others only (taskset, a container's
+// cpuset).
 bool may_use_every_processor() {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return false;

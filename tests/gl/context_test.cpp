@@ -12,7 +12,21 @@ namespace {
 
 using testing::HasSubstr;
 
-class GlContextOf : public testing::TestWithParam<GlBackend> {};
+// Newer distributions have no OSMesa: then its tests skip, and say so. EGL is required, so its tests fail.
+bool osmesa_is_installed() {
+  try {
+    GlContext::create(GlBackend::osmesa);
+    return true;
+  } catch (const Error& error) {
+    return std::string(error.what()).find("is not installed") == std::string::npos;
+  }
+}
+
+struct GlContextOf : testing::TestWithParam<GlBackend> {
+  void SetUp() override {
+    if (GetParam() == GlBackend::osmesa && !osmesa_is_installed()) GTEST_SKIP() << "OSMesa is not installed";
+  }
+};
 
 TEST_P(GlContextOf, IsACoreProfileOfAtLeast45) {
   auto context = GlContext::create(GetParam());
@@ -59,7 +73,21 @@ TEST_P(GlContextOf, CanBeMadeAgainAfterTheFirstIsGone) {
 INSTANTIATE_TEST_SUITE_P(Backends, GlContextOf, testing::Values(GlBackend::osmesa, GlBackend::egl),
                          [](const auto& info) { return info.param == GlBackend::osmesa ? "osmesa" : "egl"; });
 
+#ifndef NDEBUG
+using GlContextDeathTest = GlContextOf;
+TEST_P(GlContextDeathTest, AnErrorInADebugBuildSaysWhichAndAborts) {
+  EXPECT_DEATH(
+      {
+        auto context = GlContext::create(GetParam());
+        glBindTextureUnit(0, 12345);
+      },
+      "OpenGL: GL_INVALID_OPERATION");
+}
+INSTANTIATE_TEST_SUITE_P(Backends, GlContextDeathTest, testing::Values(GlBackend::osmesa, GlBackend::egl));
+#endif
+
 TEST(GlContext, OfBothBackendsLiveSideBySideAndMakeCurrentSwitches) {
+  if (!osmesa_is_installed()) GTEST_SKIP() << "OSMesa is not installed";
   auto osmesa = GlContext::create(GlBackend::osmesa);
   auto egl = GlContext::create(GlBackend::egl);
   EXPECT_EQ(clear_and_read(1)[0], 1);
