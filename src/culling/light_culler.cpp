@@ -20,6 +20,10 @@ cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
   return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
 }
 
+std::string shape_define(bool lanes) {
+  return lanes ? fmt::format("-DLANES={}", cpu_lanes) : fmt::format("-DGROUP={}", group_items);
+}
+
 }  // namespace
 
 cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
@@ -28,26 +32,31 @@ cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes)
 }
 
 LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
-    : device_(device), options_(options) {
+    : device_(device), programs_(programs), options_(options) {
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
   }
   const bool lanes = options_.shape == KernelShape::lanes;
-  const std::string suffix = lanes ? "_lanes" : "_group";
-  const std::string shape = lanes ? fmt::format("-DLANES={}", cpu_lanes) : fmt::format("-DGROUP={}", group_items);
-  const std::string test = fmt::format("{} -DCULL_TEST={}{}", shape, int(options_.cull_test), options_.spots ? " -DSPOTS" : "");
-  const std::string index = options_.index_bits == 16 ? " -DINDEX=ushort" : " -DINDEX=uint";
   if (options_.depth_bounds == DepthBoundsMode::minmax) {
-    bounds_ = programs.kernel("depth_bounds" + suffix,
-                              fmt::format("{} -DTILE={}{}", shape, options_.tile, options_.blend ? " -DBLEND" : ""));
+    bounds_ = programs_.kernel(lanes ? "depth_bounds_lanes" : "depth_bounds_group",
+                               fmt::format("{} -DTILE={}{}", shape_define(lanes), options_.tile, options_.blend ? " -DBLEND" : ""));
   }
-  bins_count_ = programs.kernel("cull_bins" + suffix, test + " -DCOUNT");
-  bins_fill_ = programs.kernel("cull_bins" + suffix, test);
-  tiles_count_ = programs.kernel("cull_tiles" + suffix, test + index + " -DCOUNT");
-  tiles_fill_ = programs.kernel("cull_tiles" + suffix, test + index);
-  scan_ = programs.kernel("scan_counts" + suffix, lanes ? "" : fmt::format("-DGROUP={}", scan_items));
   view_buffer_ = device_buffer(device_, sizeof(ViewParams));
   totals_ = device_buffer(device_, 2 * sizeof(cl_ulong));
+}
+
+void LightCuller::build_cull_kernels() {
+  if (scan_()) return;
+  const bool lanes = options_.shape == KernelShape::lanes;
+  const std::string suffix = lanes ? "_lanes" : "_group";
+  const std::string test = fmt::format("{} -DCULL_TEST={}{}", shape_define(lanes), int(options_.cull_test),
+                                       options_.spots ? " -DSPOTS" : "");
+  const std::string index = options_.index_bits == 16 ? " -DINDEX=ushort" : " -DINDEX=uint";
+  bins_count_ = programs_.kernel("cull_bins" + suffix, test + " -DCOUNT");
+  bins_fill_ = programs_.kernel("cull_bins" + suffix, test);
+  tiles_count_ = programs_.kernel("cull_tiles" + suffix, test + index + " -DCOUNT");
+  tiles_fill_ = programs_.kernel("cull_tiles" + suffix, test + index);
+  scan_ = programs_.kernel("scan_counts" + suffix, lanes ? "" : fmt::format("-DGROUP={}", scan_items));
 }
 
 void LightCuller::set_lights(std::span<const ViewLight> lights) {
@@ -133,6 +142,7 @@ void LightCuller::scan(cl::Buffer& cells, uint count, int slot) {
 }
 
 LightGrid LightCuller::cull(cl::Buffer& intervals, GridStorage& storage) {
+  build_cull_kernels();
   LightGrid grid;
   grid.cells_x = view_.tiles_x, grid.cells_y = view_.tiles_y;
   grid.index_bits = options_.index_bits;

@@ -78,11 +78,13 @@ class LightCuller {
   KernelShape shape() const { return options_.shape; }
 
  private:
+  void build_cull_kernels();  // at the first cull: who asks for depth bounds alone builds nothing else
   void run_bins(cl::Buffer& intervals, bool count);
   void run_tiles(cl::Buffer& intervals, cl::Buffer& cells, cl::Buffer& indices, uint capacity, bool count);
   void scan(cl::Buffer& cells, uint count, int slot);
 
   ClDevice& device_;
+  ProgramCache& programs_;
   CullerOptions options_;
   ViewParams view_{};
   uint light_stride_ = 0, candidate_stride_ = 0;

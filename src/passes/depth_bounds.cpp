@@ -27,4 +27,15 @@ DepthBounds depth_bounds(Frame& f, const DepthImage& depth) {
   return f.culler().depth_bounds(values);
 }
 
+TileDistances tile_distances(Frame& f, const DepthBounds& bounds) {
+  TileDistances distances;
+  if (f.plan.settings.depth_bounds == DepthBoundsMode::none) return distances;
+  auto pass = f.timer.pass("tile_distances", "cl");
+  distances.intervals.resize(size_t(f.params.tiles_x) * f.params.tiles_y);
+  const size_t bytes = distances.intervals.size() * sizeof(glm::vec2);
+  f.devices.cl->queue().enqueueReadBuffer(bounds.opaque, CL_TRUE, 0, bytes, distances.intervals.data());
+  pass.moves(bytes, bytes);
+  return distances;
+}
+
 }  // namespace lightgrid

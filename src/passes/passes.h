@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "passes/frame/frame.h"
+#include "passes/frame/visible_clusters.h"
 
 namespace lightgrid {
 
@@ -29,12 +29,16 @@ cl::Buffer& depth_to_cl(Frame& f, const DepthImage& depth);
 
 DepthBounds depth_bounds(Frame& f, const DepthImage& depth);
 
+// What each tile hides, on the host. Nothing is known where depth bounds are switched off.
+TileDistances tile_distances(Frame& f, const DepthBounds& bounds);
+
 // The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane.
 GridTextures cull_lights(Frame& f, const DepthBounds& bounds);
 GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds);
 
-// Shades opaque surfaces from the grid's lists, or, without a grid, from every light.
-ShadedImage shade_forward(Frame& f, const DepthImage& depth, const GridTextures* grid);
+// Shades opaque surfaces from the grid's lists, or, without a grid, from every light. What `distances` shows to be
+// hidden is not drawn.
+ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances& distances, const GridTextures* grid);
 
 // Lays blended surfaces over the image, back to front. Without a grid: from every light.
 void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid);

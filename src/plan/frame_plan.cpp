@@ -68,8 +68,8 @@ void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
   std::vector<std::pair<double, int>> blended;
   for (int i = 0; i < int(scene.instances.size()); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-    const glm::dmat4 view_from_object = view.view_from_world * scene.instances[i].world_from_object;
-    if (mesh.indices.empty() || !may_see_box(frustum, view_from_object, mesh.bounds)) continue;
+    const glm::dmat4 to_view = view_from_object(view, scene.instances[i].world_from_object);
+    if (mesh.indices.empty() || !may_see_box(frustum, to_view, mesh.bounds)) continue;
     const uint32_t features = features_of(scene, mesh);
     plan.features_of_instance[i] = features;
     plan.features |= features;
@@ -78,7 +78,7 @@ void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
     }
     if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) {
       const glm::dvec3 center = 0.5 * (glm::dvec3(mesh.bounds.min) + glm::dvec3(mesh.bounds.max));
-      blended.emplace_back((view_from_object * glm::dvec4(center, 1)).z, i);
+      blended.emplace_back((to_view * glm::dvec4(center, 1)).z, i);
     } else {
       plan.opaque.push_back(i);
     }

@@ -5,14 +5,15 @@ namespace lightgrid {
 
 static ShadedImage render(Frame& f) {
   const DepthImage depth = depth_prepass(f);
-  if (!f.plan.light_grid) {
-    const ShadedImage image = shade_forward(f, depth, nullptr);
+  const DepthBounds bounds = depth_bounds(f, depth);
+  const TileDistances distances = tile_distances(f, bounds);
+  if (!f.plan.light_grid) {  // no light has a place: there is nothing to list
+    const ShadedImage image = shade_forward(f, depth, distances, nullptr);
     shade_blended(f, image, nullptr);
     return image;
   }
-  const DepthBounds bounds = depth_bounds(f, depth);
   const GridTextures grid = cull_lights(f, bounds);
-  const ShadedImage image = shade_forward(f, depth, &grid);
+  const ShadedImage image = shade_forward(f, depth, distances, &grid);
   if (f.plan.blend_grid) {
     const GridTextures blend_grid = cull_lights_for_blended(f, bounds);
     shade_blended(f, image, &blend_grid);

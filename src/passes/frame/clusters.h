@@ -7,8 +7,8 @@
 
 namespace lightgrid {
 
-// Appends the mesh's indices to `indices`, reordered for the vertex cache and for little overdraw (meshoptimizer),
-// and returns its clusters. Blended meshes keep their order, which decides what lies over what.
+// Appends the mesh's indices to `indices`, cluster by cluster (meshoptimizer's meshlets), and returns the clusters.
+// keep_order: one cluster with the triangles as they are, for blended meshes, where order decides what lies over what.
 std::vector<TriangleCluster> append_clusters(const Mesh& mesh, bool keep_order, std::vector<uint32_t>& indices);
 
 }  // namespace lightgrid

@@ -3,39 +3,11 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "plan/visibility.h"
 
 namespace lightgrid {
-namespace {
-
-// The visible clusters of a mesh as index ranges, neighbours joined.
-struct Ranges {
-  std::vector<GLsizei> counts;
-  std::vector<const void*> offsets;
-  std::vector<GLint> base_vertices;
-};
-
-Ranges visible_ranges(const GpuMesh& mesh, const Frustum& frustum, const glm::dmat4& view_from_object) {
-  Ranges ranges;
-  uint32_t end = ~0u;
-  for (const TriangleCluster& cluster : mesh.clusters) {
-    if (!may_see_box(frustum, view_from_object, cluster.bounds)) continue;
-    if (cluster.first_index == end) {
-      ranges.counts.back() += GLsizei(cluster.index_count);
-    } else {
-      ranges.counts.push_back(GLsizei(cluster.index_count));
-      ranges.offsets.push_back(reinterpret_cast<const void*>(size_t(cluster.first_index) * sizeof(uint32_t)));
-      ranges.base_vertices.push_back(mesh.base_vertex);
-    }
-    end = cluster.first_index + cluster.index_count;
-  }
-  return ranges;
-}
-
-}  // namespace
-
 void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams streams,
-                    const std::function<const GlProgram&(uint32_t features)>& program_of) {
+                    const std::function<const GlProgram&(uint32_t features)>& program_of,
+                    const TileDistances* distances) {
   const Frustum frustum = frustum_of(f.view);
   const GlProgram* bound_program = nullptr;
   int bound_material = -1;
@@ -44,8 +16,8 @@ void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams str
     const Mesh& mesh = f.scene.meshes[instance.mesh];
     const Material& material = f.scene.materials[mesh.material];
     const uint32_t features = f.plan.features_of_instance[index];
-    const glm::dmat4 view_from_object = f.view.view_from_world * instance.world_from_object;
-    const Ranges ranges = visible_ranges(f.gpu.mesh(instance.mesh), frustum, view_from_object);
+    const glm::dmat4 to_view_exact = view_from_object(f.view, instance.world_from_object);
+    const IndexRanges ranges = visible_clusters(f, frustum, distances, index, to_view_exact);
     if (ranges.counts.empty()) continue;
 
     const GlProgram& program = program_of(features);
@@ -60,14 +32,14 @@ void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams str
       f.gpu.bind_material(mesh.material, features);
       bound_material = mesh.material;
     }
-    const glm::mat4 to_view(view_from_object);
+    const glm::mat4 to_view(to_view_exact);
     glUniformMatrix4fv(program.uniform("view_from_object"), 1, GL_FALSE, glm::value_ptr(to_view));
     if (const GLint normals = program.uniform("normal_from_object"); normals >= 0) {
-      const glm::mat3 inverse_transpose(glm::inverseTranspose(glm::dmat3(view_from_object)));
+      const glm::mat3 inverse_transpose(glm::inverseTranspose(glm::dmat3(to_view_exact)));
       glUniformMatrix3fv(normals, 1, GL_FALSE, glm::value_ptr(inverse_transpose));
     }
     material.double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glFrontFace(glm::determinant(glm::dmat3(view_from_object)) < 0 ? GL_CW : GL_CCW);
+    glFrontFace(glm::determinant(glm::dmat3(to_view_exact)) < 0 ? GL_CW : GL_CCW);
     glMultiDrawElementsBaseVertex(GL_TRIANGLES, ranges.counts.data(), GL_UNSIGNED_INT, ranges.offsets.data(),
                                   GLsizei(ranges.counts.size()), ranges.base_vertices.data());
   }

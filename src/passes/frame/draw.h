@@ -1,16 +1,17 @@
 // Drawing lists of instances.
 #pragma once
 
-#include "passes/frame/frame.h"
+#include "passes/frame/visible_clusters.h"
 
 namespace lightgrid {
 
 enum class DrawStreams { positions_where_possible, all };
 
 // Draws the instances in order with the programs that `program_of(features)` names; clusters that the view cannot
-// see are left out. Binds materials, sets winding by the sign of the determinant and face culling by double-sidedness.
+// see are left out, also those behind what the depth prepass found, where `distances` tells of it. Binds materials, sets winding by the sign of the determinant and face culling by double-sidedness.
 // Consecutive instances of one program and material share their state.
 void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams streams,
-                    const std::function<const GlProgram&(uint32_t features)>& program_of);
+                    const std::function<const GlProgram&(uint32_t features)>& program_of,
+                    const TileDistances* distances = nullptr);
 
 }  // namespace lightgrid

@@ -10,10 +10,14 @@
 
 namespace lightgrid {
 
-// A run of triangles small enough to be in view or not as a whole.
+// A run of neighbouring triangles, small enough to be seen or not as a whole. Object space.
 struct TriangleCluster {
   uint32_t first_index = 0, index_count = 0;  // in the scene's one index buffer
-  Aabb bounds;                                // object space
+  Aabb bounds;
+  // All its triangles face away from an eye e with dot(normalize(apex - e), axis) >= cutoff; a cutoff of 1 or more:
+  // no eye sees none of them.
+  glm::vec3 cone_apex{0}, cone_axis{0};
+  float cone_cutoff = 2;
 };
 
 struct GpuMesh {

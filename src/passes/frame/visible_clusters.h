@@ -1,0 +1,27 @@
+// Which clusters of triangles a view may see: in its frustum, turned towards it, and not behind what is nearer.
+#pragma once
+
+#include <vector>
+
+#include "passes/frame/frame.h"
+#include "plan/visibility.h"
+
+namespace lightgrid {
+
+// What the depth prepass knows of each tile on the host: nothing behind its greatest distance is seen.
+struct TileDistances {
+  std::vector<glm::vec2> intervals;  // least and greatest distance; empty: nothing is known
+};
+
+// Index ranges for glMultiDrawElementsBaseVertex; neighbours are joined.
+struct IndexRanges {
+  std::vector<GLsizei> counts;
+  std::vector<const void*> offsets;
+  std::vector<GLint> base_vertices;
+};
+
+// Of one instance. Conservative: what is left out changes no pixel.
+IndexRanges visible_clusters(const Frame& f, const Frustum& frustum, const TileDistances* distances, int instance,
+                             const glm::dmat4& view_from_object);
+
+}  // namespace lightgrid
