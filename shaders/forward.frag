@@ -21,7 +21,7 @@ layout(location = 0) out vec4 radiance;
 void main() {
   Surface s = surface_here();
 #ifdef MASK
-  if ((material.flags & MATERIAL_MASK) != 0u && s.alpha < material.alpha_cutoff) discard;
+  if (has(MATERIAL_MASK) && s.alpha < material.alpha_cutoff) discard;
 #endif
   vec3 color = s.base_color;
 #ifdef UNLIT

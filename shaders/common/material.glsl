@@ -1,9 +1,16 @@
-// The glTF 2.0 metallic-roughness material at a fragment. Each effect's code is there only under its define, and
-// asks the material's flag: one program may then serve materials with and without it, with the same bits.
+// The glTF 2.0 metallic-roughness material at a fragment. Each effect's code is there only under its define. A program
+// made for exactly the effects of its materials need not ask; one with every effect on (EVERYTHING_ON) asks each
+// material's flag, and gives the same bits.
 //   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP,
 //   EMISSIVE_MAP, MASK, UNLIT
 
 #include "shared/material_params.h"
+
+#ifdef EVERYTHING_ON
+#define has(flag) ((material.flags & (flag)) != 0u)
+#else
+#define has(flag) true
+#endif
 
 #ifdef TEXTURED
 in vec2 fragment_uv0;
@@ -50,10 +57,10 @@ vec2 uv_of(uint slot) {
 vec4 material_base_color() {
   vec4 color = material.base_color;
 #ifdef BASE_COLOR_MAP
-  if ((material.flags & MATERIAL_BASE_COLOR_MAP) != 0u) color *= texture(base_color_map, uv_of(0u));
+  if (has(MATERIAL_BASE_COLOR_MAP)) color *= texture(base_color_map, uv_of(0u));
 #endif
 #ifdef VERTEX_COLOR
-  if ((material.flags & MATERIAL_VERTEX_COLOR) != 0u) color *= fragment_color;
+  if (has(MATERIAL_VERTEX_COLOR)) color *= fragment_color;
 #endif
   return color;
 }

@@ -22,16 +22,15 @@ vec3 shading_normal() {
   vec3 n = normalize(normal_view);
   float side = gl_FrontFacing ? 1.0 : -1.0;  // a back face is only ever seen of a double-sided material
 #ifdef NORMAL_MAP
-  if ((material.flags & MATERIAL_NORMAL_MAP) != 0u) {
+  if (has(MATERIAL_NORMAL_MAP)) {
     vec3 mapped = texture(normal_map, uv_of(2u)).xyz * 2.0 - 1.0;
     mapped.xy *= material.normal_scale;
     vec3 t = tangent_view.xyz - n * dot(n, tangent_view.xyz);
     float length_squared = dot(t, t);
-    if (length_squared > 1e-12) {  // no tangent: the geometric normal stands
-      t *= inversesqrt(length_squared);
-      vec3 b = cross(n, t) * tangent_view.w;
-      n = normalize(mapped.x * t + mapped.y * b + mapped.z * n);
-    }
+    t *= inversesqrt(max(length_squared, 1e-12));
+    vec3 b = cross(n, t) * tangent_view.w;
+    // Without a tangent the geometric normal stands.
+    n = length_squared > 1e-12 ? normalize(mapped.x * t + mapped.y * b + mapped.z * n) : n;
   }
 #endif
   return n * side;
@@ -45,7 +44,7 @@ Surface surface_here() {
   s.metallic = material.metallic;
   s.roughness = material.roughness;
 #ifdef METALLIC_ROUGHNESS_MAP
-  if ((material.flags & MATERIAL_METALLIC_ROUGHNESS_MAP) != 0u) {
+  if (has(MATERIAL_METALLIC_ROUGHNESS_MAP)) {
     vec2 gb = texture(metallic_roughness_map, uv_of(1u)).gb;
     s.roughness *= gb.x;
     s.metallic *= gb.y;
@@ -54,17 +53,17 @@ Surface surface_here() {
   s.normal = shading_normal();
   s.occlusion = 1.0;
 #ifdef OCCLUSION_MAP
-  if ((material.flags & MATERIAL_OCCLUSION_MAP) != 0u) {
+  if (has(MATERIAL_OCCLUSION_MAP)) {
     s.occlusion = 1.0 + material.occlusion_strength * (texture(occlusion_map, uv_of(3u)).r - 1.0);
   }
 #endif
   s.emissive = material.emissive.rgb;
 #ifdef EMISSIVE_MAP
-  if ((material.flags & MATERIAL_EMISSIVE_MAP) != 0u) s.emissive *= texture(emissive_map, uv_of(4u)).rgb;
+  if (has(MATERIAL_EMISSIVE_MAP)) s.emissive *= texture(emissive_map, uv_of(4u)).rgb;
 #endif
   s.unlit = false;
 #ifdef UNLIT
-  s.unlit = (material.flags & MATERIAL_UNLIT) != 0u;
+  s.unlit = has(MATERIAL_UNLIT);
 #endif
   return s;
 }

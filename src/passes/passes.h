@@ -43,6 +43,7 @@ ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances
 // Lays blended surfaces over the image, back to front. Without a grid: from every light.
 void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid);
 
-Image read_back(Frame& f, const ShadedImage& image);
+// Into `image`, which keeps its memory from frame to frame.
+void read_back(Frame& f, const ShadedImage& shaded, Image& image);
 
 }  // namespace lightgrid

@@ -10,13 +10,13 @@ TechniqueRun::TechniqueRun(Devices& devices, const Scene& scene, const View& vie
 
 void TechniqueRun::run_frame(bool warmup) {
   const Timer timer;
-  image_ = read_back(frame_, technique_.render(frame_));
+  read_back(frame_, technique_.render(frame_), image_);
   if (!warmup) frame_ms_.push_back(timer.elapsed_ms());
 }
 
 void TechniqueRun::run_profiled_frame() {
   frame_.timer.enabled = true;
-  image_ = read_back(frame_, technique_.render(frame_));
+  read_back(frame_, technique_.render(frame_), image_);
   frame_.timer.enabled = false;
 }
 

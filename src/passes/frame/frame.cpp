@@ -65,7 +65,7 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
       scene(scene),
       view(view),
       plan(std::move(plan_of_frame)),
-      gpu(scene, plan),
+      gpu(scene, plan, devices.gl->software),
       params(view_params(view, plan.settings.tile, int(plan.local.size()), int(plan.directional_lights.size()), scene.ambient)),
       timer([this](const std::string& on) { if (on == "cl") {
           this->devices.cl->queue().finish();
@@ -87,6 +87,7 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
 
 const GlProgram& Frame::program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
+  if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
   std::string key = vertex + " " + fragment;
   for (const std::string& name : defines) key += " " + name;
   const auto found = programs_.find(key);

@@ -1,6 +1,10 @@
 #include "passes/frame/gpu_scene.h"
 
+#include <array>
+#include <cmath>
 #include <cstring>
+
+#include "base/image.h"
 
 #include "passes/frame/clusters.h"
 
@@ -56,9 +60,21 @@ GLint min_filter_of(Filter filter) {
   return GL_LINEAR;
 }
 
+// Steps of 2^-16 are finer than the sRGB curve's own, which are 3e-4 at black.
+std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
+  static const auto table = [] {
+    std::array<uint16_t, 256> values;
+    for (int i = 0; i < 256; ++i) values[i] = uint16_t(std::lround(linear_from_srgb(i / 255.0f) * 65535.0f));
+    return values;
+  }();
+  std::vector<uint16_t> linear(rgba.size());
+  for (size_t i = 0; i < rgba.size(); ++i) linear[i] = i % 4 == 3 ? uint16_t(rgba[i] * 257) : table[rgba[i]];
+  return linear;
+}
+
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const FramePlan& plan) {
+GpuScene::GpuScene(const Scene& scene, const FramePlan& plan, bool software_gl) : decode_srgb_once_(software_gl) {
   std::vector<bool> used(scene.meshes.size(), false);
   for (const auto* list : {&plan.opaque, &plan.blended}) {
     for (int instance : *list) used[scene.instances[instance].mesh] = true;
@@ -148,11 +164,18 @@ void GpuScene::upload_texture(const Scene& scene, int index) {
   const bool mips = texture.min_filter == Filter::linear_mip || texture.min_filter == Filter::nearest_mip;
   int levels = 1;
   while (mips && (std::max(bitmap.width, bitmap.height) >> levels) > 0) ++levels;
-  textures_[index] = make_texture_2d(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, bitmap.width, bitmap.height, levels);
+  const bool decoded = texture.srgb && decode_srgb_once_;
+  const GLenum format = decoded ? GL_RGBA16 : texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  textures_[index] = make_texture_2d(format, bitmap.width, bitmap.height, levels);
   const GLuint name = textures_[index].name();
-  glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE, bitmap.rgba.data());
+  if (decoded) {
+    const std::vector<uint16_t> linear = linear_from_srgb_16(bitmap.rgba);
+    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_SHORT, linear.data());
+  } else {
+    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE, bitmap.rgba.data());
+  }
   if (levels > 1) glGenerateTextureMipmap(name);
-  texture_bytes_ += size_t(bitmap.width) * bitmap.height * 4 * (levels > 1 ? 4 : 3) / 3;
+  texture_bytes_ += size_t(bitmap.width) * bitmap.height * (decoded ? 8 : 4) * (levels > 1 ? 4 : 3) / 3;
   samplers_[index] = make_sampler();
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));

@@ -27,7 +27,9 @@ struct GpuMesh {
 
 class GpuScene {
  public:
-  GpuScene(const Scene& scene, const FramePlan& plan);
+  // software_gl: colour textures are stored linear in 16 bits, since a software rasteriser would pay for the sRGB
+  // curve at every texel of every sample (5 ms of a 130 ms frame on llvmpipe; docs/results/first_light.md).
+  GpuScene(const Scene& scene, const FramePlan& plan, bool software_gl);
 
   const GpuMesh& mesh(int index) const { return meshes_[index]; }
   GLuint positions_only() const { return positions_only_.name(); }  // vertex array of the depth prepass
@@ -44,6 +46,7 @@ class GpuScene {
   void upload_materials(const Scene& scene, const FramePlan& plan);
   void upload_texture(const Scene& scene, int texture);
 
+  bool decode_srgb_once_;
   std::vector<GpuMesh> meshes_;
   std::vector<GlBuffer> buffers_;
   GlVertexArray positions_only_, all_streams_;
