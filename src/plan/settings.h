@@ -1,4 +1,4 @@
-// The settings that trade accuracy for time, by the names of the command line (docs/settings.md).
+// The settings that trade accuracy for time, by the names of the command line (docs/command_line.md#settings).
 #pragma once
 
 #include <map>

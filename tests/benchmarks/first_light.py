@@ -33,14 +33,14 @@ def line(*cells):
 
 
 def run(arguments, env=None):
-    """Wall time in seconds and peak resident bytes."""
+    """Wall time and processor time in seconds, and peak resident bytes."""
     start = time.monotonic()
     process = subprocess.Popen([PROGRAM, *arguments], env={**os.environ, **(env or {})}, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.monotonic() - start
     if status:
         sys.exit(f"first_light: lightgrid {' '.join(arguments)} ended with status {os.waitstatus_to_exitcode(status)}")
-    return seconds, usage.ru_maxrss * 1024
+    return seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024
 
 
 def measure_hall(folder):
@@ -52,10 +52,12 @@ def measure_hall(folder):
 
     for name in ["a", "b", "c"]:
         os.makedirs(f"{folder}/{name}/pocl")
-    cold = [run(command, caches(name))[0] for name in ["a", "b", "c"]]
-    warm = [run(command, caches("a"))[0] for _ in range(5)]
-    record("wall, caches empty", "hall", "640x360", "", "forward_plus", cold, "s")
-    record("wall, caches warm", "hall", "640x360", "", "forward_plus", warm, "s")
+    cold_runs = [run(command, caches(name)) for name in ["a", "b", "c"]]
+    warm_runs = [run(command, caches("a")) for _ in range(5)]
+    for name, runs in [("empty", cold_runs), ("warm", warm_runs)]:
+        record(f"wall, caches {name}", "hall", "640x360", "", "forward_plus", [r[0] for r in runs], "s")
+        record(f"processor time, caches {name}", "hall", "640x360", "", "forward_plus", [r[1] for r in runs], "s")
+    cold, warm = [r[0] for r in cold_runs], [r[0] for r in warm_runs]
     line("`render hall --size 640x360`, caches empty: wall time", f"{min(cold):.2f} / {statistics.median(cold):.2f} s", "6 s")
     line("the same, caches warm", f"{min(warm):.2f} / {statistics.median(warm):.2f} s", "1.0 s")
 
@@ -95,7 +97,7 @@ def measure_sponza(folder):
     line("the same: pairs lost, wrong; NaN pixels; image against `forward`",
          f"{plus['pairs']['lost']}, {plus['pairs']['wrong']}; {plus['nan_pixels']}; "
          + ("bit-identical" if plus["error"]["bit_identical"] else "differs"), "0, 0; 0; bit-identical")
-    _, peak = run(["render", *scene, "--lights", "1024", "-o", f"{folder}/a.png"])
+    _, _, peak = run(["render", *scene, "--lights", "1024", "-o", f"{folder}/a.png"])
     record("peak resident memory", "Sponza", SIZE, 1024, "forward_plus", [peak], "B")
     line(f"`render` of Sponza {SIZE} with 1024 lights: peak resident memory", f"{peak / 1e6:.0f} MB", "700 MB")
 
