@@ -24,13 +24,16 @@ out vec4 fragment_color;
 #endif
 
 uniform mat3 normal_from_object;
+#ifdef NORMAL_MAP
+uniform mat3 view_from_object;
+#endif
 
 void main() {
   gl_Position = clip_position();
   normal_view = normal_from_object * normal;
 #ifdef NORMAL_MAP
   // A tangent transforms as a direction does, not as a normal.
-  tangent_view = vec4(mat3(view_from_object) * tangent.xyz, tangent.w);
+  tangent_view = vec4(view_from_object * tangent.xyz, tangent.w);
 #endif
 #ifdef TEXTURED
   fragment_uv0 = uv0;

@@ -1,6 +1,5 @@
 layout(location = 0) in vec3 position;
-uniform mat4 view_from_object;
-uniform mat4 clip_from_view;
+uniform mat4 clip_from_object;  // multiplied out in double
 invariant gl_Position;
 
-vec4 clip_position() { return clip_from_view * (view_from_object * vec4(position, 1.0)); }
+vec4 clip_position() { return clip_from_object * vec4(position, 1.0); }

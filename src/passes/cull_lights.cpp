@@ -10,7 +10,8 @@ GridTextures cull(Frame& f, const char* name, cl::Buffer intervals, SharedGridSt
   storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
   storage.indices_.buffer->hand_to_gl(grid.index_bytes);
   f.note_grid(grid, blend);
-  pass.moves(f.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.cell_bytes + grid.index_bytes);
+  pass.moves(f.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8,
+             grid.cell_bytes + grid.index_bytes);
   return {grid, storage.cells_.texture.name(), storage.indices_.texture.name()};
 }
 

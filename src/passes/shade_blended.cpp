@@ -1,5 +1,5 @@
-// Blended surfaces, back to front, over what is opaque: in front of it by the depth test, and with a light grid of
-// their own, since they stand anywhere between the near plane and the opaque surface behind them.
+// Blended surfaces, back to front, over what is opaque: in front of it by the depth test, and with a light
+// grid of their own, since they stand anywhere between the near plane and the opaque surface behind them.
 #include "passes/frame/draw.h"
 #include "passes/frame/light_defines.h"
 #include "passes/passes.h"

@@ -5,7 +5,8 @@
 
 namespace lightgrid {
 
-ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances& distances, const GridTextures* grid) {
+ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances& distances,
+                          const GridTextures* grid) {
   auto pass = f.timer.pass("shade_forward", "gl");
   const ShadedImage image{f.color_framebuffer()};
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
@@ -16,9 +17,12 @@ ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances
   glDepthMask(GL_FALSE);
   glDisable(GL_BLEND);
   bind_lights(f, grid);
-  draw_instances(f, f.plan.opaque, DrawStreams::all, [&](uint32_t features) -> const GlProgram& {
-    return f.program("shaders/scene.vert", "shaders/forward.frag", light_defines(f, features, grid));
-  }, &distances);
+  draw_instances(
+      f, f.plan.opaque, DrawStreams::all,
+      [&](uint32_t features) -> const GlProgram& {
+        return f.program("shaders/scene.vert", "shaders/forward.frag", light_defines(f, features, grid));
+      },
+      &distances);
   const size_t pixels = size_t(f.view.width) * f.view.height;
   pass.moves(f.gpu.geometry_bytes() + pixels * 4 + f.light_grid_bytes(), pixels * 16);
   (void)depth;

@@ -16,7 +16,8 @@ Image read_image(int attachment, int width, int height) {
 
 SurfaceImages read_surfaces(Frame& f) {
   const int width = f.view.width, height = f.view.height;
-  const GlTexture targets[3] = {make_texture_2d(GL_RGBA32F, width, height), make_texture_2d(GL_RGBA32F, width, height),
+  const GlTexture targets[3] = {make_texture_2d(GL_RGBA32F, width, height),
+                                make_texture_2d(GL_RGBA32F, width, height),
                                 make_texture_2d(GL_RGBA32F, width, height)};
   const GlFramebuffer framebuffer =
       make_framebuffer({targets[0].name(), targets[1].name(), targets[2].name()}, f.depth_texture());
@@ -32,7 +33,8 @@ SurfaceImages read_surfaces(Frame& f) {
   };
   glDepthFunc(GL_EQUAL);
   draw_instances(f, f.plan.opaque, DrawStreams::all, program_of);
-  SurfaceImages surfaces{read_image(0, width, height), read_image(1, width, height), read_image(2, width, height), {}};
+  SurfaceImages surfaces{
+      read_image(0, width, height), read_image(1, width, height), read_image(2, width, height), {}};
   // Where blended surfaces are: everything they cover differs from a cleared target.
   surfaces.blended.assign(size_t(width) * height, false);
   if (!f.plan.blended.empty()) {
@@ -40,7 +42,8 @@ SurfaceImages read_surfaces(Frame& f) {
     glDepthFunc(GL_GEQUAL);
     draw_instances(f, f.plan.blended, DrawStreams::all, program_of);
     const Image normals = read_image(0, width, height);
-    for (size_t i = 0; i < normals.pixels.size(); ++i) surfaces.blended[i] = glm::vec3(normals.pixels[i]) != glm::vec3(0);
+    for (size_t i = 0; i < normals.pixels.size(); ++i)
+      surfaces.blended[i] = glm::vec3(normals.pixels[i]) != glm::vec3(0);
   }
   return surfaces;
 }

@@ -5,14 +5,16 @@
 namespace lightgrid {
 namespace {
 
-// Large enough that a draw's cost is its triangles, small enough that a cluster is mostly in view or out of it.
+// Large enough that a draw's cost is its triangles, small enough that a cluster is mostly in view or out of
+// it.
 constexpr size_t max_vertices = 128, max_triangles = 128;
 // How much meshlets favour triangles that face one way: so that whole clusters turn away from the eye.
 constexpr float cone_weight = 0.5f;
 
 }  // namespace
 
-std::vector<TriangleCluster> append_clusters(const Mesh& mesh, bool keep_order, std::vector<uint32_t>& indices) {
+std::vector<TriangleCluster> append_clusters(const Mesh& mesh, bool keep_order,
+                                             std::vector<uint32_t>& indices) {
   std::vector<TriangleCluster> clusters;
   if (keep_order || mesh.indices.size() <= 3 * max_triangles) {
     clusters.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), mesh.bounds});
@@ -25,8 +27,8 @@ std::vector<TriangleCluster> append_clusters(const Mesh& mesh, bool keep_order, 
   std::vector<unsigned> vertices(bound * max_vertices);
   std::vector<unsigned char> corners(bound * max_triangles * 3);
   meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), mesh.indices.data(),
-                                        mesh.indices.size(), positions, mesh.positions.size(), sizeof(glm::vec3),
-                                        max_vertices, max_triangles, cone_weight));
+                                        mesh.indices.size(), positions, mesh.positions.size(),
+                                        sizeof(glm::vec3), max_vertices, max_triangles, cone_weight));
   for (const meshopt_Meshlet& meshlet : meshlets) {
     TriangleCluster& cluster = clusters.emplace_back();
     cluster.first_index = uint32_t(indices.size());

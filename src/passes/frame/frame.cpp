@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <glm/gtc/type_ptr.hpp>
-
 namespace lightgrid {
 namespace {
 
@@ -21,11 +19,12 @@ LightTexels texels_of(const std::vector<ViewLight>& lights, const FramePlan& pla
     // A light without extent lights nothing, also not the point it is at.
     texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
     if (!plan.spots) continue;
-    // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product and a sum.
+    // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product
+    // and a sum.
     const double scale = 1.0 / (light.cos_inner - light.cos_outer);
-    texels.cones.push_back(light.type == LightType::spot
-                               ? glm::vec4(glm::vec3(light.direction * scale), float(-light.cos_outer * scale))
-                               : glm::vec4(0, 0, 0, 1));
+    texels.cones.push_back(light.type == LightType::spot ? glm::vec4(glm::vec3(light.direction * scale),
+                                                                     float(-light.cos_outer * scale))
+                                                         : glm::vec4(0, 0, 0, 1));
   }
   for (int i : plan.directional_lights) {
     texels.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
@@ -66,15 +65,19 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
       view(view),
       plan(std::move(plan_of_frame)),
       gpu(scene, plan, devices.gl->software),
-      params(view_params(view, plan.settings.tile, int(plan.local.size()), int(plan.directional_lights.size()), scene.ambient)),
-      timer([this](const std::string& on) { if (on == "cl") {
+      params(view_params(view, plan.settings.tile, int(plan.local.size()),
+                         int(plan.directional_lights.size()), scene.ambient)),
+      timer([this](const std::string& on) {
+        if (on == "cl") {
           this->devices.cl->queue().finish();
         } else {
           glFinish();
-        } }) {
+        }
+      }) {
   view_block_ = make_buffer(sizeof params, &params);
   const LightTexels texels = texels_of(lights_in_view(scene, view), plan);
-  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones, &texels.directional};
+  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones,
+                                             &texels.directional};
   const bool needed[4] = {plan.local_lights, plan.local_lights, plan.spots, plan.directional};
   for (int i = 0; i < 4; ++i) {
     if (!needed[i]) continue;
@@ -85,18 +88,15 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
   }
 }
 
-const GlProgram& Frame::program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
+const GlProgram& Frame::program(const std::string& vertex, const std::string& fragment,
+                                std::vector<std::string> defines) {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
   if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
   std::string key = vertex + " " + fragment;
   for (const std::string& name : defines) key += " " + name;
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
-  const GlProgram& made = programs_.try_emplace(key, vertex, fragment, defines).first->second;
-  glUseProgram(made.name());
-  const glm::mat4 clip_from_view(view.clip_from_view);
-  glUniformMatrix4fv(made.uniform("clip_from_view"), 1, GL_FALSE, glm::value_ptr(clip_from_view));
-  return made;
+  return programs_.try_emplace(key, vertex, fragment, defines).first->second;
 }
 
 GLuint Frame::depth_texture() {
@@ -164,11 +164,13 @@ SharedGridStorage& Frame::blend_grid() {
 }
 
 size_t Frame::light_grid_bytes() const {
-  return opaque_grid_last.cell_bytes + opaque_grid_last.index_bytes + blend_grid_last.cell_bytes + blend_grid_last.index_bytes;
+  return opaque_grid_last.cell_bytes + opaque_grid_last.index_bytes + blend_grid_last.cell_bytes +
+         blend_grid_last.index_bytes;
 }
 
 size_t Frame::memory_bytes() const {
-  size_t bytes = gpu.geometry_bytes() + gpu.texture_bytes() + target_bytes_ + light_bytes_ + light_grid_bytes();
+  size_t bytes =
+      gpu.geometry_bytes() + gpu.texture_bytes() + target_bytes_ + light_bytes_ + light_grid_bytes();
   if (depth_copy_) bytes += depth_copy_->size();
   if (culler_) bytes += culler_->memory_bytes();
   return bytes;

@@ -11,13 +11,14 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint32_t map_features[5] = {feature_base_color_map, feature_metallic_roughness_map, feature_normal_map,
-                                      feature_occlusion_map, feature_emissive_map};
-constexpr uint32_t map_flags[5] = {MATERIAL_BASE_COLOR_MAP, MATERIAL_METALLIC_ROUGHNESS_MAP, MATERIAL_NORMAL_MAP,
-                                   MATERIAL_OCCLUSION_MAP, MATERIAL_EMISSIVE_MAP};
+constexpr uint32_t map_features[5] = {feature_base_color_map, feature_metallic_roughness_map,
+                                      feature_normal_map, feature_occlusion_map, feature_emissive_map};
+constexpr uint32_t map_flags[5] = {MATERIAL_BASE_COLOR_MAP, MATERIAL_METALLIC_ROUGHNESS_MAP,
+                                   MATERIAL_NORMAL_MAP, MATERIAL_OCCLUSION_MAP, MATERIAL_EMISSIVE_MAP};
 
 const TextureSlot* slot_of(const Material& m, int slot) {
-  const TextureSlot* slots[5] = {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emissive_map};
+  const TextureSlot* slots[5] = {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map,
+                                 &m.occlusion_map, &m.emissive_map};
   return slots[slot];
 }
 
@@ -52,10 +53,14 @@ GLint wrap_of(Wrap wrap) {
 
 GLint min_filter_of(Filter filter) {
   switch (filter) {
-    case Filter::nearest: return GL_NEAREST;
-    case Filter::linear: return GL_LINEAR;
-    case Filter::nearest_mip: return GL_NEAREST_MIPMAP_NEAREST;
-    case Filter::linear_mip: return GL_LINEAR_MIPMAP_LINEAR;
+    case Filter::nearest:
+      return GL_NEAREST;
+    case Filter::linear:
+      return GL_LINEAR;
+    case Filter::nearest_mip:
+      return GL_NEAREST_MIPMAP_NEAREST;
+    case Filter::linear_mip:
+      return GL_LINEAR_MIPMAP_LINEAR;
   }
   return GL_LINEAR;
 }
@@ -74,7 +79,8 @@ std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const FramePlan& plan, bool software_gl) : decode_srgb_once_(software_gl) {
+GpuScene::GpuScene(const Scene& scene, const FramePlan& plan, bool software_gl)
+    : decode_srgb_once_(software_gl) {
   std::vector<bool> used(scene.meshes.size(), false);
   for (const auto* list : {&plan.opaque, &plan.blended}) {
     for (int instance : *list) used[scene.instances[instance].mesh] = true;
@@ -170,9 +176,11 @@ void GpuScene::upload_texture(const Scene& scene, int index) {
   const GLuint name = textures_[index].name();
   if (decoded) {
     const std::vector<uint16_t> linear = linear_from_srgb_16(bitmap.rgba);
-    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_SHORT, linear.data());
+    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_SHORT,
+                        linear.data());
   } else {
-    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE, bitmap.rgba.data());
+    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        bitmap.rgba.data());
   }
   if (levels > 1) glGenerateTextureMipmap(name);
   texture_bytes_ += size_t(bitmap.width) * bitmap.height * (decoded ? 8 : 4) * (levels > 1 ? 4 : 3) / 3;
@@ -180,11 +188,13 @@ void GpuScene::upload_texture(const Scene& scene, int index) {
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MIN_FILTER, min_filter_of(texture.min_filter));
-  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MAG_FILTER, texture.mag_linear ? GL_LINEAR : GL_NEAREST);
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MAG_FILTER,
+                      texture.mag_linear ? GL_LINEAR : GL_NEAREST);
 }
 
 void GpuScene::bind_material(int material, uint32_t features) const {
-  glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), GLintptr(material * material_stride_), sizeof(MaterialParams));
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), GLintptr(material * material_stride_),
+                    sizeof(MaterialParams));
   for (int s = 0; s < 5; ++s) {
     const int texture = slots_[material].texture[s];
     if (!(features & map_features[s]) || texture < 0 || !textures_[texture]) continue;

@@ -11,11 +11,13 @@ constexpr double rounding = 1e-5;
 bool faces_away(const TriangleCluster& cluster, const glm::dvec3& eye_in_object) {
   if (cluster.cone_cutoff >= 1) return false;
   const glm::dvec3 from_eye = glm::dvec3(cluster.cone_apex) - eye_in_object;
-  return glm::dot(from_eye, glm::dvec3(cluster.cone_axis)) >= (cluster.cone_cutoff + rounding) * glm::length(from_eye);
+  return glm::dot(from_eye, glm::dvec3(cluster.cone_axis)) >=
+         (cluster.cone_cutoff + rounding) * glm::length(from_eye);
 }
 
 // Is the box behind the farthest surface of every tile that it may cover?
-bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParams& view, const TileDistances& tiles) {
+bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParams& view,
+            const TileDistances& tiles) {
   double nearest = std::numeric_limits<double>::infinity();
   glm::dvec2 low(nearest), high(-nearest);
   for (int corner = 0; corner < 8; ++corner) {
@@ -45,8 +47,8 @@ bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParam
 
 }  // namespace
 
-IndexRanges visible_clusters(const Frame& f, const Frustum& frustum, const TileDistances* distances, int instance,
-                             const glm::dmat4& view_from_object) {
+IndexRanges visible_clusters(const Frame& f, const Frustum& frustum, const TileDistances* distances,
+                             int instance, const glm::dmat4& view_from_object) {
   const GpuMesh& mesh = f.gpu.mesh(f.scene.instances[instance].mesh);
   const Mesh& source = f.scene.meshes[f.scene.instances[instance].mesh];
   const bool one_sided = !f.scene.materials[source.material].double_sided && !f.view.orthographic;
@@ -56,7 +58,9 @@ IndexRanges visible_clusters(const Frame& f, const Frustum& frustum, const TileD
   for (const TriangleCluster& cluster : mesh.clusters) {
     if (one_sided && faces_away(cluster, eye)) continue;
     if (!may_see_box(frustum, view_from_object, cluster.bounds)) continue;
-    if (distances && !distances->intervals.empty() && hidden(cluster.bounds, view_from_object, f.params, *distances)) continue;
+    if (distances && !distances->intervals.empty() &&
+        hidden(cluster.bounds, view_from_object, f.params, *distances))
+      continue;
     if (cluster.first_index == end) {
       ranges.counts.back() += GLsizei(cluster.index_count);
     } else {
