@@ -31,19 +31,22 @@ uint32_t p99_of(std::vector<uint32_t> counts) {
   return counts[index];
 }
 
-// One scale for all heat maps, so that they compare. A technique that lists the same count everywhere (every
-// light) has nothing to show and would leave no colours to the others.
+// One scale for all heat maps, so that they compare: the largest of their 99th percentiles. A technique that lists
+// the same count wherever anything is (every light, say) is left out, since its scale would flatten all others.
 uint32_t heat_top(const CompareReport& report) {
   uint32_t top = 0, flat_top = 1;
-  const auto take = [&](const std::vector<uint32_t>& counts) {
-    const auto [low, high] = std::minmax_element(counts.begin(), counts.end());
-    if (*low == *high) flat_top = std::max(flat_top, *high);
-    if (*low != *high) top = std::max({top, p99_of(counts), 1u});
+  const auto consider = [&](const std::vector<uint32_t>& counts) {
+    uint32_t low = ~0u, high = 0;
+    for (uint32_t count : counts) {
+      if (count) low = std::min(low, count), high = std::max(high, count);
+    }
+    if (low >= high) flat_top = std::max(flat_top, high);
+    if (low < high) top = std::max({top, p99_of(counts), 1u});
   };
   for (size_t i = 0; i < report.rows.size(); ++i) {
-    if (has_counts(report, i)) take(report.listed[i]);
+    if (has_counts(report, i)) consider(report.listed[i]);
   }
-  if (!report.lit.empty()) take(report.lit);
+  consider(report.lit);
   return top ? top : flat_top;
 }
 
