@@ -27,12 +27,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
     }
   }
   lows[item] = low, highs[item] = high, lowests[item] = lowest;
-  for (uint half = GROUP / 2; half > 0; half /= 2) {
+  for (uint step = GROUP / 2; step > 0; step /= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < half) {
-      lows[item] = min(lows[item], lows[item + half]);
-      highs[item] = max(highs[item], highs[item + half]);
-      lowests[item] = min(lowests[item], lowests[item + half]);
+    if (item < step) {
+      lows[item] = min(lows[item], lows[item + step]);
+      highs[item] = max(highs[item], highs[item + step]);
+      lowests[item] = min(lowests[item], lowests[item + step]);
     }
   }
   if (item == 0) {

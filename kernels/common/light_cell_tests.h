@@ -63,6 +63,7 @@ static inline bool cone_may_touch(float x, float y, float d, float4 cone, const 
   // Distance from the axis through the cross product: |v|^2 - along^2 would cancel near the axis.
   const float px = vy * cone.z - vd * cone.y, py = vd * cone.x - vx * cone.z, pd = vx * cone.y - vy * cone.x;
   const float across = sqrt(px * px + py * py + pd * pd);
-  return across * cone.w - along * sine <= reach && along >= -reach;
+  // Asked so that NaN keeps the light: far, wide cells overflow, and inf * 0 or inf - inf tells nothing.
+  return !(across * cone.w - along * sine > reach) && !(along < -reach);
 }
 #endif

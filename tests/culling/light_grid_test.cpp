@@ -1,0 +1,311 @@
+// The light grid between what certainly touches a cell and what possibly does.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "culling/cell_truth.h"
+#include "reference/lit_set.h"
+#include "reference/test_views.h"
+#include "scene/random.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr float far_away = 1e18f;  // stands for infinity in the kernels
+const float infinity = std::numeric_limits<float>::infinity();
+constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double half_angles_deg[] = {0.1, 30, 60, 89.9, 90, 120};
+
+struct NamedView {
+  const char* name;
+  View view;
+  double inset;  // cells to pixel edges where slack covers the slopes' rounding: docs/hard_cases.md#slack
+};
+
+std::vector<NamedView> views(int width, int height) {
+  return {{"0.1 degrees", view_of(width, height, 0.1), 0},
+          {"60 degrees", view_of(width, height, 60), 0},
+          {"170 degrees", view_of(width, height, 170), 0.5},
+          {"179 degrees", view_of(width, height, 179), 0.5},
+          {"off centre", perspective_view(width, height, 0.5, 0.3, 0.1, 200, 0.3, -0.2), 0},
+          {"orthographic", orthographic_view_of(width, height, 5, 0, 100), 0}};
+}
+
+// Around the view at all distances, behind the eye included; of sizes between a pixel and the whole image.
+std::vector<ViewLight> scattered_lights(const View& view, int count, bool spots, uint64_t seed) {
+  Random random(seed);
+  std::vector<ViewLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const double px = view.width * (1.4 * random.uniform() - 0.2), py = view.height * (1.4 * random.uniform() - 0.2);
+    const double d = 0.05 * std::exp2(11 * random.uniform()) * (i % 10 == 0 ? -1 : 1);
+    const double scale = view.orthographic ? 1 : d;
+    const glm::dvec3 p(view_x_of_pixel(view, px) * scale, view_y_of_pixel(view, py) * scale, -d);
+    const double image = (view_x_of_pixel(view, view.width) - view_x_of_pixel(view, 0)) * std::abs(scale);
+    const float radius = float(image * std::exp2(-9 * random.uniform()));
+    if (spots && i % 2) {
+      const glm::dvec3 axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1) + 1e-3);
+      lights.push_back(spot_light(p, axis, 4 * radius, half_angles_deg[i / 2 % 6] * degree));
+    } else {
+      lights.push_back(point_light(p, radius));
+    }
+  }
+  return lights;
+}
+
+// Thin, thick, endless and empty cells.
+std::vector<glm::vec2> scattered_intervals(size_t tiles, uint64_t seed) {
+  Random random(seed);
+  std::vector<glm::vec2> intervals;
+  for (size_t i = 0; i < tiles; ++i) {
+    const float near = 0.1f * std::exp2(9 * random.uniform());
+    switch (random.next() % 6) {
+      case 0: intervals.emplace_back(far_away, -far_away); break;
+      case 1: intervals.emplace_back(0.0f, far_away); break;
+      case 2: intervals.emplace_back(near, near); break;
+      case 3: intervals.emplace_back(0.1f, near); break;
+      default: intervals.emplace_back(near, near * (1 + random.uniform()));
+    }
+  }
+  return intervals;
+}
+
+CullerOptions options_of(CullTest test, KernelShape shape, bool spots) {
+  CullerOptions options;
+  options.cull_test = test;
+  options.shape = shape;
+  options.spots = spots;
+  return options;
+}
+
+struct LightGridOf : testing::TestWithParam<std::tuple<CullTest, KernelShape>> {
+  CullerOptions options = options_of(std::get<0>(GetParam()), std::get<1>(GetParam()), true);
+};
+
+TEST_P(LightGridOf, ListsWhatCertainlyTouchesAndLittleElse) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(127, 73)}) {
+    for (const NamedView& named : views(size.x, size.y)) {
+      SCOPED_TRACE(fmt::format("{} {}x{}", named.name, size.x, size.y));
+      const auto lights = scattered_lights(named.view, 600, true, 7);
+      const auto intervals = scattered_intervals(tile_count(named.view, options.tile), 8);
+      const CulledGrid grid = cull_cells(named.view, lights, intervals, options);
+      expect_well_formed(grid, lights.size());
+      const uint64_t touching = expect_none_lost(named.view, lights, intervals, grid, named.inset);
+      if (size.x == 127) {
+        EXPECT_GT(touching, 100u);
+      }
+      if (options.cull_test == CullTest::planes_aabb) expect_little_more(named.view, lights, intervals, grid);
+    }
+  }
+}
+
+TEST_P(LightGridOf, AnyNumberOfLights) {
+  const View view = view_of(127, 73, 60);
+  const auto intervals = scattered_intervals(tile_count(view, options.tile), 9);
+  const auto most = scattered_lights(view, 257, true, 10);
+  for (const int count : {0, 1, 15, 16, 17, 63, 64, 65, 127, 128, 129, 254, 255, 256, 257}) {
+    SCOPED_TRACE(count);
+    const std::vector<ViewLight> lights(most.begin(), most.begin() + count);
+    const CulledGrid grid = cull_cells(view, lights, intervals, options);
+    expect_well_formed(grid, lights.size());
+    expect_none_lost(view, lights, intervals, grid, 0);
+  }
+}
+
+// Lights whose reach ends exactly on a cell's side, edge or corner, and one unit in the last place past it.
+TEST_P(LightGridOf, TangentLightsAreKept) {
+  for (const NamedView& named : views(127, 73)) {
+    SCOPED_TRACE(named.name);
+    const View& view = named.view;
+    const auto intervals = scattered_intervals(tile_count(view, options.tile), 11);
+    CulledGrid shape;
+    shape.params = view_params(view, options.tile, 0, 0, glm::vec3(0));
+    Random random(12);
+    std::vector<ViewLight> lights;
+    while (lights.size() < 4000) {
+      const size_t tile = random.next() % intervals.size();
+      if (!(intervals[tile].x <= intervals[tile].y)) continue;
+      const Cell cell = true_cell(view, shape, tile, intervals[tile], named.inset);
+      const double far = std::min(cell.far, 100 * std::max(cell.near, 0.1));
+      const auto pick = [&](double low, double high) {  // an end twice in three: corners, edges, sides
+        const uint64_t which = random.next() % 3;
+        return which == 0 ? low : which == 1 ? high : low + (high - low) * random.uniform();
+      };
+      const double d = pick(cell.near, far), scale = cell.scale_at(d);
+      const glm::dvec3 q(pick(cell.x0, cell.x1) * scale, pick(cell.y0, cell.y1) * scale, -d);
+      const double size = (cell.x1 - cell.x0) * scale * std::exp2(8 * random.uniform() - 2);
+      const glm::dvec3 centre =
+          q + size * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      const double distance = distance_to_cell(cell, centre);
+      if (distance == 0) continue;
+      float radius = float(distance);
+      if (radius < distance) radius = std::nextafter(radius, infinity);
+      if (random.next() % 2) radius = std::nextafter(radius, infinity);
+      lights.push_back(point_light(centre, radius));
+    }
+    const CulledGrid grid = cull_cells(view, lights, intervals, options);
+    expect_well_formed(grid, lights.size());
+    EXPECT_GE(expect_none_lost(view, lights, intervals, grid, named.inset), 4000u);
+  }
+}
+
+TEST_P(LightGridOf, StrangeLights) {
+  for (const NamedView& named : views(127, 73)) {
+    SCOPED_TRACE(named.name);
+    const View& view = named.view;
+    std::vector<glm::vec2> intervals(tile_count(view, options.tile), glm::vec2(0.1f, 50.0f));
+    intervals[0] = {0.1f, far_away};
+    const std::vector<ViewLight> lights = {
+        point_light({0, 0, -3}, 1e20f),     // 0
+        point_light({0, 0, -3}, infinity),  // 1
+        point_light({0, 0, 5}, 1),          // 2 behind
+        point_light({0, 0, 5}, 5.2),        // 3 behind, and reaches past the near plane
+        point_light({0, 0, 0}, 0.5),        // 4 at the eye, and the eye in it
+        point_light({0, 0, -0.1}, 0.01),    // 5 across the near plane
+        point_light({0, 0, -10}, 0),        // 6 touches the cells that hold its place
+        point_light({0, 0, -10}, 1e-40f),   // 7
+        point_light({0, 0, -1e7}, 1),       // 8 past what most tiles hold
+        point_light({3e18, 0, -1e18}, infinity),  // 9
+        spot_light({0, 0, 1}, {0, 0, -1}, infinity, 90 * degree),   // 10
+        spot_light({0, 0, -20}, {0, 0, 1}, 1e20f, 120 * degree),    // 11
+        spot_light({0, 0, -20}, {1, 0, 0}, infinity, 89.9 * degree),  // 12
+    };
+    const CulledGrid grid = cull_cells(view, lights, intervals, options);
+    expect_well_formed(grid, lights.size());
+    expect_none_lost(view, lights, intervals, grid, named.inset);
+    for (size_t i = 0; i < grid.cells.size(); ++i) {
+      EXPECT_THAT(grid.list(i), testing::IsSupersetOf({0u, 1u, 9u})) << i;
+      // The bounding sphere alone reaches anywhere; the interval cuts it off behind the eye.
+      EXPECT_THAT(grid.list(i), testing::Not(testing::Contains(2u))) << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
+                         testing::Combine(testing::Values(CullTest::sphere, CullTest::planes, CullTest::aabb,
+                                                          CullTest::planes_aabb),
+                                          testing::Values(KernelShape::lanes, KernelShape::group)),
+                         [](const auto& info) {
+                           const CullTest test = std::get<0>(info.param);
+                           const std::string name = test == CullTest::sphere   ? "sphere"
+                                                    : test == CullTest::planes ? "planes"
+                                                    : test == CullTest::aabb   ? "aabb"
+                                                                               : "planes_aabb";
+                           return name + (std::get<1>(info.param) == KernelShape::lanes ? "_lanes" : "_group");
+                         });
+
+TEST(LightGrid, SameBytesInBothShapesAndIndexWidthsAndInEveryRun) {
+  const View view = view_of(319, 181, 60);
+  const auto lights = scattered_lights(view, 1000, true, 13);
+  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::lanes, true);
+  const auto intervals = scattered_intervals(tile_count(view, options.tile), 14);
+  const CulledGrid first = cull_cells(view, lights, intervals, options);
+  EXPECT_GT(first.indices.size(), 1000u);
+  for (int run = 0; run < 20; ++run) ASSERT_EQ(cull_cells(view, lights, intervals, options), first) << run;
+  options.shape = KernelShape::group;
+  EXPECT_EQ(cull_cells(view, lights, intervals, options), first);
+  options.index_bits = 32;
+  EXPECT_EQ(cull_cells(view, lights, intervals, options), first);
+  options.shape = KernelShape::lanes;
+  EXPECT_EQ(cull_cells(view, lights, intervals, options), first);
+}
+
+TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
+  const View view = view_of(127, 73, 60);
+  const auto lights = scattered_lights(view, 300, false, 15);
+  const auto intervals = scattered_intervals(tile_count(view, 8), 16);
+  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::automatic, false);
+  options.tile = 8;
+  const CulledGrid first = cull_cells(view, lights, intervals, options);
+  LightCuller culler(test_device(), test_programs(), options);
+  culler.set_lights(lights);
+  culler.set_view(first.params);
+  ClGridStorage storage(test_device());
+  cl::Buffer bounds = buffer_of(intervals), endless = buffer_of(std::vector<glm::vec2>(intervals.size(), {0, far_away}));
+  for (int run = 0; run < 5; ++run) {
+    culler.cull(endless, storage);  // another, longer grid in between
+    const LightGrid grid = culler.cull(bounds, storage);
+    EXPECT_EQ(read_buffer<glm::uvec2>(storage.cells(0), first.cells.size()), first.cells);
+    const auto narrow = read_buffer<uint16_t>(storage.indices(0), grid.index_count);
+    EXPECT_EQ(std::vector<uint32_t>(narrow.begin(), narrow.end()), first.indices);
+  }
+}
+
+// More candidates and more indices than any first guess: the grid is still whole.
+TEST(LightGrid, GrowsToWhatTheCountsSay) {
+  for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+    const View view = view_of(321, 181, 60);
+    CullerOptions options = options_of(CullTest::planes_aabb, shape, false);
+    options.tile = 8;
+    const size_t tiles = tile_count(view, options.tile), count = 2000;
+    const std::vector<ViewLight> lights(count, point_light({0, 0, -5}, infinity));
+    const CulledGrid grid = cull_cells(view, lights, std::vector<glm::vec2>(tiles, {1.0f, 9.0f}), options);
+    ASSERT_EQ(grid.grid.index_count, tiles * count);
+    expect_well_formed(grid, count);
+    for (const glm::uvec2 cell : grid.cells) EXPECT_EQ(cell.y, count);
+  }
+}
+
+TEST(LightGrid, MoreThanTheDeviceHoldsIsAMachineError) {
+  const View view = view_of(321, 181, 60);
+  const size_t tiles = tile_count(view, 8), bins = 6 * 3;
+  const std::vector<ViewLight> lights(2000, point_light({0, 0, -5}, infinity));
+  // Room for the 20-byte candidates of every bin, or not even for those.
+  for (const size_t bytes : {bins * lights.size() * 20 + 1000, size_t(200'000)}) {
+    ClDevice device;
+    const_cast<ClDeviceInfo&>(device.info()).max_allocation_bytes = bytes;
+    ProgramCache programs(device);
+    CullerOptions options;
+    options.tile = 8;
+    LightCuller culler(device, programs, options);
+    culler.set_lights(lights);
+    culler.set_view(view_params(view, 8, int(lights.size()), 0, glm::vec3(0)));
+    const std::vector<glm::vec2> all(tiles, {1.0f, 9.0f});
+    cl::Buffer intervals(device.context(), CL_MEM_READ_WRITE, tiles * 8);
+    device.queue().enqueueWriteBuffer(intervals, CL_TRUE, 0, tiles * 8, all.data());
+    ClGridStorage storage(device);
+    try {
+      culler.cull(intervals, storage);
+      ADD_FAILURE() << "no error at " << bytes;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::machine);
+      EXPECT_THAT(error.what(), testing::HasSubstr("memory"));
+    }
+  }
+}
+
+// From a depth image to lists, against the lights that reach each pixel's centre.
+TEST(LightGrid, NoPixelLosesALightUnderAnySetting) {
+  for (const NamedView& named : views(127, 73)) {
+    Random random(17);
+    std::vector<float> depth(127 * 73);
+    for (float& value : depth) {
+      const float surface = named.view.orthographic ? random.uniform() : std::exp2(-7 * random.uniform()) * 0.5f;
+      value = random.uniform() < 0.1f ? 0.0f : surface;
+    }
+    const auto lights = scattered_lights(named.view, 400, true, 18);
+    for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb}) {
+      for (const int tile : {8, 16, 32, 64}) {
+        for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
+          SCOPED_TRACE(fmt::format("{} test {} tile {} mode {}", named.name, int(test), tile, int(mode)));
+          CullerOptions options = options_of(test, KernelShape::automatic, true);
+          options.tile = tile, options.depth_bounds = mode;
+          const auto intervals = depth_intervals(named.view, depth, options).opaque;
+          const CulledGrid grid = cull_cells(named.view, lights, intervals, options);
+          ListedLights lists;
+          for (uint y = 0; y < 73; ++y) {
+            for (uint x = 0; x < 127; ++x) lists.cell_of_pixel.push_back(y / tile * grid.params.tiles_x + x / tile);
+          }
+          for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+          lists.indices = grid.indices;
+          const LitPairs pairs = count_pairs(named.view, depth, lights, lists);
+          EXPECT_EQ(pairs.lost, 0u);
+          EXPECT_EQ(pairs.wrong, 0u);
+          EXPECT_GT(pairs.lit, 200u);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid

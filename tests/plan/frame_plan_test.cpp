@@ -1,0 +1,152 @@
+#include "plan/frame_plan.h"
+
+#include <gmock/gmock.h>
+
+#include "scene/builtin.h"
+#include "support/small_scene.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr TechniqueNeeds with_grid{.light_grid = true}, without_grid{.light_grid = false};
+
+const Decision& decision(const FramePlan& plan, const std::string& effect) {
+  for (const Decision& d : plan.decisions) {
+    if (d.effect == effect) return d;
+  }
+  throw std::runtime_error("no decision on " + effect);
+}
+
+FramePlan plan_of(const Scene& scene, const Settings& settings = {}) {
+  return plan_frame(scene, small_view(320, 180), settings, with_grid);
+}
+
+TEST(FramePlan, ThePlainSceneNeedsItsPointLightsAndNothingElse) {
+  const SmallScene s = small_scene();
+  const FramePlan plan = plan_of(s.scene);
+  for (const Decision& d : plan.decisions) {
+    EXPECT_EQ(d.needed, d.effect == "point and spot lights" || d.effect == "light grid") << d.effect << ": " << d.why;
+  }
+  EXPECT_EQ(plan.features, 0u);
+  EXPECT_EQ(plan.opaque, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(plan.light_grid && plan.local_lights);
+  EXPECT_FALSE(plan.spots || plan.directional || plan.blend || plan.blend_grid || plan.mask);
+  EXPECT_EQ(plan.lights_in_view, 6);
+}
+
+TEST(FramePlan, EachEffectComesWithItsWitness) {
+  for (const Effect& effect : effects()) {
+    SmallScene s = small_scene();
+    effect.add(s);
+    const FramePlan plan = plan_of(s.scene);
+    const Decision& d = decision(plan, effect.decision);
+    EXPECT_TRUE(d.needed) << effect.name;
+    EXPECT_THAT(d.why, StartsWith(effect.witness)) << effect.name;
+    EXPECT_THAT(describe(plan, s.scene), HasSubstr("yes " + effect.decision + ": " + effect.witness));
+    const auto defines = defines_of(plan.features);
+    if (!effect.define.empty()) EXPECT_THAT(defines, testing::Contains(effect.define));
+    EXPECT_EQ(plan.blend_grid, effect.name == "blend");
+    EXPECT_EQ(decision(plan, "blended light grid").needed, effect.name == "blend");
+    EXPECT_EQ(plan.spots, effect.name == "spot");
+    EXPECT_EQ(plan.directional, effect.name == "directional");
+    EXPECT_EQ(plan.mask, effect.name == "mask");
+  }
+}
+
+// All effects added one after the other: no one of them takes away what another asked for.
+TEST(FramePlan, WhatIsAddedTakesNothingAway) {
+  SmallScene s = small_scene();
+  std::vector<std::string> needed;
+  for (const Effect& effect : effects()) {
+    if (effect.name == "unlit") continue;  // an unlit ball gives up its vertex colours for none
+    effect.add(s);
+    const FramePlan plan = plan_of(s.scene);
+    needed.push_back(effect.decision);
+    if (effect.name == "uv_transform" || effect.name == "uv1") continue;  // each gives the wall a new texture slot
+    for (const std::string& one : needed) EXPECT_TRUE(decision(plan, one).needed) << one << " after " << effect.name;
+  }
+}
+
+TEST(FramePlan, IsAPureFunction) {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const Scene scene = builtin.make();
+    const View view = make_view(choose_camera(scene, ""), 320, 180);
+    const FramePlan first = plan_frame(scene, view, {}, with_grid), second = plan_frame(scene, view, {}, with_grid);
+    EXPECT_EQ(describe(first, scene), describe(second, scene));
+    EXPECT_EQ(first.opaque, second.opaque);
+    EXPECT_EQ(first.blended, second.blended);
+    EXPECT_EQ(first.features_of_instance, second.features_of_instance);
+    EXPECT_EQ(first.local, second.local);
+  }
+}
+
+TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
+  for (const Effect& effect : effects()) {
+    SmallScene s = small_scene();
+    effect.add(s);
+    for (Instance& instance : s.scene.instances) instance.world_from_object = placed({0, 0, 20}) * instance.world_from_object;
+    const FramePlan plan = plan_of(s.scene);
+    EXPECT_TRUE(plan.opaque.empty() && plan.blended.empty());
+    EXPECT_EQ(plan.features, 0u) << effect.name;
+    EXPECT_FALSE(plan.blend || plan.blend_grid || plan.mask) << effect.name;
+  }
+}
+
+TEST(FramePlan, BlendedInstancesGoBackToFront) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  const int pane = s.scene.instances.back().mesh;
+  for (const double z : {-1.0, 0.5, -0.5}) add_instance(s.scene, "pane", pane, placed({0, 0, z}));
+  EXPECT_EQ(plan_of(s.scene).blended, (std::vector<int>{3, 5, 2, 4}));
+}
+
+TEST(FramePlan, ATechniqueWithoutAGridHasNone) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  const FramePlan plan = plan_frame(s.scene, small_view(17, 9), {}, without_grid);
+  EXPECT_FALSE(plan.light_grid || plan.blend_grid);
+  EXPECT_TRUE(plan.blend && plan.local_lights);
+  EXPECT_EQ(decision(plan, "light grid").why, "the technique reads none");
+}
+
+TEST(FramePlan, WithoutALightThatHasAPlaceThereIsNoGrid) {
+  SmallScene s = small_scene(false);
+  s.scene.lights.emplace_back().type = LightType::directional;
+  const FramePlan plan = plan_of(s.scene);
+  EXPECT_FALSE(plan.light_grid || plan.local_lights || plan.spots);
+  EXPECT_TRUE(plan.directional);
+  EXPECT_EQ(decision(plan, "light grid").why, "no light has a place");
+}
+
+TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {
+  SmallScene s = small_scene(false);
+  s.scene.lights.resize(65536);
+  s.scene.lights.emplace_back().type = LightType::directional;  // stands in no list
+  EXPECT_EQ(plan_of(s.scene).index_bits, 16);
+  s.scene.lights.emplace_back();
+  const FramePlan plan = plan_of(s.scene);
+  EXPECT_EQ(plan.index_bits, 32);
+  EXPECT_EQ(decision(plan, "32-bit light indices").why, "65537 point and spot lights");
+}
+
+TEST(FramePlan, EverythingOnTurnsEveryEffectOn) {
+  const FramePlan plan = plan_of(small_scene().scene, {.everything_on = true});
+  EXPECT_TRUE(plan.light_grid && plan.blend_grid && plan.local_lights && plan.spots && plan.directional && plan.blend &&
+              plan.mask);
+  EXPECT_EQ(plan.index_bits, 32);
+  EXPECT_EQ(plan.features, uint32_t(feature_all));
+  EXPECT_EQ(plan.features_of_instance, (std::vector<uint32_t>{feature_all, feature_all}));
+}
+
+TEST(FramePlan, ASceneOfNothing) {
+  const Scene empty;
+  const FramePlan plan = plan_of(empty);
+  EXPECT_TRUE(plan.opaque.empty() && plan.blended.empty() && plan.local.empty());
+  for (const Decision& d : plan.decisions) EXPECT_FALSE(d.needed) << d.effect;
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,65 @@
+#include "plan/settings.h"
+
+#include <gmock/gmock.h>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string message_of(const std::string& assignment) {
+  Settings settings;
+  try {
+    apply_setting(settings, assignment);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
+  for (const SettingHelp& help : setting_help()) {
+    std::string key = help.key;
+    std::replace(key.begin(), key.end(), '-', '_');
+    EXPECT_EQ(to_strings(Settings{}).at(key), help.values.front()) << "the default stands first";
+    for (const std::string& value : help.values) {
+      Settings settings;
+      apply_setting(settings, help.key + "=" + value);
+      EXPECT_EQ(to_strings(settings).at(key), value);
+      auto others = to_strings(settings), before = to_strings(Settings{});
+      others.erase(key), before.erase(key);
+      EXPECT_EQ(others, before) << "no other setting moves";
+    }
+  }
+}
+
+TEST(Settings, ValuesMeanWhatTheySay) {
+  Settings settings;
+  apply_setting(settings, "tile=64");
+  apply_setting(settings, "cull-test=sphere");
+  apply_setting(settings, "depth-bounds=none");
+  apply_setting(settings, "kernel-shape=group");
+  EXPECT_EQ(settings.tile, 64);
+  EXPECT_EQ(settings.cull_test, CullTest::sphere);
+  EXPECT_EQ(settings.depth_bounds, DepthBoundsMode::none);
+  EXPECT_EQ(settings.kernel_shape, KernelShape::group);
+}
+
+TEST(Settings, AWrongKeyListsTheKeys) {
+  for (const char* wrong : {"tiles=16", "tile", "=16", "", "Tile=16"}) {
+    EXPECT_THAT(message_of(wrong), AllOf(HasSubstr("cull-test"), HasSubstr("tile"), HasSubstr("depth-bounds"))) << wrong;
+  }
+}
+
+TEST(Settings, AWrongValueListsTheValues) {
+  for (const char* wrong : {"tile=17", "tile=", "tile=16 ", "tile=16=16", "tile=016"}) {
+    EXPECT_THAT(message_of(wrong), AllOf(HasSubstr("8"), HasSubstr("32"), HasSubstr("64"), HasSubstr(wrong))) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,128 @@
+// A wall, a ball in front of it and six point lights, for tests that add one thing at a time. The camera is at the
+// origin and looks along -z.
+#pragma once
+
+#include <functional>
+
+#include "scene/builtin/compose.h"
+#include "scene/builtin/shapes.h"
+#include "scene/camera.h"
+
+namespace lightgrid {
+
+struct SmallScene {
+  Scene scene;
+  int wall_material = 0, ball_material = 0, wall = 0, ball = 0;  // wall, ball: meshes
+};
+
+inline Mesh wall_mesh(glm::vec3 center, float half, int material, const std::string& name) {
+  Mesh mesh;
+  shapes::add_quad(mesh, center - glm::vec3(half, half, 0), {2 * half, 0, 0}, {0, 2 * half, 0}, 2, 2);
+  return shapes::finished(std::move(mesh), name, material);
+}
+
+inline SmallScene small_scene(bool lights = true) {
+  SmallScene s;
+  s.scene.name = "small";
+  s.scene.background = {0.1f, 0.2f, 0.3f};
+  s.wall_material = add_material(s.scene, "plaster", {0.7f, 0.6f, 0.5f}, 0, 0.8f);
+  s.ball_material = add_material(s.scene, "steel", {0.6f, 0.6f, 0.7f}, 1, 0.3f);
+  s.wall = add_mesh(s.scene, wall_mesh({0.2f, 0, -4}, 2, s.wall_material, "wall"));
+  Mesh ball;
+  shapes::add_sphere(ball, {0, 0, 0}, 0.7f, 6);
+  s.ball = add_mesh(s.scene, shapes::finished(std::move(ball), "ball", s.ball_material));
+  add_instance(s.scene, "wall", s.wall);
+  add_instance(s.scene, "ball", s.ball, placed({0.3, -0.2, -3}));
+  if (lights) {
+    for (int i = 0; i < 6; ++i) {
+      add_point(s.scene, "lamp", {-1.5f + 0.6f * i, i % 2 ? 0.8f : -0.7f, -2.5f - 0.2f * i}, {1, 0.9f, 0.8f}, 2, 1.2f);
+    }
+  }
+  return s;
+}
+
+inline View small_view(int width, int height) { return make_view(look_at({0, 0, 0}, {0, 0, -1}), width, height); }
+
+// Eight by eight pixels, no two alike; alpha on both sides of a half.
+inline int add_speckles(Scene& scene, bool srgb) {
+  Bitmap bitmap;
+  bitmap.name = "speckles";
+  bitmap.width = bitmap.height = 8;
+  for (int i = 0; i < 64; ++i) {
+    for (const int byte : {100 + i, 130 + i / 2, 255 - i, i % 3 ? 255 : 0}) bitmap.rgba.push_back(uint8_t(byte));
+  }
+  return add_texture(scene, std::move(bitmap), srgb);
+}
+
+struct Effect {
+  std::string name;
+  std::string decision;  // as FramePlan::decisions names it; empty where it is the absence of all
+  std::string define;    // of shaders; empty where the effect is none of a material
+  std::string witness;   // how its reason begins
+  std::function<void(SmallScene&)> add;
+};
+
+// One effect each on the small scene. None but the first two brings another with it, textures apart.
+inline const std::vector<Effect>& effects() {
+  const auto map = [](TextureSlot Material::*slot, bool srgb) {
+    return [=](SmallScene& s) {
+      TextureSlot& used = s.scene.materials[s.wall_material].*slot;
+      used.texture = add_speckles(s.scene, srgb);
+    };
+  };
+  const std::string on_wall = "material 0 \"plaster\" on node 0 \"wall\"", on_ball = "material 1 \"steel\" on node 1 \"ball\"";
+  static const std::vector<Effect> all = {
+      {"blend", "blend", "", "material 2 \"glass\" on node 2 \"pane\"",
+       [](SmallScene& s) {
+         const int glass = add_material(s.scene, "glass", {0.5f, 0.8f, 0.9f}, 0, 0.1f);
+         s.scene.materials[glass].base_color.a = 0.4f;
+         s.scene.materials[glass].alpha_mode = AlphaMode::blend;
+         add_instance(s.scene, "pane", add_mesh(s.scene, wall_mesh({-0.5f, 0, -2}, 0.6f, glass, "pane")));
+       }},
+      {"mask", "alpha masks", "MASK", on_wall,
+       [=](SmallScene& s) {
+         map(&Material::base_color_map, true)(s);
+         s.scene.materials[s.wall_material].alpha_mode = AlphaMode::mask;
+       }},
+      {"base_color_map", "base colour maps", "BASE_COLOR_MAP", on_wall, map(&Material::base_color_map, true)},
+      {"metallic_roughness_map", "metallic-roughness maps", "METALLIC_ROUGHNESS_MAP", on_wall,
+       map(&Material::metallic_roughness_map, false)},
+      {"normal_map", "normal maps", "NORMAL_MAP", on_wall, map(&Material::normal_map, false)},
+      {"occlusion_map", "occlusion maps", "OCCLUSION_MAP", on_wall, map(&Material::occlusion_map, false)},
+      {"emissive_map", "emissive maps", "EMISSIVE_MAP", on_wall,
+       [=](SmallScene& s) {
+         map(&Material::emissive_map, true)(s);
+         s.scene.materials[s.wall_material].emissive = {0.5f, 0.1f, 0.2f};
+       }},
+      {"vertex_color", "vertex colours", "VERTEX_COLOR", on_ball,
+       [](SmallScene& s) {
+         Mesh& ball = s.scene.meshes[s.ball];
+         for (const glm::vec3& p : ball.positions) ball.colors.emplace_back(glm::abs(p), 1);
+       }},
+      {"uv1", "second UV set", "UV1", on_wall,
+       [=](SmallScene& s) {
+         map(&Material::base_color_map, true)(s);
+         s.scene.materials[s.wall_material].base_color_map.uv_set = 1;
+         for (const glm::vec2& uv : s.scene.meshes[s.wall].uv0) s.scene.meshes[s.wall].uv1.push_back(uv * 0.3f);
+       }},
+      {"uv_transform", "texture transforms", "UV_TRANSFORM", on_wall,
+       [=](SmallScene& s) {
+         map(&Material::base_color_map, true)(s);
+         s.scene.materials[s.wall_material].base_color_map.uv_from_vertex = {0.6f, 0.8f, -0.8f, 0.6f, 0.1f, 0.2f};
+       }},
+      {"unlit", "unlit materials", "UNLIT", on_ball,
+       [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},
+      {"spot", "spot cones", "", "light 6 \"torch\"",
+       [](SmallScene& s) { add_spot(s.scene, "torch", {0, 0, -1}, {-0.5f, 0, -4}, {1, 1, 1}, 9, 5, 10, 25); }},
+      {"directional", "directional lights", "", "light 6 \"sun\"",
+       [](SmallScene& s) {
+         Light& sun = s.scene.lights.emplace_back();
+         sun.name = "sun";
+         sun.type = LightType::directional;
+         sun.direction = glm::normalize(glm::vec3(0.3f, -0.5f, -1));
+       }},
+  };
+  return all;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,126 @@
+// Forward+ gives the bytes of the brute-force image, under every setting.
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+struct BuiltinForwardPlus : testing::TestWithParam<const char*> {
+  const Scene scene = find_builtin_scene(GetParam())->make();
+};
+
+TEST_P(BuiltinForwardPlus, HasTheBytesOfEveryLightAtEveryPixel) {
+  for (const glm::ivec2 size : {glm::ivec2(160, 90), glm::ivec2(17, 9), glm::ivec2(1, 1)}) {
+    SCOPED_TRACE(size.x);
+    const View view = default_view(scene, size.x, size.y);
+    const Image forward = render(scene, view, "forward");
+    EXPECT_GT(brightest_channel(forward), 0.0f);
+    expect_exact(scene, view, {}, forward);
+  }
+}
+
+TEST_P(BuiltinForwardPlus, EveryEffectOnChangesNoByte) {
+  const View view = default_view(scene, 160, 90);
+  for (const char* technique : {"forward", "forward_plus"}) {
+    EXPECT_TRUE(identical(render(scene, view, technique, {.everything_on = true}), render(scene, view, technique)))
+        << technique;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinForwardPlus, testing::Values("hall", "spheres", "terrain", "street"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(ForwardPlus, HasTheBytesAtASizeThatNoTileDivides) {
+  Scene scene = find_builtin_scene("terrain")->make();
+  scene.lights.resize(64);
+  const View view = default_view(scene, 1279, 721);
+  expect_exact(scene, view, {}, render(scene, view, "forward"));
+}
+
+TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
+  const Scene scene = find_builtin_scene("hall")->make();
+  const View view = default_view(scene, 127, 73);
+  const Image forward = render(scene, view, "forward");
+  for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb}) {
+    for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+      SCOPED_TRACE(fmt::format("test {} shape {}", int(test), int(shape)));
+      expect_exact(scene, view, {.cull_test = test, .kernel_shape = shape}, forward);
+    }
+  }
+  for (const int tile : {8, 16, 32, 64}) {
+    for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
+      for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+        SCOPED_TRACE(fmt::format("tile {} bounds {} shape {}", tile, int(mode), int(shape)));
+        expect_exact(scene, view, {.depth_bounds = mode, .tile = tile, .kernel_shape = shape}, forward);
+      }
+    }
+  }
+}
+
+TEST(ForwardPlus, CameraInsideALightAndLightsPastTheFarPlane) {
+  SmallScene s = small_scene();
+  add_point(s.scene, "around the eye", {0.1f, 0, 0.1f}, {1, 1, 1}, 5, 30);
+  add_point(s.scene, "past far", {0, 0, -4.6f}, {1, 0, 0}, 5, 2);
+  add_point(s.scene, "in front, past far", {0, 0.5f, -12}, {0, 1, 0}, 50, 9);
+  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+  camera.far_m = 4.5;
+  const View view = make_view(camera, 127, 73);
+  expect_exact(s.scene, view, {}, render(s.scene, view, "forward"));
+}
+
+TEST(ForwardPlus, OrthographicViews) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+  camera.orthographic = true;
+  camera.half_width_m = camera.half_height_m = 2;
+  camera.near_m = 0, camera.far_m = 10;
+  const View view = make_view(camera, 127, 73);
+  const Image forward = render(s.scene, view, "forward");
+  EXPECT_GT(brightest_channel(forward), 0.2f);
+  expect_exact(s.scene, view, {}, forward);
+}
+
+TEST(ForwardPlus, LightsThatReachEverywhereOrNowhere) {
+  SmallScene s = small_scene();
+  for (const float radius : {0.0f, 1e-40f, 1e20f, std::numeric_limits<float>::infinity()}) {
+    add_point(s.scene, "strange", {0.3f, 0.4f, -3.9f}, {1, 1, 1}, 1, radius);
+  }
+  const View view = small_view(127, 73);
+  const Image forward = render(s.scene, view, "forward");
+  EXPECT_EQ(count_nan_pixels(forward), 0u);
+  expect_exact(s.scene, view, {}, forward);
+}
+
+// Viewer, surface and light on one line, the light behind the surface: the half vector vanishes.
+TEST(ForwardPlus, ALightStraightBehindASurfaceAddsNothing) {
+  SmallScene s = small_scene(false);
+  s.scene.instances.pop_back();  // the wall alone
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9)}) {
+    for (const float roughness : {0.0f, 1.0f}) {
+      s.scene.materials[s.wall_material].roughness = roughness;
+      s.scene.lights.clear();
+      const View view = small_view(size.x, size.y);
+      const Image dark = render(s.scene, view, "forward");
+      for (const float z : {-5.0f, -4.5f, -8.0f, -100.0f}) add_point(s.scene, "behind", {0, 0, z}, {1, 1, 1}, 100, 1000);
+      const Image forward = render(s.scene, view, "forward");
+      EXPECT_EQ(count_nan_pixels(forward), 0u);
+      EXPECT_TRUE(identical(forward, dark));
+      expect_exact(s.scene, view, {}, forward);
+    }
+  }
+}
+
+TEST(ForwardPlus, ASceneOfNothingShowsItsBackground) {
+  Scene scene;
+  scene.background = {0.25f, 0.5f, 0.75f};
+  for (const char* technique : {"forward", "forward_plus"}) {
+    for (const bool everything : {false, true}) {
+      const Image image = render(scene, small_view(17, 9), technique, {.everything_on = everything});
+      for (const glm::vec4& pixel : image.pixels) ASSERT_EQ(glm::vec3(pixel), scene.background) << technique;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,62 @@
+// Small images through the techniques, as bytes to compare.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "scene/builtin.h"
+#include "scene/camera.h"
+#include "study/metrics.h"
+#include "study/oracle.h"
+#include "study/run_technique.h"
+
+namespace lightgrid {
+
+inline Devices& test_devices() {
+  static Devices devices = open_devices("", GlBackend::automatic);
+  return devices;
+}
+
+inline Image render(Devices& devices, const Scene& scene, const View& view, const std::string& technique,
+                    const Settings& settings = {}) {
+  TechniqueRun run(devices, scene, view, settings, find_technique(technique));
+  run.run_frame();
+  return run.image();
+}
+
+inline Image render(const Scene& scene, const View& view, const std::string& technique, const Settings& settings = {}) {
+  return render(test_devices(), scene, view, technique, settings);
+}
+
+inline View default_view(const Scene& scene, int width, int height) {
+  return make_view(choose_camera(scene, ""), width, height);
+}
+
+inline bool same_bytes(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec4)) == 0;
+}
+
+// Says how far apart two images are where they should be one.
+inline testing::AssertionResult identical(const Image& a, const Image& b) {
+  if (same_bytes(a, b)) return testing::AssertionSuccess();
+  const ImageError error = compare_images(a, b);
+  return testing::AssertionFailure() << fmt::format("images differ: max_abs {} max_rel {} rmse {}, NaN {} and {}",
+                                                    error.max_abs, error.max_rel, error.rmse, count_nan_pixels(a),
+                                                    count_nan_pixels(b));
+}
+
+// forward_plus against forward, and its lists against the lights that reach each pixel.
+inline void expect_exact(const Scene& scene, const View& view, const Settings& settings, const Image& forward) {
+  TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward_plus"));
+  run.run_frame();
+  EXPECT_TRUE(identical(run.image(), forward));
+  EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+  const LitPairs pairs = count_listed_pairs(run.frame(), read_depth(run.frame()));
+  EXPECT_EQ(pairs.lost, 0u);
+  EXPECT_EQ(pairs.wrong, 0u);
+  EXPECT_GE(pairs.listed, pairs.lit);
+}
+
+}  // namespace lightgrid
