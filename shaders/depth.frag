@@ -3,7 +3,7 @@
 #include "shaders/common/material.glsl"
 
 void main() {
-  if (material_base_color().a < material.alpha_cutoff) discard;
+  if (has(MATERIAL_MASK) && material_base_color().a < material.alpha_cutoff) discard;
 }
 #else
 void main() {}

@@ -30,7 +30,9 @@ void main() {
     vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
     ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
     vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
-    color = s.emissive + ambient * (p.diffuse * PI + p.f0) * s.occlusion;
+    // Precise: a compiler that fuses multiplications with additions would round by what else the program holds.
+    precise vec3 own = s.emissive + ambient * (p.diffuse * PI + p.f0) * s.occlusion;
+    color = own;
 #ifdef DIRECTIONAL
     color += directional_light_sum(p);
 #endif

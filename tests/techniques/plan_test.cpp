@@ -121,6 +121,16 @@ TEST(PlannedWork, EverythingIsGivenBack) {
   EXPECT_EQ(live(), before);
 }
 
+// glTF: the alpha of an opaque material is ignored, whatever the code around it can do.
+TEST(PlannedWork, AnOpaqueMaterialIgnoresItsAlpha) {
+  SmallScene s = small_scene();
+  const View view = small_view(127, 73);
+  const Image solid = render(s.scene, view, "forward_plus");
+  s.scene.materials[s.wall_material].base_color.a = 0.25f;
+  EXPECT_TRUE(identical(render(s.scene, view, "forward_plus"), solid));
+  EXPECT_TRUE(identical(render(s.scene, view, "forward_plus", {.everything_on = true}), solid));
+}
+
 TEST(PlannedWork, NoLightsAndNoEffectsHaveTheBytesOfEverythingOn) {
   const View view = small_view(127, 73);
   for (const bool lights : {false, true}) {

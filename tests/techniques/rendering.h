@@ -15,6 +15,7 @@ namespace lightgrid {
 
 inline Devices& test_devices() {
   static Devices devices = open_devices("", GlBackend::automatic);
+  devices.gl->make_current();  // some tests open others
   return devices;
 }
 

@@ -29,8 +29,6 @@ MaterialParams params_of(const Material& m) {
   p.metallic = m.metallic, p.roughness = m.roughness;
   p.normal_scale = m.normal_scale, p.occlusion_strength = m.occlusion_strength;
   p.alpha_cutoff = m.alpha_cutoff;
-  // Vertex colours are white where a mesh has none: the flag needs no mesh.
-  p.flags = MATERIAL_VERTEX_COLOR;
   if (m.alpha_mode == AlphaMode::mask) p.flags |= MATERIAL_MASK;
   if (m.unlit) p.flags |= MATERIAL_UNLIT;
   for (int i = 0; i < 5; ++i) {
@@ -129,7 +127,7 @@ void GpuScene::upload_meshes(const Scene& scene, const FramePlan& plan, const st
   if (plan.features & feature_normal_map) stream(2, &Mesh::tangents, glm::vec4(0), false);
   if (plan.features & feature_textured) stream(3, &Mesh::uv0, glm::vec2(0), false);
   if (plan.features & feature_uv1) stream(4, &Mesh::uv1, glm::vec2(0), false);
-  if (plan.features & feature_vertex_color) stream(5, &Mesh::colors, glm::vec4(1), false);
+  if (plan.features & feature_vertex_color) stream(5, &Mesh::colors, glm::vec4(-1), false);
 
   buffers_.push_back(make_buffer(indices.size() * sizeof(uint32_t), indices.data()));
   geometry_bytes_ += indices.size() * sizeof(uint32_t);
