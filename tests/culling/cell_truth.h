@@ -13,20 +13,27 @@ namespace lightgrid {
 
 constexpr double ulp_of_one = 0x1p-23;
 
-// inset: pixels that the cell is smaller at its sides. 0: to the pixels' edges; 0.5: to their centres, which is all
-// that shading sees.
-inline Cell true_cell(const View& view, const CulledGrid& grid, size_t index, glm::dvec2 interval, double inset) {
+// inset: pixels that the cell is smaller at its sides. 0: to the pixels' edges; 0.5: to their centres, which
+// is all that shading sees.
+inline Cell true_cell(const View& view, const CulledGrid& grid, size_t index, glm::dvec2 interval,
+                      double inset) {
   const ViewParams& p = grid.params;
   const uint tx = uint(index) % p.tiles_x, ty = uint(index) / p.tiles_x;
   const double x0 = tx * p.tile_size, x1 = std::min((tx + 1) * p.tile_size, p.width);
   const double y0 = ty * p.tile_size, y1 = std::min((ty + 1) * p.tile_size, p.height);
-  return {view_x_of_pixel(view, x0 + inset), view_x_of_pixel(view, x1 - inset), view_y_of_pixel(view, y0 + inset),
-          view_y_of_pixel(view, y1 - inset), interval.x, interval.y, view.orthographic};
+  return {view_x_of_pixel(view, x0 + inset),
+          view_x_of_pixel(view, x1 - inset),
+          view_y_of_pixel(view, y0 + inset),
+          view_y_of_pixel(view, y1 - inset),
+          interval.x,
+          interval.y,
+          view.orthographic};
 }
 
 inline bool certainly_touches(const Cell& cell, const ViewLight& light) {
   if (light.type == LightType::spot) {
-    return cone_touches_cell(cell, light.position, light.direction, light.cos_outer, light.radius_m) == Touch::yes;
+    return cone_touches_cell(cell, light.position, light.direction, light.cos_outer, light.radius_m) ==
+           Touch::yes;
   }
   return sphere_touches_cell(cell, light.position, light.radius_m);
 }
@@ -39,17 +46,19 @@ inline void expect_well_formed(const CulledGrid& grid, size_t lights) {
     next += grid.cells[i].y;
     ASSERT_LE(next, grid.indices.size()) << "cell " << i;
     const std::vector<uint32_t> list = grid.list(i);
-    ASSERT_TRUE(std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end()) << "cell " << i;
+    ASSERT_TRUE(std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end())
+        << "cell " << i;
     ASSERT_TRUE(list.empty() || list.back() < lights) << "cell " << i;
   }
   EXPECT_EQ(next, grid.grid.index_count);
   EXPECT_EQ(next, grid.indices.size());
 }
 
-// Every light that certainly touches a cell is in its list, and an empty cell's list is empty. Returns how many
-// pairs certainly touch, so that a test can tell that it asked something.
+// Every light that certainly touches a cell is in its list, and an empty cell's list is empty. Returns how
+// many pairs certainly touch, so that a test can tell that it asked something.
 inline uint64_t expect_none_lost(const View& view, const std::vector<ViewLight>& lights,
-                                 const std::vector<glm::vec2>& intervals, const CulledGrid& grid, double inset) {
+                                 const std::vector<glm::vec2>& intervals, const CulledGrid& grid,
+                                 double inset) {
   uint64_t touching = 0, lost = 0;
   for (size_t i = 0; i < grid.cells.size(); ++i) {
     if (!(intervals[i].x <= intervals[i].y)) {
@@ -64,8 +73,8 @@ inline uint64_t expect_none_lost(const View& view, const std::vector<ViewLight>&
       if (std::binary_search(list.begin(), list.end(), light)) continue;
       const glm::dvec3& p = lights[light].position;
       if (++lost <= 3) {
-        ADD_FAILURE() << fmt::format("cell {} [{}, {}] lost light {} at {} {} {} radius {}", i, cell.near, cell.far,
-                                     light, p.x, p.y, p.z, lights[light].radius_m);
+        ADD_FAILURE() << fmt::format("cell {} [{}, {}] lost light {} at {} {} {} radius {}", i, cell.near,
+                                     cell.far, light, p.x, p.y, p.z, lights[light].radius_m);
       }
     }
   }
@@ -73,11 +82,13 @@ inline uint64_t expect_none_lost(const View& view, const std::vector<ViewLight>&
   return touching;
 }
 
-// Every light listed touches, but for rounding, the cell's half-spaces and its box, as CULL_PLANES_AABB promises.
+// Every light listed touches, but for rounding, the cell's half-spaces and its box, as CULL_PLANES_AABB
+// promises.
 inline void expect_little_more(const View& view, const std::vector<ViewLight>& lights,
                                const std::vector<glm::vec2>& intervals, const CulledGrid& grid) {
-  const double steepest = std::max({std::abs(view_x_of_pixel(view, 0)), std::abs(view_x_of_pixel(view, view.width)),
-                                    std::abs(view_y_of_pixel(view, 0)), std::abs(view_y_of_pixel(view, view.height))});
+  const double steepest =
+      std::max({std::abs(view_x_of_pixel(view, 0)), std::abs(view_x_of_pixel(view, view.width)),
+                std::abs(view_y_of_pixel(view, 0)), std::abs(view_y_of_pixel(view, view.height))});
   for (size_t i = 0; i < grid.cells.size(); ++i) {
     const Cell c = true_cell(view, grid, i, intervals[i], 0);
     const double tip = c.orthographic ? 0 : 1;

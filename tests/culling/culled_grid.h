@@ -26,7 +26,8 @@ std::vector<T> read_buffer(const cl::Buffer& buffer, size_t count) {
 
 template <typename T>
 cl::Buffer buffer_of(const std::vector<T>& values) {
-  cl::Buffer buffer(test_device().context(), CL_MEM_READ_WRITE, std::max<size_t>(values.size() * sizeof(T), 64));
+  cl::Buffer buffer(test_device().context(), CL_MEM_READ_WRITE,
+                    std::max<size_t>(values.size() * sizeof(T), 64));
   if (!values.empty()) {
     test_device().queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
   }
@@ -38,7 +39,8 @@ struct Intervals {
   std::vector<glm::vec2> opaque, blend;
 };
 
-inline Intervals depth_intervals(const View& view, const std::vector<float>& depth, const CullerOptions& options) {
+inline Intervals depth_intervals(const View& view, const std::vector<float>& depth,
+                                 const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
   const ViewParams params = view_params(view, options.tile, 0, 0, glm::vec3(0));
   culler.set_view(params);
@@ -94,7 +96,8 @@ inline ViewLight point_light(glm::dvec3 position_view, double radius_m) {
   return light;
 }
 
-inline ViewLight spot_light(glm::dvec3 position_view, glm::dvec3 direction_view, double radius_m, double outer_rad) {
+inline ViewLight spot_light(glm::dvec3 position_view, glm::dvec3 direction_view, double radius_m,
+                            double outer_rad) {
   ViewLight light = point_light(position_view, radius_m);
   light.type = LightType::spot;
   light.direction = glm::normalize(direction_view);

@@ -122,18 +122,20 @@ TEST_P(DepthBoundsOf, OneSurfaceInTheLastPixelOfATile) {
   const View view = view_of(127, 73, 60);
   std::vector<float> depth(127 * 73, 0.0f);
   const int tile = options.tile;
-  depth[size_t(72) * 127 + 126] = 0.25f;                    // last of the last tile, which is cut off
-  depth[size_t(tile - 1) * 127 + (tile - 1)] = 0.125f;      // last of the first
+  depth[size_t(72) * 127 + 126] = 0.25f;                // last of the last tile, which is cut off
+  depth[size_t(tile - 1) * 127 + (tile - 1)] = 0.125f;  // last of the first
   expect_bounds(view, depth, options);
 }
 
 TEST_P(DepthBoundsOf, WhatNoDepthBufferHoldsGivesEveryDistance) {
-  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity(),
+              nan = std::numeric_limits<float>::quiet_NaN();
   const View view = view_of(127, 73, 60);
   const std::vector<float> whole = scattered_depth(view, 4);
   const Intervals before = depth_intervals(view, whole, options);
   const int tiles_x = (view.width + options.tile - 1) / options.tile;
-  for (const float value : {nan, -nan, infinity, -infinity, -1.0f, -0.0f, -1e-40f, std::nextafter(1.0f, 2.0f), 2.0f}) {
+  for (const float value :
+       {nan, -nan, infinity, -infinity, -1.0f, -0.0f, -1e-40f, std::nextafter(1.0f, 2.0f), 2.0f}) {
     SCOPED_TRACE(fmt::format("depth {}", value));
     std::vector<float> depth = whole;
     const int x = 70, y = 41, strange = y / options.tile * tiles_x + x / options.tile;
@@ -174,7 +176,8 @@ TEST(DepthBounds, BothShapesGiveTheSameBytesAtAnAwkwardSize) {
 TEST(DepthBounds, SwitchedOffEveryTileHoldsEveryDistance) {
   CullerOptions options = options_of(16, KernelShape::automatic);
   options.depth_bounds = DepthBoundsMode::none;
-  for (const glm::vec2 interval : depth_intervals(view_of(17, 9, 60), std::vector<float>(17 * 9), options).opaque) {
+  for (const glm::vec2 interval :
+       depth_intervals(view_of(17, 9, 60), std::vector<float>(17 * 9), options).opaque) {
     EXPECT_EQ(interval, glm::vec2(0, far_away));
   }
   for (const glm::vec2 interval :

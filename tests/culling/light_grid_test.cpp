@@ -36,7 +36,8 @@ std::vector<ViewLight> scattered_lights(const View& view, int count, bool spots,
   Random random(seed);
   std::vector<ViewLight> lights;
   for (int i = 0; i < count; ++i) {
-    const double px = view.width * (1.4 * random.uniform() - 0.2), py = view.height * (1.4 * random.uniform() - 0.2);
+    const double px = view.width * (1.4 * random.uniform() - 0.2),
+                 py = view.height * (1.4 * random.uniform() - 0.2);
     const double d = 0.05 * std::exp2(11 * random.uniform()) * (i % 10 == 0 ? -1 : 1);
     const double scale = view.orthographic ? 1 : d;
     const glm::dvec3 p(view_x_of_pixel(view, px) * scale, view_y_of_pixel(view, py) * scale, -d);
@@ -59,11 +60,20 @@ std::vector<glm::vec2> scattered_intervals(size_t tiles, uint64_t seed) {
   for (size_t i = 0; i < tiles; ++i) {
     const float near = 0.1f * std::exp2(9 * random.uniform());
     switch (random.next() % 6) {
-      case 0: intervals.emplace_back(far_away, -far_away); break;
-      case 1: intervals.emplace_back(0.0f, far_away); break;
-      case 2: intervals.emplace_back(near, near); break;
-      case 3: intervals.emplace_back(0.1f, near); break;
-      default: intervals.emplace_back(near, near * (1 + random.uniform()));
+      case 0:
+        intervals.emplace_back(far_away, -far_away);
+        break;
+      case 1:
+        intervals.emplace_back(0.0f, far_away);
+        break;
+      case 2:
+        intervals.emplace_back(near, near);
+        break;
+      case 3:
+        intervals.emplace_back(0.1f, near);
+        break;
+      default:
+        intervals.emplace_back(near, near * (1 + random.uniform()));
     }
   }
   return intervals;
@@ -155,18 +165,18 @@ TEST_P(LightGridOf, StrangeLights) {
     std::vector<glm::vec2> intervals(tile_count(view, options.tile), glm::vec2(0.1f, 50.0f));
     intervals[0] = {0.1f, far_away};
     const std::vector<ViewLight> lights = {
-        point_light({0, 0, -3}, 1e20f),     // 0
-        point_light({0, 0, -3}, infinity),  // 1
-        point_light({0, 0, 5}, 1),          // 2 behind
-        point_light({0, 0, 5}, 5.2),        // 3 behind, and reaches past the near plane
-        point_light({0, 0, 0}, 0.5),        // 4 at the eye, and the eye in it
-        point_light({0, 0, -0.1}, 0.01),    // 5 across the near plane
-        point_light({0, 0, -10}, 0),        // 6 touches the cells that hold its place
-        point_light({0, 0, -10}, 1e-40f),   // 7
-        point_light({0, 0, -1e7}, 1),       // 8 past what most tiles hold
+        point_light({0, 0, -3}, 1e20f),           // 0
+        point_light({0, 0, -3}, infinity),        // 1
+        point_light({0, 0, 5}, 1),                // 2 behind
+        point_light({0, 0, 5}, 5.2),              // 3 behind, and reaches past the near plane
+        point_light({0, 0, 0}, 0.5),              // 4 at the eye, and the eye in it
+        point_light({0, 0, -0.1}, 0.01),          // 5 across the near plane
+        point_light({0, 0, -10}, 0),              // 6 touches the cells that hold its place
+        point_light({0, 0, -10}, 1e-40f),         // 7
+        point_light({0, 0, -1e7}, 1),             // 8 past what most tiles hold
         point_light({3e18, 0, -1e18}, infinity),  // 9
-        spot_light({0, 0, 1}, {0, 0, -1}, infinity, 90 * degree),   // 10
-        spot_light({0, 0, -20}, {0, 0, 1}, 1e20f, 120 * degree),    // 11
+        spot_light({0, 0, 1}, {0, 0, -1}, infinity, 90 * degree),     // 10
+        spot_light({0, 0, -20}, {0, 0, 1}, 1e20f, 120 * degree),      // 11
         spot_light({0, 0, -20}, {1, 0, 0}, infinity, 89.9 * degree),  // 12
     };
     const CulledGrid grid = cull_cells(view, lights, intervals, options);
@@ -190,7 +200,8 @@ INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
                                                     : test == CullTest::planes ? "planes"
                                                     : test == CullTest::aabb   ? "aabb"
                                                                                : "planes_aabb";
-                           return name + (std::get<1>(info.param) == KernelShape::lanes ? "_lanes" : "_group");
+                           return name +
+                                  (std::get<1>(info.param) == KernelShape::lanes ? "_lanes" : "_group");
                          });
 
 TEST(LightGrid, SameBytesInBothShapesAndIndexWidthsAndInEveryRun) {
@@ -220,7 +231,8 @@ TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
   culler.set_lights(lights);
   culler.set_view(first.params);
   ClGridStorage storage(test_device());
-  cl::Buffer bounds = buffer_of(intervals), endless = buffer_of(std::vector<glm::vec2>(intervals.size(), {0, far_away}));
+  cl::Buffer bounds = buffer_of(intervals),
+             endless = buffer_of(std::vector<glm::vec2>(intervals.size(), {0, far_away}));
   for (int run = 0; run < 5; ++run) {
     culler.cull(endless, storage);  // another, longer grid in between
     const LightGrid grid = culler.cull(bounds, storage);
@@ -279,7 +291,8 @@ TEST(LightGrid, NoPixelLosesALightUnderAnySetting) {
     Random random(17);
     std::vector<float> depth(127 * 73);
     for (float& value : depth) {
-      const float surface = named.view.orthographic ? random.uniform() : std::exp2(-7 * random.uniform()) * 0.5f;
+      const float surface =
+          named.view.orthographic ? random.uniform() : std::exp2(-7 * random.uniform()) * 0.5f;
       value = random.uniform() < 0.1f ? 0.0f : surface;
     }
     const auto lights = scattered_lights(named.view, 400, true, 18);
@@ -293,9 +306,11 @@ TEST(LightGrid, NoPixelLosesALightUnderAnySetting) {
           const CulledGrid grid = cull_cells(named.view, lights, intervals, options);
           ListedLights lists;
           for (uint y = 0; y < 73; ++y) {
-            for (uint x = 0; x < 127; ++x) lists.cell_of_pixel.push_back(y / tile * grid.params.tiles_x + x / tile);
+            for (uint x = 0; x < 127; ++x)
+              lists.cell_of_pixel.push_back(y / tile * grid.params.tiles_x + x / tile);
           }
-          for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+          for (const glm::uvec2 cell : grid.cells)
+            lists.first.push_back(cell.x), lists.count.push_back(cell.y);
           lists.indices = grid.indices;
           const LitPairs pairs = count_pairs(named.view, depth, lights, lists);
           EXPECT_EQ(pairs.lost, 0u);

@@ -28,7 +28,8 @@ TEST(FramePlan, ThePlainSceneNeedsItsPointLightsAndNothingElse) {
   const SmallScene s = small_scene();
   const FramePlan plan = plan_of(s.scene);
   for (const Decision& d : plan.decisions) {
-    EXPECT_EQ(d.needed, d.effect == "point and spot lights" || d.effect == "light grid") << d.effect << ": " << d.why;
+    EXPECT_EQ(d.needed, d.effect == "point and spot lights" || d.effect == "light grid")
+        << d.effect << ": " << d.why;
   }
   EXPECT_EQ(plan.features, 0u);
   EXPECT_EQ(plan.opaque, (std::vector<int>{0, 1}));
@@ -46,8 +47,9 @@ TEST(FramePlan, EachEffectComesWithItsWitness) {
     EXPECT_TRUE(d.needed) << effect.name;
     EXPECT_THAT(d.why, StartsWith(effect.witness)) << effect.name;
     EXPECT_THAT(describe(plan, s.scene), HasSubstr("yes " + effect.decision + ": " + effect.witness));
-    const auto defines = defines_of(plan.features);
-    if (!effect.define.empty()) EXPECT_THAT(defines, testing::Contains(effect.define));
+    if (!effect.define.empty()) {
+      EXPECT_THAT(defines_of(plan.features), testing::Contains(effect.define));
+    }
     EXPECT_EQ(plan.blend_grid, effect.name == "blend");
     EXPECT_EQ(decision(plan, "blended light grid").needed, effect.name == "blend");
     EXPECT_EQ(plan.spots, effect.name == "spot");
@@ -65,8 +67,10 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
     needed.push_back(effect.decision);
-    if (effect.name == "uv_transform" || effect.name == "uv1") continue;  // each gives the wall a new texture slot
-    for (const std::string& one : needed) EXPECT_TRUE(decision(plan, one).needed) << one << " after " << effect.name;
+    if (effect.name == "uv_transform" || effect.name == "uv1")
+      continue;  // each gives the wall a new texture slot
+    for (const std::string& one : needed)
+      EXPECT_TRUE(decision(plan, one).needed) << one << " after " << effect.name;
   }
 }
 
@@ -74,7 +78,8 @@ TEST(FramePlan, IsAPureFunction) {
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const Scene scene = builtin.make();
     const View view = make_view(choose_camera(scene, ""), 320, 180);
-    const FramePlan first = plan_frame(scene, view, {}, with_grid), second = plan_frame(scene, view, {}, with_grid);
+    const FramePlan first = plan_frame(scene, view, {}, with_grid),
+                    second = plan_frame(scene, view, {}, with_grid);
     EXPECT_EQ(describe(first, scene), describe(second, scene));
     EXPECT_EQ(first.opaque, second.opaque);
     EXPECT_EQ(first.blended, second.blended);
@@ -87,7 +92,8 @@ TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
   for (const Effect& effect : effects()) {
     SmallScene s = small_scene();
     effect.add(s);
-    for (Instance& instance : s.scene.instances) instance.world_from_object = placed({0, 0, 20}) * instance.world_from_object;
+    for (Instance& instance : s.scene.instances)
+      instance.world_from_object = placed({0, 0, 20}) * instance.world_from_object;
     const FramePlan plan = plan_of(s.scene);
     EXPECT_TRUE(plan.opaque.empty() && plan.blended.empty());
     EXPECT_EQ(plan.features, 0u) << effect.name;
@@ -134,8 +140,8 @@ TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {
 
 TEST(FramePlan, EverythingOnTurnsEveryEffectOn) {
   const FramePlan plan = plan_of(small_scene().scene, {.everything_on = true});
-  EXPECT_TRUE(plan.light_grid && plan.blend_grid && plan.local_lights && plan.spots && plan.directional && plan.blend &&
-              plan.mask);
+  EXPECT_TRUE(plan.light_grid && plan.blend_grid && plan.local_lights && plan.spots && plan.directional &&
+              plan.blend && plan.mask);
   EXPECT_EQ(plan.index_bits, 32);
   EXPECT_EQ(plan.features, uint32_t(feature_all));
   EXPECT_EQ(plan.features_of_instance, (std::vector<uint32_t>{feature_all, feature_all}));

@@ -51,13 +51,16 @@ TEST(Settings, ValuesMeanWhatTheySay) {
 
 TEST(Settings, AWrongKeyListsTheKeys) {
   for (const char* wrong : {"tiles=16", "tile", "=16", "", "Tile=16"}) {
-    EXPECT_THAT(message_of(wrong), AllOf(HasSubstr("cull-test"), HasSubstr("tile"), HasSubstr("depth-bounds"))) << wrong;
+    EXPECT_THAT(message_of(wrong),
+                AllOf(HasSubstr("cull-test"), HasSubstr("tile"), HasSubstr("depth-bounds")))
+        << wrong;
   }
 }
 
 TEST(Settings, AWrongValueListsTheValues) {
   for (const char* wrong : {"tile=17", "tile=", "tile=16 ", "tile=16=16", "tile=016"}) {
-    EXPECT_THAT(message_of(wrong), AllOf(HasSubstr("8"), HasSubstr("32"), HasSubstr("64"), HasSubstr(wrong))) << wrong;
+    EXPECT_THAT(message_of(wrong), AllOf(HasSubstr("8"), HasSubstr("32"), HasSubstr("64"), HasSubstr(wrong)))
+        << wrong;
   }
 }
 

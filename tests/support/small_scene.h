@@ -1,5 +1,5 @@
-// A wall, a ball in front of it and six point lights, for tests that add one thing at a time. The camera is at the
-// origin and looks along -z.
+// A wall, a ball in front of it and six point lights, for tests that add one thing at a time. The camera is
+// at the origin and looks along -z.
 #pragma once
 
 #include <functional>
@@ -35,13 +35,16 @@ inline SmallScene small_scene(bool lights = true) {
   add_instance(s.scene, "ball", s.ball, placed({0.3, -0.2, -3}));
   if (lights) {
     for (int i = 0; i < 6; ++i) {
-      add_point(s.scene, "lamp", {-1.5f + 0.6f * i, i % 2 ? 0.8f : -0.7f, -2.5f - 0.2f * i}, {1, 0.9f, 0.8f}, 2, 1.2f);
+      add_point(s.scene, "lamp", {-1.5f + 0.6f * i, i % 2 ? 0.8f : -0.7f, -2.5f - 0.2f * i}, {1, 0.9f, 0.8f},
+                2, 1.2f);
     }
   }
   return s;
 }
 
-inline View small_view(int width, int height) { return make_view(look_at({0, 0, 0}, {0, 0, -1}), width, height); }
+inline View small_view(int width, int height) {
+  return make_view(look_at({0, 0, 0}, {0, 0, -1}), width, height);
+}
 
 // Eight by eight pixels, no two alike; alpha on both sides of a half.
 inline int add_speckles(Scene& scene, bool srgb) {
@@ -49,7 +52,8 @@ inline int add_speckles(Scene& scene, bool srgb) {
   bitmap.name = "speckles";
   bitmap.width = bitmap.height = 8;
   for (int i = 0; i < 64; ++i) {
-    for (const int byte : {100 + i, 130 + i / 2, 255 - i, i % 3 ? 255 : 0}) bitmap.rgba.push_back(uint8_t(byte));
+    for (const int byte : {100 + i, 130 + i / 2, 255 - i, i % 3 ? 255 : 0})
+      bitmap.rgba.push_back(uint8_t(byte));
   }
   return add_texture(scene, std::move(bitmap), srgb);
 }
@@ -70,7 +74,8 @@ inline const std::vector<Effect>& effects() {
       used.texture = add_speckles(s.scene, srgb);
     };
   };
-  const std::string on_wall = "material 0 \"plaster\" on node 0 \"wall\"", on_ball = "material 1 \"steel\" on node 1 \"ball\"";
+  const std::string on_wall = "material 0 \"plaster\" on node 0 \"wall\"",
+                    on_ball = "material 1 \"steel\" on node 1 \"ball\"";
   static const std::vector<Effect> all = {
       {"blend", "blend", "", "material 2 \"glass\" on node 2 \"pane\"",
        [](SmallScene& s) {
@@ -103,17 +108,21 @@ inline const std::vector<Effect>& effects() {
        [=](SmallScene& s) {
          map(&Material::base_color_map, true)(s);
          s.scene.materials[s.wall_material].base_color_map.uv_set = 1;
-         for (const glm::vec2& uv : s.scene.meshes[s.wall].uv0) s.scene.meshes[s.wall].uv1.push_back(uv * 0.3f);
+         for (const glm::vec2& uv : s.scene.meshes[s.wall].uv0)
+           s.scene.meshes[s.wall].uv1.push_back(uv * 0.3f);
        }},
       {"uv_transform", "texture transforms", "UV_TRANSFORM", on_wall,
        [=](SmallScene& s) {
          map(&Material::base_color_map, true)(s);
-         s.scene.materials[s.wall_material].base_color_map.uv_from_vertex = {0.6f, 0.8f, -0.8f, 0.6f, 0.1f, 0.2f};
+         s.scene.materials[s.wall_material].base_color_map.uv_from_vertex = {0.6f, 0.8f, -0.8f,
+                                                                             0.6f, 0.1f, 0.2f};
        }},
       {"unlit", "unlit materials", "UNLIT", on_ball,
        [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},
       {"spot", "spot cones", "", "light 6 \"torch\"",
-       [](SmallScene& s) { add_spot(s.scene, "torch", {0, 0, -1}, {-0.5f, 0, -4}, {1, 1, 1}, 9, 5, 10, 25); }},
+       [](SmallScene& s) {
+         add_spot(s.scene, "torch", {0, 0, -1}, {-0.5f, 0, -4}, {1, 1, 1}, 9, 5, 10, 25);
+       }},
       {"directional", "directional lights", "", "light 6 \"sun\"",
        [](SmallScene& s) {
          Light& sun = s.scene.lights.emplace_back();

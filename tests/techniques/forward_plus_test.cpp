@@ -24,7 +24,8 @@ TEST_P(BuiltinForwardPlus, HasTheBytesOfEveryLightAtEveryPixel) {
 TEST_P(BuiltinForwardPlus, EveryEffectOnChangesNoByte) {
   const View view = default_view(scene, 160, 90);
   for (const char* technique : {"forward", "forward_plus"}) {
-    EXPECT_TRUE(identical(render(scene, view, technique, {.everything_on = true}), render(scene, view, technique)))
+    EXPECT_TRUE(
+        identical(render(scene, view, technique, {.everything_on = true}), render(scene, view, technique)))
         << technique;
   }
 }
@@ -104,7 +105,8 @@ TEST(ForwardPlus, ALightStraightBehindASurfaceAddsNothing) {
       s.scene.lights.clear();
       const View view = small_view(size.x, size.y);
       const Image dark = render(s.scene, view, "forward");
-      for (const float z : {-5.0f, -4.5f, -8.0f, -100.0f}) add_point(s.scene, "behind", {0, 0, z}, {1, 1, 1}, 100, 1000);
+      for (const float z : {-5.0f, -4.5f, -8.0f, -100.0f})
+        add_point(s.scene, "behind", {0, 0, z}, {1, 1, 1}, 100, 1000);
       const Image forward = render(s.scene, view, "forward");
       EXPECT_EQ(count_nan_pixels(forward), 0u);
       EXPECT_TRUE(identical(forward, dark));

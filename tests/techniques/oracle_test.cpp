@@ -6,10 +6,10 @@ namespace {
 
 struct Shading : testing::TestWithParam<const char*> {};
 
-// Each light's term carries some 50 roundings of 2^-24, and a sum of n of them at most n more: with the 100 lights
-// that share a pixel at most, 1e-5 of what is there. A highlight's peak multiplies the rounding of its angles by up to
-// 2 / alpha, 20 for the polished materials of these scenes: 2e-4 of the brightest channel. Measured (llvmpipe): 2e-6
-// to 2e-5 at worst, 2e-7 root mean square.
+// Each light's term carries some 50 roundings of 2^-24, and a sum of n of them at most n more: with the 100
+// lights that share a pixel at most, 1e-5 of what is there. A highlight's peak multiplies the rounding of its
+// angles by up to 2 / alpha, 20 for the polished materials of these scenes: 2e-4 of the brightest channel.
+// Measured (llvmpipe): 2e-6 to 2e-5 at worst, 2e-7 root mean square.
 TEST_P(Shading, InFloatIsTheOraclesWithinItsRounding) {
   const Scene scene = find_builtin_scene(GetParam())->make();
   const View view = default_view(scene, 320, 180);

@@ -39,8 +39,8 @@ struct Work {
 };
 
 std::ostream& operator<<(std::ostream& out, const Work& w) {
-  return out << fmt::format("{} buffers, {} textures, {} programs, {} launches, {} of them count bins", w.buffers,
-                            w.textures, w.programs, w.cl_launches, w.bins_counted);
+  return out << fmt::format("{} buffers, {} textures, {} programs, {} launches, {} of them count bins",
+                            w.buffers, w.textures, w.programs, w.cl_launches, w.bins_counted);
 }
 
 Work work_of(const Scene& scene, const Settings& settings = {}) {
@@ -56,8 +56,8 @@ Work work_of(const Scene& scene, const Settings& settings = {}) {
 }
 
 Work operator+(Work a, const Work& b) {
-  return {a.buffers + b.buffers, a.textures + b.textures, a.programs + b.programs, a.cl_launches + b.cl_launches,
-          a.bins_counted + b.bins_counted};
+  return {a.buffers + b.buffers, a.textures + b.textures, a.programs + b.programs,
+          a.cl_launches + b.cl_launches, a.bins_counted + b.bins_counted};
 }
 
 TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
@@ -77,7 +77,7 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"uv1", {2, 1, 1, 0, 0}},
       {"uv_transform", {1, 1, 1, 0, 0}},
       {"unlit", {0, 0, 1, 0, 0}},
-      {"spot", {1, 1, 0, 0, 0}},         // cones; all programs are others, none is more
+      {"spot", {1, 1, 0, 0, 0}},  // cones; all programs are others, none is more
       {"directional", {1, 1, 0, 0, 0}},
   };
   EXPECT_EQ(work_of(with().scene), plain + added.at(effect.name));
@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(Effects, EachEffect, testing::Range(0, int(effects().si
 
 TEST(PlannedWork, OfThePlainScene) {
   // Positions, normals, indices, materials, the view, light places and colours; and textures of the last two,
-  // of the grid's cells and indices, depth and colour. Depth bounds, then count, scan, fill of bins and of tiles.
+  // of the grid's cells and indices, depth and colour. Depth bounds, then count, scan, fill of bins and of
+  // tiles.
   EXPECT_EQ(work_of(small_scene().scene), (Work{7, 6, 2, 7, 1}));
 }
 
@@ -136,7 +137,8 @@ TEST(PlannedWork, NoLightsAndNoEffectsHaveTheBytesOfEverythingOn) {
   for (const bool lights : {false, true}) {
     const SmallScene s = small_scene(lights);
     for (const char* technique : {"forward", "forward_plus"}) {
-      EXPECT_TRUE(identical(render(s.scene, view, technique, {.everything_on = true}), render(s.scene, view, technique)));
+      EXPECT_TRUE(identical(render(s.scene, view, technique, {.everything_on = true}),
+                            render(s.scene, view, technique)));
     }
   }
 }

@@ -26,7 +26,8 @@ inline Image render(Devices& devices, const Scene& scene, const View& view, cons
   return run.image();
 }
 
-inline Image render(const Scene& scene, const View& view, const std::string& technique, const Settings& settings = {}) {
+inline Image render(const Scene& scene, const View& view, const std::string& technique,
+                    const Settings& settings = {}) {
   return render(test_devices(), scene, view, technique, settings);
 }
 
@@ -43,13 +44,14 @@ inline bool same_bytes(const Image& a, const Image& b) {
 inline testing::AssertionResult identical(const Image& a, const Image& b) {
   if (same_bytes(a, b)) return testing::AssertionSuccess();
   const ImageError error = compare_images(a, b);
-  return testing::AssertionFailure() << fmt::format("images differ: max_abs {} max_rel {} rmse {}, NaN {} and {}",
-                                                    error.max_abs, error.max_rel, error.rmse, count_nan_pixels(a),
-                                                    count_nan_pixels(b));
+  return testing::AssertionFailure() << fmt::format(
+             "images differ: max_abs {} max_rel {} rmse {}, NaN {} and {}", error.max_abs, error.max_rel,
+             error.rmse, count_nan_pixels(a), count_nan_pixels(b));
 }
 
 // forward_plus against forward, and its lists against the lights that reach each pixel.
-inline void expect_exact(const Scene& scene, const View& view, const Settings& settings, const Image& forward) {
+inline void expect_exact(const Scene& scene, const View& view, const Settings& settings,
+                         const Image& forward) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward_plus"));
   run.run_frame();
   EXPECT_TRUE(identical(run.image(), forward));

@@ -26,7 +26,9 @@ TEST(SamePicture, InEveryRun) {
 glm::dvec3 rounded(const glm::dvec3& p) { return glm::round(p * 0x1p20) * 0x1p-20; }
 
 void move(Scene& scene, const glm::dvec3& by) {
-  const auto moved = [&](glm::dmat4& matrix) { matrix[3] = glm::dvec4(rounded(glm::dvec3(matrix[3])) + by, 1); };
+  const auto moved = [&](glm::dmat4& matrix) {
+    matrix[3] = glm::dvec4(rounded(glm::dvec3(matrix[3])) + by, 1);
+  };
   for (Instance& instance : scene.instances) moved(instance.world_from_object);
   for (Camera& camera : scene.cameras) moved(camera.world_from_view);
   for (Light& light : scene.lights) light.position = rounded(light.position) + by;
@@ -46,7 +48,8 @@ TEST(SamePicture, WhicheverWayTheBuffersTravel) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 127, 73);
   const Image image = render(scene, view, "forward_plus");
-  if (test_devices().bridge == BridgeKind::staged) GTEST_SKIP() << "this machine has no mapped bridge to compare with";
+  if (test_devices().bridge == BridgeKind::staged)
+    GTEST_SKIP() << "this machine has no mapped bridge to compare with";
   setenv("LIGHTGRID_BRIDGE", "staged", 1);
   Devices staged = open_devices("", GlBackend::automatic);
   unsetenv("LIGHTGRID_BRIDGE");
@@ -109,14 +112,17 @@ constexpr double other_corners = 1e-5;
 TEST(SamePicture, MirroredByItsMatrixOrByItsVertices) {
   const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {-1, 1, 1});
   const Image by_vertices = picture_of(flag(0, true, false), glm::dmat4(1), false);
-  EXPECT_LE(compare_images(picture_of(flag(0, false, false), mirror, false), by_vertices).max_rel, other_corners);
+  EXPECT_LE(compare_images(picture_of(flag(0, false, false), mirror, false), by_vertices).max_rel,
+            other_corners);
   // And it is another one than the unmirrored, lit all the same.
-  EXPECT_GT(compare_images(picture_of(flag(0, false, false), glm::dmat4(1), false), by_vertices).max_rel, 0.1);
+  EXPECT_GT(compare_images(picture_of(flag(0, false, false), glm::dmat4(1), false), by_vertices).max_rel,
+            0.1);
 }
 
 TEST(SamePicture, FromTheBackOfADoubleSidedSurface) {
   const Image front = picture_of(flag(0, false, false), glm::dmat4(1), false);
-  EXPECT_LE(compare_images(picture_of(flag(0, false, true), glm::dmat4(1), true), front).max_rel, other_corners);
+  EXPECT_LE(compare_images(picture_of(flag(0, false, true), glm::dmat4(1), true), front).max_rel,
+            other_corners);
   // Single-sided, its back is not there.
   const Image back = picture_of(flag(0, false, true), glm::dmat4(1), false);
   for (const glm::vec4& pixel : back.pixels) ASSERT_EQ(glm::vec3(pixel), glm::vec3(0.1f, 0.2f, 0.3f));
