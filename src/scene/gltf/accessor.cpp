@@ -66,7 +66,7 @@ Layout layout_of(Document& doc, const tinygltf::Accessor& accessor, size_t max_c
 
 template <typename From, typename To>
 void convert_typed(const Layout& layout, bool normalize, To* to) {
-  const float scale = 1.0f / static_cast<float>(std::numeric_limits<From>::max());
+  const auto largest = static_cast<float>(std::numeric_limits<From>::max());
   for (size_t i = 0; i < layout.count; ++i) {
     for (int c = 0; c < layout.components; ++c) {
       From value;
@@ -75,7 +75,7 @@ void convert_typed(const Layout& layout, bool normalize, To* to) {
       out = static_cast<To>(value);
       // glTF 2.0, 3.6.2.2: max(c / 127, -1) for signed integers.
       if constexpr (std::is_same_v<To, float> && std::is_integral_v<From>)
-        if (normalize) out = std::max(static_cast<float>(value) * scale, -1.0f);
+        if (normalize) out = std::max(static_cast<float>(value) / largest, -1.0f);
     }
   }
 }

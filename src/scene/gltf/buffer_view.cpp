@@ -9,7 +9,8 @@ namespace {
 std::span<const uint8_t> plain_range(Document& doc, int buffer, size_t offset, size_t length,
                                      const std::string& place) {
   const auto& bytes = checked(doc, doc.buffers, buffer, place, "buffer");
-  if (bytes.empty()) throw doc.error("{}: buffer {} is a fallback without bytes", place, buffer);
+  if (bytes.empty())
+    throw doc.error("{}: buffer {} has no bytes: neither a uri nor a binary chunk", place, buffer);
   if (offset > bytes.size() || length > bytes.size() - offset)
     throw doc.error("{}: {} bytes from byte {} on do not fit buffer {} of {}", place, length, offset, buffer,
                     bytes.size());

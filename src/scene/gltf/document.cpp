@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/gltf/container.h"
+#include "scene/gltf/validate.h"
 
 namespace lightgrid::gltf {
 namespace {
@@ -49,21 +50,14 @@ void read_buffers(Document& doc, const std::vector<BufferEntry>& entries, const 
     const BufferEntry& entry = entries[i];
     const std::string place = fmt::format("buffer {}: ", i);
     std::span<const uint8_t> bytes;
-    if (!entry.uri.empty()) {
-      if (entry.fallback) {
-        doc.buffers.emplace_back();
-        continue;
-      }
+    if (!entry.uri.empty() && !entry.fallback) {
       doc.owned.push_back(read_uri(doc, place, doc.folder, entry.uri, bytes_left));
       bytes = doc.owned.back();
       bytes_left -= bytes.size();
-    } else if (i == 0 && container.is_glb) {
+    } else if (i == 0 && container.binary.data() && !entry.fallback) {
       bytes = container.binary;
-    } else if (!entry.fallback) {
-      throw doc.error("{}has no uri", place);
-    }
-    if (entry.fallback && bytes.empty()) {
-      doc.buffers.emplace_back();
+    } else {
+      doc.buffers.emplace_back();  // an error once something is read from it
       continue;
     }
     if (bytes.size() < entry.byte_length)
@@ -82,8 +76,9 @@ Document read_document(const fs::path& path, const GltfLimits& limits) {
   PreparedJson prepared = prepare_json(doc, container.json);
   parse_json(doc, prepared);
   check_asset(doc);
-  if (prepared.has_animations) doc.warn("animation", "animations are not played: the rest pose is used");
   doc.images = std::move(prepared.images);
+  check_indices(doc, prepared.buffers.size());
+  if (prepared.has_animations) doc.warn("animation", "animations are not played: the rest pose is used");
   read_buffers(doc, prepared.buffers, container);
   if (container.is_glb) doc.owned.push_back(std::move(file));  // the first buffer points into it
   return doc;

@@ -19,7 +19,7 @@ struct Document : Reporter {
   GltfLimits limits;
   tinygltf::Model model;  // without buffers and images
   std::vector<ImageEntry> images;
-  std::vector<std::span<const uint8_t>> buffers;  // empty for a fallback without bytes
+  std::vector<std::span<const uint8_t>> buffers;  // empty where the file names no bytes
   std::vector<std::vector<uint8_t>> owned;        // what `buffers` point into
   std::map<int, std::vector<uint8_t>> decoded_views;
 };

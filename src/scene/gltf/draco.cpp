@@ -7,16 +7,16 @@
 namespace lightgrid::gltf {
 namespace {
 
-float integer_scale(int component_type) {
+float largest_integer(int component_type) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return 1.0f / 127;
+      return 127;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1.0f / 255;
+      return 255;
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return 1.0f / 32767;
+      return 32767;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 1.0f / 65535;
+      return 65535;
     default:
       return 1;
   }
@@ -32,7 +32,7 @@ FloatArray read_attribute(Document& doc, const draco::Mesh& mesh, const draco::P
   const bool always =
       name.starts_with("COLOR_") || name.starts_with("WEIGHTS_") || name == "NORMAL" || name == "TANGENT";
   const bool scale = (accessor.normalized || always) && !attribute.normalized();
-  const float factor = scale ? integer_scale(accessor.componentType) : 1;
+  const float largest = scale ? largest_integer(accessor.componentType) : 1;
   out.values.resize(size_t(mesh.num_points()) * out.components);
   for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
     const draco::AttributeValueIndex value = attribute.mapped_index(point);
@@ -42,7 +42,7 @@ FloatArray read_attribute(Document& doc, const draco::Mesh& mesh, const draco::P
       throw doc.error("{}: element {} cannot be read", place, point.value());
     for (int c = 0; c < out.components; ++c) {
       if (!std::isfinite(to[c])) throw doc.error("{}: element {} is {}", place, point.value(), to[c]);
-      to[c] = scale ? std::max(to[c] * factor, -1.0f) : to[c];
+      to[c] = scale ? std::max(to[c] / largest, -1.0f) : to[c];
     }
   }
   return out;

@@ -34,7 +34,7 @@ void read_header(const Document& doc, Encoded& image) {
   const auto size = static_cast<int>(image.bytes.size());
   int channels = 0;
   if (!stbi_info_from_memory(image.bytes.data(), size, &image.width, &image.height, &channels))
-    throw doc.error("{}: {}", image.place, stbi_failure_reason());
+    throw doc.error("{}: cannot be decoded: {}", image.place, stbi_failure_reason());
   if (image.width < 1 || image.height < 1 || std::max(image.width, image.height) > doc.limits.max_image_side)
     throw doc.error("{}: is {} x {}; a side of at most {} is read", image.place, image.width, image.height,
                     doc.limits.max_image_side);

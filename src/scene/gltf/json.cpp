@@ -189,8 +189,10 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
     }
   // Optional in glTF, missed as an error by tinygltf.
   if (root.contains("skins"))
-    for (json& skin : root["skins"])
+    for (json& skin : root["skins"]) {
+      if (!skin.contains("joints") || !skin["joints"].is_array()) throw report.error("a skin has no joints");
       if (!skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
+    }
   out.text = root.dump(-1, ' ', false, json::error_handler_t::replace);
   return out;
 }

@@ -11,7 +11,7 @@
 namespace lightgrid::gltf {
 
 struct BufferEntry {
-  std::string uri;  // empty: the binary chunk, or a fallback without bytes
+  std::string uri;  // empty: the binary chunk, or no bytes at all
   size_t byte_length = 0;
   bool fallback = false;  // EXT_meshopt_compression: its views are decoded from elsewhere
 };

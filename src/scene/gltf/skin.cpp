@@ -57,7 +57,7 @@ void apply_skin(const Document& doc, const std::vector<glm::dmat4>& joints, cons
       blend += joints[joint] * weight;
       sum += weight;
     }
-    if (!(sum > 0)) throw doc.error("{}: vertex {}: its weights add up to {}", place, vertex, sum);
+    if (!(sum > 0)) blend = glm::dmat4(1), sum = 1;  // weighted by nothing: stays where the file has it
     blend /= sum;
     glm::vec3& position = mesh.positions[vertex];
     position = glm::vec3(blend * glm::dvec4(position, 1));

@@ -1,0 +1,58 @@
+// Extensions and optional features: which are an error, which one line of warning.
+#include "support/gltf_builder.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+size_t count_lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+TEST(GltfExtension, required_and_not_supported_is_an_error_that_names_it) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsUsed"] =
+      made.root["extensionsRequired"] = {"KHR_texture_transform", "KHR_texture_basisu"};
+  EXPECT_EQ(made.refusal(), "made.gltf: requires the extension KHR_texture_basisu, which is not supported");
+}
+
+TEST(GltfExtension, the_supported_ones_may_be_required) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsRequired"] = {"KHR_lights_punctual",    "KHR_texture_transform",
+                                     "KHR_materials_unlit",    "KHR_materials_emissive_strength",
+                                     "KHR_mesh_quantization",  "KHR_draco_mesh_compression",
+                                     "EXT_meshopt_compression"};
+  made.root["extensionsUsed"] = made.root["extensionsRequired"];
+  EXPECT_THAT(warnings_of([&] { EXPECT_EQ(made.load().meshes.size(), 1u); }), IsEmpty());
+}
+
+TEST(GltfExtension, optional_and_not_supported_is_one_line_each) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_sheen"};
+  const std::string warnings = warnings_of([&] { made.load(); });
+  EXPECT_EQ(count_lines(warnings), 2u);
+  EXPECT_THAT(warnings, HasSubstr("extension KHR_materials_ior is not supported and left out"));
+}
+
+TEST(GltfExtension, an_animation_a_morph_target_and_points_are_one_line_per_kind) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["animations"] = {{{"channels", nlohmann::json::array()}}, {{"samplers", "nonsense"}}};
+  made.primitive()["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
+  nlohmann::json points = made.primitive(), lines = made.primitive();
+  points["mode"] = 0, lines["mode"] = 3;
+  made.root["meshes"][0]["primitives"] = {made.primitive(), points, lines, points};
+  const std::string warnings = warnings_of([&] { EXPECT_EQ(made.load().meshes.size(), 1u); });
+  EXPECT_EQ(count_lines(warnings), 3u) << warnings;
+  EXPECT_THAT(warnings, HasSubstr("animations are not played"));
+  EXPECT_THAT(warnings, HasSubstr("morph targets are left out"));
+  EXPECT_THAT(warnings, HasSubstr("points and lines are left out"));
+}
+
+TEST(GltfExtension, extras_are_ignored_whatever_they_hold) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.node()["extras"] = {{"mesh", -7}, {"time", 1700000000000}, {"children", "none"}};
+  EXPECT_THAT(warnings_of([&] { EXPECT_EQ(made.load().instances.size(), 1u); }), IsEmpty());
+}
+
+}  // namespace
+}  // namespace lightgrid

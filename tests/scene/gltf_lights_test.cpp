@@ -1,0 +1,173 @@
+// KHR_lights_punctual and cameras.
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "support/gltf_builder.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double root_half = 0.7071067811865476;
+
+glm::dvec3 at(const glm::dmat4& m, const glm::dvec3& p) { return glm::dvec3(m * glm::dvec4(p, 1)); }
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
+  EXPECT_LT(glm::length(a - b), 1e-12) << a.x << " " << a.y << " " << a.z;
+}
+
+GltfBuilder with_camera(const json& camera) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["cameras"] = {camera};
+  made.node()["camera"] = 0;
+  return made;
+}
+
+TEST(GltfCameras, a_perspective_camera_is_rigid_whatever_its_node_is_scaled_by) {
+  GltfBuilder made = with_camera(
+      {{"type", "perspective"}, {"name", "main"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}});
+  made.node()["translation"] = {1, 2, 3};
+  made.node()["rotation"] = {0, root_half, 0, root_half};  // a quarter turn about y: -z to -x
+  made.node()["scale"] = {2, 5, -3};
+  const Camera camera = made.load().cameras.at(0);
+  EXPECT_EQ(camera.name, "main");
+  EXPECT_FALSE(camera.orthographic);
+  EXPECT_EQ(camera.fov_y_rad, 0.5);
+  EXPECT_EQ(camera.aspect, 0);
+  EXPECT_EQ(camera.near_m, 0.25);
+  EXPECT_TRUE(std::isinf(camera.far_m));
+  expect_near(at(camera.world_from_view, {0, 0, 0}), {1, 2, 3});
+  EXPECT_NEAR(glm::determinant(camera.world_from_view), 1, 1e-12);
+}
+
+TEST(GltfCameras, aspect_far_plane_and_orthographic_sizes_are_read) {
+  const Camera perspective =
+      with_camera({{"type", "perspective"},
+                   {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 9}, {"aspectRatio", 1.5}}}})
+          .load()
+          .cameras.at(0);
+  EXPECT_EQ(perspective.aspect, 1.5);
+  EXPECT_EQ(perspective.far_m, 9);
+  const Camera flat = with_camera({{"type", "orthographic"},
+                                   {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 50}}}})
+                          .load()
+                          .cameras.at(0);
+  EXPECT_TRUE(flat.orthographic);
+  EXPECT_EQ(flat.half_width_m, 4);
+  EXPECT_EQ(flat.half_height_m, 3);
+  EXPECT_EQ(flat.near_m, 0);
+  EXPECT_EQ(flat.far_m, 50);
+}
+
+TEST(GltfCameras, impossible_cameras_are_refused) {
+  const auto perspective = [](double yfov, double znear, double zfar) {
+    return with_camera(
+               {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", znear}, {"zfar", zfar}}}})
+        .refusal();
+  };
+  EXPECT_THAT(perspective(0, 1, 2), HasSubstr("camera 0: yfov is 0"));
+  EXPECT_THAT(perspective(3.2, 1, 2), HasSubstr("camera 0: yfov is 3.2"));
+  EXPECT_THAT(perspective(1, 0, 2), HasSubstr("camera 0: znear is 0"));
+  EXPECT_THAT(perspective(1, 2, 1), HasSubstr("camera 0: zfar is 1, not beyond znear 2"));
+  EXPECT_THAT(with_camera({{"type", "orthographic"},
+                           {"orthographic", {{"xmag", 0}, {"ymag", 3}, {"znear", 0}, {"zfar", 5}}}})
+                  .refusal(),
+              HasSubstr("camera 0: xmag is 0"));
+}
+
+GltfBuilder with_light(const json& light) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  made.root["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+  made.node()["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  return made;
+}
+
+TEST(GltfLights, a_light_looks_along_its_nodes_negative_z_and_keeps_its_range_under_scale) {
+  GltfBuilder made = with_light({{"type", "spot"},
+                                 {"color", {0.25, 0.5, 1}},
+                                 {"intensity", 12.5},
+                                 {"range", 8},
+                                 {"name", "lamp"},
+                                 {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}});
+  made.node()["translation"] = {1, 2, 3};
+  made.node()["rotation"] = {0, root_half, 0, root_half};
+  made.node()["scale"] = {3, 3, 3};
+  const Light light = made.load().lights.at(0);
+  EXPECT_EQ(light.name, "lamp");
+  EXPECT_EQ(light.type, LightType::spot);
+  EXPECT_EQ(light.color, glm::vec3(0.25f, 0.5f, 1));
+  EXPECT_EQ(light.intensity, 12.5f);
+  EXPECT_EQ(light.radius_m, 8);
+  EXPECT_EQ(light.inner_cone_rad, 0.25f);
+  EXPECT_EQ(light.outer_cone_rad, 0.5f);
+  expect_near(light.position, {1, 2, 3});
+  EXPECT_LT(glm::length(light.direction - glm::vec3(-1, 0, 0)), 1e-6f);
+}
+
+TEST(GltfLights, absent_fields_take_the_extensions_defaults) {
+  const Light point = with_light({{"type", "point"}}).load().lights.at(0);
+  EXPECT_EQ(point.color, glm::vec3(1));
+  EXPECT_EQ(point.intensity, 1);
+  EXPECT_TRUE(std::isinf(point.radius_m));
+  const Light spot = with_light({{"type", "spot"}, {"spot", {{"outerConeAngle", glm::pi<double>() / 4}}}})
+                         .load()
+                         .lights.at(0);
+  EXPECT_EQ(spot.inner_cone_rad, 0);
+  EXPECT_FLOAT_EQ(spot.outer_cone_rad, 0.78539816f);
+  EXPECT_TRUE(std::isinf(with_light({{"type", "directional"}, {"range", 5}}).load().lights.at(0).radius_m));
+}
+
+TEST(GltfLights, one_light_on_many_nodes_is_many_lights) {
+  GltfBuilder made = with_light({{"type", "point"}});
+  json second = made.node();
+  second["name"] = "second", second["translation"] = {4, 0, 0};
+  made.root["nodes"].push_back(second);
+  made.root["scenes"][0]["nodes"] = {0, 1};
+  const Scene scene = made.load();
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.lights[1].name, "second");
+  EXPECT_EQ(scene.lights[1].position.x, 4);
+}
+
+TEST(GltfLights, what_the_extension_forbids_is_refused_by_name) {
+  const auto spot = [](double inner, double outer) {
+    return with_light(
+        {{"type", "spot"}, {"name", "s"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}});
+  };
+  EXPECT_THAT(spot(0.1, 1.5707963705062866).refusal(),
+              HasSubstr("light 0 \"s\": spot.outerConeAngle is 1.5707963705"));
+  EXPECT_EQ(spot(0.1, glm::half_pi<double>()).load().lights.size(), 1u) << "90 degrees itself is allowed";
+  EXPECT_THAT(spot(0.5, 0.5).refusal(),
+              HasSubstr("spot.innerConeAngle is 0.5, not below outerConeAngle 0.5"));
+  EXPECT_THAT(spot(-0.1, 0.5).refusal(), HasSubstr("spot.innerConeAngle is -0.1"));
+  EXPECT_THAT(spot(0, 0).refusal(), HasSubstr("spot.outerConeAngle is 0"));
+  EXPECT_THAT(with_light({{"type", "point"}, {"range", 0}}).refusal(), HasSubstr("light 0: range is 0"));
+  EXPECT_THAT(with_light({{"type", "point"}, {"range", -3}}).refusal(), HasSubstr("light 0: range is -3"));
+  EXPECT_THAT(with_light({{"type", "point"}, {"intensity", -1}}).refusal(),
+              HasSubstr("light 0: intensity is -1"));
+  EXPECT_THAT(with_light({{"type", "point"}, {"intensity", 1e39}}).refusal(),
+              HasSubstr("light 0: intensity is 1e+39"));
+  EXPECT_THAT(with_light({{"type", "point"}, {"color", {1, 1}}}).refusal(), HasSubstr("color has 2 numbers"));
+  EXPECT_THAT(with_light({{"type", "lamp"}}).refusal(), HasSubstr("light 0: type is \"lamp\""));
+}
+
+TEST(GltfLights, cones_that_differ_by_less_than_a_float_still_differ) {
+  const Light light =
+      with_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5 + 1e-12}}}})
+          .load()
+          .lights.at(0);
+  EXPECT_LT(light.inner_cone_rad, light.outer_cone_rad);
+}
+
+TEST(GltfLights, a_light_without_a_direction_is_refused_where_it_needs_one) {
+  GltfBuilder made = with_light({{"type", "directional"}});
+  made.node().erase("mesh");
+  made.node()["scale"] = {1, 1, 0};
+  EXPECT_THAT(made.refusal(), HasSubstr("node 0: light 0 has no direction"));
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,278 @@
+// Materials, textures and images.
+#include <cmath>
+
+#include "base/image.h"
+#include "support/gltf_builder.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string png_uri(int width, int height, uint8_t value = 200) {
+  return "data:image/png;base64," +
+         base64(encode_png(width, height, 3, Bytes(size_t(width) * height * 3, value)));
+}
+
+GltfBuilder with_material(const json& material) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.attribute("TEXCOORD_0", std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", f32, 3);
+  made.attribute("TEXCOORD_1", std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", f32, 3);
+  made.root["materials"] = {material};
+  made.primitive()["material"] = 0;
+  made.root["images"] = {{{"uri", png_uri(2, 1)}, {"name", "pattern"}}, {{"uri", png_uri(1, 3)}}};
+  made.root["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  return made;
+}
+
+Material load_material(const json& material) { return with_material(material).load().materials.at(0); }
+
+TEST(GltfMaterial, absent_fields_take_the_defaults_of_the_specification) {
+  const Material material = load_material(json::object());
+  EXPECT_EQ(material.base_color, glm::vec4(1));
+  EXPECT_EQ(material.metallic, 1);
+  EXPECT_EQ(material.roughness, 1);
+  EXPECT_EQ(material.emissive, glm::vec3(0));
+  EXPECT_EQ(material.alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(material.alpha_cutoff, 0.5f);
+  EXPECT_FALSE(material.double_sided);
+  EXPECT_FALSE(material.unlit);
+  for (const TextureSlot& slot : {material.base_color_map, material.normal_map}) EXPECT_EQ(slot.texture, -1);
+}
+
+TEST(GltfMaterial, every_factor_and_slot_is_read) {
+  const Material material =
+      load_material({{"name", "m"},
+                     {"pbrMetallicRoughness",
+                      {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                       {"metallicFactor", 0.25},
+                       {"roughnessFactor", 0.75},
+                       {"baseColorTexture", {{"index", 0}}},
+                       {"metallicRoughnessTexture", {{"index", 1}, {"texCoord", 1}}}}},
+                     {"normalTexture", {{"index", 0}, {"scale", 2}}},
+                     {"occlusionTexture", {{"index", 1}, {"strength", 0.5}}},
+                     {"emissiveTexture", {{"index", 1}}},
+                     {"emissiveFactor", {0.5, 0.25, 1}},
+                     {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}}},
+                     {"alphaMode", "MASK"},
+                     {"alphaCutoff", 0.25},
+                     {"doubleSided", true}});
+  EXPECT_EQ(material.name, "m");
+  EXPECT_EQ(material.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(material.metallic, 0.25f);
+  EXPECT_EQ(material.roughness, 0.75f);
+  EXPECT_EQ(material.normal_scale, 2);
+  EXPECT_EQ(material.occlusion_strength, 0.5f);
+  EXPECT_EQ(material.emissive, glm::vec3(4, 2, 8));
+  EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(material.alpha_cutoff, 0.25f);
+  EXPECT_TRUE(material.double_sided);
+  EXPECT_EQ(material.metallic_roughness_map.uv_set, 1);
+  EXPECT_EQ(material.base_color_map.uv_set, 0);
+}
+
+TEST(GltfMaterial, an_image_used_as_colour_and_as_data_is_one_bitmap_and_two_textures) {
+  const Scene scene = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                                     {"normalTexture", {{"index", 0}}},
+                                     {"occlusionTexture", {{"index", 0}}},
+                                     {"emissiveTexture", {{"index", 1}}}})
+                          .load();
+  ASSERT_EQ(scene.bitmaps.size(), 2u);
+  ASSERT_EQ(scene.textures.size(), 3u);
+  const Material& material = scene.materials[0];
+  EXPECT_TRUE(scene.textures[material.base_color_map.texture].srgb);
+  EXPECT_TRUE(scene.textures[material.emissive_map.texture].srgb);
+  EXPECT_FALSE(scene.textures[material.normal_map.texture].srgb);
+  EXPECT_EQ(material.normal_map.texture, material.occlusion_map.texture);
+  EXPECT_EQ(scene.textures[material.base_color_map.texture].bitmap, 0);
+  EXPECT_EQ(scene.textures[material.normal_map.texture].bitmap, 0);
+  EXPECT_EQ(scene.bitmaps[0].name, "pattern");
+  EXPECT_EQ(scene.bitmaps[0].width, 2);
+  EXPECT_EQ(scene.bitmaps[1].height, 3);
+}
+
+TEST(GltfMaterial, unlit_and_blend_are_read) {
+  EXPECT_TRUE(load_material({{"extensions", {{"KHR_materials_unlit", json::object()}}}}).unlit);
+  EXPECT_EQ(load_material({{"alphaMode", "BLEND"}}).alpha_mode, AlphaMode::blend);
+}
+
+TEST(GltfMaterial, impossible_values_are_refused_by_name) {
+  const std::pair<json, const char*> cases[] = {
+      {{{"alphaMode", "GLASS"}}, "material 0: alphaMode is \"GLASS\""},
+      {{{"pbrMetallicRoughness", {{"roughnessFactor", 1.5}}}},
+       "material 0: roughnessFactor is 1.5, outside 0 to 1"},
+      {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, -1, 1}}}}}, "baseColorFactor is -1"},
+      {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0}}}}}, "baseColorFactor"},
+      {{{"emissiveFactor", {0, -2, 0}}}, "emissiveFactor is -2"},
+      {{{"emissiveFactor", {1, 1, 1}},
+        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}}},
+       "emissiveStrength is -1"},
+      {{{"normalTexture", {{"index", 2}}}}, "material 0: normalTexture: texture is 2, but there are 2"},
+      {{{"normalTexture", {{"scale", 1}}}}, "'index' property is missing"},
+  };
+  for (const auto& [material, message] : cases)
+    EXPECT_THAT(with_material(material).refusal(), HasSubstr(message)) << material;
+}
+
+TEST(GltfMaterial, a_third_uv_set_is_left_out_with_a_warning) {
+  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}, {"texCoord", 2}}}});
+  Scene scene;
+  EXPECT_THAT(warnings_of([&] { scene = made.load(); }),
+              HasSubstr("uses TEXCOORD_2; only two sets are supported"));
+  EXPECT_EQ(scene.materials[0].normal_map.texture, -1);
+  EXPECT_TRUE(scene.bitmaps.empty());
+}
+
+TEST(GltfMaterial, a_texture_transform_scales_then_turns_then_moves) {
+  const Material material = load_material({{"normalTexture",
+                                            {{"index", 0},
+                                             {"texCoord", 0},
+                                             {"extensions",
+                                              {{"KHR_texture_transform",
+                                                {{"offset", {10, 20}},
+                                                 {"rotation", 1.5707963267948966},
+                                                 {"scale", {2, 3}},
+                                                 {"texCoord", 1}}}}}}}});
+  const TextureSlot& slot = material.normal_map;
+  EXPECT_EQ(slot.uv_set, 1) << "the extension's texCoord replaces the other";
+  EXPECT_TRUE(slot.transformed());
+  const auto apply = [&](float u, float v) { return slot.uv_from_vertex * glm::vec3(u, v, 1); };
+  // A quarter turn against the clock where v points down: u to -v, v to u.
+  EXPECT_LT(glm::length(apply(0, 0) - glm::vec2(10, 20)), 1e-5f);
+  EXPECT_LT(glm::length(apply(1, 0) - glm::vec2(10, 18)), 1e-5f);
+  EXPECT_LT(glm::length(apply(0, 1) - glm::vec2(13, 20)), 1e-5f);
+}
+
+TEST(GltfMaterial, samplers_are_read_and_their_values_checked) {
+  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 1}}}});
+  made.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"minFilter", 9728}, {"magFilter", 9728}}};
+  made.root["textures"][0]["sampler"] = 0;
+  const Scene scene = made.load();
+  const Texture& set = scene.textures[scene.materials[0].normal_map.texture];
+  EXPECT_EQ(set.wrap_u, Wrap::clamp);
+  EXPECT_EQ(set.wrap_v, Wrap::mirror);
+  EXPECT_EQ(set.min_filter, Filter::nearest);
+  EXPECT_FALSE(set.mag_linear);
+  const Texture& plain = scene.textures[scene.materials[0].occlusion_map.texture];
+  EXPECT_EQ(plain.wrap_u, Wrap::repeat);
+  EXPECT_EQ(plain.min_filter, Filter::linear_mip);
+  EXPECT_TRUE(plain.mag_linear);
+  const std::pair<int, Filter> filters[] = {{9729, Filter::linear},
+                                            {9984, Filter::nearest_mip},
+                                            {9985, Filter::linear_mip},
+                                            {9986, Filter::nearest_mip},
+                                            {9987, Filter::linear_mip}};
+  for (const auto& [value, filter] : filters) {
+    made.root["samplers"][0]["minFilter"] = value;
+    EXPECT_EQ(made.load().textures[0].min_filter, filter) << value;
+  }
+  for (const char* field : {"wrapS", "wrapT", "minFilter", "magFilter"}) {
+    GltfBuilder broken = made;
+    broken.root["samplers"][0][field] = 1234;
+    EXPECT_THAT(broken.refusal(), HasSubstr(fmt::format("sampler 0: {} is 1234", field)));
+  }
+}
+
+TEST(GltfMaterial, materials_that_no_mesh_uses_cost_no_image) {
+  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}}}});
+  made.root["materials"].push_back({{"name", "plain"}});
+  made.root["images"][0]["uri"] = "data:image/png;base64,AAAA";
+  made.primitive()["material"] = 1;
+  const Scene scene = made.load();
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0].name, "plain");
+  EXPECT_EQ(scene.meshes[0].material, 0);
+  EXPECT_TRUE(scene.bitmaps.empty());
+}
+
+GltfBuilder with_image(const Bytes& file) {
+  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}}}});
+  made.root["images"][0] = {{"bufferView", made.view(file)}, {"mimeType", "image/png"}, {"name", "im"}};
+  return made;
+}
+
+TEST(GltfImage, pixels_are_rgba_with_the_top_row_first) {
+  const Bytes file = encode_png(2, 2, 3, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  const Bitmap bitmap = with_image(file).load().bitmaps.at(0);
+  EXPECT_THAT(bitmap.rgba, ElementsAre(1, 2, 3, 255, 4, 5, 6, 255, 7, 8, 9, 255, 10, 11, 12, 255));
+}
+
+TEST(GltfImage, images_lie_in_files_and_views_of_a_glb_alike) {
+  const ModelFolder folder;
+  const Bytes file = encode_png(1, 1, 3, {9, 8, 7});
+  folder.write("pictures/a b.png", file);
+  GltfBuilder made = with_image(file);
+  EXPECT_EQ(load_gltf(folder.write("a.glb", made.glb())).bitmaps.at(0).rgba[0], 9);
+  made.root["images"][0] = {{"uri", "pictures/a%20b.png"}};
+  EXPECT_EQ(load_gltf(folder.write("a.gltf", made.text())).bitmaps.at(0).rgba[0], 9);
+  made.root["images"][0] = {{"uri", "pictures/none.png"}};
+  EXPECT_THAT(refusal_of(folder.write("a.gltf", made.text())),
+              HasSubstr("image 0 \"pictures/none.png\": file \"pictures/none.png\" cannot be read"));
+}
+
+TEST(GltfImage, what_is_no_png_or_jpeg_is_refused) {
+  EXPECT_THAT(with_image(Bytes{'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0}).refusal(),
+              HasSubstr("image 0 \"im\": is neither PNG nor JPEG"));
+  Bytes cut = encode_png(16, 16, 3, Bytes(768, 5));
+  cut.resize(cut.size() / 2);
+  EXPECT_THAT(with_image(cut).refusal(), HasSubstr("image 0 \"im\": cannot be decoded"));
+}
+
+// A header with nothing behind it: were it decoded first, the message would be another.
+Bytes png_header(uint32_t width, uint32_t height) {
+  Bytes file = encode_png(1, 1, 3, {0, 0, 0});
+  for (int i = 0; i < 4; ++i) {
+    file[16 + i] = static_cast<uint8_t>(width >> (24 - 8 * i));
+    file[20 + i] = static_cast<uint8_t>(height >> (24 - 8 * i));
+  }
+  return file;
+}
+
+TEST(GltfImage, sizes_are_checked_before_anything_is_decoded) {
+  EXPECT_THAT(with_image(png_header(8193, 1)).refusal(),
+              HasSubstr("is 8193 x 1; a side of at most 8192 is read"));
+  EXPECT_THAT(with_image(png_header(8, 8)).refusal({.max_image_side = 7}),
+              HasSubstr("is 8 x 8; a side of at most 7"));
+  EXPECT_THAT(with_image(png_header(64, 64)).refusal({.max_image_bytes = 16000}),
+              HasSubstr("images take more than 16000"));
+  const GltfBuilder two =
+      with_material({{"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 1}}}});
+  EXPECT_EQ(two.load({.max_image_bytes = 1000}).bitmaps.size(), 2u);
+  EXPECT_THAT(two.refusal({.max_image_bytes = 150}),
+              HasSubstr("image 1: with it, images take more than 150 bytes"));
+}
+
+// A PNG of side x side pixels, nearly all black, whose header says 1 x 1.
+Bytes png_that_inflates(int side) {
+  Bytes pixels(size_t(side) * side * 3, 0);
+  for (int i = 0; i < 1000; ++i)
+    pixels[i * 3] = static_cast<uint8_t>(i), pixels[i * 3 + 1] = i / 256;  // no palette
+  Bytes file = encode_png(side, side, 3, pixels);
+  const Bytes header = png_header(1, 1);
+  std::copy_n(header.begin(), 24, file.begin());
+  return file;
+}
+
+TEST(GltfImage, data_that_inflates_to_far_more_than_the_header_says_is_refused) {
+  const Bytes bomb = png_that_inflates(6000);  // 108 MB
+  ASSERT_LT(bomb.size(), size_t(2) << 20);
+  EXPECT_THAT(with_image(bomb).refusal(), HasSubstr("more than 1 x 1 pixels need"));
+}
+
+TEST(GltfImage, sixteen_bits_become_eight_with_a_warning) {
+  // 1 x 1, 16-bit grey 0x1234, stored without compression.
+  const Bytes file = {0x89, 'P',  'N',  'G', 13,   10,   26,   10,   0,    0,    0,   13,   'I', 'H', 'D',
+                      'R',  0,    0,    0,   1,    0,    0,    0,    1,    16,   0,   0,    0,   0,   0,
+                      0,    0,    0,    0,   0,    0,    14,   'I',  'D',  'A',  'T', 0x78, 1,   1,   3,
+                      0,    0xfc, 0xff, 0,   0x12, 0x34, 0x00, 0x59, 0x00, 0x47, 0,   0,    0,   0,   0,
+                      0,    0,    0,    'I', 'E',  'N',  'D',  0,    0,    0,    0};
+  Scene scene;
+  EXPECT_THAT(warnings_of([&] { scene = with_image(file).load(); }),
+              HasSubstr("has 16 bits a channel, reduced to 8"));
+  EXPECT_THAT(scene.bitmaps.at(0).rgba, ElementsAre(0x12, 0x12, 0x12, 255));
+}
+
+}  // namespace
+}  // namespace lightgrid
