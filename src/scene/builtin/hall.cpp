@@ -33,6 +33,8 @@ class Hall {
     add_apse();
     add_balcony();
     add_key_lights();
+    const WorldBox box = world_box(scene_);
+    place("backing", backing(m_, glm::vec3(box.min) - 0.05f, glm::vec3(box.max) + 0.05f));
     add_camera(scene_, "entrance", {-0.9, 1.75, 11.6}, {0.35, 3.05, -6}, 62);
     add_camera(scene_, "aisle", {4.7, 1.75, 10.4}, {2.3, 2.45, -1}, 62);
     add_camera(scene_, "balcony", {1.1, 6.1, 13.4}, {-0.4, 2.9, -6}, 60);

@@ -69,6 +69,9 @@ Mesh carpet(const Materials& m);
 Mesh vault(const Materials& m);
 Mesh end_walls(const Materials& m);
 Mesh apse(const Materials& m);
+// A box seen from inside, around all else: instances that share an edge round differently, and the odd pixel between
+// them would show nothing.
+Mesh backing(const Materials& m, glm::vec3 low, glm::vec3 high);
 Mesh dais(const Materials& m);
 Mesh rose_window(const Materials& m);
 Mesh door(const Materials& m);

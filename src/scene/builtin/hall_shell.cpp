@@ -59,6 +59,18 @@ Mesh apse(const Materials& m) {
   return finished(std::move(mesh), "apse", m.mosaic);
 }
 
+Mesh backing(const Materials& m, glm::vec3 low, glm::vec3 high) {
+  Mesh mesh;
+  const glm::vec3 x(high.x - low.x, 0, 0), y(0, high.y - low.y, 0), z(0, 0, high.z - low.z);
+  add_quad(mesh, low + z, x, -z);
+  add_quad(mesh, low + y, x, z);
+  add_quad(mesh, low + z, -z, y);
+  add_quad(mesh, low + x, z, y);
+  add_quad(mesh, low, x, y);
+  add_quad(mesh, low + x + z, -x, y);
+  return finished(std::move(mesh), "backing", m.stone);
+}
+
 Mesh dais(const Materials& m) {
   Mesh mesh;
   for (int step = 0; step < 3; ++step) {
