@@ -1,4 +1,6 @@
 // Forward+ gives the bytes of the brute-force image, under every setting.
+#include <cmath>
+
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -27,6 +29,18 @@ TEST_P(BuiltinForwardPlus, EveryEffectOnChangesNoByte) {
     EXPECT_TRUE(
         identical(render(scene, view, technique, {.everything_on = true}), render(scene, view, technique)))
         << technique;
+  }
+}
+
+TEST_P(BuiltinForwardPlus, HasTheBytesThroughEveryCamera) {
+  ASSERT_FALSE(scene.cameras.empty());
+  for (const Camera& camera : scene.cameras) {
+    SCOPED_TRACE(camera.name);
+    const View view = make_view(camera, 95, 53);
+    const Image forward = render(scene, view, "forward");
+    expect_exact(scene, view, {}, forward);
+    // Without depth bounds nothing is taken for hidden.
+    EXPECT_TRUE(identical(render(scene, view, "forward", {.depth_bounds = DepthBoundsMode::none}), forward));
   }
 }
 
@@ -93,6 +107,58 @@ TEST(ForwardPlus, LightsThatReachEverywhereOrNowhere) {
   const Image forward = render(s.scene, view, "forward");
   EXPECT_EQ(count_nan_pixels(forward), 0u);
   expect_exact(s.scene, view, {}, forward);
+}
+
+TEST(ForwardPlus, ALightAtTheEyeAndLightsOnTheSurface) {
+  SmallScene s = small_scene(false);
+  s.scene.instances.pop_back();
+  for (const glm::vec3 at : {glm::vec3(0), glm::vec3(0, 0, -4), glm::vec3(0.5f, 0.25f, -4)}) {
+    add_point(s.scene, "lamp", at, {1, 1, 1}, 1, 3);
+    add_spot(s.scene, "torch", at, at + glm::vec3(0, 0, -1), {1, 1, 1}, 1, 3, 0, 0.1f);
+  }
+  const View view = small_view(17, 9);
+  const Image forward = render(s.scene, view, "forward");
+  for (const glm::vec4& pixel : forward.pixels) {
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(std::isfinite(pixel[i]) && pixel[i] >= 0);
+  }
+  expect_exact(s.scene, view, {}, forward);
+}
+
+// Light 0 is a light like any other.
+TEST(ForwardPlus, OneLightAlone) {
+  SmallScene s = small_scene(false);
+  const View view = small_view(127, 73);
+  const Image dark = render(s.scene, view, "forward_plus");
+  add_point(s.scene, "lamp", {0, 0.5f, -3.2f}, {1, 1, 1}, 2, 1.5f);
+  const Image lit = render(s.scene, view, "forward");
+  EXPECT_FALSE(same_bytes(lit, dark));
+  expect_exact(s.scene, view, {}, lit);
+}
+
+// n equal terms summed in float are off by n * 2^-24 of the sum at most, here 6e-5; and by what the surface's
+// own light adds to either.
+TEST(ForwardPlus, AThousandLightsInOnePlaceAreOneOfAThousandfoldIntensity) {
+  SmallScene s = small_scene(false);
+  const View view = small_view(127, 73);
+  add_point(s.scene, "lamp", {0, 0.5f, -3.2f}, {1, 1, 1}, 1000, 1.5f);
+  const Image one = render(s.scene, view, "forward_plus");
+  s.scene.lights[0].intensity = 1;
+  s.scene.lights.resize(1000, s.scene.lights[0]);
+  const Image forward = render(s.scene, view, "forward");
+  EXPECT_LT(compare_images(forward, one).max_rel, 1000 * 0x1p-24);
+  expect_exact(s.scene, view, {}, forward);
+}
+
+// What a blended surface shows is lit by lights that reach no opaque one.
+TEST(ForwardPlus, ALightBeforeEverythingOpaqueLightsTheGlass) {
+  SmallScene s = small_scene(false);
+  effects()[0].add(s);
+  const View view = small_view(127, 73);
+  const Image dark = render(s.scene, view, "forward_plus");
+  add_point(s.scene, "lamp", {-0.5f, 0, -1.8f}, {1, 1, 1}, 2, 0.5f);
+  const Image forward = render(s.scene, view, "forward");
+  EXPECT_GT(compare_images(forward, dark).max_abs, 0.01);
+  EXPECT_TRUE(identical(render(s.scene, view, "forward_plus"), forward));
 }
 
 // Viewer, surface and light on one line, the light behind the surface: the half vector vanishes.

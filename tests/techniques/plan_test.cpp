@@ -34,51 +34,57 @@ TEST_P(EachEffect, ForwardPlusHasTheBytesOfForward) {
 
 // What one frame makes and launches.
 struct Work {
-  int buffers, textures, programs, cl_launches, bins_counted;
+  int buffers, textures, programs, kernels, cl_launches, bins_counted;
   bool operator==(const Work&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Work& w) {
-  return out << fmt::format("{} buffers, {} textures, {} programs, {} launches, {} of them count bins",
-                            w.buffers, w.textures, w.programs, w.cl_launches, w.bins_counted);
+  return out << fmt::format(
+             "{} buffers, {} textures, {} programs, {} kernels, {} launches, {} of them count bins",
+             w.buffers, w.textures, w.programs, w.kernels, w.cl_launches, w.bins_counted);
 }
 
 Work work_of(const Scene& scene, const Settings& settings = {}) {
   Devices& devices = test_devices();
   const ClProfiler& profiler = devices.cl->profiler();
   const GlCounts before = gl_counts();
-  const int launches = profiler.count(), bins = profiler.count("cull_bins_count");
+  const auto kernels_asked = [&] {
+    const ProgramCache::Counts& counts = devices.programs->counts();
+    return counts.built + counts.from_disk + counts.from_memory;
+  };
+  const int kernels = kernels_asked(), launches = profiler.count(), bins = profiler.count("cull_bins_count");
   TechniqueRun run(devices, scene, small_view(127, 73), settings, find_technique("forward_plus"));
   run.run_frame();
   const auto made = [&](GlKind kind) { return gl_counts().made[int(kind)] - before.made[int(kind)]; };
-  return {made(GlKind::buffer), made(GlKind::texture), made(GlKind::program), profiler.count() - launches,
-          profiler.count("cull_bins_count") - bins};
+  return {made(GlKind::buffer),      made(GlKind::texture),       made(GlKind::program),
+          kernels_asked() - kernels, profiler.count() - launches, profiler.count("cull_bins_count") - bins};
 }
 
 Work operator+(Work a, const Work& b) {
-  return {a.buffers + b.buffers, a.textures + b.textures, a.programs + b.programs,
-          a.cl_launches + b.cl_launches, a.bins_counted + b.bins_counted};
+  return {a.buffers + b.buffers, a.textures + b.textures,       a.programs + b.programs,
+          a.kernels + b.kernels, a.cl_launches + b.cl_launches, a.bins_counted + b.bins_counted};
 }
 
 TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
   // The first frame of a size runs once more where a first guess of memory was too small: here none is.
   const Work plain = work_of(small_scene().scene);
   const std::map<std::string, Work> added = {
-      // One more program; a grid of its own is two buffers with their textures, and six launches.
-      {"blend", {0, 2, 1, 6, 1}},
+      // One more program; a grid of its own is two buffers with their textures, and six launches of the same
+      // kernels.
+      {"blend", {0, 2, 1, 0, 6, 1}},
       // The wall's own depth and shading programs; texture coordinates and a texture.
-      {"mask", {1, 1, 2, 0, 0}},
-      {"base_color_map", {1, 1, 1, 0, 0}},
-      {"metallic_roughness_map", {1, 1, 1, 0, 0}},
-      {"normal_map", {2, 1, 1, 0, 0}},  // tangents too
-      {"occlusion_map", {1, 1, 1, 0, 0}},
-      {"emissive_map", {1, 1, 1, 0, 0}},
-      {"vertex_color", {1, 0, 1, 0, 0}},
-      {"uv1", {2, 1, 1, 0, 0}},
-      {"uv_transform", {1, 1, 1, 0, 0}},
-      {"unlit", {0, 0, 1, 0, 0}},
-      {"spot", {1, 1, 0, 0, 0}},  // cones; all programs are others, none is more
-      {"directional", {1, 1, 0, 0, 0}},
+      {"mask", {1, 1, 2, 0, 0, 0}},
+      {"base_color_map", {1, 1, 1, 0, 0, 0}},
+      {"metallic_roughness_map", {1, 1, 1, 0, 0, 0}},
+      {"normal_map", {2, 1, 1, 0, 0, 0}},  // tangents too
+      {"occlusion_map", {1, 1, 1, 0, 0, 0}},
+      {"emissive_map", {1, 1, 1, 0, 0, 0}},
+      {"vertex_color", {1, 0, 1, 0, 0, 0}},
+      {"uv1", {2, 1, 1, 0, 0, 0}},
+      {"uv_transform", {1, 1, 1, 0, 0, 0}},
+      {"unlit", {0, 0, 1, 0, 0, 0}},
+      {"spot", {1, 1, 0, 0, 0, 0}},  // cones; all programs are others, none is more
+      {"directional", {1, 1, 0, 0, 0, 0}},
   };
   EXPECT_EQ(work_of(with().scene), plain + added.at(effect.name));
 }
@@ -90,15 +96,15 @@ TEST(PlannedWork, OfThePlainScene) {
   // Positions, normals, indices, materials, the view, light places and colours; and textures of the last two,
   // of the grid's cells and indices, depth and colour. Depth bounds, then count, scan, fill of bins and of
   // tiles.
-  EXPECT_EQ(work_of(small_scene().scene), (Work{7, 6, 2, 7, 1}));
+  EXPECT_EQ(work_of(small_scene().scene), (Work{7, 6, 2, 6, 7, 1}));
 }
 
 TEST(PlannedWork, WithoutALightThatHasAPlaceNothingIsCulled) {
   SmallScene s = small_scene(false);
   const Work dark = work_of(s.scene);
-  EXPECT_EQ(dark, (Work{5, 2, 2, 1, 0})) << "the one launch is depth bounds, which tell what is hidden";
+  EXPECT_EQ(dark, (Work{5, 2, 2, 1, 1, 0})) << "the one launch is depth bounds, which tell what is hidden";
   effects().back().add(s);  // a directional light
-  EXPECT_EQ(work_of(s.scene), (Work{6, 3, 2, 1, 0}));
+  EXPECT_EQ(work_of(s.scene), (Work{6, 3, 2, 1, 1, 0}));
 }
 
 TEST(PlannedWork, AnEffectOutOfViewCostsNothing) {
