@@ -84,6 +84,12 @@ TEST_F(ProgramCacheTest, KeepsProgramsOfOtherSourcesApart) {
   expect_counts(second, 1, 0, 0);
 }
 
+void flip_byte(const std::filesystem::path& path, std::streamoff at) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const char byte = static_cast<char>(file.seekg(at).get());
+  file.seekp(at).put(static_cast<char>(~byte));
+}
+
 TEST_F(ProgramCacheTest, RebuildsAndReplacesADamagedFile) {
   ProgramCache first(device, folder);
   run(first, 7);
@@ -95,10 +101,8 @@ TEST_F(ProgramCacheTest, RebuildsAndReplacesADamagedFile) {
       [&] { std::filesystem::resize_file(file, 20); },
       [&] { std::filesystem::resize_file(file, whole / 2); },
       [&] { std::filesystem::resize_file(file, whole + 1); },
-      [&] {
-        std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(whole - 100).put('\x55');
-      },
-      [&] { std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(40).put('\x55'); },
+      [&] { flip_byte(file, whole - 100); },
+      [&] { flip_byte(file, 40); },
       [&] { std::ofstream(file) << "not a program at all, but long enough to hold a header of its own"; },
   };
   for (size_t i = 0; i < damages.size(); ++i) {
