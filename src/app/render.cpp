@@ -31,7 +31,7 @@ int render(const RenderOptions& o) {
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
   save_image(o.output, run.image());
   if (!o.json.empty()) {
-    run.run_profiled_frame();
+    run.run_profiled_frames();
     write_json(o.json, to_json(run.result()).dump(1));
   }
   return 0;

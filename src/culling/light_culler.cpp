@@ -98,12 +98,13 @@ void LightCuller::set_view(const ViewParams& view) {
     bins_bytes_ = bins * sizeof(cl_uint2);
     bins_ = device_buffer(device_, bins_bytes_);
   }
-  if (candidate_stride_ == 0) {
-    // A first guess; the counts correct it.
-    candidate_stride_ = std::max<uint>(4096, 4 * light_stride_);
-    candidates_ = device_buffer(device_, (5 * size_t(candidate_stride_) + load_margin) * sizeof(float));
-    index_capacity_ = tiles * 64;
-  }
+}
+
+void LightCuller::make_first_guess() {
+  if (candidate_stride_ > 0) return;
+  candidate_stride_ = std::max<uint>(4096, 4 * light_stride_);
+  candidates_ = device_buffer(device_, (5 * size_t(candidate_stride_) + load_margin) * sizeof(float));
+  index_capacity_ = size_t(view_.tiles_x) * view_.tiles_y * 64;
 }
 
 DepthBounds LightCuller::depth_bounds(cl::Buffer& depth) {
@@ -143,6 +144,7 @@ void LightCuller::scan(cl::Buffer& cells, uint count, int slot) {
 
 LightGrid LightCuller::cull(cl::Buffer& intervals, GridStorage& storage) {
   build_cull_kernels();
+  make_first_guess();
   LightGrid grid;
   grid.cells_x = view_.tiles_x, grid.cells_y = view_.tiles_y;
   grid.index_bits = options_.index_bits;

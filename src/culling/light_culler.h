@@ -79,6 +79,7 @@ class LightCuller {
 
  private:
   void build_cull_kernels();  // at the first cull: who asks for depth bounds alone builds nothing else
+  void make_first_guess();    // of how much room candidates and indices take; the counts correct it
   void run_bins(cl::Buffer& intervals, bool count);
   void run_tiles(cl::Buffer& intervals, cl::Buffer& cells, cl::Buffer& indices, uint capacity, bool count);
   void scan(cl::Buffer& cells, uint count, int slot);

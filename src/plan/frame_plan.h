@@ -49,7 +49,7 @@ struct FramePlan {
   std::vector<int> opaque, blended;
   std::vector<uint32_t> features_of_instance;  // as long as the scene's instances; 0 where not seen
 
-  bool light_grid = false;     // depth bounds, culling and the grid's buffers
+  bool light_grid = false;     // culling, its kernels and the grid's buffers
   bool local_lights = false;   // some point or spot light
   bool spots = false;          // cone code
   bool directional = false;

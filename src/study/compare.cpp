@@ -16,7 +16,7 @@ void time_interleaved(std::vector<std::unique_ptr<TechniqueRun>>& runs, const Co
       run->run_frame(round < options.warmup);
     }
   }
-  for (auto& run : runs) run->run_profiled_frame();
+  for (auto& run : runs) run->run_profiled_frames();
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ class TechniqueRun {
 
   // One frame, from the first draw to the image read back; its time goes into the result unless `warmup`.
   void run_frame(bool warmup = false);
-  // One more frame with a wait after each pass, for the time of each.
-  void run_profiled_frame();
+  // More frames with a wait after each pass, for the time of each: up to five, or as many as a second holds.
+  void run_profiled_frames();
 
   const Image& image() const { return image_; }
   Frame& frame() { return frame_; }

@@ -16,7 +16,7 @@ const Technique& find_technique(const std::string& name) {
     if (technique->name == name) return *technique;
     names += (names.empty() ? "" : ", ") + std::string(technique->name);
   }
-  throw input_error("--technique: \"{}\" is not a technique; there are {}", name, names);
+  throw input_error("technique \"{}\": there is none of that name; there are {}", name, names);
 }
 
 }  // namespace lightgrid

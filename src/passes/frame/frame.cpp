@@ -144,10 +144,12 @@ LightCuller& Frame::culler() {
     options.blend = plan.blend_grid;
     options.index_bits = plan.index_bits;
     culler_.emplace(*devices.cl, *devices.programs, options);
-    const std::vector<ViewLight> lights = lights_in_view(scene, view);
-    std::vector<ViewLight> local;
-    for (int i : plan.local) local.push_back(lights[i]);
-    culler_->set_lights(local);
+    if (plan.light_grid) {
+      const std::vector<ViewLight> lights = lights_in_view(scene, view);
+      std::vector<ViewLight> local;
+      for (int i : plan.local) local.push_back(lights[i]);
+      culler_->set_lights(local);
+    }
     culler_->set_view(params);
   }
   return *culler_;
@@ -170,7 +172,8 @@ size_t Frame::light_grid_bytes() const {
 
 size_t Frame::memory_bytes() const {
   size_t bytes =
-      gpu.geometry_bytes() + gpu.texture_bytes() + target_bytes_ + light_bytes_ + light_grid_bytes();
+      gpu.geometry_bytes() + gpu.texture_bytes() + target_bytes_ + light_bytes_;
+  for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (depth_copy_) bytes += depth_copy_->size();
   if (culler_) bytes += culler_->memory_bytes();
   return bytes;

@@ -37,6 +37,7 @@ class SharedGridStorage : public GridStorage {
   SharedGridStorage(Devices& devices, int index_bits) : devices_(devices), index_bits_(index_bits) {}
   cl::Buffer& cells(size_t bytes) override;
   cl::Buffer& indices(size_t bytes) override;
+  size_t allocated_bytes() const { return cells_.buffer->size() + indices_.buffer->size(); }
   SharedTexture cells_, indices_;
 
  private:
@@ -72,7 +73,7 @@ struct Frame {
   SharedGridStorage& blend_grid();
 
   size_t memory_bytes() const;        // of this frame's targets, buffers and the scene's
-  size_t light_grid_bytes() const;    // of the grids, as last built
+  size_t light_grid_bytes() const;    // of the grids as last built, without room to grow
   void note_grid(const LightGrid& grid, bool blend) { (blend ? blend_grid_last : opaque_grid_last) = grid; }
   LightGrid opaque_grid_last, blend_grid_last;
 
