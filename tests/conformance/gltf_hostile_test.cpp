@@ -56,7 +56,7 @@ TEST_F(GltfHostile, every_file_of_the_validator_ends_in_a_scene_or_an_input_erro
     const bool loaded = loads(file);
     refused += !loaded;
     EXPECT_LT(timer.elapsed_ms(), 2000) << file;
-    if (file.stem() == "valid") EXPECT_TRUE(loaded) << file;
+    EXPECT_TRUE(loaded || file.stem() != "valid") << file;
   }
   EXPECT_EQ(refused, 90) << "as docs/gltf.md says";
 }

@@ -1,5 +1,6 @@
 // The large scenes and those with artists' lights.
 #include "base/error.h"
+#include "scene/gltf/geometry.h"
 #include "scene/load_gltf.h"
 #include "support/shared_files.h"
 
@@ -55,6 +56,22 @@ TEST(GltfScenes, flight_helmet_is_complete) {
   EXPECT_EQ(scene.bitmaps.size(), 15u);
   EXPECT_TRUE(std::any_of(scene.materials.begin(), scene.materials.end(),
                           [](const Material& m) { return m.alpha_mode == AlphaMode::blend; }));
+}
+
+// The file's tangents are of MikkTSpace, which splits vertices where ours are shared.
+TEST(GltfScenes, made_tangents_agree_with_those_of_flight_helmet) {
+  LIGHTGRID_NEEDS_SHARED("scenes/large/FlightHelmet");
+  const Scene scene = load_gltf(scene_file("large/FlightHelmet/FlightHelmet.gltf"));
+  size_t count = 0, close = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    Mesh made = mesh;
+    gltf::make_tangents(made, mesh.uv0);
+    for (size_t i = 0; i < mesh.tangents.size(); ++i, ++count)
+      close += made.tangents[i].w == mesh.tangents[i].w &&
+               glm::dot(glm::vec3(made.tangents[i]), glm::vec3(mesh.tangents[i])) > 0.95f;
+  }
+  ASSERT_GT(count, 50000u);
+  EXPECT_GT(close, count / 100 * 99);
 }
 
 TEST(GltfScenes, tps_demo_places_nine_lights_on_twenty_nodes) {

@@ -29,8 +29,9 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, int co
   return static_cast<int>(mesh.attribute(id)->unique_id());
 }
 
-// `draco_normalized`: whether Draco's own flag is set, which writers do not agree on.
-GltfBuilder draco_quad(bool draco_normalized = false) {
+// The sequential method keeps the order of vertices. `draco_normalized`: whether Draco's own flag is set,
+// which writers do not agree on.
+GltfBuilder draco_quad(bool draco_normalized = false, int method = draco::MESH_SEQUENTIAL_ENCODING) {
   draco::Mesh mesh;
   mesh.set_num_points(4);
   for (int i = 0; i < 2; ++i)
@@ -44,7 +45,7 @@ GltfBuilder draco_quad(bool draco_normalized = false) {
   ids["TEXCOORD_0"] =
       add_attribute(mesh, draco::GeometryAttribute::GENERIC, 2, draco::DT_UINT8, draco_normalized, uvs);
   draco::ExpertEncoder encoder(mesh);
-  encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);  // keeps the order of vertices
+  encoder.SetEncodingMethod(method);
   draco::EncoderBuffer encoded;
   EXPECT_TRUE(encoder.EncodeToBuffer(&encoded).ok());
 
@@ -73,6 +74,21 @@ void expect_quad(const Mesh& mesh) {
 TEST(GltfDraco, a_compressed_primitive_equals_the_plain_one) {
   expect_quad(draco_quad().load().meshes.at(0));
   expect_quad(draco_quad(true).load().meshes.at(0));
+}
+
+TEST(GltfDraco, vertices_in_another_order_still_belong_together) {
+  const Mesh mesh = draco_quad(false, draco::MESH_EDGEBREAKER_ENCODING).load().meshes.at(0);
+  ASSERT_EQ(mesh.indices.size(), 6u);
+  ASSERT_EQ(mesh.positions.size(), 4u);
+  EXPECT_EQ(mesh.bounds.max, glm::vec3(1, 1, 0));
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(mesh.uv0[i], glm::vec2(mesh.positions[i])) << "as in the quad";
+  float area = 0;
+  for (size_t i = 0; i < 6; i += 3) {
+    const glm::vec3 a = mesh.positions[mesh.indices[i]];
+    area +=
+        glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a).z / 2;
+  }
+  EXPECT_EQ(area, 1) << "both triangles, front towards z";
 }
 
 TEST(GltfDraco, broken_data_and_wrong_indices_are_refused) {

@@ -125,6 +125,20 @@ TEST(GltfFile, nothing_outside_the_folder_is_read) {
   EXPECT_THAT(with_buffer_uri("a%2").refusal(), HasSubstr("is not a valid path"));
 }
 
+TEST(GltfFile, the_folder_of_a_bare_file_name_is_the_working_directory) {
+  const ModelFolder folder;
+  const Bytes bin = GltfBuilder::triangle().bin;
+  folder.write("a.bin", bin);
+  folder.write("inner/b.bin", bin);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path / "inner");
+  folder.write("inner/out.gltf", with_buffer_uri("../a.bin").text());
+  folder.write("inner/in.gltf", with_buffer_uri("b.bin").text());
+  EXPECT_THAT(refusal_of("out.gltf"), HasSubstr("leaves the folder"));
+  EXPECT_EQ(load_gltf("in.gltf").meshes.at(0).positions, corners);
+  std::filesystem::current_path(before);
+}
+
 TEST(GltfFile, a_buffer_shorter_than_it_says_is_refused_and_a_longer_one_read) {
   const ModelFolder folder;
   Bytes bin = GltfBuilder::triangle().bin;

@@ -1,50 +1,94 @@
 #include "scene/gltf/draco.h"
 
 #include <cmath>
+#include <cstring>
 
 #include <draco/compression/decode.h>
 
 namespace lightgrid::gltf {
 namespace {
 
-float largest_integer(int component_type) {
-  switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return 127;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 255;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return 32767;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 65535;
-    default:
-      return 1;
+// Raw values, scaled by our own rule. Draco's ConvertValue would go by the attribute's `normalized` flag,
+// which writers do not agree on and which its decoder takes from the file unchecked, as a bool of any bits.
+template <typename T>
+void read_values(const draco::PointAttribute& attribute, bool normalize, size_t point_count, float* to) {
+  const int components = attribute.num_components();
+  for (uint32_t point = 0; point < point_count; ++point) {
+    const uint8_t* from = attribute.GetAddress(attribute.mapped_index(draco::PointIndex(point)));
+    for (int c = 0; c < components; ++c, ++to) {
+      T value;
+      std::memcpy(&value, from + c * sizeof(T), sizeof(T));
+      *to = static_cast<float>(value);
+      if constexpr (std::is_integral_v<T>)
+        if (normalize) *to = std::max(*to / static_cast<float>(std::numeric_limits<T>::max()), -1.0f);
+    }
   }
 }
 
-// The accessor says what the numbers mean; Draco's own flag is set by some writers and not by others.
+size_t value_bytes(draco::DataType type) {
+  switch (type) {
+    case draco::DT_INT8:
+    case draco::DT_UINT8:
+      return 1;
+    case draco::DT_INT16:
+    case draco::DT_UINT16:
+      return 2;
+    case draco::DT_UINT32:
+    case draco::DT_FLOAT32:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+void check_layout(const Document& doc, const draco::Mesh& mesh, const draco::PointAttribute& attribute,
+                  const std::string& place) {
+  const size_t element_bytes = value_bytes(attribute.data_type()) * attribute.num_components();
+  if (element_bytes == 0 || attribute.num_components() > 4)
+    throw doc.error("{}: has {} components of Draco's type {}", place, int(attribute.num_components()),
+                    int(attribute.data_type()));
+  uint32_t last = 0;
+  for (draco::PointIndex point(0); point < mesh.num_points(); ++point)
+    last = std::max(last, attribute.mapped_index(point).value());
+  const auto stride = static_cast<size_t>(attribute.byte_stride()),
+             offset = static_cast<size_t>(attribute.byte_offset());
+  if (last >= attribute.size() || stride < element_bytes ||
+      offset + last * stride + element_bytes > attribute.buffer()->data_size())
+    throw doc.error("{}: its values do not fit its data", place);
+}
+
 FloatArray read_attribute(Document& doc, const draco::Mesh& mesh, const draco::PointAttribute& attribute,
                           const tinygltf::Accessor& accessor, const std::string& name,
                           const std::string& place) {
+  check_layout(doc, mesh, attribute, place);
   FloatArray out{.components = attribute.num_components()};
-  if (out.components < 1 || out.components > 4)
-    throw doc.error("{}: has {} components", place, out.components);
-  const bool always =
-      name.starts_with("COLOR_") || name.starts_with("WEIGHTS_") || name == "NORMAL" || name == "TANGENT";
-  const bool scale = (accessor.normalized || always) && !attribute.normalized();
-  const float largest = scale ? largest_integer(accessor.componentType) : 1;
-  out.values.resize(size_t(mesh.num_points()) * out.components);
-  for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
-    const draco::AttributeValueIndex value = attribute.mapped_index(point);
-    float* to = &out.values[size_t(point.value()) * out.components];
-    if (value.value() >= attribute.size() ||
-        !attribute.ConvertValue<float>(value, attribute.num_components(), to))
-      throw doc.error("{}: element {} cannot be read", place, point.value());
-    for (int c = 0; c < out.components; ++c) {
-      if (!std::isfinite(to[c])) throw doc.error("{}: element {} is {}", place, point.value(), to[c]);
-      to[c] = scale ? std::max(to[c] / largest, -1.0f) : to[c];
-    }
+  const size_t count = mesh.num_points();
+  out.values.resize(count * out.components);
+  float* to = out.values.data();
+  const bool normalize = accessor.normalized || name.starts_with("COLOR_") || name.starts_with("WEIGHTS_") ||
+                         name == "NORMAL" || name == "TANGENT";
+  switch (attribute.data_type()) {
+    case draco::DT_INT8:
+      read_values<int8_t>(attribute, normalize, count, to);
+      break;
+    case draco::DT_UINT8:
+      read_values<uint8_t>(attribute, normalize, count, to);
+      break;
+    case draco::DT_INT16:
+      read_values<int16_t>(attribute, normalize, count, to);
+      break;
+    case draco::DT_UINT16:
+      read_values<uint16_t>(attribute, normalize, count, to);
+      break;
+    case draco::DT_UINT32:
+      read_values<uint32_t>(attribute, normalize, count, to);
+      break;
+    default:
+      read_values<float>(attribute, normalize, count, to);
   }
+  for (size_t i = 0; i < out.values.size(); ++i)
+    if (!std::isfinite(out.values[i]))
+      throw doc.error("{}: element {} is {}", place, i / out.components, out.values[i]);
   return out;
 }
 

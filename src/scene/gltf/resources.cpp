@@ -141,7 +141,8 @@ std::vector<uint8_t> read_uri(const Reporter& report, const std::string& place, 
   if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos)
     throw report.error("{}uri \"{}\" is not a valid path", place, uri);
   std::error_code failed;
-  const fs::path root = fs::weakly_canonical(folder, failed);
+  // The folder of a bare file name is an empty path, which everything would lie below.
+  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
   const fs::path file = failed ? fs::path() : fs::weakly_canonical(root / *decoded, failed);
   if (failed) throw report.error("{}uri \"{}\": {}", place, uri, failed.message());
   if (!is_below(file, root))
