@@ -6,13 +6,12 @@ namespace lightgrid {
 cl::Buffer& depth_to_cl(Frame& f, const DepthImage& depth) {
   const size_t bytes = size_t(f.view.width) * f.view.height * 4;
   auto pass = f.timer.pass("depth_to_cl", "gl");
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, f.depth_framebuffer());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, depth.framebuffer);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, f.depth_copy().gl_buffer());
   glReadPixels(0, 0, f.view.width, f.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   f.depth_copy().hand_to_cl(bytes);
   pass.moves(bytes, bytes);
-  (void)depth;
   return f.depth_copy().cl_buffer();
 }
 

@@ -27,7 +27,7 @@ DepthImage depth_prepass(Frame& f) {
                    return f.program("shaders/depth.vert", "shaders/depth.frag", defines);
                  });
   pass.moves(f.gpu.geometry_bytes(), size_t(f.view.width) * f.view.height * 4);
-  return {f.depth_texture()};
+  return {f.depth_framebuffer()};
 }
 
 }  // namespace lightgrid

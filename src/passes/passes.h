@@ -9,7 +9,7 @@ namespace lightgrid {
 
 // Nearest opaque surfaces: reversed 32-bit float depth, 1 at the near plane, 0 where nothing is.
 struct DepthImage {
-  GLuint texture = 0;
+  GLuint framebuffer = 0;  // without colour
 };
 
 // A light grid as the shading code reads it: two buffer textures.
@@ -36,9 +36,9 @@ TileDistances tile_distances(Frame& f, const DepthBounds& bounds);
 GridTextures cull_lights(Frame& f, const DepthBounds& bounds);
 GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds);
 
-// Shades opaque surfaces from the grid's lists, or, without a grid, from every light. What `distances` shows to be
+// Shades opaque surfaces, at the depth that the prepass left, from the grid's lists, or, without a grid, from every light. What `distances` shows to be
 // hidden is not drawn.
-ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances& distances, const GridTextures* grid);
+ShadedImage shade_forward(Frame& f, const TileDistances& distances, const GridTextures* grid);
 
 // Lays blended surfaces over the image, back to front. Without a grid: from every light.
 void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid);

@@ -5,8 +5,7 @@
 
 namespace lightgrid {
 
-ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances& distances,
-                          const GridTextures* grid) {
+ShadedImage shade_forward(Frame& f, const TileDistances& distances, const GridTextures* grid) {
   auto pass = f.timer.pass("shade_forward", "gl");
   const ShadedImage image{f.color_framebuffer()};
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
@@ -25,7 +24,6 @@ ShadedImage shade_forward(Frame& f, const DepthImage& depth, const TileDistances
       &distances);
   const size_t pixels = size_t(f.view.width) * f.view.height;
   pass.moves(f.gpu.geometry_bytes() + pixels * 4 + f.light_grid_bytes(), pixels * 16);
-  (void)depth;
   return image;
 }
 

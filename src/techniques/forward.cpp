@@ -6,7 +6,7 @@ namespace lightgrid {
 static ShadedImage render(Frame& f) {
   const DepthImage depth = depth_prepass(f);
   const TileDistances distances = tile_distances(f, depth_bounds(f, depth));
-  const ShadedImage image = shade_forward(f, depth, distances, nullptr);
+  const ShadedImage image = shade_forward(f, distances, nullptr);
   shade_blended(f, image, nullptr);
   return image;
 }
