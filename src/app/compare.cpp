@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
+#include "base/write_file.h"
 #include "study/compare.h"
 #include "study/report.h"
 
@@ -49,8 +50,10 @@ std::vector<Contestant> contestants_of(const std::vector<std::string>& items, co
 int compare(const CompareCommand& o) {
   const Settings common = chosen_settings(o.scene);
   const std::vector<Contestant> contestants = contestants_of(o.techniques, common);
+  const GlBackend backend = parse_gl_backend(o.devices.gl);
   const ChosenScene chosen = load_chosen_scene(o.scene);
-  Devices devices = open_devices(o.devices.device, parse_gl_backend(o.devices.gl));
+  make_folder(o.output);
+  Devices devices = open_devices(o.devices.device, backend);
   CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup};
   if (isatty(STDERR_FILENO)) options.progress = show_progress;
   const CompareReport report = compare_techniques(devices, chosen.scene, chosen.view, contestants, options);

@@ -1,4 +1,5 @@
 // The command line: one subcommand a file, exit statuses as docs/command_line.md says.
+#include <algorithm>
 #include <cstdio>
 #include <new>
 
@@ -16,10 +17,18 @@ int main(int argc, char** argv) {
   Command chosen;
   for (const auto add : {add_render, add_compare, add_plan, add_scenes, add_techniques, add_devices}) add(app, chosen);
   try {
+    // Said before the parser says only that a command is missing.
+    const auto is_command = [&](const std::string& name) {
+      return !app.get_subcommands([&](const CLI::App* c) { return c->get_name() == name; }).empty();
+    };
+    if (argc > 1 && argv[1][0] != '-' && !is_command(argv[1])) throw CLI::ExtrasError({argv[1]});
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error, std::cout, std::cerr);  // help is an "error" of status 0
-    return status == 0 ? 0 : int(ErrorKind::input);
+    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);  // help is an "error" too
+    std::string line = error.what();
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::fprintf(stderr, "lightgrid: %s (--help tells more)\n", line.c_str());
+    return int(ErrorKind::input);
   }
   if (quiet) set_log_level(LogLevel::quiet);
   try {

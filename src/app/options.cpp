@@ -1,12 +1,17 @@
 #include "app/options.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "scene/builtin.h"
 #include "scene/light_rigs.h"
 #include "scene/lights_file.h"
@@ -29,7 +34,8 @@ bool parse_pair(const std::string& text, char separator, T& a, T& b) {
 
 Scene load_scene(const std::string& name) {
   if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
-  if (!std::filesystem::exists(name)) {
+  std::error_code unreadable;  // a name too long, or a folder closed to us, is no file either
+  if (!std::filesystem::exists(name, unreadable)) {
     std::string names;
     for (const BuiltinScene& s : builtin_scenes()) names += (names.empty() ? "" : ", ") + std::string(s.name);
     throw input_error("{}: no such file, and no built-in scene of that name; there are {}", name, names);
@@ -43,7 +49,8 @@ void add_scene_options(CLI::App& command, SceneOptions& o) {
   command.add_option("scene", o.scene, "a .gltf or .glb file, or a built-in scene")->capture_default_str();
   command.add_option("--size", o.size, "image size, WxH")->capture_default_str();
   command.add_option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
-  command.add_option("--lights", o.lights, "scatter N lights; with --lights-file, its first N");
+  command.add_option("--lights", o.lights, "scatter N lights; with --lights-file, its first N")
+      ->check(CLI::Range(0, 10'000'000));
   command.add_option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.add_option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.add_option("--seed", o.seed, "of the scatter")->capture_default_str();
@@ -88,6 +95,12 @@ ChosenScene load_chosen_scene(const SceneOptions& o) {
     scene.lights = scatter_lights(scene, scatter);
   }
   chosen.view = make_view(choose_camera(scene, camera), width, height);
+  if (scene.lights.empty() && o.lights < 0 && o.lights_file.empty()) {
+    log_info("{}: no lights; adding a key and a fill light from beside the camera (--lights 0 for none)", o.scene);
+    DefaultLights added = default_lights(chosen.view);
+    scene.lights = std::move(added.lights);
+    scene.ambient = added.ambient;
+  }
   return chosen;
 }
 
@@ -95,6 +108,19 @@ Settings chosen_settings(const SceneOptions& o) {
   Settings settings;
   for (const std::string& assignment : o.set) apply_setting(settings, assignment);
   return settings;
+}
+
+void check_output_file(const std::string& option, const std::filesystem::path& path) {
+  if (path == "-") return;
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(path, unreadable)) throw input_error("{} {}: is a folder, not a file", option, path.string());
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, unreadable)) {
+    throw input_error("{} {}: there is no folder {}", option, path.string(), folder.string());
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw input_error("{} {}: no file can be made in {}: {}", option, path.string(), folder.string(), std::strerror(errno));
+  }
 }
 
 void write_json(const std::string& destination, const std::string& text) {

@@ -1,6 +1,7 @@
 // The options that every subcommand on a scene shares (docs/command_line.md), and what they name.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,10 @@ struct ChosenScene {
 };
 ChosenScene load_chosen_scene(const SceneOptions& options);
 Settings chosen_settings(const SceneOptions& options);
+
+// Throws Error(input) where the file `path`, given by `option`, could not be made: its folder is missing, no folder
+// or closed to us, or it is a folder itself. For asking before the work; "-" is always well.
+void check_output_file(const std::string& option, const std::filesystem::path& path);
 
 // Writes JSON text to a file, or to stdout for "-".
 void write_json(const std::string& destination, const std::string& text);

@@ -19,6 +19,7 @@ struct PlanOptions {
 int plan(const PlanOptions& o) {
   const Technique& technique = find_technique(o.technique);
   const Settings settings = chosen_settings(o.scene);
+  if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   if (o.json.empty()) {

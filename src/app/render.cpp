@@ -24,8 +24,11 @@ int render(const RenderOptions& o) {
   const Technique& technique = find_technique(o.technique);
   const Settings settings = chosen_settings(o.scene);
   check_image_path(o.output);
+  check_output_file("-o", o.output);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  const GlBackend backend = parse_gl_backend(o.devices.gl);
   const ChosenScene chosen = load_chosen_scene(o.scene);
-  Devices devices = open_devices(o.devices.device, parse_gl_backend(o.devices.gl));
+  Devices devices = open_devices(o.devices.device, backend);
   TechniqueRun run(devices, chosen.scene, chosen.view, settings, technique);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();

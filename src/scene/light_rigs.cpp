@@ -136,4 +136,19 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
   return lights;
 }
 
+DefaultLights default_lights(const View& view) {
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+  const auto directional = [&](const char* name, const glm::dvec3& from_view, float illuminance_lux) {
+    Light light;
+    light.name = name;
+    light.type = LightType::directional;
+    light.direction = glm::vec3(-glm::normalize(world_from_view * from_view));
+    light.intensity = illuminance_lux;
+    return light;
+  };
+  // Facing the viewer, cosines are 0.59 and 0.72: (2.3 * 0.59 + 0.7 * 0.72) / pi = 0.59 of radiance, and 0.2 ambient.
+  return {{directional("default key", {-0.6, 0.8, 0.73}, 2.3f), directional("default fill", {0.9, 0.1, 0.94}, 0.7f)},
+          glm::vec3(0.2f)};
+}
+
 }  // namespace lightgrid

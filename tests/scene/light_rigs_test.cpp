@@ -128,5 +128,33 @@ TEST(ScatterLights, RefusesWhatCannotBeScattered) {
   EXPECT_TRUE(scatter_lights(Scene(), {0}).empty());
 }
 
+glm::vec3 in_view(const View& view, const Light& light) {
+  return glm::vec3(glm::dmat3(view.view_from_world) * glm::dvec3(light.direction));
+}
+
+TEST(DefaultLights, StandBesideTheViewerWhereverItLooks) {
+  for (const glm::dvec3& eye : {glm::dvec3(0, 0, 5), glm::dvec3(-3, 9, 2), glm::dvec3(0, -4, 0)}) {
+    const View view = make_view(look_at(eye, glm::dvec3(0)), 4, 3);
+    const DefaultLights rig = default_lights(view);
+    ASSERT_EQ(rig.lights.size(), 2u);
+    for (const Light& light : rig.lights) {
+      EXPECT_EQ(light.type, LightType::directional);
+      EXPECT_NEAR(glm::length(light.direction), 1, 1e-6);
+      EXPECT_LT(in_view(view, light).z, 0) << "shines away from the viewer";
+    }
+    const glm::vec3 key = in_view(view, rig.lights[0]);
+    EXPECT_GT(key.x, 0.4f) << "comes from the left";
+    EXPECT_LT(key.y, -0.4f) << "comes from above";
+  }
+}
+
+TEST(DefaultLights, LeaveWhitePaintThatFacesTheViewerAtEightTenths) {
+  const View view = make_view(look_at({1, 2, 3}, {0, 0, 0}), 4, 3);
+  const DefaultLights rig = default_lights(view);
+  float radiance = rig.ambient.g;
+  for (const Light& light : rig.lights) radiance += light.intensity * -in_view(view, light).z / 3.14159265f;
+  EXPECT_NEAR(radiance, 0.8f, 0.01f);
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -1,0 +1,185 @@
+// Each subcommand as a user runs it: what it writes, prints and ends with.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+#include "support/run_program.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::StartsWith;
+
+std::string file_bytes(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> keys(const nlohmann::json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+// A row as docs/results_json.md has it.
+void expect_row(const nlohmann::json& row) {
+  EXPECT_THAT(keys(row), IsSupersetOf({"technique", "settings", "lights", "frame_ms", "passes", "memory_bytes", "pairs",
+                                       "error", "nan_pixels", "overflow", "skipped"}));
+  EXPECT_THAT(keys(row["lights"]), IsSupersetOf({"total", "in_view"}));
+  EXPECT_THAT(keys(row["frame_ms"]), IsSupersetOf({"min", "median", "max", "runs"}));
+  EXPECT_THAT(keys(row["memory_bytes"]), IsSupersetOf({"total", "light_grid", "gbuffer"}));
+  ASSERT_FALSE(row["passes"].empty());
+  for (const auto& pass : row["passes"]) {
+    EXPECT_THAT(keys(pass), IsSupersetOf({"name", "on", "median_ms", "bytes_read", "bytes_written"}));
+  }
+  for (const auto& effect : row["skipped"]) EXPECT_THAT(keys(effect), IsSupersetOf({"effect", "why"}));
+}
+
+TEST(RenderCommand, WritesAPngOfTheSizeAskedForAndSaysNothing) {
+  const TempFolder folder;
+  const auto path = folder.path / "x.png";
+  const ProgramRun run = run_program({"render", "spheres", "--size", "17x9", "-o", path});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+  const std::string png = file_bytes(path);
+  ASSERT_GT(png.size(), 24u);
+  EXPECT_THAT(png, StartsWith("\x89PNG\r\n\x1a\n"));
+  // IHDR: width and height, four bytes each, most significant first.
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\0\x11\0\0\0\x09", 8));
+}
+
+TEST(RenderCommand, WritesAnExr) {
+  const TempFolder folder;
+  const auto path = folder.path / "x.exr";
+  const ProgramRun run = run_program({"render", "spheres", "--size", "1x1", "-t", "forward", "-o", path});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(file_bytes(path), StartsWith("\x76\x2f\x31\x01"));
+}
+
+TEST(RenderCommand, WritesTheSameBytesTwice) {
+  const TempFolder folder;
+  for (const char* name : {"a.exr", "b.exr"}) {
+    ASSERT_EQ(run_program({"render", "street", "--size", "64x36", "-o", folder.path / name}).status, 0);
+  }
+  EXPECT_TRUE(file_bytes(folder.path / "a.exr") == file_bytes(folder.path / "b.exr"));
+}
+
+TEST(RenderCommand, PrintsOneRowOfResultsOnStdout) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"render", "spheres", "--size", "64x36", "--set", "tile=32", "--frames", "3",
+                                      "--json", "-", "-o", folder.path / "x.png"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto row = nlohmann::json::parse(run.out);
+  expect_row(row);
+  EXPECT_EQ(row["technique"], "forward_plus");
+  EXPECT_EQ(row["settings"]["tile"], 32);
+  EXPECT_EQ(row["lights"]["total"], 1024);
+  EXPECT_EQ(row["frame_ms"]["runs"], 3);
+  EXPECT_EQ(row["nan_pixels"], 0);
+}
+
+TEST(RenderCommand, TakesTheFirstLightsOfALightsFile) {
+  const TempFolder folder;
+  std::ofstream(folder.path / "two.json")
+      << R"({"lights": [{"position": [0, 1, 0], "radius": 2}, {"position": [1, 1, 0], "radius": 2}]})";
+  const ProgramRun run = run_program({"render", "spheres", "--size", "16x9", "--lights-file", folder.path / "two.json",
+                                      "--lights", "1", "--json", "-", "-o", folder.path / "x.png"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["lights"]["total"], 1);
+}
+
+TEST(RenderCommand, EndsWithThreeAndNamesThePackageWithoutAnOpenClDevice) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"render", "spheres", "--size", "16x9", "-o", folder.path / "x.png"},
+                                     {"OCL_ICD_VENDORS=/nonexistent"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("pocl-opencl-icd"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "x.png"));
+}
+
+TEST(RenderCommand, EndsWithThreeAndListsDevicesWhereNoneHasTheName) {
+  const TempFolder folder;
+  const ProgramRun run =
+      run_program({"render", "spheres", "--size", "16x9", "--device", "nosuchdevice", "-o", folder.path / "x.png"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("\"nosuchdevice\""));
+  EXPECT_THAT(run.err, HasSubstr("There are:"));
+}
+
+TEST(RenderCommand, EndsWithTwoWhereTheFileCannotBeMade) {
+  // Even root makes no file here.
+  const ProgramRun run = run_program({"render", "spheres", "--size", "16x9", "-o", "/proc/x.png"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("/proc/x.png"));
+}
+
+TEST(CompareCommand, WritesAPageImagesAndResults) {
+  const TempFolder folder;
+  const auto report = folder.path / "new" / "report";
+  const ProgramRun run = run_program({"compare", "spheres", "--size", "64x36", "--frames", "2", "-t",
+                                      "forward,forward_plus:tile=32", "-o", report});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith((report / "index.html").string() + "\n"));
+  EXPECT_EQ(run.err, "");
+  for (const char* name : {"index.html", "forward.png", "forward_plus.png", "forward_plus.exr"}) {
+    EXPECT_TRUE(std::filesystem::exists(report / name)) << name;
+  }
+  const auto results = nlohmann::json::parse(file_bytes(report / "results.json"));
+  EXPECT_THAT(keys(results), IsSupersetOf({"scene", "size", "devices", "commit", "reference", "rows"}));
+  EXPECT_THAT(keys(results["devices"]), IsSupersetOf({"cl", "gl"}));
+  EXPECT_EQ(results["size"], nlohmann::json({64, 36}));
+  EXPECT_EQ(results["reference"], "forward");
+  ASSERT_EQ(results["rows"].size(), 2u);
+  EXPECT_EQ(results["rows"][1]["settings"]["tile"], 32);
+  for (const auto& row : results["rows"]) {
+    expect_row(row);
+    EXPECT_THAT(keys(row["pairs"]), IsSupersetOf({"listed", "lit", "lost", "wrong"}));
+    EXPECT_THAT(keys(row["error"]), IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean", "bit_identical"}));
+    EXPECT_EQ(row["pairs"]["lost"], 0);
+    EXPECT_EQ(row["pairs"]["wrong"], 0);
+    EXPECT_GT(row["pairs"]["lit"], 0);
+  }
+}
+
+TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const ProgramRun text = run_program({"plan", "hall", "--size", "64x36"}, no_device);
+  EXPECT_EQ(text.status, 0) << text.err;
+  const ProgramRun json = run_program({"plan", "hall", "--size", "64x36", "--json", "-"}, no_device);
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto plan = nlohmann::json::parse(json.out);
+  ASSERT_FALSE(plan["decisions"].empty());
+  for (const auto& decision : plan["decisions"]) {
+    EXPECT_NE(decision["why"], "");
+    EXPECT_THAT(text.out, HasSubstr(decision["why"].get<std::string>()));
+  }
+}
+
+TEST(TechniquesCommand, ListsTechniquesAndSettings) {
+  const ProgramRun run = run_program({"techniques"});
+  EXPECT_EQ(run.status, 0);
+  for (const char* name : {"forward ", "forward_plus ", "cull-test", "depth-bounds", "tile"}) EXPECT_THAT(run.out, HasSubstr(name));
+}
+
+TEST(ScenesCommand, ListsTheBuiltInScenes) {
+  const ProgramRun run = run_program({"scenes"});
+  EXPECT_EQ(run.status, 0);
+  for (const char* name : {"hall", "spheres", "terrain", "street"}) EXPECT_THAT(run.out, HasSubstr(name));
+}
+
+TEST(Help, GoesToStdoutAndEndsWithZero) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}}) {
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, HasSubstr("render"));
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid

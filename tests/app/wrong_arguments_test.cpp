@@ -1,0 +1,109 @@
+// What a user gets wrong: exit status 2, and one line that names the option and the value.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "support/run_program.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+struct Wrong {
+  const char* name;
+  std::vector<std::string> arguments;  // FOLDER stands for the test's folder
+  std::vector<std::string> told;       // what the line must hold
+};
+
+std::string replace_folder(std::string text, const std::string& folder) {
+  const size_t at = text.find("FOLDER");
+  return at == std::string::npos ? text : text.replace(at, 6, folder);
+}
+
+class WrongArguments : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
+  const TempFolder folder;
+  std::ofstream(folder.path / "one.json") << R"({"lights": [{"name": "lamp", "position": [0, 1, 0], "radius": 2}]})";
+  std::ofstream(folder.path / "file") << "not a folder";
+  std::filesystem::create_directory(folder.path / "is_a_folder.png");
+  std::vector<std::string> arguments;
+  for (const std::string& a : GetParam().arguments) arguments.push_back(replace_folder(a, folder.path));
+  // Where no device could be opened, a wrong argument must still be what is told: it comes first.
+  const ProgramRun run = run_program(arguments, {"OCL_ICD_VENDORS=/nonexistent"});
+  EXPECT_EQ(run.status, 2) << "signal " << run.signal << "\n" << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  for (const std::string& told : GetParam().told) EXPECT_THAT(run.err, HasSubstr(replace_folder(told, folder.path)));
+  const auto files = std::distance(std::filesystem::directory_iterator(folder.path), {});
+  EXPECT_EQ(files, 3) << "something was written";
+}
+
+const char scene[] = "spheres";
+
+INSTANTIATE_TEST_SUITE_P(
+    OfRender, WrongArguments,
+    testing::Values(
+        Wrong{"SizeNotANumber", {"render", scene, "--size", "bigxbig", "-o", "FOLDER/x.png"}, {"--size", "bigxbig"}},
+        Wrong{"SizeZero", {"render", scene, "--size", "0x4", "-o", "FOLDER/x.png"}, {"--size", "0x4"}},
+        Wrong{"SizeNegative", {"render", scene, "--size", "-4x4", "-o", "FOLDER/x.png"}, {"--size", "-4x4"}},
+        Wrong{"SizeTooLarge", {"render", scene, "--size", "99999x4", "-o", "FOLDER/x.png"}, {"--size", "99999x4"}},
+        Wrong{"SizeWithMoreBehind", {"render", scene, "--size", "4x4x4", "-o", "FOLDER/x.png"}, {"--size", "4x4x4"}},
+        Wrong{"UnknownScene", {"render", "nosuchscene", "-o", "FOLDER/x.png"}, {"nosuchscene", "hall"}},
+        Wrong{"SceneIsAFolder", {"render", "FOLDER", "-o", "FOLDER/x.png"}, {"FOLDER"}},
+        Wrong{"SceneNameTooLong", {"render", std::string(5000, 'a'), "-o", "FOLDER/x.png"}, {"aaaa"}},
+        Wrong{"SceneOfWrongKind", {"render", "FOLDER/file", "-o", "FOLDER/x.png"}, {"FOLDER/file"}},
+        Wrong{"UnknownTechnique", {"render", scene, "-t", "magic", "-o", "FOLDER/x.png"}, {"magic", "forward_plus"}},
+        Wrong{"UnknownKey", {"render", scene, "--set", "tiles=16", "-o", "FOLDER/x.png"}, {"--set", "tiles=16"}},
+        Wrong{"UnknownValue", {"render", scene, "--set", "tile=17", "-o", "FOLDER/x.png"}, {"--set", "tile", "17"}},
+        Wrong{"SettingWithoutValue", {"render", scene, "--set", "tile", "-o", "FOLDER/x.png"}, {"--set", "tile"}},
+        Wrong{"UnknownCamera", {"render", scene, "--camera", "roof", "-o", "FOLDER/x.png"}, {"--camera", "roof"}},
+        Wrong{"CameraIndexTooHigh", {"render", scene, "--camera", "99", "-o", "FOLDER/x.png"}, {"--camera", "99"}},
+        Wrong{"CameraWithoutTarget", {"render", scene, "--camera", "eye:1,2,3", "-o", "FOLDER/x.png"}, {"--camera", "target"}},
+        Wrong{"CameraNotANumber",
+              {"render", scene, "--camera", "eye:1,2,nan,target:0,0,0", "-o", "FOLDER/x.png"},
+              {"--camera", "nan"}},
+        Wrong{"CameraField",
+              {"render", scene, "--camera", "eye:1,2,3,target:0,0,0,fov:180", "-o", "FOLDER/x.png"},
+              {"--camera", "fov", "180"}},
+        Wrong{"UnknownGl", {"render", scene, "--gl", "glx", "-o", "FOLDER/x.png"}, {"--gl", "glx"}},
+        Wrong{"MoreLightsThanTheFileHas",
+              {"render", scene, "--lights-file", "FOLDER/one.json", "--lights", "2", "-o", "FOLDER/x.png"},
+              {"--lights", "2", "FOLDER/one.json"}},
+        Wrong{"LightsNotANumber", {"render", scene, "--lights", "many", "-o", "FOLDER/x.png"}, {"--lights", "many"}},
+        Wrong{"LightsNegative", {"render", scene, "--lights", "-3", "-o", "FOLDER/x.png"}, {"--lights", "-3"}},
+        Wrong{"LightsBeyondAnyBound",
+              {"render", scene, "--lights", "99999999999", "-o", "FOLDER/x.png"},
+              {"--lights", "99999999999"}},
+        Wrong{"LightRadius",
+              {"render", scene, "--lights", "4", "--light-radius", "3,1", "-o", "FOLDER/x.png"},
+              {"--light-radius", "3,1"}},
+        Wrong{"NoSuchLightsFile", {"render", scene, "--lights-file", "FOLDER/no.json", "-o", "FOLDER/x.png"}, {"FOLDER/no.json"}},
+        Wrong{"LightsFileOfWrongKind", {"render", scene, "--lights-file", "FOLDER/file", "-o", "FOLDER/x.png"}, {"FOLDER/file"}},
+        Wrong{"FramesZero", {"render", scene, "--frames", "0", "-o", "FOLDER/x.png"}, {"--frames", "0"}},
+        Wrong{"Extension", {"render", scene, "-o", "FOLDER/x.jpg"}, {"FOLDER/x.jpg", ".png", ".exr"}},
+        Wrong{"NoExtension", {"render", scene, "-o", "FOLDER/x"}, {"FOLDER/x", ".png"}},
+        Wrong{"OutputFolderMissing", {"render", scene, "-o", "FOLDER/none/x.png"}, {"-o", "FOLDER/none/x.png"}},
+        Wrong{"OutputInAFile", {"render", scene, "-o", "FOLDER/file/x.png"}, {"-o", "FOLDER/file/x.png"}},
+        Wrong{"OutputIsAFolder", {"render", scene, "-o", "FOLDER/is_a_folder.png"}, {"-o", "FOLDER/is_a_folder.png"}},
+        Wrong{"JsonFolderMissing",
+              {"render", scene, "-o", "FOLDER/x.png", "--json", "FOLDER/none/x.json"},
+              {"--json", "FOLDER/none/x.json"}},
+        Wrong{"UnknownOption", {"render", scene, "--sise", "4x4"}, {"--sise"}}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    OfOthers, WrongArguments,
+    testing::Values(Wrong{"UnknownCommand", {"rendre"}, {"rendre"}}, Wrong{"NoCommand", {}, {"subcommand"}},
+                    Wrong{"CompareUnknownTechnique", {"compare", scene, "-t", "forward,magic", "-o", "FOLDER/r"}, {"magic"}},
+                    Wrong{"CompareUnknownValue", {"compare", scene, "-t", "forward_plus:tile=17", "-o", "FOLDER/r"}, {"tile", "17"}},
+                    Wrong{"CompareUnknownGl", {"compare", scene, "--gl", "glx", "-o", "FOLDER/r"}, {"--gl", "glx"}},
+                    Wrong{"CompareIntoAFile", {"compare", scene, "-o", "FOLDER/file"}, {"FOLDER/file"}},
+                    Wrong{"PlanUnknownScene", {"plan", "nosuchscene"}, {"nosuchscene"}},
+                    Wrong{"PlanUnknownSize", {"plan", scene, "--size", "wide"}, {"--size", "wide"}}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace lightgrid

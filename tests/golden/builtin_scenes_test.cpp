@@ -1,0 +1,102 @@
+// The built-in scenes against images kept in assets/golden (docs/testing.md). UPDATE_GOLDEN=1 writes them anew.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/image.h"
+#include "base/write_file.h"
+#include "scene/builtin.h"
+#include "support/render.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int width = 320, height = 180;
+
+// What another vector width or Mesa may change: docs/testing.md has the measurements behind these.
+constexpr double allowed_mean = 0.05;        // steps of 255, over all channels
+constexpr int allowed_step = 2;              // steps of 255 in a channel
+constexpr double allowed_share_off = 0.002;  // of the pixels may be further off, at edges of triangles
+
+using Bytes = std::vector<uint8_t>;
+
+// RGB, row 0 at the top; empty where the file is missing, broken or of another size.
+Bytes load_golden(const fs::path& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&header, path.c_str())) return {};
+  header.format = PNG_FORMAT_RGB;
+  Bytes bytes(PNG_IMAGE_SIZE(header));
+  const bool right_size = header.width == width && header.height == height;
+  if (!png_image_finish_read(&header, nullptr, bytes.data(), 0, nullptr) || !right_size) return {};
+  return bytes;
+}
+
+struct Difference {
+  double mean = 0, share_off = 0;
+  int largest = 0;
+  Bytes picture;  // each channel's difference, eight times as bright
+};
+
+Difference difference_of(const Bytes& actual, const Bytes& expected) {
+  Difference d;
+  d.picture.resize(actual.size());
+  size_t pixels_off = 0;
+  for (size_t i = 0; i < actual.size(); i += 3) {
+    int of_pixel = 0;
+    for (size_t c = i; c < i + 3; ++c) {
+      const int apart = std::abs(int(actual[c]) - int(expected[c]));
+      d.mean += apart;
+      d.picture[c] = uint8_t(std::min(255, 8 * apart));
+      of_pixel = std::max(of_pixel, apart);
+    }
+    d.largest = std::max(d.largest, of_pixel);
+    pixels_off += of_pixel > allowed_step;
+  }
+  d.mean /= double(actual.size());
+  d.share_off = double(pixels_off) / (actual.size() / 3);
+  return d;
+}
+
+class GoldenImage : public testing::TestWithParam<const char*> {};
+
+TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
+  const std::string name = GetParam();
+  const fs::path golden = fs::path(LIGHTGRID_SOURCE_DIR) / "assets/golden" / (name + ".png");
+  const Scene scene = find_builtin_scene(name)->make();
+  const View view = make_view(choose_camera(scene, ""), width, height);
+  const Bytes actual = srgb_bytes(render_image(scene, view));
+  const Bytes actual_png = encode_png(width, height, 3, actual);
+  if (const char* update = std::getenv("UPDATE_GOLDEN"); update && std::string(update) == "1") {
+    write_file(golden, actual_png);
+    GTEST_SKIP() << "wrote " << golden;
+  }
+  const Bytes expected = load_golden(golden);
+  ASSERT_EQ(expected.size(), actual.size()) << golden << " is missing or no image of " << width << "x" << height
+                                            << "; UPDATE_GOLDEN=1 makes it (docs/testing.md)";
+  const Difference d = difference_of(actual, expected);
+  const bool equal = d.mean <= allowed_mean && d.share_off <= allowed_share_off;
+  if (!equal) {
+    const fs::path folder = fs::path(LIGHTGRID_TEST_OUTPUT_DIR) / "golden";
+    make_folder(folder);
+    write_file(folder / (name + ".actual.png"), actual_png);
+    write_file(folder / (name + ".expected.png"), encode_png(width, height, 3, expected));
+    write_file(folder / (name + ".difference.png"), encode_png(width, height, 3, d.picture));
+    const Devices& devices = software_devices();
+    const std::string device = devices.gl->renderer + ", " + devices.gl->version + "\n" + devices.cl->info().name + "\n";
+    write_file(folder / (name + ".device.txt"), device);
+    ADD_FAILURE() << "mean " << d.mean << " (allowed " << allowed_mean << "), off by more than " << allowed_step << ": "
+                  << d.share_off << " of pixels (allowed " << allowed_share_off << "), largest " << d.largest << "\non "
+                  << device << "see " << folder / (name + ".*.png");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, GoldenImage, testing::Values("hall", "spheres", "terrain", "street"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace lightgrid

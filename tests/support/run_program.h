@@ -1,0 +1,75 @@
+// The lightgrid program run as a user runs it, with what it printed and how it ended.
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/temp_folder.h"
+
+namespace lightgrid {
+
+struct ProgramRun {
+  int status = -1;  // the exit status; -1: ended by a signal, or still running at the time limit
+  int signal = 0;
+  bool timed_out = false;
+  std::string out, err;
+};
+
+// `environment`: NAME=VALUE each, beside the test's own.
+inline ProgramRun run_program(std::vector<std::string> arguments, const std::vector<std::string>& environment = {},
+                              std::chrono::seconds limit = std::chrono::seconds(120)) {
+  const TempFolder folder;
+  const std::string out = folder.path / "stdout", err = folder.path / "stderr";
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
+
+  arguments.insert(arguments.begin(), LIGHTGRID_PROGRAM);
+  std::vector<char*> argv, envp;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  // The last of two of one name would not be found: ours stand first.
+  for (const std::string& variable : environment) envp.push_back(const_cast<char*>(variable.c_str()));
+  for (char** variable = environ; *variable; ++variable) envp.push_back(*variable);
+  envp.push_back(nullptr);
+
+  ProgramRun run;
+  pid_t pid = 0;
+  const int failure = posix_spawn(&pid, LIGHTGRID_PROGRAM, &actions, nullptr, argv.data(), envp.data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) return run;
+
+  const auto end = std::chrono::steady_clock::now() + limit;
+  int status = 0;
+  while (waitpid(pid, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() > end && !run.timed_out) {
+      run.timed_out = true;
+      kill(pid, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (WIFEXITED(status)) run.status = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);
+  const auto text_of = [](const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  run.out = text_of(out);
+  run.err = text_of(err);
+  return run;
+}
+
+}  // namespace lightgrid
