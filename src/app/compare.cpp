@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
@@ -20,7 +22,7 @@ struct CompareCommand {
   SceneOptions scene;
   DeviceOptions devices;
   TimingOptions timing;
-  std::string output = "out/compare";
+  std::string output = "out/compare", json;
   std::vector<std::string> techniques = {"forward", "forward_plus"};
 };
 
@@ -52,6 +54,7 @@ int compare(const CompareCommand& o) {
   const std::vector<Contestant> contestants = contestants_of(o.techniques, common);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   const ChosenScene chosen = load_chosen_scene(o.scene);
+  if (!o.json.empty()) check_output_file("--json", o.json);
   make_folder(o.output);
   Devices devices = open_devices(o.devices.device, backend);
   CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup};
@@ -59,8 +62,11 @@ int compare(const CompareCommand& o) {
   const CompareReport report = compare_techniques(devices, chosen.scene, chosen.view, contestants, options);
   write_report(o.output, report);
 
-  fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
-  for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
+  if (!o.json.empty()) write_json(o.json, to_json(report).dump(1));
+  if (o.json != "-") {
+    fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
+    for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
+  }
   bool passed = true;
   for (const RunResult& row : report.rows) {
     if (row.pairs->lost || row.pairs->wrong || row.nan_pixels) {
@@ -83,6 +89,7 @@ void add_compare(CLI::App& app, Command& chosen) {
   command->add_option("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between")
       ->delimiter(',')->capture_default_str();
   command->add_option("-o,--output", o->output, "folder of the report")->capture_default_str();
+  command->add_option("--json", o->json, "results.json once more, into a file, - for stdout");
   command->final_callback([o, &chosen] { chosen = [o] { return compare(*o); }; });
 }
 

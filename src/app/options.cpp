@@ -72,6 +72,9 @@ ChosenScene load_chosen_scene(const SceneOptions& o) {
   if (!parse_pair(o.size, 'x', width, height) || width < 1 || height < 1 || width > max_image_side || height > max_image_side) {
     throw input_error("--size {}: not WxH with sides from 1 to {}", o.size, max_image_side);
   }
+  if (!o.light_radius.empty() && (o.lights < 0 || !o.lights_file.empty())) {
+    throw input_error("--light-radius {}: only lights that --lights scatters take it", o.light_radius);
+  }
   ChosenScene chosen{load_scene(o.scene), {}};
   Scene& scene = chosen.scene;
   std::string camera = o.camera;
