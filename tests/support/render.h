@@ -9,8 +9,8 @@
 
 namespace lightgrid {
 
-// Opened once a process and never closed: at exit the drivers may go first. Mesa's software renderer, by OSMesa where it is there: the same picture with and without
-// a graphics card in the machine.
+// Opened once a process and never closed: at exit the drivers may go first. Mesa's software renderer, by OSMesa
+// where it is there: the same picture with and without a graphics card in the machine.
 inline Devices& software_devices() {
   static Devices* const devices = [] {
     try {

@@ -1,0 +1,88 @@
+// Pictures of the conformance models, asked by places in the world rather than by pixels.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "base/log.h"
+#include "scene/light_rigs.h"
+#include "scene/load_gltf.h"
+#include "study/metrics.h"
+#include "support/render.h"
+#include "support/shared_files.h"
+
+namespace lightgrid {
+
+inline Scene load_model(const std::string& path, int scene = -1) {
+  set_log_level(LogLevel::quiet);
+  return load_gltf(shared_folder() / "scenes/conformance" / path, scene);
+}
+
+// Which colour stands out: by a factor of two over the others.
+enum class Hue { dark, red, green, blue, cyan, magenta, yellow, mixed };
+
+inline Hue hue_of(const glm::vec3& c) {
+  const float largest = std::max({c.r, c.g, c.b});
+  if (largest < 0.02f) return Hue::dark;
+  const int high = (c.r > largest / 2) | (c.g > largest / 2) << 1 | (c.b > largest / 2) << 2;
+  constexpr Hue hues[8] = {Hue::dark, Hue::red,     Hue::green, Hue::yellow,
+                           Hue::blue, Hue::magenta, Hue::cyan,  Hue::mixed};
+  return hues[high];
+}
+
+struct Picture {
+  View view;
+  Image image;
+
+  glm::ivec2 pixel(const glm::dvec3& world) const {
+    const glm::dvec4 clip = view.clip_from_view * (view.view_from_world * glm::dvec4(world, 1));
+    return {int(std::floor((clip.x / clip.w * 0.5 + 0.5) * view.width)),
+            int(std::floor((clip.y / clip.w * 0.5 + 0.5) * view.height))};
+  }
+  glm::vec3 at(const glm::dvec3& world) const {
+    const glm::ivec2 p = pixel(world);
+    return image.at(p.x, p.y);
+  }
+  bool is_background(const glm::dvec3& world) const { return at(world) == glm::vec3(0); }
+
+  // The share of the pixels between two opposite corners that are of a hue.
+  double share(Hue hue, const glm::dvec3& corner_a, const glm::dvec3& corner_b) const {
+    const glm::ivec2 a = pixel(corner_a), b = pixel(corner_b), low = glm::min(a, b), high = glm::max(a, b);
+    int count = 0;
+    for (int y = low.y; y <= high.y; ++y) {
+      for (int x = low.x; x <= high.x; ++x) count += hue_of(image.at(x, y)) == hue;
+    }
+    return double(count) / ((high.x - low.x + 1) * (high.y - low.y + 1));
+  }
+  // Of the whole picture.
+  double share(Hue hue) const {
+    int count = 0;
+    for (const glm::vec4& p : image.pixels) count += hue_of(p) == hue;
+    return double(count) / double(image.pixels.size());
+  }
+};
+
+// As the program shows it: the default lights where the scene has none.
+inline Picture picture_of(Scene scene, const Camera& camera, int width = 320, int height = 240) {
+  Picture picture{make_view(camera, width, height), {}};
+  if (scene.lights.empty()) {
+    DefaultLights rig = default_lights(picture.view);
+    scene.lights = rig.lights;
+    scene.ambient = rig.ambient;
+  }
+  picture.image = render_image(scene, picture.view);
+  EXPECT_EQ(count_nan_pixels(picture.image), 0u);
+  return picture;
+}
+
+inline Picture picture_of(const Scene& scene, const std::string& camera = "") {
+  return picture_of(scene, choose_camera(scene, camera));
+}
+
+// Along -z at a plane z = 0, `height_m` of which fill the picture.
+inline Camera facing(const glm::dvec2& center, double height_m) {
+  const double distance = height_m / 2 / std::tan(Camera().fov_y_rad / 2);
+  return look_at({center.x, center.y, distance}, {center.x, center.y, 0});
+}
+
+}  // namespace lightgrid
