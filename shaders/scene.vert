@@ -32,8 +32,9 @@ void main() {
   gl_Position = clip_position();
   normal_view = normal_from_object * normal;
 #ifdef NORMAL_MAP
-  // A tangent transforms as a direction does, not as a normal.
-  tangent_view = vec4(view_from_object * tangent.xyz, tangent.w);
+  // A tangent transforms as a direction does, not as a normal. A mirroring matrix turns the cross product that makes
+  // the bitangent of the two.
+  tangent_view = vec4(view_from_object * tangent.xyz, tangent.w * sign(determinant(view_from_object)));
 #endif
 #ifdef TEXTURED
   fragment_uv0 = uv0;

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
@@ -62,7 +60,7 @@ int compare(const CompareCommand& o) {
   const CompareReport report = compare_techniques(devices, chosen.scene, chosen.view, contestants, options);
   write_report(o.output, report);
 
-  if (!o.json.empty()) write_json(o.json, to_json(report).dump(1));
+  if (!o.json.empty()) write_json(o.json, json_text(report));
   if (o.json != "-") {
     fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
     for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
@@ -80,17 +78,15 @@ int compare(const CompareCommand& o) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Command& chosen) {
+void add_compare(CommandLine& line) {
   auto o = std::make_shared<CompareCommand>();
-  CLI::App* command = app.add_subcommand("compare", "techniques side by side, as a report to look at");
-  add_scene_options(*command, o->scene);
-  add_device_options(*command, o->devices);
-  add_timing_options(*command, o->timing);
-  command->add_option("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between")
-      ->delimiter(',')->capture_default_str();
-  command->add_option("-o,--output", o->output, "folder of the report")->capture_default_str();
-  command->add_option("--json", o->json, "results.json once more, into a file, - for stdout");
-  command->final_callback([o, &chosen] { chosen = [o] { return compare(*o); }; });
+  Subcommand command = line.add("compare", "techniques side by side, as a report to look at", [o] { return compare(*o); });
+  add_scene_options(command, o->scene);
+  add_device_options(command, o->devices);
+  add_timing_options(command, o->timing);
+  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between", ',');
+  command.option("-o,--output", o->output, "folder of the report");
+  command.option("--json", o->json, "results.json once more, into a file, - for stdout");
 }
 
 }  // namespace lightgrid

@@ -142,12 +142,12 @@ int list_devices(const DevicesOptions& o) {
 
 }  // namespace
 
-void add_devices(CLI::App& app, Command& chosen) {
+void add_devices(CommandLine& line) {
   auto o = std::make_shared<DevicesOptions>();
-  CLI::App* command = app.add_subcommand("devices", "the OpenCL devices and OpenGL backends there are");
-  add_device_options(*command, o->devices);
-  command->add_option("--json", o->json, "as JSON into a file, - for stdout");
-  command->final_callback([o, &chosen] { chosen = [o] { return list_devices(*o); }; });
+  Subcommand command =
+      line.add("devices", "the OpenCL devices and OpenGL backends there are", [o] { return list_devices(*o); });
+  add_device_options(command, o->devices);
+  command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
 }  // namespace lightgrid

@@ -45,26 +45,25 @@ Scene load_scene(const std::string& name) {
 
 }  // namespace
 
-void add_scene_options(CLI::App& command, SceneOptions& o) {
-  command.add_option("scene", o.scene, "a .gltf or .glb file, or a built-in scene")->capture_default_str();
-  command.add_option("--size", o.size, "image size, WxH")->capture_default_str();
-  command.add_option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
-  command.add_option("--lights", o.lights, "scatter N lights; with --lights-file, its first N")
-      ->check(CLI::Range(0, 10'000'000));
-  command.add_option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
-  command.add_option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
-  command.add_option("--seed", o.seed, "of the scatter")->capture_default_str();
-  command.add_option("--set", o.set, "a setting, KEY=VALUE; may be repeated");
+void add_scene_options(Subcommand& command, SceneOptions& o) {
+  command.option("scene", o.scene, "a .gltf or .glb file, or a built-in scene");
+  command.option("--size", o.size, "image size, WxH");
+  command.option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
+  command.option("--lights", o.lights, "scatter N lights; with --lights-file, its first N", 0, 10'000'000);
+  command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
+  command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
+  command.option("--seed", o.seed, "of the scatter");
+  command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
-void add_device_options(CLI::App& command, DeviceOptions& o) {
-  command.add_option("--device", o.device, "OpenCL device, by a part of its name");
-  command.add_option("--gl", o.gl, "osmesa, egl or auto")->capture_default_str();
+void add_device_options(Subcommand& command, DeviceOptions& o) {
+  command.option("--device", o.device, "OpenCL device, by a part of its name");
+  command.option("--gl", o.gl, "osmesa, egl or auto");
 }
 
-void add_timing_options(CLI::App& command, TimingOptions& o) {
-  command.add_option("--frames", o.frames, "frames to time")->capture_default_str()->check(CLI::Range(1, 10000));
-  command.add_option("--warmup", o.warmup, "frames before those")->capture_default_str()->check(CLI::Range(0, 10000));
+void add_timing_options(Subcommand& command, TimingOptions& o) {
+  command.option("--frames", o.frames, "frames to time", 1, 10000);
+  command.option("--warmup", o.warmup, "frames before those", 0, 10000);
 }
 
 ChosenScene load_chosen_scene(const SceneOptions& o) {
@@ -127,13 +126,13 @@ void check_output_file(const std::string& option, const std::filesystem::path& p
 }
 
 void write_json(const std::string& destination, const std::string& text) {
+  const std::string whole = text.ends_with('\n') ? text : text + '\n';
   if (destination == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    std::fputc('\n', stdout);
+    std::fwrite(whole.data(), 1, whole.size(), stdout);
     return;
   }
   std::ofstream file(destination);
-  file << text << '\n';
+  file << whole;
   if (!file.flush()) throw input_error("--json {}: cannot be written", destination);
 }
 

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "app/command_line.h"
 #include "gl/context.h"
 #include "plan/settings.h"
 #include "scene/camera.h"
@@ -36,9 +35,9 @@ struct TimingOptions {
   int warmup = 1;
 };
 
-void add_scene_options(CLI::App& command, SceneOptions& options);
-void add_device_options(CLI::App& command, DeviceOptions& options);
-void add_timing_options(CLI::App& command, TimingOptions& options);
+void add_scene_options(Subcommand& command, SceneOptions& options);
+void add_device_options(Subcommand& command, DeviceOptions& options);
+void add_timing_options(Subcommand& command, TimingOptions& options);
 
 // What the options name. Throw Error(input) that names the option and the value.
 struct ChosenScene {

@@ -36,13 +36,12 @@ int plan(const PlanOptions& o) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Command& chosen) {
+void add_plan(CommandLine& line) {
   auto o = std::make_shared<PlanOptions>();
-  CLI::App* command = app.add_subcommand("plan", "what this view needs a frame to do, and why");
-  add_scene_options(*command, o->scene);
-  command->add_option("-t,--technique", o->technique, "see `lightgrid techniques`")->capture_default_str();
-  command->add_option("--json", o->json, "as JSON into a file, - for stdout");
-  command->final_callback([o, &chosen] { chosen = [o] { return plan(*o); }; });
+  Subcommand command = line.add("plan", "what this view needs a frame to do, and why", [o] { return plan(*o); });
+  add_scene_options(command, o->scene);
+  command.option("-t,--technique", o->technique, "see `lightgrid techniques`");
+  command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
 }  // namespace lightgrid

@@ -3,8 +3,6 @@
 
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
@@ -35,23 +33,22 @@ int render(const RenderOptions& o) {
   save_image(o.output, run.image());
   if (!o.json.empty()) {
     run.run_profiled_frames();
-    write_json(o.json, to_json(run.result()).dump(1));
+    write_json(o.json, json_text(run.result()));
   }
   return 0;
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, Command& chosen) {
+void add_render(CommandLine& line) {
   auto o = std::make_shared<RenderOptions>();
-  CLI::App* command = app.add_subcommand("render", "one image of a scene");
-  add_scene_options(*command, o->scene);
-  add_device_options(*command, o->devices);
-  add_timing_options(*command, o->timing);
-  command->add_option("-t,--technique", o->technique, "see `lightgrid techniques`")->capture_default_str();
-  command->add_option("-o,--output", o->output, "image file, .png or .exr")->capture_default_str();
-  command->add_option("--json", o->json, "results as JSON into a file, - for stdout");
-  command->final_callback([o, &chosen] { chosen = [o] { return render(*o); }; });
+  Subcommand command = line.add("render", "one image of a scene", [o] { return render(*o); });
+  add_scene_options(command, o->scene);
+  add_device_options(command, o->devices);
+  add_timing_options(command, o->timing);
+  command.option("-t,--technique", o->technique, "see `lightgrid techniques`");
+  command.option("-o,--output", o->output, "image file, .png or .exr");
+  command.option("--json", o->json, "results as JSON into a file, - for stdout");
 }
 
 }  // namespace lightgrid

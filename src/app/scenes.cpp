@@ -60,11 +60,10 @@ int list_scenes(const std::string& json) {
 
 }  // namespace
 
-void add_scenes(CLI::App& app, Command& chosen) {
+void add_scenes(CommandLine& line) {
   auto json = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("scenes", "the built-in scenes");
-  command->add_option("--json", *json, "as JSON into a file, - for stdout");
-  command->final_callback([json, &chosen] { chosen = [json] { return list_scenes(*json); }; });
+  Subcommand command = line.add("scenes", "the built-in scenes", [json] { return list_scenes(*json); });
+  command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 
 }  // namespace lightgrid

@@ -18,8 +18,8 @@ int list_techniques() {
 
 }  // namespace
 
-void add_techniques(CLI::App& app, Command& chosen) {
-  app.add_subcommand("techniques", "the techniques and settings there are")->final_callback([&chosen] { chosen = list_techniques; });
+void add_techniques(CommandLine& line) {
+  line.add("techniques", "the techniques and settings there are", list_techniques);
 }
 
 }  // namespace lightgrid

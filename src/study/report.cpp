@@ -84,6 +84,8 @@ std::vector<std::string> row_names(const CompareReport& report) {
   return names;
 }
 
+std::string json_text(const CompareReport& report) { return json_text(to_json(report)); }
+
 void write_report(const fs::path& folder, const CompareReport& report) {
   make_folder(folder);
   const Image& reference = reference_image(report);

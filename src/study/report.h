@@ -15,6 +15,7 @@ namespace lightgrid {
 void write_report(const std::filesystem::path& folder, const CompareReport& report);
 
 nlohmann::json to_json(const CompareReport& report);
+std::string json_text(const CompareReport& report);  // what results.json holds
 
 // A distinct name for each row: TECHNIQUE, and TECHNIQUE-2 and so on for its later rows.
 std::vector<std::string> row_names(const CompareReport& report);

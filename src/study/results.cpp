@@ -101,6 +101,8 @@ json to_json(const CompareReport& report) {
           {"rows", rows}};
 }
 
+std::string json_text(const RunResult& result) { return json_text(to_json(result)); }
+
 std::string json_text(const json& value) {
   return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }

@@ -57,6 +57,7 @@ nlohmann::json to_json(const RunResult& result);
 
 // Two spaces a level and a newline at the end; bytes that are not UTF-8 (a path may hold some) become U+FFFD.
 std::string json_text(const nlohmann::json& value);
+std::string json_text(const RunResult& result);
 
 // The parts of the error that are the same for every technique (docs/conventions.md#errors).
 struct ReferenceErrors {
