@@ -26,7 +26,7 @@ std::set<fs::path> files_below(const fs::path& folder) {
 std::string fault_of(const fs::path& file, const TempFolder& folder, int& status) {
   const fs::path output = folder.path / "x.png";
   fs::remove(output);
-  const ProgramRun run = run_program({"render", file, "--size", "16x16", "-o", output, "--quiet"}, {}, std::chrono::seconds(20));
+  const ProgramRun run = run_program({"render", file, "--size", "16x16", "-o", output, "--quiet"}, {}, std::chrono::seconds(5));
   status = run.status;
   if (run.timed_out) return "did not end";
   if (run.signal) return "ended by signal " + std::to_string(run.signal);
