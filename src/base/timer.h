@@ -1,3 +1,4 @@
+// Wall-clock time, and what several runs of a thing took.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Which commit the program was built from.
 #pragma once
 
 #include <string>

@@ -6,8 +6,9 @@
 #include <glm/gtc/type_ptr.hpp>
 
 namespace lightgrid {
+
 // A software rasteriser starts on what was drawn only when it is flushed. Handing it a part at a time lets it
-// work while the vertices of the next part are shaded: 8 % of a frame on two cores.
+// work while the vertices of the next part are shaded.
 static constexpr GLsizei indices_per_flush = 3 * 25'000;
 
 void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams streams,

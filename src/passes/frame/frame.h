@@ -68,7 +68,7 @@ struct Frame {
   // Point and spot lights as the shaders read them (shaders/lights/punctual.glsl), and directional ones.
   void bind_lights() const;
 
-  LightCuller& culler();  // made at first use: a technique without a grid has none
+  LightCuller& culler();  // made at first use; builds what culls, and holds lights, only where there is a grid
   SharedGridStorage& opaque_grid();
   SharedGridStorage& blend_grid();
 

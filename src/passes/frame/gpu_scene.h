@@ -28,7 +28,7 @@ struct GpuMesh {
 class GpuScene {
  public:
   // software_gl: colour textures are stored linear in 16 bits, since a software rasteriser would pay for the sRGB
-  // curve at every texel of every sample (5 ms of a 130 ms frame on llvmpipe; docs/results/first_light.md).
+  // curve at every texel of every sample.
   GpuScene(const Scene& scene, const FramePlan& plan, bool software_gl);
 
   const GpuMesh& mesh(int index) const { return meshes_[index]; }
