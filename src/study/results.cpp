@@ -59,13 +59,18 @@ json to_json(const PassResult& pass) {
 
 }  // namespace
 
+json settings_json(const std::map<std::string, std::string>& settings) {
+  json out = json::object();
+  for (const auto& [name, value] : settings) out[key_of(name)] = value_of(value);
+  return out;
+}
+
 json to_json(const RunResult& result) {
-  json settings = json::object(), passes = json::array(), skipped = json::array();
-  for (const auto& [name, value] : result.settings) settings[key_of(name)] = value_of(value);
+  json passes = json::array(), skipped = json::array();
   for (const auto& pass : result.passes) passes.push_back(to_json(pass));
   for (const auto& skip : result.skipped) skipped.push_back({{"effect", skip.effect}, {"why", skip.why}});
   return {{"technique", result.technique},
-          {"settings", settings},
+          {"settings", settings_json(result.settings)},
           {"lights", {{"total", result.lights_total}, {"in_view", result.lights_in_view}}},
           {"frame_ms",
            {{"min", finite_or_null(result.frame_ms.min)},

@@ -53,6 +53,9 @@ struct RunResult {
   std::vector<SkippedEffect> skipped;
 };
 
+// Settings by the keys of results.json, numbers as numbers.
+nlohmann::json settings_json(const std::map<std::string, std::string>& settings);
+
 nlohmann::json to_json(const RunResult& result);
 
 // Two spaces a level and a newline at the end; bytes that are not UTF-8 (a path may hold some) become U+FFFD.

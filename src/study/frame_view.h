@@ -1,0 +1,22 @@
+// view.json: the view of a captured frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/camera.h"
+
+namespace lightgrid {
+
+inline constexpr int max_frame_side = 16384;  // pixels
+
+struct FrameView {
+  View view;
+  int tile = 16;
+};
+
+// Throws Error(input) for what is no perspective or orthographic view along -z with depth from zero to one.
+FrameView read_view_file(const std::filesystem::path& path);
+std::string view_file_text(const FrameView& frame);
+
+}  // namespace lightgrid
