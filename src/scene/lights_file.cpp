@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -17,44 +18,40 @@ using Json = nlohmann::json;
 constexpr int max_json_depth = 32;
 constexpr double max_float = std::numeric_limits<float>::max();
 
-// Parses with a note of where it is, for messages: the parser's own name only a line and column.
-class Reader {
+// Follows a parse without keeping anything: for messages that say where it stopped, since the parser's own say only
+// line and column. (Parser callbacks would do, but scan the whole list at the end of each of its lights.)
+class Place : public Json::json_sax_t {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) throw input_error("{}: no such file", path.string());
-    const uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) throw input_error("{}: cannot be read: {}", path.string(), error.message());
-    if (size > max_lights_file_bytes) {
-      throw input_error("{}: {} bytes are more than the {} a lights file may have", path.string(), size,
-                        max_lights_file_bytes);
-    }
-  }
+  explicit Place(const std::filesystem::path& path) : path_(path) {}
 
-  Json read() {
-    std::ifstream file(path_, std::ios::binary);
-    if (!file) throw input_error("{}: cannot be opened", path_.string());
-    const auto follow = [this](int depth, Json::parse_event_t event, Json& parsed) {
-      return on_event(depth, event, parsed);
-    };
-    try {
-      return Json::parse(file, follow);
-    } catch (const Json::parse_error& error) {
-      throw input_error("{}: {}is not JSON: {}", path_.string(), place(), without_prefix(error.what()));
-    } catch (const Json::exception& error) {
-      throw input_error("{}: {}{}", path_.string(), place(), without_prefix(error.what()));
-    }
+  bool start_object(std::size_t) override {
+    if (depth_ == 2 && in_lights_) ++light_, field_.clear();
+    return deeper();
+  }
+  bool key(std::string& name) override {
+    if (depth_ == 1) in_lights_ = name == "lights";
+    field_ = name;
+    return true;
+  }
+  bool end_object() override { return --depth_, true; }
+  bool start_array(std::size_t) override { return deeper(); }
+  bool end_array() override { return --depth_, true; }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(Json::number_integer_t) override { return true; }
+  bool number_unsigned(Json::number_unsigned_t) override { return true; }
+  bool number_float(Json::number_float_t, const std::string&) override { return true; }
+  bool string(std::string&) override { return true; }
+  bool binary(Json::binary_t&) override { return true; }
+
+  bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+    const bool syntax = dynamic_cast<const Json::parse_error*>(&error);
+    throw input_error("{}: {}{}{}", path_.string(), place(), syntax ? "is not JSON: " : "", without_prefix(error.what()));
   }
 
  private:
-  bool on_event(int depth, Json::parse_event_t event, const Json& parsed) {
-    if (depth > max_json_depth)
-      throw input_error("{}: nested deeper than {}", path_.string(), max_json_depth);
-    if (event == Json::parse_event_t::key) {
-      if (depth == 1) in_lights_ = parsed == "lights";
-      field_ = parsed.get<std::string>();
-    }
-    if (event == Json::parse_event_t::object_start && depth == 2 && in_lights_) ++light_, field_.clear();
+  bool deeper() {
+    if (++depth_ > max_json_depth) throw input_error("{}: nested deeper than {}", path_.string(), max_json_depth);
     return true;
   }
 
@@ -70,10 +67,27 @@ class Reader {
   }
 
   std::filesystem::path path_;
+  int depth_ = 0, light_ = -1;
   bool in_lights_ = false;
-  int light_ = -1;
   std::string field_;
 };
+
+Json read_json(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw input_error("{}: no such file", path.string());
+  const uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw input_error("{}: cannot be read: {}", path.string(), error.message());
+  if (size > max_lights_file_bytes) {
+    throw input_error("{}: {} bytes are more than the {} a lights file may have", path.string(), size,
+                      max_lights_file_bytes);
+  }
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw input_error("{}: cannot be opened", path.string());
+  Place place(path);
+  Json::sax_parse(text, &place);
+  return Json::parse(text);
+}
 
 // One light's fields, each checked.
 class Fields {
@@ -198,7 +212,7 @@ nlohmann::ordered_json to_json(const Light& light) {
 }
 
 Json read_object(const std::filesystem::path& path) {
-  Json json = Reader(path).read();
+  Json json = read_json(path);
   if (!json.is_object()) throw input_error("{}: is {}, not an object", path.string(), json.type_name());
   return json;
 }
