@@ -13,5 +13,6 @@ void add_plan(CommandLine& line);
 void add_scenes(CommandLine& line);
 void add_techniques(CommandLine& line);
 void add_devices(CommandLine& line);
+void add_bench(CommandLine& line);
 
 }  // namespace lightgrid

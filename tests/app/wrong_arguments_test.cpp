@@ -105,5 +105,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"PlanUnknownSize", {"plan", scene, "--size", "wide"}, {"--size", "wide"}}),
     [](const auto& info) { return info.param.name; });
 
+INSTANTIATE_TEST_SUITE_P(
+    OfBench, WrongArguments,
+    testing::Values(Wrong{"NoRegularExpression", {"bench", "--filter", "floor["}, {"--filter", "floor["}},
+                    Wrong{"FilterTooLong", {"bench", "--filter", std::string(5000, '(')}, {"--filter"}},
+                    Wrong{"ReplayNoFrame", {"bench", "--replay", "FOLDER"}, {"--replay", "FOLDER", "view.json"}},
+                    Wrong{"BenchUnknownValue", {"bench", "--set", "tile=17"}, {"tile", "17"}},
+                    Wrong{"CompareWithoutAKey", {"bench", "--compare", "tile"}, {"--compare", "tile"}},
+                    Wrong{"BenchCompareUnknownValue", {"bench", "--compare", "tile=16,17"}, {"tile", "17"}},
+                    Wrong{"BenchNoFrames", {"bench", "--frames", "0"}, {"--frames"}},
+                    Wrong{"BenchJsonNowhere", {"bench", "--json", "FOLDER/none/x.json"}, {"--json", "FOLDER/none/x.json"}}),
+    [](const auto& info) { return info.param.name; });
+
 }  // namespace
 }  // namespace lightgrid

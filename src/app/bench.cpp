@@ -1,0 +1,112 @@
+// lightgrid bench: the culling pipeline's kernels against the machine's limits.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/error.h"
+#include "study/bench/bench.h"
+#include "study/bench/row_filter.h"
+
+namespace lightgrid {
+namespace {
+
+struct BenchCommand {
+  std::string device, filter, json;
+  std::vector<std::string> replay, set, compare;
+  TimingOptions timing{30, 3};
+};
+
+void show_progress(double done, const std::string& what) {
+  constexpr int width = 24;
+  const int filled = int(done * width);
+  fmt::print(stderr, "\r[{}{}] {:<20}", std::string(filled, '#'), std::string(width - filled, '.'), what);
+  if (done >= 1) fmt::print(stderr, "\r{:48}\r", "");
+}
+
+// "KEY=A,B" of --compare: each of the contestants so far with A, then each with B.
+std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before, const std::string& comparison) {
+  const size_t equals = comparison.find('=');
+  if (equals == std::string::npos) throw input_error("--compare {}: not KEY=VALUE,VALUE,…", comparison);
+  const std::string key = comparison.substr(0, equals + 1);
+  std::vector<BenchContestant> after;
+  for (size_t begin = equals + 1; begin <= comparison.size();) {
+    const size_t end = std::min(comparison.find(',', begin), comparison.size());
+    const std::string assignment = key + comparison.substr(begin, end - begin);
+    for (BenchContestant contestant : before) {
+      apply_setting(contestant.settings, assignment);
+      contestant.compared += (contestant.compared.empty() ? "" : " ") + assignment;
+      after.push_back(contestant);
+    }
+    begin = end + 1;
+  }
+  return after;
+}
+
+std::vector<BenchContestant> contestants_of(const BenchCommand& o) {
+  std::vector<BenchContestant> contestants(1);
+  for (const std::string& assignment : o.set) apply_setting(contestants[0].settings, assignment);
+  for (const std::string& comparison : o.compare) contestants = multiplied(contestants, comparison);
+  constexpr size_t most = 64;
+  if (contestants.size() > most) throw input_error("--compare: {} combinations; {} at most", contestants.size(), most);
+  return contestants;
+}
+
+void check_frame_folder(const std::string& folder) {
+  std::error_code unreadable;
+  for (const char* file : {"view.json", "lights.json", "depth.f32"}) {
+    if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / file, unreadable)) {
+      throw input_error("--replay {}: holds no {}", folder, file);
+    }
+  }
+}
+
+std::vector<BenchCase> cases_of(const BenchCommand& o) {
+  if (o.replay.empty()) return standard_cases();
+  std::vector<BenchCase> cases;
+  for (const std::string& folder : o.replay) {
+    check_frame_folder(folder);
+    const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
+    cases.push_back({(path.has_filename() ? path : path.parent_path()).filename().string(), {}, folder});
+  }
+  return cases;
+}
+
+int bench(const BenchCommand& o) {
+  RowFilter(o.filter);  // what is wrong with it is said before the work
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  BenchOptions options{.cases = cases_of(o), .contestants = contestants_of(o), .filter = o.filter};
+  options.frames = o.timing.frames, options.warmup = o.timing.warmup;
+  if (isatty(STDERR_FILENO)) options.step = show_progress;
+  const bool table = o.json != "-";
+  if (table) {
+    options.found = [](const std::vector<BenchRow>& rows) {
+      for (const BenchRow& row : rows) std::fputs(table_line(row).c_str(), stdout);
+      std::fflush(stdout);
+    };
+  }
+  ClDevice device(o.device);
+  if (table) fmt::print("{}, {}\n{}", device.info().name, device.info().driver, table_head());
+  const BenchReport report = run_bench(device, options);
+  if (!o.json.empty()) write_json(o.json, to_json(report).dump(1));
+  return 0;
+}
+
+}  // namespace
+
+void add_bench(CommandLine& line) {
+  auto o = std::make_shared<BenchCommand>();
+  Subcommand command = line.add("bench", "the culling kernels against the machine's limits", [o] { return bench(*o); });
+  command.option("--filter", o->filter, "only rows in whose \"CASE/ROW\" this regular expression is found");
+  command.list("--replay", o->replay, "a captured frame's folder instead of the standard frames; may be repeated");
+  command.list("--set", o->set, "a setting, KEY=VALUE; may be repeated");
+  command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: run in turn, with ratios to the first; may be repeated");
+  command.option("--device", o->device, "OpenCL device, by a part of its name");
+  add_timing_options(command, o->timing);
+  command.option("--json", o->json, "as JSON into a file, - for stdout");
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,33 @@
+// One frame with one choice of settings, ready to be culled again and again.
+#pragma once
+
+#include <memory>
+
+#include "culling/light_culler.h"
+#include "plan/settings.h"
+#include "study/bench/frame.h"
+
+namespace lightgrid {
+
+class CullingRun {
+ public:
+  // Uploads the frame and runs it twice, so that kernels are built and memory has its size.
+  CullingRun(ClDevice& device, ProgramCache& programs, const BenchFrame& frame, const Settings& settings);
+
+  // Depth bounds, cull and the finished grid, with one wait at the end.
+  void run();
+
+  const LightGrid& grid() const { return grid_; }
+  const cl::Buffer& depth() const { return depth_; }
+  size_t depth_bytes() const { return depth_bytes_; }
+
+ private:
+  ClDevice& device_;
+  std::unique_ptr<LightCuller> culler_;
+  ClGridStorage storage_;
+  cl::Buffer depth_;
+  size_t depth_bytes_ = 0;
+  LightGrid grid_;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,84 @@
+#include "study/bench/measure.h"
+
+#include <algorithm>
+
+namespace lightgrid {
+namespace {
+
+// What the rounds gave for one contestant.
+struct Samples {
+  std::vector<double> wall, device, overhead;
+  std::vector<ClProfiler::Row> first;        // labels and launches
+  std::vector<std::vector<double>> kernels;  // by label, in the order of `first`
+};
+
+double wall_ms(ClDevice& device, CullingRun& run) {
+  device.profiler().time_launches(false);
+  const Timer timer;
+  run.run();
+  return timer.elapsed_ms();
+}
+
+// A run whose launches are timed by events, which cost a little each: apart from the wall clock's run.
+struct DeviceRun {
+  std::vector<ClProfiler::Row> rows;
+  double wall_ms = 0;
+};
+
+DeviceRun device_run(ClDevice& device, CullingRun& run) {
+  device.profiler().time_launches(true);
+  device.profiler().collect();
+  const Timer timer;
+  run.run();
+  const double wall = timer.elapsed_ms();
+  return {device.profiler().collect(), wall};
+}
+
+void take(Samples& samples, double wall, const DeviceRun& run) {
+  if (samples.first.empty()) samples.first = run.rows, samples.kernels.resize(run.rows.size());
+  double device = 0;
+  for (size_t i = 0; i < run.rows.size() && i < samples.kernels.size(); ++i) {
+    samples.kernels[i].push_back(run.rows[i].ms);
+    device += run.rows[i].ms;
+  }
+  samples.wall.push_back(wall);
+  samples.device.push_back(device);
+  samples.overhead.push_back(std::max(0.0, run.wall_ms - device));
+}
+
+MeasuredRun result_of(const Samples& samples) {
+  MeasuredRun run{spread_of(samples.wall), spread_of(samples.device), {}, spread_of(samples.overhead)};
+  for (size_t i = 0; i < samples.first.size(); ++i) {
+    run.kernels.push_back({samples.first[i].label, samples.first[i].launches, spread_of(samples.kernels[i])});
+  }
+  return run;
+}
+
+}  // namespace
+
+MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
+                              const Rounds& rounds) {
+  const cl::Buffer& depth = contestants.front()->depth();
+  const size_t bytes = contestants.front()->depth_bytes();
+  read.fit(depth, bytes);
+  std::vector<Samples> samples(contestants.size());
+  std::vector<double> reads;
+  for (int round = -rounds.warmup; round < rounds.timed; ++round) {
+    for (size_t i = 0; i < contestants.size(); ++i) {
+      const double wall = wall_ms(device, *contestants[i]);
+      const DeviceRun timed = device_run(device, *contestants[i]);
+      if (round >= 0) take(samples[i], wall, timed);
+    }
+    device.profiler().time_launches(true);
+    const double read_ms = read.run(depth, bytes);
+    if (round >= 0) reads.push_back(read_ms);
+    if (rounds.progress) rounds.progress(double(round + rounds.warmup + 1) / (rounds.timed + rounds.warmup));
+  }
+  device.profiler().time_launches(false);
+  MeasuredFrame measured;
+  for (const Samples& s : samples) measured.runs.push_back(result_of(s));
+  measured.plain_read = spread_of(reads);
+  return measured;
+}
+
+}  // namespace lightgrid

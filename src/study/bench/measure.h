@@ -1,0 +1,40 @@
+// Several ways to cull one frame, timed in turn.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/timer.h"
+#include "study/bench/culling_run.h"
+#include "study/bench/limits.h"
+
+namespace lightgrid {
+
+struct MeasuredRun {
+  struct Kernel {
+    std::string label;
+    int launches = 0;  // in one run
+    Spread ms;         // on the device, all of its launches in one run
+  };
+  Spread wall;                  // one wait at the end
+  Spread device;                // the sum over all kernels of one run, which is timed by events, and not for `wall`
+  std::vector<Kernel> kernels;  // in order of first launch
+  Spread overhead;              // wall less device, of the runs timed by events
+};
+
+struct MeasuredFrame {
+  std::vector<MeasuredRun> runs;  // one for each contestant
+  Spread plain_read;              // of the same depth buffer, in the same rounds
+};
+
+struct Rounds {
+  int warmup = 3, timed = 30;
+  std::function<void(double done)> progress;  // may be empty
+};
+
+// In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer is read
+// once. What else the machine does in a while then meets all of them.
+MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
+                              const Rounds& rounds);
+
+}  // namespace lightgrid

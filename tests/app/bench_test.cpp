@@ -1,0 +1,143 @@
+// lightgrid bench as a user runs it, on a small captured frame.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+#include "support/run_program.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+
+constexpr int width = 320, height = 180;
+
+// A wall 10 m away, and lights before it.
+std::filesystem::path write_small_frame(const std::filesystem::path& folder) {
+  const auto frame = folder / "wall";
+  std::filesystem::create_directories(frame);
+  const std::vector<float> depth(size_t(width) * height, 0.1f / 10.0f);
+  std::ofstream(frame / "depth.f32", std::ios::binary).write(reinterpret_cast<const char*>(depth.data()), long(depth.size() * 4));
+  std::ofstream(frame / "view.json") << R"({"size": [320, 180], "tile": 16, "near": 0.1, "far": null,
+    "clip_from_view": [1,0,0,0, 0,1.7777777778,0,0, 0,0,0,0.1, 0,0,-1,0],
+    "view_from_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})";
+  std::ofstream lights(frame / "lights.json");
+  lights << "{\"lights\": [";
+  for (int i = 0; i < 40; ++i) {
+    lights << (i ? "," : "") << R"({"position": [)" << std::sin(i) * 8 << "," << std::cos(i) * 4 << R"(,-10], "radius": 2})";
+  }
+  lights << "]}";
+  return frame;
+}
+
+std::vector<std::string> keys(const nlohmann::json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+nlohmann::json bench_of_small_frame(const std::vector<std::string>& more) {
+  const TempFolder folder;
+  std::vector<std::string> arguments = {"bench", "--replay", write_small_frame(folder.path), "--json", "-"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramRun run = run_program(arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  return nlohmann::json::parse(run.out);
+}
+
+std::vector<nlohmann::json> rows_named(const nlohmann::json& report, const std::string& name) {
+  std::vector<nlohmann::json> found;
+  for (const auto& row : report["rows"]) {
+    if (row["name"] == name) found.push_back(row);
+  }
+  return found;
+}
+
+TEST(BenchCommand, HasTheKeysThatOthersRead) {
+  const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "4"});
+  EXPECT_THAT(keys(report), IsSupersetOf({"machine", "limits", "rows"}));
+  EXPECT_THAT(keys(report["limits"]), IsSupersetOf({"read_gb_s", "gflop_s"}));
+  ASSERT_FALSE(report["rows"].empty());
+  for (const auto& row : report["rows"]) {
+    EXPECT_THAT(keys(row), IsSupersetOf({"name", "device", "params", "runs", "min_ms", "median_ms", "p90_ms", "bytes",
+                                         "flops", "limit_ms", "share_of_limit"}));
+    EXPECT_LE(row["min_ms"], row["median_ms"]);
+    EXPECT_LE(row["median_ms"], row["p90_ms"]);
+    EXPECT_EQ(row["runs"], 4);
+  }
+}
+
+TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
+  const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "4"});
+  for (const char* name : {"pipeline", "pipeline_device", "launch_overhead", "depth_bounds", "plain_read"}) {
+    EXPECT_EQ(rows_named(report, name).size(), 1u) << name;
+  }
+  double kernels = 0;
+  for (const auto& row : report["rows"]) {
+    if (row["params"]["kind"] == "kernel") kernels += row["min_ms"].get<double>();
+  }
+  const auto device = rows_named(report, "pipeline_device").at(0);
+  EXPECT_GT(kernels, 0);
+  EXPECT_LE(kernels, device["min_ms"].get<double>() * 1.0001) << "the sum of a run is at least the sum of the least";
+  const auto pipeline = rows_named(report, "pipeline").at(0);
+  EXPECT_EQ(pipeline["params"]["lights"], 40);
+  EXPECT_EQ(pipeline["params"]["size"], nlohmann::json({width, height}));
+  EXPECT_GT(pipeline["params"]["indices"], 0);
+}
+
+// Rates of a machine that runs this test at all: within a factor of a hundred of an ordinary one.
+TEST(BenchCommand, MeasuresPlausibleLimitsThatNoKernelPasses) {
+  const auto report = bench_of_small_frame({"--filter", "^limits/read|^limits/arith|depth_bounds", "--frames", "20"});
+  EXPECT_GT(report["limits"]["read_gb_s"], 0.5);
+  EXPECT_LT(report["limits"]["read_gb_s"], 20000);
+  EXPECT_GT(report["limits"]["gflop_s"], 0.5);
+  EXPECT_LT(report["limits"]["gflop_s"], 200000);
+  EXPECT_EQ(rows_named(report, "pipeline").size(), 0u);
+  const auto bounds = rows_named(report, "depth_bounds");
+  ASSERT_EQ(bounds.size(), 1u);
+  EXPECT_GE(bounds[0]["bytes"], width * height * 4);
+  EXPECT_GT(bounds[0]["share_of_limit"], 0);
+  EXPECT_LE(bounds[0]["share_of_limit"], 1.2);
+}
+
+TEST(BenchCommand, ComparesSettingsInTurnAndPrintsRatios) {
+  const auto report = bench_of_small_frame({"--filter", "/pipeline$", "--compare", "cull-test=planes+aabb,sphere",
+                                            "--compare", "tile=16,32", "--frames", "3"});
+  const auto rows = rows_named(report, "pipeline");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0]["params"]["compared"], "cull-test=planes+aabb tile=16");
+  EXPECT_EQ(rows[1]["params"]["compared"], "cull-test=sphere tile=16");
+  EXPECT_FALSE(rows[0].contains("ratio_to_first"));
+  const double ratio = rows[1]["median_ms"].get<double>() / rows[0]["median_ms"].get<double>();
+  EXPECT_NEAR(rows[1]["ratio_to_first"], ratio, 1e-6 * ratio);
+  EXPECT_EQ(rows[2]["params"]["settings"]["tile"], "32");
+  EXPECT_LT(rows[0]["params"]["indices"], rows[1]["params"]["indices"]) << "the tile's sphere lists more";
+}
+
+TEST(BenchCommand, PrintsATable) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--frames", "2", "--filter", "pipeline"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("wall"));
+  EXPECT_THAT(run.out, HasSubstr("pipeline_device"));
+}
+
+TEST(BenchCommand, EndsWithTwoWhereNoRowMatches) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--filter", "nosuchrow", "--json", "-"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("nosuchrow"));
+}
+
+TEST(BenchCommand, EndsWithThreeWithoutADevice) {
+  const ProgramRun run = run_program({"bench", "--filter", "floor-256"}, {"OCL_ICD_VENDORS=/nonexistent"});
+  EXPECT_EQ(run.status, 3);
+}
+
+}  // namespace
+}  // namespace lightgrid
