@@ -1,17 +1,17 @@
-// Ordered append within a work-group: where each item that keeps something puts it.
+// Ordered append within a work-group: where each item that has something puts it.
 #pragma once
 
 #ifndef GROUP
 #define GROUP 64
 #endif
 
-// Called by every item of the group. Returns (number of lower items that keep, number of all that keep).
+// Called by every item of the group. Returns (sum of `mine` of lower items, sum of all).
 // scratch: 2 * GROUP. Inclusive scan after Hillis and Steele (1986); two buffers, so that no item reads what
 // another is writing.
-static inline uint2 append_place(bool keep, local uint* scratch) {
+static inline uint2 append_place(uint mine, local uint* scratch) {
   const uint item = get_local_id(0);
   uint from = 0;
-  scratch[item] = keep ? 1u : 0u;
+  scratch[item] = mine;
   for (uint step = 1; step < GROUP; step *= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint value = scratch[from + item] + (item >= step ? scratch[from + item - step] : 0u);
@@ -19,7 +19,7 @@ static inline uint2 append_place(bool keep, local uint* scratch) {
     scratch[from + item] = value;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  const uint2 place = (uint2)(scratch[from + item] - (keep ? 1u : 0u), scratch[from + GROUP - 1]);
+  const uint2 place = (uint2)(scratch[from + item] - mine, scratch[from + GROUP - 1]);
   barrier(CLK_LOCAL_MEM_FENCE);  // the next call overwrites scratch
   return place;
 }

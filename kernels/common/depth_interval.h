@@ -1,35 +1,89 @@
-// From the least and greatest depth bits of a tile to its interval of distances.
+// From the depths of a tile to its intervals of distances.
+//
+// Depths are compared as keys: integers in the order of depths, nearest greatest, 0 where nothing is. Reversed depth's
+// key is its bits (for floats in [0, 1] their order is that of the values); standard depth's is the bits of 1 less its
+// own. NaN, infinite, negative and too large values have keys above those of depths.
 #pragma once
 
 #include "kernels/common/cell.h"
 
-// Distance = depth_b / (depth + depth_a) rounds twice; four units in the last place contain that and the rounding of
-// depth_a and depth_b themselves. D32F depth is exact in the buffer: no further step of the format is needed.
+// A distance rounds a few times on its way from depth, in the shader perhaps with a division that is 2.5 units off:
+// docs/hard_cases.md#slack.
 #define WIDEN 4.8e-7f
+#define ONE_BITS 0x3f800000u
 
-static inline float distance_of_depth(float depth, constant ViewParams* view) {
-  float distance = view->orthographic ? (view->depth_b - depth) * view->depth_a
-                                      : view->depth_b / (depth + view->depth_a);
-  return min(distance, FAR_AWAY);
+#ifdef STANDARD_DEPTH
+#define KEY(bits) (ONE_BITS - (bits))
+#define FARTHER(depth, step) ((depth) + (step))
+#define NEARER(depth, step) ((depth) - (step))
+#else
+#define KEY(bits) (bits)
+#define FARTHER(depth, step) ((depth) - (step))
+#define NEARER(depth, step) ((depth) + (step))
+#endif
+
+#if LANES == 16
+typedef uint16 bits_t;
+#define AS_REAL(x) as_float16(x)
+#define AS_BITS(x) as_uint16(x)
+#else
+typedef uint bits_t;
+#define AS_REAL(x) as_float(x)
+#define AS_BITS(x) as_uint(x)
+#endif
+
+// Metres along the view axis; FAR_AWAY at and past an infinite far plane.
+static inline real distance_of_depth(real depth, constant CullParams* p) {
+  if (p->orthographic) return (p->depth_b - depth) * p->depth_a;
+  const real distance = p->depth_b / ((depth + p->depth_a) + p->depth_a_rest);
+  return ((distance >= (real)(0.0f)) & (distance <= (real)(FAR_AWAY))) ? distance : (real)(FAR_AWAY);
 }
 
-// Bits above those of 1.0f are NaN, infinite, negative or too large: nothing a depth buffer holds. Such a tile gets
-// every distance, and so loses no light.
-static inline bool strange(uint high) { return high > 0x3f800000u; }
-
-// low: least bits that are not 0; high: greatest bits, 0 if nothing is there.
-static inline float2 opaque_interval(uint low, uint high, constant ViewParams* view) {
-  if (strange(high)) return (float2)(0.0f, FAR_AWAY);
-  if (high == 0u) return (float2)(FAR_AWAY, -FAR_AWAY);
-  float near = distance_of_depth(as_float(high), view), far = distance_of_depth(as_float(low), view);
-  float margin = view->orthographic ? WIDEN * (fabs(near) + fabs(far) + fabs(view->depth_b * view->depth_a)) : 0.0f;
-  return (float2)(near * (1.0f - WIDEN) - margin, far * (1.0f + WIDEN) + margin);
+// The depth at a distance: used to cut intervals, where any rounding does.
+static inline real depth_of_distance(real distance, constant CullParams* p) {
+  const real depth = p->orthographic ? p->depth_b - distance / p->depth_a
+                                     : p->depth_b / distance - p->depth_a - p->depth_a_rest;
+  return lane_min(lane_max(depth, (real)(0.0f)), (real)(1.0f));
 }
 
-// lowest: least bits, 0 where some pixel shows no surface and a blended one may be at any distance.
-static inline float2 blend_interval(uint lowest, uint high, constant ViewParams* view) {
-  float near = view->near_distance * (1.0f - WIDEN) - (view->orthographic ? WIDEN : 0.0f);
-  if (strange(high) || lowest == 0u) return (float2)(near, FAR_AWAY);
-  float2 all = opaque_interval(lowest, lowest, view);
-  return (float2)(near, all.y);
+typedef struct Interval {
+  real near, far;
+} Interval;
+
+// Of depths whose keys go from `low` to `high`, widened by a step of the depth format and by rounding.
+static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullParams* p) {
+  const real near_depth = lane_min(lane_max(NEARER(AS_REAL(KEY(high)), p->depth_step), (real)(0.0f)), (real)(1.0f));
+  const real far_depth = lane_min(lane_max(FARTHER(AS_REAL(KEY(low)), p->depth_step), (real)(0.0f)), (real)(1.0f));
+  const real near = distance_of_depth(near_depth, p), far = distance_of_depth(far_depth, p);
+  const float scale = p->orthographic ? WIDEN : 0.0f;
+  const real margin = scale * (fabs(near) + fabs(far) + fabs(p->depth_b * p->depth_a));
+  Interval i;
+  i.near = near * (1.0f - WIDEN) - margin, i.far = far * (1.0f + WIDEN) + margin;
+  return i;
+}
+
+// low: least key that is not 0; high: greatest key, 0 if nothing is there: near > far.
+static inline Interval opaque_interval(bits_t low, bits_t high, constant CullParams* p) {
+  Interval i = interval_of_keys(low, high, p);
+  const mask_t strange = high > (bits_t)(ONE_BITS), none = high == (bits_t)(0u);
+  i.near = none ? (real)(FAR_AWAY) : (strange ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : i.near);
+  i.far = none ? (real)(-FAR_AWAY) : (strange ? (real)(FAR_AWAY) : i.far);
+  return i;
+}
+
+// lowest: least key, 0 where some pixel shows no surface and a blended one may be at any distance.
+static inline Interval blend_interval(bits_t lowest, bits_t high, constant CullParams* p) {
+  Interval i = interval_of_keys(lowest, lowest, p);
+  const float near = p->near_distance - WIDEN * fabs(p->near_distance) - (p->orthographic ? WIDEN : 0.0f);
+  const mask_t strange = high > (bits_t)(ONE_BITS);
+  i.near = strange ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : (real)(near);
+  i.far = (strange | (lowest == (bits_t)(0u))) ? (real)(FAR_AWAY) : i.far;
+  return i;
+}
+
+// The slot of a mask that a distance falls into, of 32 from near to far. Monotone: what lies between two distances lies
+// between their slots.
+static inline whole mask_slot(real distance, real near, real far) {
+  const real scale = far > near ? (real)(32.0f) / (far - near) : (real)(0.0f);
+  return TO_WHOLE(lane_min(lane_max((distance - near) * scale, (real)(0.0f)), (real)(31.0f)));
 }

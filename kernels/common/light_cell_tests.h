@@ -1,69 +1,103 @@
-// May this light's sphere or cone touch this cell? A light may be kept in vain, never dropped in error.
+// May this light touch this cell? A light may be kept in vain, never dropped in error.
 //
-// Why conservative: each test computes, in float, a lower bound of a distance and compares it with the radius. The
-// rounding error of those computations is below SLACK * (|X| + |Y| + |D| + r), because side planes are in slope form
-// (1, 0, -slope), with no cross products to cancel; the radius is inflated by that much before any test.
-// The bound and its derivation: docs/hard_cases.md#slack.
+// Why conservative: each test computes, in float, a lower bound of a distance and compares it with the radius, which has
+// grown by more than all roundings on the way: docs/hard_cases.md#slack. Why a coarse step drops nothing that the fine
+// one would keep: for a larger box each expression below is, operation by operation, no larger, and rounding keeps that
+// order. So the lists are those of testing every light against every cell, however the work is cut.
 #pragma once
 
 #include "kernels/common/cell.h"
-#include "kernels/common/lanes.h"
 
-#define SLACK (4.0f * 1.1920929e-7f)  // 4 units in the last place of 1
-
-#define CULL_SPHERE 0       // the cell's bounding sphere
-#define CULL_PLANES 1       // four side planes and the distance interval
-#define CULL_AABB 2         // the cell's view-space box (Arvo 1990)
-#define CULL_PLANES_AABB 3  // both
-#ifndef CULL_TEST
-#define CULL_TEST CULL_PLANES_AABB
-#endif
-
-static inline real inflated(real x, real y, real d, real radius) {
-  return radius + SLACK * (fabs(x) + fabs(y) + fabs(d) + radius);
+// Squared distance from the centre to the cell's box.
+static inline real box_distance2(ViewSphere s, const Cell* c) {
+  const real x = lane_max(lane_max(c->box_x0 - s.x, s.x - c->box_x1), (real)(0.0f));
+  const real y = lane_max(lane_max(c->box_y0 - s.y, s.y - c->box_y1), (real)(0.0f));
+  const real d = lane_max(lane_max(c->near - s.d, s.d - c->far), (real)(0.0f));
+  return x * x + y * y + d * d;
 }
 
-// x, y, d: centre in view space (d = -z); r: inflated radius, >= 0, may be infinite.
-static inline mask_t sphere_may_touch(real x, real y, real d, real r, const Cell* c) {
-  mask_t keep = (d + r >= c->near) & (d - r <= c->far);
-#if CULL_TEST == CULL_PLANES || CULL_TEST == CULL_PLANES_AABB
-  real dx = c->orthographic ? (real)(1.0f) : d, dy = dx;
-  keep &= (x - c->x0 * dx >= -r * c->norm_x0) & (c->x1 * dx - x >= -r * c->norm_x1);
-  keep &= (y - c->y0 * dy >= -r * c->norm_y0) & (c->y1 * dy - y >= -r * c->norm_y1);
-#endif
-#if CULL_TEST == CULL_AABB || CULL_TEST == CULL_PLANES_AABB
-  real bx = lane_max(lane_max(c->box_x0 - x, x - c->box_x1), (real)(0.0f));
-  real by = lane_max(lane_max(c->box_y0 - y, y - c->box_y1), (real)(0.0f));
-  real bz = lane_max(lane_max(c->near - d, d - c->far), (real)(0.0f));
-  keep &= bx * bx + by * by + bz * bz <= r * r;
-#endif
 #if CULL_TEST == CULL_SPHERE
-  real sx = x - 0.5f * (c->box_x0 + c->box_x1), sy = y - 0.5f * (c->box_y0 + c->box_y1);
-  real sz = d - 0.5f * (c->near + c->far);
-  float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hz = c->far - c->near;
-  real reach = r + 0.5f * sqrt(hx * hx + hy * hy + hz * hz) * (1.0f + 2.0f * SLACK);
-  keep &= sx * sx + sy * sy + sz * sz <= reach * reach;
+// The sphere around the cell's box.
+static inline mask_t sphere_may_touch(ViewSphere s, const Cell* c) {
+  const real x = s.x - 0.5f * (c->box_x0 + c->box_x1), y = s.y - 0.5f * (c->box_y0 + c->box_y1);
+  const real d = s.d - 0.5f * (c->near + c->far);
+  const float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hd = c->far - c->near;
+  const real reach = s.r + 0.5f * sqrt(hx * hx + hy * hy + hd * hd) * (1.0f + SLACK);
+  return (s.d + s.r >= c->near) & (s.d - s.r <= c->far) & (x * x + y * y + d * d <= reach * reach);
+}
 #endif
-  return keep;
+
+#if CULL_TEST == CULL_EXACT
+// A certain lower bound of the squared distance from the centre to the cell itself. f(t), the squared distance to the
+// cell's cross-section at distance t, is convex with f'' >= 2: after three Newton steps (f is quadratic in pieces, so
+// they mostly end on the minimum) f >= f(t) + 2 g (u - t) + (u - t)^2 for every u in [near, far]. g is taken by its
+// rounding error nearer to the minimum.
+static inline real cell_distance2(ViewSphere s, const Cell* c, uint orthographic) {
+  real t = lane_min(lane_max(s.d, (real)(c->near)), (real)(c->far)), f = 0.0f, g = 0.0f, bend = 1.0f;
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) t = lane_min(lane_max(t - g / bend, (real)(c->near)), (real)(c->far));
+    const real scale = orthographic ? (real)(1.0f) : t;
+    const real left = c->x0 * scale - s.x, right = s.x - c->x1 * scale;
+    const real low = c->y0 * scale - s.y, high = s.y - c->y1 * scale;
+    real slope_x = left > (real)(0.0f) ? (real)(c->x0) : (right > (real)(0.0f) ? (real)(-c->x1) : (real)(0.0f));
+    real slope_y = low > (real)(0.0f) ? (real)(c->y0) : (high > (real)(0.0f) ? (real)(-c->y1) : (real)(0.0f));
+    if (orthographic) slope_x = slope_y = 0.0f;
+    const real x = lane_max(lane_max(left, right), (real)(0.0f)), y = lane_max(lane_max(low, high), (real)(0.0f));
+    const real d = t - s.d;
+    f = d * d + x * x + y * y;
+    g = d + slope_x * x + slope_y * y;
+    bend = 1.0f + slope_x * slope_x + slope_y * slope_y;
+  }
+  const real size = fabs(s.x) + fabs(s.y) + fabs(s.d) + s.r;
+  const real error = SLACK * size * bend;
+  const real room = g > (real)(0.0f) ? t - c->near : c->far - t;
+  const real step = lane_min(fabs(g) + error, room);
+  return f - (2.0f * (fabs(g) + error) - step) * step - error * error;
+}
+#endif
+
+// What a coarse step asks of lights whose tile rectangle meets the cell's.
+static inline mask_t may_touch_coarsely(ViewSphere s, const Cell* c) {
+#if CULL_TEST == CULL_SPHERE || CULL_TEST == CULL_PLANES
+  return (s.d + s.r >= c->near) & (s.d - s.r <= c->far);
+#else
+  return box_distance2(s, c) <= s.r * s.r;
+#endif
+}
+
+// What the fine step asks of lights whose tile rectangle holds the cell's tile. NaN keeps the light.
+static inline mask_t may_touch(ViewSphere s, const Cell* c, constant CullParams* p) {
+#if CULL_TEST == CULL_SPHERE
+  return sphere_may_touch(s, c);
+#elif CULL_TEST == CULL_EXACT
+  return (box_distance2(s, c) <= s.r * s.r) & ((cell_distance2(s, c, p->orthographic) > s.r * s.r) == (mask_t)(0));
+#else
+  return may_touch_coarsely(s, c);
+#endif
 }
 
 #ifdef SPOTS
-// The cone of a spot against the sphere around the cell's box. Sound up to a half-angle of 90 degrees; past that a
-// cone is not convex and the test loses cells (12 % of them at 100 degrees), so such a light has no cone here and
-// its sphere decides. Unit axis with its third component along d = -z; w: cosine of the outer half-angle, >= 0.
-static inline bool cone_may_touch(float x, float y, float d, float4 cone, const Cell* c) {
-  if (cone.w > 1.5f) return true;  // no cone
+// Unit axis with d = -z, and the cosine of the outer half-angle; above 1.5 where there is no cone.
+typedef struct ViewCone {
+  real x, y, d, cosine;
+} ViewCone;
+
+// The cone against the sphere around the cell's box (Wronski, "Cull that cone!", 2017). Sound up to a half-angle of 90
+// degrees; past that a cone is not convex and the test loses cells (12 % of them at 100 degrees), so such a light has no
+// cone here and its sphere decides. The distance from the axis comes from the cross product: |v|^2 - along^2 would
+// cancel near the axis. Asked so that NaN keeps the light: far, wide cells overflow.
+static inline mask_t cone_may_touch(ViewSphere s, ViewCone k, const Cell* c) {
   const float cx = 0.5f * (c->box_x0 + c->box_x1), cy = 0.5f * (c->box_y0 + c->box_y1), cd = 0.5f * (c->near + c->far);
-  const float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hz = c->far - c->near;
-  const float vx = cx - x, vy = cy - y, vd = cd - d;
-  const float scale = fabs(vx) + fabs(vy) + fabs(vd) + fabs(x) + fabs(y) + fabs(d) + fabs(cx) + fabs(cy) + fabs(cd);
-  const float reach = 0.5f * sqrt(hx * hx + hy * hy + hz * hz) * (1.0f + 2.0f * SLACK) + 4.0f * SLACK * scale;
-  const float sine = sqrt(max(0.0f, 1.0f - cone.w * cone.w));
-  const float along = vx * cone.x + vy * cone.y + vd * cone.z;
-  // Distance from the axis through the cross product: |v|^2 - along^2 would cancel near the axis.
-  const float px = vy * cone.z - vd * cone.y, py = vd * cone.x - vx * cone.z, pd = vx * cone.y - vy * cone.x;
-  const float across = sqrt(px * px + py * py + pd * pd);
-  // Asked so that NaN keeps the light: far, wide cells overflow, and inf * 0 or inf - inf tells nothing.
-  return !(across * cone.w - along * sine > reach) && !(along < -reach);
+  const float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hd = c->far - c->near;
+  const float half_size = 0.5f * sqrt(hx * hx + hy * hy + hd * hd) * (1.0f + SLACK);
+  const float place = fabs(cx) + fabs(cy) + fabs(cd);
+  const real x = cx - s.x, y = cy - s.y, d = cd - s.d;
+  const real reach = half_size + 2.0f * SLACK * (fabs(x) + fabs(y) + fabs(d) + fabs(s.x) + fabs(s.y) + fabs(s.d) + place);
+  const real along = x * k.x + y * k.y + d * k.d;
+  const real sine = sqrt(lane_max((real)(1.0f) - k.cosine * k.cosine, (real)(0.0f)));
+  const real ax = y * k.d - d * k.y, ay = d * k.x - x * k.d, ad = x * k.y - y * k.x;
+  const real across = sqrt(ax * ax + ay * ay + ad * ad);
+  const mask_t outside = (across * k.cosine - along * sine > reach) | (along < -reach);
+  return (k.cosine > (real)(1.5f)) | (outside == (mask_t)(0));
 }
 #endif

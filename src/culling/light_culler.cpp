@@ -4,30 +4,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
+#include "cl/launch.h"
+#include "culling/cull_pipeline.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr int cpu_lanes = 16;
-constexpr int group_items = 64;
-constexpr int scan_items = 256;
-constexpr size_t load_margin = 64;  // floats that a vector load may read past the last candidate
+constexpr float far_away = 1e18f;   // as kernels/common/project.h
+constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
+constexpr int world_arrays = 8;     // as kernels/common/light_arrays.h
+constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16;
+constexpr uint most_regions = 64;
+constexpr double half_ulp = 0x1p-24;
 
 cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
-  return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
+  try {
+    return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, fmt::format("light culling: {} bytes", bytes));
+  }
 }
 
-std::string shape_define(bool lanes) {
-  return lanes ? fmt::format("-DLANES={}", cpu_lanes) : fmt::format("-DGROUP={}", group_items);
+int planes_of(DepthBoundsMode mode) {
+  if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
+  return mode == DepthBoundsMode::mask32 ? 3 : 2;
+}
+
+// Where a tile's value of a plane lies: kernels/common/depth_bounds.h.
+size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, uint ty) {
+  const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
+  return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
+}
+
+// An actual coordinate of some light, so that moving all by an exact amount moves it by that amount; in the middle, so
+// that a few lights far off cost the others no precision.
+double middle(std::span<const CullLight> lights, int axis) {
+  std::vector<double> values;
+  values.reserve(lights.size());
+  for (const CullLight& light : lights) values.push_back(light.position[axis]);
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// Of the uploaded place's rounding the radius makes up.
+float safe_radius(double radius, const glm::dvec3& place) {
+  if (!(radius >= 0)) return -far_away;
+  const double grown = radius + half_ulp * (std::abs(place.x) + std::abs(place.y) + std::abs(place.z));
+  return grown > 0 ? std::nextafter(float(grown), std::numeric_limits<float>::infinity()) : 0.0f;
+}
+
+bool builds_avx512(ClDevice& device, ProgramCache& programs) {
+  if (!device.info().cpu) return false;
+  try {
+    programs.kernel("probe_avx512", "");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace
 
+cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
+  if (bytes > bytes_ || !buffer_()) buffer_ = device_buffer(device, bytes), bytes_ = bytes;
+  return buffer_;
+}
+
 cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
-  if (bytes > size) buffer = device_buffer(device_, bytes), size = bytes;
+  if (bytes > size || !buffer()) buffer = device_buffer(device_, bytes), size = bytes;
   return buffer;
 }
 
@@ -36,154 +84,255 @@ LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerO
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
   }
-  const bool lanes = options_.shape == KernelShape::lanes;
-  if (options_.depth_bounds == DepthBoundsMode::minmax) {
-    bounds_ = programs_.kernel(lanes ? "depth_bounds_lanes" : "depth_bounds_group",
-                               fmt::format("{} -DTILE={}{}", shape_define(lanes), options_.tile, options_.blend ? " -DBLEND" : ""));
-  }
-  view_buffer_ = device_buffer(device_, sizeof(ViewParams));
-  totals_ = device_buffer(device_, 2 * sizeof(cl_ulong));
+  avx512_ = !options.portable && options_.shape == KernelShape::lanes && builds_avx512(device, programs);
+  params_buffer_ = device_buffer(device_, sizeof(CullParams));
+  const cl_uint zeros[8] = {};
+  counters_ = device_buffer(device_, sizeof zeros);
+  device_.queue().enqueueWriteBuffer(counters_, CL_TRUE, 0, sizeof zeros, zeros);
+  slices_ = device_buffer(device_, 0);
 }
 
-void LightCuller::build_cull_kernels() {
-  if (scan_()) return;
-  const bool lanes = options_.shape == KernelShape::lanes;
-  const std::string suffix = lanes ? "_lanes" : "_group";
-  const std::string test = fmt::format("{} -DCULL_TEST={}{}", shape_define(lanes), int(options_.cull_test),
-                                       options_.spots ? " -DSPOTS" : "");
-  const std::string index = options_.index_bits == 16 ? " -DINDEX=ushort" : " -DINDEX=uint";
-  bins_count_ = programs_.kernel("cull_bins" + suffix, test + " -DCOUNT");
-  bins_fill_ = programs_.kernel("cull_bins" + suffix, test);
-  tiles_count_ = programs_.kernel("cull_tiles" + suffix, test + index + " -DCOUNT");
-  tiles_fill_ = programs_.kernel("cull_tiles" + suffix, test + index);
-  scan_ = programs_.kernel("scan_counts" + suffix, lanes ? "" : fmt::format("-DGROUP={}", scan_items));
-}
+LightCuller::~LightCuller() = default;
+LightCuller::LightCuller(LightCuller&&) noexcept = default;
 
-void LightCuller::set_lights(std::span<const ViewLight> lights) {
-  light_stride_ = uint((lights.size() + cpu_lanes - 1) / cpu_lanes * cpu_lanes);
-  std::vector<float> spheres(4 * size_t(light_stride_) + load_margin, 0.0f);
+void LightCuller::set_lights(std::span<const CullLight> lights) {
+  light_count_ = uint(lights.size());
+  light_stride_ = (light_count_ + lane_count - 1) / lane_count * lane_count;
+  cones_ = std::any_of(lights.begin(), lights.end(), [](const CullLight& light) { return light.cos_outer >= 0; });
+  for (auto& pipeline : pipelines_) pipeline.reset();
+  if (lights.empty()) return;
+  origin_ = {middle(lights, 0), middle(lights, 1), middle(lights, 2)};
+  const size_t stride = light_stride_;
+  std::vector<float> values(world_arrays * stride);
+  std::fill_n(values.begin() + 3 * stride, stride, -far_away);  // those past the last are listed nowhere
   for (size_t i = 0; i < lights.size(); ++i) {
-    spheres[i] = float(lights[i].position.x);
-    spheres[light_stride_ + i] = float(lights[i].position.y);
-    spheres[2 * size_t(light_stride_) + i] = float(-lights[i].position.z);
-    spheres[3 * size_t(light_stride_) + i] = float(lights[i].radius_m);
+    const CullLight& light = lights[i];
+    const glm::dvec3 place = light.position - origin_;
+    for (int a = 0; a < 3; ++a) values[a * stride + i] = float(place[a]);
+    values[3 * stride + i] = safe_radius(light.radius_m, place);
+    for (int a = 0; a < 3; ++a) values[(4 + a) * stride + i] = float(light.direction[a]);
+    // Rounding of the cosine is given to the cone.
+    values[7 * stride + i] = light.cos_outer >= 0 ? float(std::max(0.0, light.cos_outer - 1e-6)) : 2.0f;
   }
-  spheres_ = device_buffer(device_, spheres.size() * sizeof(float));
-  device_.queue().enqueueWriteBuffer(spheres_, CL_TRUE, 0, spheres.size() * sizeof(float), spheres.data());
-  std::vector<glm::vec4> cones(1, glm::vec4(0, 0, 1, 2));
-  if (options_.spots) {
-    cones.clear();
-    for (const ViewLight& light : lights) {
-      // Rounding of the axis and the cosine is given to the cone: one part in 2^21 wider.
-      const bool cone = light.type == LightType::spot && light.cos_outer >= 0;
-      cones.emplace_back(light.direction.x, light.direction.y, -light.direction.z,
-                         cone ? std::max(0.0, light.cos_outer - 5e-7) : 2.0);
+  lights_ = device_buffer(device_, values.size() * sizeof(float));
+  device_.queue().enqueueWriteBuffer(lights_, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+}
+
+void LightCuller::set_view(const CullView& view) {
+  check_view(view, options_.tile);
+  const CullParams room = params_;
+  params_ = cull_params(view, options_.tile);
+  params_.pool_blocks = room.pool_blocks, params_.staging_units = room.staging_units;
+  params_.inset = options_.pixel_centres && options_.samples == 1 ? 0.5f : 0.0f;
+  if (options_.depth_format == DepthFormat::d16) params_.depth_step = 1.0f / 65535;
+  if (options_.depth_format == DepthFormat::d24) params_.depth_step = 1.0f / 16777215;
+  // 32-bit floats near 1 are 2^-24 apart; near 0, where reversed depth has the distance, closer than slack.
+  if (options_.depth_format == DepthFormat::d32f && params_.standard_depth) params_.depth_step = float(half_ulp);
+  eye_ = view.eye;
+  params_.region_bins = 4;
+  const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
+  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions) params_.region_bins *= 2;
+  params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
+
+  const float margin = params_.orthographic ? widen * std::abs(params_.depth_b * params_.depth_a) : 0.0f;
+  std::vector<cl_float2> slices;
+  float near = params_.orthographic ? -far_away : 0.0f;
+  for (float edge : view.slice_edges) {
+    const float slack = widen * std::abs(edge) + margin;
+    slices.push_back({{near, edge + slack}});
+    near = edge - slack;
+  }
+  slices.push_back({{near, far_away}});
+  if (slices.size() > 1) {
+    slices_ = device_buffer(device_, slices.size() * sizeof slices[0]);
+    device_.queue().enqueueWriteBuffer(slices_, CL_TRUE, 0, slices.size() * sizeof slices[0], slices.data());
+  }
+  if (const glm::uvec2 tiles(params_.tiles_x, params_.tiles_y); tiles != bounds_tiles_) {
+    bounds_tiles_ = tiles;
+    opaque_ = blend_ = cl::Buffer();
+  }
+}
+
+// Every slot outside the view stays empty; those inside begin as given.
+cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
+  std::vector<float> values(size_t(params_.bins_x) * params_.bins_y * planes * BIN_SIZE);
+  for (size_t i = 0; i < values.size(); ++i) values[i] = i / BIN_SIZE % planes % 2 == 0 ? far_away : -far_away;
+  for (uint ty = 0; ty < params_.tiles_y; ++ty) {
+    for (uint tx = 0; tx < params_.tiles_x; ++tx) {
+      values[bounds_index(params_, planes, 0, tx, ty)] = near, values[bounds_index(params_, planes, 1, tx, ty)] = far;
     }
-    cones.resize(std::max<size_t>(cones.size(), 1));
   }
-  cones_ = device_buffer(device_, cones.size() * sizeof(glm::vec4));
-  device_.queue().enqueueWriteBuffer(cones_, CL_TRUE, 0, cones.size() * sizeof(glm::vec4), cones.data());
+  cl::Buffer buffer = device_buffer(device_, values.size() * sizeof(float));
+  bounds_bytes_ = std::max(bounds_bytes_, values.size() * sizeof(float));
+  device_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+  return buffer;
 }
 
-void LightCuller::set_view(const ViewParams& view) {
-  view_ = view;
-  device_.queue().enqueueWriteBuffer(view_buffer_, CL_TRUE, 0, sizeof view, &view);
-  const size_t tiles = size_t(view.tiles_x) * view.tiles_y, bins = size_t(view.bins_x) * view.bins_y;
-  if (tiles * sizeof(cl_float2) > bounds_bytes_) {
-    bounds_bytes_ = tiles * sizeof(cl_float2);
-    opaque_ = device_buffer(device_, bounds_bytes_);
-    blend_ = device_buffer(device_, options_.blend ? bounds_bytes_ : 0);
-  }
-  if (bins * sizeof(cl_uint2) > bins_bytes_) {
-    bins_bytes_ = bins * sizeof(cl_uint2);
-    bins_ = device_buffer(device_, bins_bytes_);
-  }
+void LightCuller::upload_params() {
+  params_.light_count = light_count_, params_.light_stride = light_stride_;
+  params_.index_capacity = uint(index_capacity_);
+  const glm::dvec3 eye = eye_ - origin_;
+  params_.eye_x = float(eye.x), params_.eye_y = float(eye.y), params_.eye_z = float(eye.z);
+  params_.eye_rest_x = float(eye.x - double(params_.eye_x)), params_.eye_rest_y = float(eye.y - double(params_.eye_y));
+  params_.eye_rest_z = float(eye.z - double(params_.eye_z));
+  if (params_uploads_ && std::memcmp(&uploaded_, &params_, sizeof params_) == 0) return;
+  uploaded_ = params_, ++params_uploads_;
+  device_.queue().enqueueWriteBuffer(params_buffer_, CL_FALSE, 0, sizeof uploaded_, &uploaded_);
 }
 
-void LightCuller::make_first_guess() {
-  if (candidate_stride_ > 0) return;
-  candidate_stride_ = std::max<uint>(4096, 4 * light_stride_);
-  candidates_ = device_buffer(device_, (5 * size_t(candidate_stride_) + load_margin) * sizeof(float));
-  index_capacity_ = size_t(view_.tiles_x) * view_.tiles_y * 64;
-}
-
-DepthBounds LightCuller::depth_bounds(cl::Buffer& depth) {
-  const size_t tiles = size_t(view_.tiles_x) * view_.tiles_y;
+DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   if (options_.depth_bounds == DepthBoundsMode::none) {
-    const cl_float2 all = {{view_.orthographic ? -1e18f : 0.0f, 1e18f}};
-    device_.queue().enqueueFillBuffer(opaque_, all, 0, tiles * sizeof all);
-    if (options_.blend) device_.queue().enqueueFillBuffer(blend_, all, 0, tiles * sizeof all);
-  } else if (options_.shape == KernelShape::lanes) {
-    launch(device_, "depth_bounds", bounds_, tiles, 1, depth, opaque_, blend_, view_buffer_);
-  } else {
-    launch(device_, "depth_bounds", bounds_, tiles * group_items, group_items, depth, opaque_, blend_, view_buffer_);
+    const float near = params_.orthographic ? -far_away : 0.0f;
+    if (!opaque_()) opaque_ = empty_bounds(2, near, far_away);
+    return {{opaque_, DepthBoundsMode::minmax}, {options_.blend ? opaque_ : cl::Buffer(), DepthBoundsMode::minmax}};
   }
-  return {opaque_, options_.blend ? blend_ : cl::Buffer()};
-}
-
-void LightCuller::run_bins(cl::Buffer& intervals, bool count) {
-  const size_t items = options_.shape == KernelShape::lanes ? 1 : group_items;
-  const size_t bins = size_t(view_.bins_x) * view_.bins_y;
-  launch(device_, count ? "cull_bins_count" : "cull_bins_fill", count ? bins_count_ : bins_fill_, bins * items, items,
-         spheres_, cl_uint(light_stride_), cones_, intervals, bins_, candidates_, cl_uint(candidate_stride_), view_buffer_);
-}
-
-void LightCuller::run_tiles(cl::Buffer& intervals, cl::Buffer& cells, cl::Buffer& indices, uint capacity, bool count) {
   const bool lanes = options_.shape == KernelShape::lanes;
-  const size_t items = lanes ? 1 : group_items;
-  const size_t places = lanes ? size_t(view_.bins_x) * view_.bins_y : size_t(view_.tiles_x) * view_.tiles_y;
-  launch(device_, count ? "cull_tiles_count" : "cull_tiles_fill", count ? tiles_count_ : tiles_fill_, places * items,
-         items, bins_, candidates_, cl_uint(candidate_stride_), cones_, intervals, cells, indices, cl_uint(capacity),
-         view_buffer_);
+  if (!opaque_()) opaque_ = empty_bounds(planes_of(options_.depth_bounds), far_away, -far_away);
+  if (!blend_()) blend_ = options_.blend ? empty_bounds(2, far_away, -far_away) : device_buffer(device_, 0);
+  // Depth's sense is the view's: a kernel is built for the one met.
+  const std::string defines =
+      fmt::format("-DTILE={} -DSAMPLES={} -DDEPTH_MODE={}{}{}", options_.tile, options_.samples, int(options_.depth_bounds),
+                  params_.standard_depth ? " -DSTANDARD_DEPTH" : "", options_.blend ? " -DBLEND" : "");
+  bounds_kernel_ = programs_.kernel(lanes ? "depth_bounds_lanes" : "depth_bounds_group", defines);
+  const uint row = uint(depth.row_pixels > 0 ? depth.row_pixels : int(params_.width));
+  params_.depth_row = row * uint(options_.samples);
+  params_.depth_first = (uint(depth.y) * row + uint(depth.x)) * uint(options_.samples);
+  upload_params();
+  const uint tiles_x = params_.tiles_x, tiles_y = params_.tiles_y;
+  const cl::NDRange items = lanes ? cl::NDRange((tiles_x + depth_tiles_an_item - 1) / depth_tiles_an_item, tiles_y)
+                                  : cl::NDRange(tiles_x * depth_group, tiles_y);
+  launch(device_, "depth_bounds", bounds_kernel_, items, lanes ? cl::NDRange(1, 1) : cl::NDRange(depth_group, 1), depth.values,
+         opaque_, blend_, counters_, params_buffer_);
+  return {{opaque_, options_.depth_bounds}, {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
 }
 
-void LightCuller::scan(cl::Buffer& cells, uint count, int slot) {
-  const size_t items = options_.shape == KernelShape::lanes ? 1 : scan_items;
-  launch(device_, "scan_counts", scan_, items, items, cells, cl_uint(count), totals_, cl_uint(slot));
+TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
+  cl::Buffer buffer = empty_bounds(2, far_away, -far_away);
+  std::vector<float> values(size_t(params_.bins_x) * params_.bins_y * 2 * BIN_SIZE);
+  device_.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+  for (size_t i = 0; i < intervals.size(); ++i) {
+    const uint tx = uint(i) % params_.tiles_x, ty = uint(i) / params_.tiles_x;
+    const bool some = intervals[i].near <= intervals[i].far;
+    values[bounds_index(params_, 2, 0, tx, ty)] = some ? std::clamp(intervals[i].near, -far_away, far_away) : far_away;
+    values[bounds_index(params_, 2, 1, tx, ty)] = some ? std::clamp(intervals[i].far, -far_away, far_away) : -far_away;
+  }
+  device_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+  return {buffer, DepthBoundsMode::minmax};
 }
 
-LightGrid LightCuller::cull(cl::Buffer& intervals, GridStorage& storage) {
-  build_cull_kernels();
-  make_first_guess();
+std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
+  const int planes = planes_of(bounds.mode);
+  std::vector<float> values(size_t(params_.bins_x) * params_.bins_y * planes * BIN_SIZE);
+  device_.queue().enqueueReadBuffer(bounds.values, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+  std::vector<DepthInterval> intervals;
+  intervals.reserve(size_t(params_.tiles_x) * params_.tiles_y);
+  for (uint ty = 0; ty < params_.tiles_y; ++ty) {
+    for (uint tx = 0; tx < params_.tiles_x; ++tx) {
+      const auto at = [&](int plane) { return values[bounds_index(params_, planes, plane, tx, ty)]; };
+      DepthInterval& i = intervals.emplace_back(DepthInterval{at(0), at(1)});
+      if (planes == 4) i = {std::min(i.near, at(2)), std::max(i.far, at(3))};
+    }
+  }
+  return intervals;
+}
+
+CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
+  std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
+  if (made) return *made;
+  PipelineOptions options;
+  options.avx512 = avx512_;
+  options.view_arrays = cones_ ? 11 : 7;
+  options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
+  options.defines = fmt::format("-DCULL_TEST={} -DDEPTH_MODE={}{}{}{}", int(options_.cull_test), int(mode),
+                                cones_ ? " -DSPOTS" : "", params_.slices > 1 ? " -DSLICES" : "",
+                                options.index_bytes == 4 ? " -DINDEX_32" : "");
+  made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
+                                              : make_group_pipeline(device_, programs_, options);
+  return *made;
+}
+
+LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
   LightGrid grid;
-  grid.cells_x = view_.tiles_x, grid.cells_y = view_.tiles_y;
-  grid.index_bits = options_.index_bits;
-  const uint tiles = view_.tiles_x * view_.tiles_y, bins = view_.bins_x * view_.bins_y;
-  grid.cell_bytes = size_t(tiles) * sizeof(cl_uint2);
+  grid.cells_x = int(params_.tiles_x), grid.cells_y = int(params_.tiles_y), grid.slices = int(params_.slices);
+  grid.index_bits = options_.index_bits == 32 || light_count_ > 65536 ? 32 : 16;
+  grid.cell_bytes = size_t(grid.cells_x) * grid.cells_y * grid.slices * sizeof(cl_uint2);
+  const size_t index_bytes = grid.index_bits / 8, largest = device_.info().max_allocation_bytes;
+  if (grid.cell_bytes > largest) {
+    throw machine_error("light culling: {} x {} x {} cells need more memory than {} allows; use larger tiles or fewer slices",
+                        grid.cells_x, grid.cells_y, grid.slices, device_.info().name);
+  }
   cl::Buffer cells = storage.cells(grid.cell_bytes);
-  // The whole chain is enqueued at the sizes of last time, with one wait at its end; a count that passes its room
-  // writes nothing, and the chain runs again with more.
+  if (light_count_ == 0) {
+    device_.queue().enqueueFillBuffer(cells, cl_uint(0), 0, grid.cell_bytes);
+    storage.indices(0);
+    device_.queue().finish();
+    return grid;
+  }
+  CullPipeline& kernels = pipeline(bounds.mode);
+  const size_t view_bytes = (cones_ ? 11 : 7) * sizeof(float);
+  params_.pool_blocks = std::max(params_.pool_blocks, 2048 + light_stride_ / 4);
+  params_.staging_units = std::max(params_.staging_units, params_.tiles_x * params_.tiles_y * 4);
+  index_capacity_ = std::max<size_t>(index_capacity_, size_t(params_.tiles_x) * params_.tiles_y * 64);
+  // The whole chain is enqueued at the sizes of last time, with one wait at its end; where something did not fit, nothing
+  // was written past its room, and the chain runs again with more.
   for (;;) {
-    cl::Buffer indices = storage.indices(index_capacity_ * options_.index_bits / 8);
-    run_bins(intervals, true);
-    scan(bins_, bins, 0);
-    run_bins(intervals, false);
-    run_tiles(intervals, cells, indices, uint(index_capacity_), true);
-    scan(cells, tiles, 1);
-    run_tiles(intervals, cells, indices, uint(index_capacity_), false);
-    cl_ulong totals[2];
-    device_.queue().enqueueReadBuffer(totals_, CL_TRUE, 0, sizeof totals, totals);
-    const size_t most = std::min<size_t>(0xffffffffu, device_.info().max_allocation_bytes / 20);
-    if (totals[0] > candidate_stride_) {
-      if (totals[0] > most) throw machine_error("light culling: {} bin candidates need more memory than {} allows; use fewer or smaller lights", totals[0], device_.info().name);
-      candidate_stride_ = uint(std::min<size_t>(most, totals[0] + totals[0] / 4));
-      candidates_ = device_buffer(device_, (5 * size_t(candidate_stride_) + load_margin) * sizeof(float));
-    } else if (totals[1] > index_capacity_) {
-      if (totals[1] > 0xffffffffu || totals[1] * options_.index_bits / 8 > device_.info().max_allocation_bytes) {
-        throw machine_error("light culling: a light index list of {} entries needs more memory than {} allows; use fewer or smaller lights", totals[1], device_.info().name);
+    cl::Buffer indices = storage.indices(index_capacity_ * index_bytes);
+    upload_params();
+    kernels.prepare(params_);
+    kernels.enqueue({params_, params_buffer_, lights_, bounds.values, slices_, counters_, cells, indices});
+    cl_uint counters[8];
+    device_.queue().enqueueReadBuffer(counters_, CL_TRUE, 0, sizeof counters, counters);
+    const uint64_t total = counters[4] | uint64_t(counters[5]) << 32;
+    const auto grown = [&](uint64_t wanted, uint64_t unit_bytes, const char* what) {
+      const uint64_t most = std::min<uint64_t>(0xffffffffu, largest / unit_bytes);
+      if (wanted > most) {
+        throw machine_error("light culling: {} {} need more memory than {} allows; use fewer or smaller lights", wanted, what,
+                            device_.info().name);
       }
-      index_capacity_ = size_t(std::min<cl_ulong>(0xffffffffu, totals[1] + totals[1] / 4));
+      return std::min(most, wanted + wanted / 4);
+    };
+    if (counters[0] > params_.pool_blocks) {
+      params_.pool_blocks = uint(grown(counters[0], 16 * view_bytes, "blocks of 16 candidate lights"));
+    } else if (counters[1] > params_.staging_units) {
+      params_.staging_units = uint(grown(counters[1], 64, "units of 16 list entries"));
+    } else if (total > index_capacity_) {
+      index_capacity_ = grown(total, index_bytes, "light indices");
     } else {
-      grid.index_count = totals[1];
-      grid.index_bytes = grid.index_count * options_.index_bits / 8;
+      grid.index_count = total;
+      grid.index_bytes = total * index_bytes;
       return grid;
     }
   }
 }
 
+uint32_t LightCuller::strange_tiles() {
+  cl_uint count = 0;
+  device_.queue().enqueueReadBuffer(counters_, CL_TRUE, 2 * sizeof count, sizeof count, &count);
+  const cl_uint zero = 0;
+  device_.queue().enqueueWriteBuffer(counters_, CL_TRUE, 2 * sizeof zero, sizeof zero, &zero);
+  return count;
+}
+
 size_t LightCuller::memory_bytes() const {
-  return sizeof(ViewParams) + 4 * size_t(light_stride_) * sizeof(float) + bounds_bytes_ * (options_.blend ? 2 : 1) +
-         bins_bytes_ + 5 * size_t(candidate_stride_) * sizeof(float);
+  size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) + bounds_bytes_ * (options_.blend ? 2 : 1);
+  for (const auto& pipeline : pipelines_) bytes += pipeline ? pipeline->memory_bytes() : 0;
+  return bytes;
+}
+
+HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage) {
+  HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}};
+  host.cells.resize(grid.cell_bytes / sizeof(glm::uvec2));
+  host.indices.resize(grid.index_count);
+  device.queue().enqueueReadBuffer(storage.cells(grid.cell_bytes), CL_TRUE, 0, grid.cell_bytes, host.cells.data());
+  if (grid.index_count == 0) return host;
+  if (grid.index_bits == 32) {
+    device.queue().enqueueReadBuffer(storage.indices(grid.index_bytes), CL_TRUE, 0, grid.index_bytes, host.indices.data());
+    return host;
+  }
+  std::vector<uint16_t> narrow(grid.index_count);
+  device.queue().enqueueReadBuffer(storage.indices(grid.index_bytes), CL_TRUE, 0, grid.index_bytes, narrow.data());
+  std::copy(narrow.begin(), narrow.end(), host.indices.begin());
+  return host;
 }
 
 }  // namespace lightgrid

@@ -4,9 +4,9 @@
 namespace lightgrid {
 namespace {
 
-GridTextures cull(Frame& f, const char* name, cl::Buffer intervals, SharedGridStorage& storage, bool blend) {
+GridTextures cull(Frame& f, const char* name, const TileBounds& bounds, SharedGridStorage& storage, bool blend) {
   auto pass = f.timer.pass(name, "cl");
-  const LightGrid grid = f.culler().cull(intervals, storage);
+  const LightGrid grid = f.culler().cull(bounds, storage);
   storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
   storage.indices_.buffer->hand_to_gl(grid.index_bytes);
   f.note_grid(grid, blend);

@@ -17,22 +17,20 @@ cl::Buffer& depth_to_cl(Frame& f, const DepthImage& depth) {
 
 DepthBounds depth_bounds(Frame& f, const DepthImage& depth) {
   if (f.plan.settings.depth_bounds == DepthBoundsMode::none) {
-    cl::Buffer unread;
-    return f.culler().depth_bounds(unread);
+    return f.culler().depth_bounds({});
   }
   cl::Buffer& values = depth_to_cl(f, depth);
   auto pass = f.timer.pass("depth_bounds", "cl");
   pass.moves(size_t(f.view.width) * f.view.height * 4, size_t(f.params.tiles_x) * f.params.tiles_y * 8);
-  return f.culler().depth_bounds(values);
+  return f.culler().depth_bounds({values});
 }
 
 TileDistances tile_distances(Frame& f, const DepthBounds& bounds) {
   TileDistances distances;
   if (f.plan.settings.depth_bounds == DepthBoundsMode::none) return distances;
   auto pass = f.timer.pass("tile_distances", "cl");
-  distances.intervals.resize(size_t(f.params.tiles_x) * f.params.tiles_y);
-  const size_t bytes = distances.intervals.size() * sizeof(glm::vec2);
-  f.devices.cl->queue().enqueueReadBuffer(bounds.opaque, CL_TRUE, 0, bytes, distances.intervals.data());
+  distances.intervals = f.culler().read_bounds(bounds.opaque);
+  const size_t bytes = distances.intervals.size() * sizeof(DepthInterval);
   pass.moves(bytes, bytes);
   return distances;
 }

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "shared/cull_settings.h"
+
 namespace lightgrid {
 
-enum class CullTest { sphere, planes, aabb, planes_aabb };  // order as in kernels/common/light_cell_tests.h
-enum class DepthBoundsMode { none, minmax };
-enum class KernelShape { automatic, lanes, group };
 
 struct Settings {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;  // pixels a side: 8, 16, 32 or 64
   KernelShape kernel_shape = KernelShape::automatic;
+  bool portable = false;       // kernels without the builtins of one kind of CPU
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against
 };
 

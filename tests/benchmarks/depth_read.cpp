@@ -58,14 +58,15 @@ void measure(int width, int height, int runs) {
   cl::Kernel read =
       programs.kernel_of_source("plain_read", plain_read, cpu ? "" : fmt::format("-DGROUP={}", group_items));
   LightCuller culler(device, programs, {.tile = tile});
-  culler.set_view(view_params(make_view(look_at({0, 0, 0}, {0, 0, -1}), width, height), tile, 0, 0, {}));
+  const View view = make_view(look_at({0, 0, 0}, {0, 0, -1}), width, height);
+  culler.set_view({view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}});
 
   device.profiler().time_launches(true);
   std::vector<double> read_ms, bounds_ms;
   for (int i = -3; i < runs; ++i) {
     launch(device, "plain_read", read, spans * items, items, values, count, span, sums);
     const double one = last_ms(device);
-    culler.depth_bounds(values);
+    culler.depth_bounds({values});
     const double other = last_ms(device);
     if (i >= 0) read_ms.push_back(one), bounds_ms.push_back(other);
   }

@@ -1,9 +1,12 @@
 // Depth bounds and light grids as the tests of culling read them: from OpenCL to plain vectors.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "culling/light_culler.h"
+#include "scene/view_lights.h"
 
 namespace lightgrid {
 
@@ -18,13 +21,6 @@ inline ProgramCache& test_programs() {
 }
 
 template <typename T>
-std::vector<T> read_buffer(const cl::Buffer& buffer, size_t count) {
-  std::vector<T> values(count);
-  if (count) test_device().queue().enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
-  return values;
-}
-
-template <typename T>
 cl::Buffer buffer_of(const std::vector<T>& values) {
   cl::Buffer buffer(test_device().context(), CL_MEM_READ_WRITE,
                     std::max<size_t>(values.size() * sizeof(T), 64));
@@ -34,26 +30,35 @@ cl::Buffer buffer_of(const std::vector<T>& values) {
   return buffer;
 }
 
-// float2 a tile: least and greatest distance.
+// Here the world is view space.
+inline CullView cull_view_of(const View& view) {
+  return {view.width, view.height, view.clip_from_view, glm::dmat4(1), glm::dvec3(0), {}};
+}
+
+inline std::vector<CullLight> cull_lights_of(const std::vector<ViewLight>& lights) {
+  std::vector<CullLight> out;
+  for (const ViewLight& light : lights) {
+    out.push_back({light.position, light.radius_m, light.direction, light.type == LightType::spot ? light.cos_outer : -1.0});
+  }
+  return out;
+}
+
+// Least and greatest distance of each tile.
 struct Intervals {
-  std::vector<glm::vec2> opaque, blend;
+  std::vector<DepthInterval> opaque, blend;
 };
 
-inline Intervals depth_intervals(const View& view, const std::vector<float>& depth,
-                                 const CullerOptions& options) {
+inline Intervals depth_intervals(const View& view, const std::vector<float>& depth, const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
-  const ViewParams params = view_params(view, options.tile, 0, 0, glm::vec3(0));
-  culler.set_view(params);
-  cl::Buffer values = buffer_of(depth);
-  const DepthBounds bounds = culler.depth_bounds(values);
-  const size_t tiles = size_t(params.tiles_x) * params.tiles_y;
-  Intervals intervals{read_buffer<glm::vec2>(bounds.opaque, tiles), {}};
-  if (options.blend) intervals.blend = read_buffer<glm::vec2>(bounds.blend, tiles);
+  culler.set_view(cull_view_of(view));
+  const DepthBounds bounds = culler.depth_bounds({buffer_of(depth)});
+  Intervals intervals{culler.read_bounds(bounds.opaque), {}};
+  if (options.blend) intervals.blend = culler.read_bounds(bounds.blend);
   return intervals;
 }
 
 struct CulledGrid {
-  ViewParams params{};
+  CullParams params{};
   LightGrid grid;
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;  // widened
@@ -68,20 +73,31 @@ struct CulledGrid {
 inline CulledGrid cull_cells(const View& view, const std::vector<ViewLight>& lights,
                              const std::vector<glm::vec2>& intervals, const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
-  CulledGrid result;
-  result.params = view_params(view, options.tile, int(lights.size()), 0, glm::vec3(0));
-  culler.set_lights(lights);
-  culler.set_view(result.params);
-  cl::Buffer bounds = buffer_of(intervals);
+  culler.set_lights(cull_lights_of(lights));
+  culler.set_view(cull_view_of(view));
+  std::vector<DepthInterval> given;
+  for (const glm::vec2& i : intervals) given.push_back({i.x, i.y});
   ClGridStorage storage(test_device());
-  result.grid = culler.cull(bounds, storage);
-  result.cells = read_buffer<glm::uvec2>(storage.cells(0), size_t(result.grid.cells_x) * result.grid.cells_y);
-  if (options.index_bits == 16) {
-    const auto narrow = read_buffer<uint16_t>(storage.indices(0), result.grid.index_count);
-    result.indices.assign(narrow.begin(), narrow.end());
-  } else {
-    result.indices = read_buffer<uint32_t>(storage.indices(0), result.grid.index_count);
-  }
+  CulledGrid result;
+  result.grid = culler.cull(culler.bounds_of(given), storage);
+  result.params = culler.params();
+  const HostGrid host = read_grid(test_device(), result.grid, storage);
+  result.cells = host.cells, result.indices = host.indices;
+  return result;
+}
+
+// From a depth image.
+inline CulledGrid cull_depth(const View& view, const std::vector<ViewLight>& lights, const std::vector<float>& depth,
+                             const CullerOptions& options) {
+  LightCuller culler(test_device(), test_programs(), options);
+  culler.set_lights(cull_lights_of(lights));
+  culler.set_view(cull_view_of(view));
+  ClGridStorage storage(test_device());
+  CulledGrid result;
+  result.grid = culler.cull(culler.depth_bounds({buffer_of(depth)}).opaque, storage);
+  result.params = culler.params();
+  const HostGrid host = read_grid(test_device(), result.grid, storage);
+  result.cells = host.cells, result.indices = host.indices;
   return result;
 }
 

@@ -74,7 +74,8 @@ void expect_bounds(const View& view, const std::vector<float>& depth, const Cull
   for (size_t i = 0; i < intervals.opaque.size(); ++i) {
     SCOPED_TRACE(fmt::format("{}x{} tile size {} tile {}", view.width, view.height, options.tile, i));
     const Exact exact = scan(view, depth, options.tile, int(i));
-    const glm::dvec2 opaque(intervals.opaque[i]), blend(intervals.blend[i]);
+    const glm::dvec2 opaque(intervals.opaque[i].near, intervals.opaque[i].far);
+    const glm::dvec2 blend(intervals.blend[i].near, intervals.blend[i].far);
     // Orthographic depth loses its bits to the whole range, not to the distance.
     const double range = view.orthographic ? 3 * view.far_m : 0;
     if (exact.any) {
@@ -83,12 +84,12 @@ void expect_bounds(const View& view, const std::vector<float>& depth, const Cull
       EXPECT_GE(opaque.y, exact.farthest);
       EXPECT_LE(opaque.y, exact.farthest + loosest * (exact.farthest + range));
     } else {
-      EXPECT_EQ(intervals.opaque[i], glm::vec2(far_away, -far_away));
+      EXPECT_EQ(opaque, glm::dvec2(far_away, -far_away));
     }
     EXPECT_LE(blend.x, view.near_m);
     EXPECT_GE(blend.x, view.near_m - loosest * (view.near_m + 1));
     if (exact.sky) {
-      EXPECT_EQ(intervals.blend[i].y, far_away);
+      EXPECT_EQ(blend.y, far_away);
     } else {
       EXPECT_GE(blend.y, exact.farthest);
       EXPECT_LE(blend.y, exact.farthest + loosest * (exact.farthest + range));
@@ -143,11 +144,11 @@ TEST_P(DepthBoundsOf, WhatNoDepthBufferHoldsGivesEveryDistance) {
     const Intervals after = depth_intervals(view, depth, options);
     for (int i = 0; i < int(after.opaque.size()); ++i) {
       if (i == strange) {
-        EXPECT_EQ(after.opaque[i], glm::vec2(0, far_away));
-        EXPECT_EQ(after.blend[i].y, far_away);
+        EXPECT_EQ(after.opaque[i], (DepthInterval{0, far_away}));
+        EXPECT_EQ(after.blend[i].far, far_away);
       } else {
-        EXPECT_EQ(after.opaque[i], before.opaque[i]);
-        EXPECT_EQ(after.blend[i], before.blend[i]);
+        EXPECT_TRUE(after.opaque[i] == before.opaque[i]);
+        EXPECT_TRUE(after.blend[i] == before.blend[i]);
       }
     }
   }
@@ -168,21 +169,21 @@ TEST(DepthBounds, BothShapesGiveTheSameBytesAtAnAwkwardSize) {
   for (const int tile : {8, 16, 32, 64}) {
     const Intervals lanes = depth_intervals(view, depth, options_of(tile, KernelShape::lanes));
     const Intervals group = depth_intervals(view, depth, options_of(tile, KernelShape::group));
-    EXPECT_EQ(lanes.opaque, group.opaque) << tile;
-    EXPECT_EQ(lanes.blend, group.blend) << tile;
+    EXPECT_TRUE(lanes.opaque == group.opaque) << tile;
+    EXPECT_TRUE(lanes.blend == group.blend) << tile;
   }
 }
 
 TEST(DepthBounds, SwitchedOffEveryTileHoldsEveryDistance) {
   CullerOptions options = options_of(16, KernelShape::automatic);
   options.depth_bounds = DepthBoundsMode::none;
-  for (const glm::vec2 interval :
+  for (const DepthInterval& interval :
        depth_intervals(view_of(17, 9, 60), std::vector<float>(17 * 9), options).opaque) {
-    EXPECT_EQ(interval, glm::vec2(0, far_away));
+    EXPECT_EQ(interval, (DepthInterval{0, far_away}));
   }
-  for (const glm::vec2 interval :
+  for (const DepthInterval& interval :
        depth_intervals(orthographic_view_of(17, 9, 2, 0, 9), std::vector<float>(17 * 9), options).opaque) {
-    EXPECT_EQ(interval, glm::vec2(-far_away, far_away));
+    EXPECT_EQ(interval, (DepthInterval{-far_away, far_away}));
   }
 }
 

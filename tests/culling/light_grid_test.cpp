@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "culling/cell_truth.h"
+#include "base/error.h"
 #include "reference/lit_set.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
@@ -79,22 +80,22 @@ std::vector<glm::vec2> scattered_intervals(size_t tiles, uint64_t seed) {
   return intervals;
 }
 
-CullerOptions options_of(CullTest test, KernelShape shape, bool spots) {
+CullerOptions options_of(CullTest test, KernelShape shape) {
   CullerOptions options;
   options.cull_test = test;
   options.shape = shape;
-  options.spots = spots;
   return options;
 }
 
 struct LightGridOf : testing::TestWithParam<std::tuple<CullTest, KernelShape>> {
-  CullerOptions options = options_of(std::get<0>(GetParam()), std::get<1>(GetParam()), true);
+  CullerOptions options = options_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
 };
 
 TEST_P(LightGridOf, ListsWhatCertainlyTouchesAndLittleElse) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(127, 73)}) {
     for (const NamedView& named : views(size.x, size.y)) {
       SCOPED_TRACE(fmt::format("{} {}x{}", named.name, size.x, size.y));
+      options.pixel_centres = named.inset > 0;
       const auto lights = scattered_lights(named.view, 600, true, 7);
       const auto intervals = scattered_intervals(tile_count(named.view, options.tile), 8);
       const CulledGrid grid = cull_cells(named.view, lights, intervals, options);
@@ -109,6 +110,7 @@ TEST_P(LightGridOf, ListsWhatCertainlyTouchesAndLittleElse) {
 }
 
 TEST_P(LightGridOf, AnyNumberOfLights) {
+  options.pixel_centres = false;
   const View view = view_of(127, 73, 60);
   const auto intervals = scattered_intervals(tile_count(view, options.tile), 9);
   const auto most = scattered_lights(view, 257, true, 10);
@@ -125,10 +127,11 @@ TEST_P(LightGridOf, AnyNumberOfLights) {
 TEST_P(LightGridOf, TangentLightsAreKept) {
   for (const NamedView& named : views(127, 73)) {
     SCOPED_TRACE(named.name);
+    options.pixel_centres = named.inset > 0;
     const View& view = named.view;
     const auto intervals = scattered_intervals(tile_count(view, options.tile), 11);
     CulledGrid shape;
-    shape.params = view_params(view, options.tile, 0, 0, glm::vec3(0));
+    shape.params = cull_params(cull_view_of(view), options.tile);
     Random random(12);
     std::vector<ViewLight> lights;
     while (lights.size() < 4000) {
@@ -161,6 +164,7 @@ TEST_P(LightGridOf, TangentLightsAreKept) {
 TEST_P(LightGridOf, StrangeLights) {
   for (const NamedView& named : views(127, 73)) {
     SCOPED_TRACE(named.name);
+    options.pixel_centres = named.inset > 0;
     const View& view = named.view;
     std::vector<glm::vec2> intervals(tile_count(view, options.tile), glm::vec2(0.1f, 50.0f));
     intervals[0] = {0.1f, far_away};
@@ -192,13 +196,14 @@ TEST_P(LightGridOf, StrangeLights) {
 
 INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
                          testing::Combine(testing::Values(CullTest::sphere, CullTest::planes, CullTest::aabb,
-                                                          CullTest::planes_aabb),
+                                                          CullTest::planes_aabb, CullTest::exact),
                                           testing::Values(KernelShape::lanes, KernelShape::group)),
                          [](const auto& info) {
                            const CullTest test = std::get<0>(info.param);
                            const std::string name = test == CullTest::sphere   ? "sphere"
                                                     : test == CullTest::planes ? "planes"
                                                     : test == CullTest::aabb   ? "aabb"
+                                                    : test == CullTest::exact  ? "exact"
                                                                                : "planes_aabb";
                            return name +
                                   (std::get<1>(info.param) == KernelShape::lanes ? "_lanes" : "_group");
@@ -207,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
 TEST(LightGrid, SameBytesInBothShapesAndIndexWidthsAndInEveryRun) {
   const View view = view_of(319, 181, 60);
   const auto lights = scattered_lights(view, 1000, true, 13);
-  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::lanes, true);
+  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::lanes);
   const auto intervals = scattered_intervals(tile_count(view, options.tile), 14);
   const CulledGrid first = cull_cells(view, lights, intervals, options);
   EXPECT_GT(first.indices.size(), 1000u);
@@ -224,21 +229,22 @@ TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
   const View view = view_of(127, 73, 60);
   const auto lights = scattered_lights(view, 300, false, 15);
   const auto intervals = scattered_intervals(tile_count(view, 8), 16);
-  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::automatic, false);
+  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::automatic);
   options.tile = 8;
   const CulledGrid first = cull_cells(view, lights, intervals, options);
   LightCuller culler(test_device(), test_programs(), options);
-  culler.set_lights(lights);
-  culler.set_view(first.params);
+  culler.set_lights(cull_lights_of(lights));
+  culler.set_view(cull_view_of(view));
   ClGridStorage storage(test_device());
-  cl::Buffer bounds = buffer_of(intervals),
-             endless = buffer_of(std::vector<glm::vec2>(intervals.size(), {0, far_away}));
+  std::vector<DepthInterval> given;
+  for (const glm::vec2& i : intervals) given.push_back({i.x, i.y});
+  const TileBounds bounds = culler.bounds_of(given);
+  const TileBounds endless = culler.bounds_of(std::vector<DepthInterval>(intervals.size(), {0, far_away}));
   for (int run = 0; run < 5; ++run) {
     culler.cull(endless, storage);  // another, longer grid in between
-    const LightGrid grid = culler.cull(bounds, storage);
-    EXPECT_EQ(read_buffer<glm::uvec2>(storage.cells(0), first.cells.size()), first.cells);
-    const auto narrow = read_buffer<uint16_t>(storage.indices(0), grid.index_count);
-    EXPECT_EQ(std::vector<uint32_t>(narrow.begin(), narrow.end()), first.indices);
+    const HostGrid grid = read_grid(test_device(), culler.cull(bounds, storage), storage);
+    EXPECT_EQ(grid.cells, first.cells);
+    EXPECT_EQ(grid.indices, first.indices);
   }
 }
 
@@ -246,7 +252,7 @@ TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
 TEST(LightGrid, GrowsToWhatTheCountsSay) {
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     const View view = view_of(321, 181, 60);
-    CullerOptions options = options_of(CullTest::planes_aabb, shape, false);
+    CullerOptions options = options_of(CullTest::planes_aabb, shape);
     options.tile = 8;
     const size_t tiles = tile_count(view, options.tile), count = 2000;
     const std::vector<ViewLight> lights(count, point_light({0, 0, -5}, infinity));
@@ -269,14 +275,11 @@ TEST(LightGrid, MoreThanTheDeviceHoldsIsAMachineError) {
     CullerOptions options;
     options.tile = 8;
     LightCuller culler(device, programs, options);
-    culler.set_lights(lights);
-    culler.set_view(view_params(view, 8, int(lights.size()), 0, glm::vec3(0)));
-    const std::vector<glm::vec2> all(tiles, {1.0f, 9.0f});
-    cl::Buffer intervals(device.context(), CL_MEM_READ_WRITE, tiles * 8);
-    device.queue().enqueueWriteBuffer(intervals, CL_TRUE, 0, tiles * 8, all.data());
+    culler.set_lights(cull_lights_of(lights));
+    culler.set_view(cull_view_of(view));
     ClGridStorage storage(device);
     try {
-      culler.cull(intervals, storage);
+      culler.cull(culler.bounds_of(std::vector<DepthInterval>(tiles, {1.0f, 9.0f})), storage);
       ADD_FAILURE() << "no error at " << bytes;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::machine);
@@ -296,14 +299,16 @@ TEST(LightGrid, NoPixelLosesALightUnderAnySetting) {
       value = random.uniform() < 0.1f ? 0.0f : surface;
     }
     const auto lights = scattered_lights(named.view, 400, true, 18);
-    for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb}) {
+    for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
       for (const int tile : {8, 16, 32, 64}) {
-        for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
+        for (const DepthBoundsMode mode : {DepthBoundsMode::none, DepthBoundsMode::minmax, DepthBoundsMode::halfz,
+                                           DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32}) {
           SCOPED_TRACE(fmt::format("{} test {} tile {} mode {}", named.name, int(test), tile, int(mode)));
-          CullerOptions options = options_of(test, KernelShape::automatic, true);
+          CullerOptions options = options_of(test, KernelShape::automatic);
           options.tile = tile, options.depth_bounds = mode;
-          const auto intervals = depth_intervals(named.view, depth, options).opaque;
-          const CulledGrid grid = cull_cells(named.view, lights, intervals, options);
+          const CulledGrid grid = cull_depth(named.view, lights, depth, options);
+          options.shape = KernelShape::group;
+          EXPECT_EQ(cull_depth(named.view, lights, depth, options), grid);
           ListedLights lists;
           for (uint y = 0; y < 73; ++y) {
             for (uint x = 0; x < 127; ++x)

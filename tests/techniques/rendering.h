@@ -1,6 +1,7 @@
 // Small images through the techniques, as bytes to compare.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>

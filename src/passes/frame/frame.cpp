@@ -42,7 +42,28 @@ cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum 
   return shared.buffer->cl_buffer();
 }
 
+ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
+  ViewParams p = view_params(cull_view(view), plan.settings.tile);
+  p.light_count = uint(plan.local.size()), p.directional_count = uint(plan.directional_lights.size());
+  p.ambient_r = ambient.r, p.ambient_g = ambient.g, p.ambient_b = ambient.b;
+  return p;
+}
+
 }  // namespace
+
+CullView cull_view(const View& view) {
+  return {view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}};
+}
+
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices) {
+  std::vector<CullLight> lights;
+  for (int i : indices) {
+    const Light& light = scene.lights[i];
+    lights.push_back({light.position, light.radius_m, glm::normalize(glm::dvec3(light.direction)),
+                      light.type == LightType::spot ? std::cos(double(light.outer_cone_rad)) : -1.0});
+  }
+  return lights;
+}
 
 Devices open_devices(const std::string& cl_substring, GlBackend backend) {
   Devices devices;
@@ -65,8 +86,7 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
       view(view),
       plan(std::move(plan_of_frame)),
       gpu(scene, plan, devices.gl->software),
-      params(view_params(view, plan.settings.tile, int(plan.local.size()),
-                         int(plan.directional_lights.size()), scene.ambient)),
+      params(params_of(view, plan, scene.ambient)),
       timer([this](const std::string& on) {
         if (on == "cl") {
           this->devices.cl->queue().finish();
@@ -140,17 +160,14 @@ LightCuller& Frame::culler() {
     options.depth_bounds = plan.settings.depth_bounds;
     options.shape = plan.settings.kernel_shape;
     options.tile = plan.settings.tile;
-    options.spots = plan.spots;
+    options.portable = plan.settings.portable;
     options.blend = plan.blend_grid;
     options.index_bits = plan.index_bits;
     culler_.emplace(*devices.cl, *devices.programs, options);
     if (plan.light_grid) {
-      const std::vector<ViewLight> lights = lights_in_view(scene, view);
-      std::vector<ViewLight> local;
-      for (int i : plan.local) local.push_back(lights[i]);
-      culler_->set_lights(local);
+      culler_->set_lights(cull_lights_of(scene, plan.local));
     }
-    culler_->set_view(params);
+    culler_->set_view(cull_view(view));
   }
   return *culler_;
 }

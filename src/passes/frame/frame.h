@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "bridge/shared_buffer.h"
 #include "cl/program_cache.h"
@@ -24,6 +25,10 @@ struct Devices {
 
 // Opens both devices. Throws Error(machine) where one is missing.
 Devices open_devices(const std::string& cl_substring, GlBackend backend);
+
+// What culling knows of a view, and of the lights `indices` of a scene.
+CullView cull_view(const View& view);
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices);
 
 // A buffer shared by OpenCL and OpenGL, with the texture through which shaders read it.
 struct SharedTexture {

@@ -39,7 +39,7 @@ bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParam
   const int y0 = tile_of(low.y - 1, view.tiles_y), y1 = tile_of(high.y + 1, view.tiles_y);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      if (tiles.intervals[size_t(y) * view.tiles_x + x].y >= nearest) return false;
+      if (tiles.intervals[size_t(y) * view.tiles_x + x].far >= nearest) return false;
     }
   }
   return true;

@@ -10,7 +10,7 @@ namespace lightgrid {
 
 // What the depth prepass knows of each tile on the host: nothing behind its greatest distance is seen.
 struct TileDistances {
-  std::vector<glm::vec2> intervals;  // least and greatest distance; empty: nothing is known
+  std::vector<DepthInterval> intervals;  // least and greatest distance; empty: nothing is known
 };
 
 // Index ranges for glMultiDrawElementsBaseVertex; neighbours are joined.

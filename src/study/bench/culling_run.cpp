@@ -1,6 +1,8 @@
 #include "study/bench/culling_run.h"
 
-#include "scene/view_lights.h"
+#include <numeric>
+
+#include "passes/frame/frame.h"
 
 namespace lightgrid {
 namespace {
@@ -11,8 +13,7 @@ CullerOptions culler_options(const BenchFrame& frame, const Settings& settings) 
   options.depth_bounds = settings.depth_bounds;
   options.shape = settings.kernel_shape;
   options.tile = settings.tile;
-  for (const Light& light : frame.lights) options.spots |= light.type == LightType::spot;
-  options.index_bits = frame.lights.size() > 65536 ? 32 : 16;
+  options.portable = settings.portable;
   return options;
 }
 
@@ -31,18 +32,17 @@ CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const BenchFram
       storage_(device),
       depth_(upload(device, frame.depth)),
       depth_bytes_(frame.depth.size() * sizeof(float)) {
+  std::vector<int> all(frame.lights.size());
+  std::iota(all.begin(), all.end(), 0);
   Scene scene;
   scene.lights = frame.lights;
-  culler_->set_lights(lights_in_view(scene, frame.view));
-  culler_->set_view(view_params(frame.view, settings.tile, int(frame.lights.size()), 0, glm::vec3(0)));
+  culler_->set_lights(cull_lights_of(scene, all));
+  culler_->set_view(cull_view(frame.view));
   for (int i = 0; i < 2; ++i) run();
 }
 
 void CullingRun::run() {
-  const DepthBounds bounds = culler_->depth_bounds(depth_);
-  cl::Buffer opaque = bounds.opaque;
-  grid_ = culler_->cull(opaque, storage_);
-  device_.queue().finish();
+  grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_);
 }
 
 }  // namespace lightgrid

@@ -1,0 +1,82 @@
+// What the tiles of a bin span, and the test of lights against one cell of it.
+//
+// -DSLICES: tiles are cut into slices by `slices`, float2 each: near and far, metres, widened by rounding.
+#pragma once
+
+#ifndef DEPTH_MODE
+#define DEPTH_MODE 1
+#endif
+#include "kernels/common/light_arrays.h"
+#include "kernels/common/depth_interval.h"
+
+#define INTERVALS (BOUND_PLANES == 4 ? 2 : 1)  // a tile
+#define NOTHING 3e38f                          // side of the box around no tile at all
+
+// One cell: its intervals each with a box. A light need touch one of them only.
+typedef struct TestCell {
+  Cell parts[INTERVALS];
+#if DEPTH_MODE == DEPTH_MASK32
+  uint mask;                   // of the tile's whole interval
+  float mask_near, mask_far;
+#endif
+} TestCell;
+
+// 0 to 31, in a word each: bits from the slot of the light's near side to that of its far side.
+#if DEPTH_MODE == DEPTH_MASK32
+static inline mask_t mask_meets(ViewSphere s, const TestCell* c) {
+  const whole low = mask_slot(s.d - s.r, c->mask_near, c->mask_far), high = mask_slot(s.d + s.r, c->mask_near, c->mask_far);
+  const bits_t bits = (((bits_t)(2u) << AS_BITS(high)) - 1u) & ~(((bits_t)(1u) << AS_BITS(low)) - 1u);
+  return (bits & c->mask) != (bits_t)(0u);
+}
+#endif
+
+// lights: arrays of light_arrays.h, at the first of LANES lights.
+static inline mask_t light_may_touch(global const float* lights, size_t stride, const TestCell* c, constant CullParams* p) {
+  const ViewSphere s = load_sphere(lights, stride);
+  mask_t keep = 0;
+  for (int i = 0; i < INTERVALS; ++i) {
+    if (c->parts[i].near > c->parts[i].far) continue;
+    mask_t touch = may_touch(s, &c->parts[i], p);
+#ifdef SPOTS
+    touch &= cone_may_touch(s, load_cone(lights + VIEW_CONE * stride, stride), &c->parts[i]);
+#endif
+    keep |= touch;
+  }
+#if DEPTH_MODE == DEPTH_MASK32
+  keep &= mask_meets(s, c);
+#endif
+  return keep;
+}
+
+static inline float at_slot(global const float* bounds, uint plane, uint slot) { return bounds[plane * BIN_SIZE + slot]; }
+
+#if LANES == 1
+static inline Cell cell_between(TileSides s, float near, float far, constant CullParams* p) {
+  const Box b = box_between(s, near, far, p);
+  Cell c = {near, far, b.x0, b.x1, b.y0, b.y1};
+#if CULL_TEST == CULL_EXACT
+  c.x0 = s.x0, c.x1 = s.x1, c.y0 = s.y0, c.y1 = s.y1;
+#endif
+  return c;
+}
+
+// Cell `slice` of the tile in `slot` of a bin with bounds `bounds`. Returns whether anything is in it.
+static inline bool make_test_cell(global const float* bounds, uint bx, uint by, uint slot, uint slice,
+                                  global const float2* slices, TestCell* c, constant CullParams* p) {
+  const TileSides sides = tile_sides(bx * BIN_TILES + tile_x_of_slot(slot), by * BIN_TILES + tile_y_of_slot(slot), p);
+  bool some = false;
+  for (int i = 0; i < INTERVALS; ++i) {
+    float near = at_slot(bounds, 2 * i, slot), far = at_slot(bounds, 2 * i + 1, slot);
+#ifdef SLICES
+    near = max(near, slices[slice].x), far = min(far, slices[slice].y);
+#endif
+    c->parts[i] = cell_between(sides, near, far, p);
+    some |= near <= far;
+  }
+#if DEPTH_MODE == DEPTH_MASK32
+  c->mask_near = at_slot(bounds, 0, slot), c->mask_far = at_slot(bounds, 1, slot);
+  c->mask = as_uint(at_slot(bounds, 2, slot));
+#endif
+  return some;
+}
+#endif

@@ -1,0 +1,46 @@
+// Masks of 16 lanes as bits, and ordered appending of the lanes they keep. With -DAVX512 one instruction each, through
+// builtins of the compiler; else plain OpenCL C.
+#pragma once
+
+#include "kernels/common/lanes.h"
+
+#if LANES == 16
+#ifdef AVX512
+typedef float unaligned_floats __attribute__((ext_vector_type(16), aligned(4)));
+typedef ushort unaligned_ushorts __attribute__((ext_vector_type(16), aligned(2)));
+typedef uint unaligned_uints __attribute__((ext_vector_type(16), aligned(4)));
+
+static inline uint mask_bits(mask_t m) { return (ushort)__builtin_ia32_cvtd2mask512(m); }
+static inline int16 packed(int16 v, uint bits) { return __builtin_ia32_compresssi512_mask(v, v, (ushort)bits); }
+
+// Each writes 16 values, of which those kept come first: memory after a list's end is its own spare room.
+static inline void append_reals(global float* to, real v, uint bits) {
+  *(global unaligned_floats*)to = as_float16(packed(as_int16(v), bits));
+}
+static inline void append_wholes(global float* to, whole v, uint bits) { append_reals(to, as_float16(v), bits); }
+static inline void append_ushorts(global ushort* to, whole v, uint bits) {
+  *(global unaligned_ushorts*)to = convert_ushort16(packed(v, bits));
+}
+static inline void append_uints(global uint* to, whole v, uint bits) {
+  *(global unaligned_uints*)to = as_uint16(packed(v, bits));
+}
+#else
+static inline uint mask_bits(mask_t m) {
+  const int16 b = m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+  const int8 c = b.lo | b.hi;
+  const int4 d = c.lo | c.hi;
+  const int2 e = d.lo | d.hi;
+  return (uint)(e.x | e.y);
+}
+
+#define APPEND_LANES(to, type, v, bits)                                     \
+  type lanes[16];                                                           \
+  vstore16(v, 0, lanes);                                                    \
+  for (uint left = bits; left; left &= left - 1) *to++ = lanes[lowest_bit(left)];
+
+static inline void append_reals(global float* to, real v, uint bits) { APPEND_LANES(to, float, v, bits) }
+static inline void append_wholes(global float* to, whole v, uint bits) { append_reals(to, as_float16(v), bits); }
+static inline void append_ushorts(global ushort* to, whole v, uint bits) { APPEND_LANES(to, int, v, bits) }
+static inline void append_uints(global uint* to, whole v, uint bits) { APPEND_LANES(to, int, v, bits) }
+#endif
+#endif

@@ -1,0 +1,44 @@
+// The light grid from each bin's lists, for CPUs: one work-item adds up the totals of the bins before its own and copies
+// its block.
+//
+// bins, cell_counts, staged  as cull_lanes.cl writes them
+// cells     uint2 a cell: first, count; x fastest, then y, then slice
+// indices   the light index list
+// counters  [4], [5] = low and high word of the number of indices, which can pass 32 bits; the host then refuses
+#include "shared/cull_params.h"
+#include "shared/light_grid.h"
+
+#ifdef INDEX_32
+typedef uint index_t;
+#else
+typedef ushort index_t;
+#endif
+
+kernel void compact_lanes(global const uint2* bins, global const uint* cell_counts, global const index_t* staged,
+                          global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
+  const uint bin = get_global_id(0), count = bins[bin].y;
+  ulong before = 0;
+  for (uint i = 0; i < bin; ++i) before += bins[i].y;
+  if (bin + 1 == p->bins_x * p->bins_y) {
+    counters[4] = (uint)(before + count), counters[5] = (uint)((before + count) >> 32);
+  }
+  if (before + count > p->index_capacity) return;
+  global const index_t* from = staged + (size_t)bins[bin].x * 16;
+  global index_t* to = indices + before;
+  uint i = 0;
+  for (; i + 16 <= count; i += 16) vstore16(vload16(0, from + i), 0, to + i);
+  for (; i < count; ++i) to[i] = from[i];
+
+  const uint tx0 = bin % p->bins_x * BIN_TILES, ty0 = bin / p->bins_x * BIN_TILES;
+  global const uint* counts = cell_counts + bin * BIN_SIZE * p->slices;
+  uint first = (uint)before;
+  for (uint slot = 0; slot < BIN_SIZE; ++slot) {
+    const uint tx = tx0 + tile_x_of_slot(slot), ty = ty0 + tile_y_of_slot(slot);
+    if (tx >= p->tiles_x || ty >= p->tiles_y) continue;
+    for (uint slice = 0; slice < p->slices; ++slice) {
+      const uint n = counts[slot * p->slices + slice];
+      cells[(slice * p->tiles_y + ty) * p->tiles_x + tx] = (uint2)(first, n);
+      first += n;
+    }
+  }
+}

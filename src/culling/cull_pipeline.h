@@ -1,0 +1,52 @@
+// The kernels that turn lights and bounds into a grid, in one of two shapes with one contract.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cl/device.h"
+#include "cl/program_cache.h"
+#include "shared/cull_params.h"
+#include "shared/cull_settings.h"
+
+namespace lightgrid {
+
+struct CullJob {
+  const CullParams& params;
+  cl::Buffer params_buffer, lights, bounds, slices, counters, cells, indices;
+};
+
+class CullPipeline {
+ public:
+  virtual ~CullPipeline() = default;
+  // Makes or grows its buffers for the job's sizes. Candidates and staged lists (or marks) get room as params say.
+  virtual void prepare(const CullParams& params) = 0;
+  // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
+  // asked for, [4] and [5] low and high word of the number of indices.
+  virtual void enqueue(const CullJob& job) = 0;
+  virtual size_t memory_bytes() const = 0;
+};
+
+struct PipelineOptions {
+  std::string defines;  // of the light tests and the index type
+  bool avx512 = false;
+  int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
+  int index_bytes = 2;
+};
+
+std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
+std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
+
+// A buffer that is made anew where it is too small.
+class GrowingBuffer {
+ public:
+  cl::Buffer& at_least(ClDevice& device, size_t bytes);
+  cl::Buffer& get() { return buffer_; }
+  size_t bytes() const { return bytes_; }
+
+ private:
+  cl::Buffer buffer_;
+  size_t bytes_ = 0;
+};
+
+}  // namespace lightgrid

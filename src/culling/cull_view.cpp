@@ -1,0 +1,111 @@
+#include "culling/cull_view.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "shared/light_grid.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr int most_tiles = 32000;  // a side; tile coordinates are kept in 15 bits
+
+float rest(double value, float taken) { return float(value - double(taken)); }
+
+}  // namespace
+
+std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m) {
+  if (spacing == SliceSpacing::exponential && !(near_m > 0)) near_m = far_m / 1000;
+  std::vector<float> edges;
+  for (int k = 1; k < slices; ++k) {
+    const double part = double(k) / slices;
+    edges.push_back(float(spacing == SliceSpacing::exponential ? near_m * std::pow(far_m / near_m, part)
+                                                               : near_m + (far_m - near_m) * part));
+  }
+  return edges;
+}
+
+bool is_orthographic(const CullView& view) { return view.clip_from_view[2][3] == 0; }
+
+// clip z / w falls with distance where depth is reversed.
+bool has_standard_depth(const CullView& view) {
+  return is_orthographic(view) ? view.clip_from_view[2][2] < 0 : view.clip_from_view[3][2] < 0;
+}
+
+double near_distance(const CullView& view) {
+  const glm::dmat4& clip = view.clip_from_view;
+  const double depth = has_standard_depth(view) ? 0 : 1;
+  return is_orthographic(view) ? (clip[3][2] - depth) / clip[2][2] : clip[3][2] / (depth + clip[2][2]);
+}
+
+void check_view(const CullView& view, int tile) {
+  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles || (view.height - 1) / tile >= most_tiles) {
+    throw input_error("view: {} x {} pixels is no size that {}-pixel tiles can cover", view.width, view.height, tile);
+  }
+  const glm::dmat4& clip = view.clip_from_view;
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) {
+      if (!std::isfinite(clip[c][r])) throw input_error("view: clip_from_view[{}][{}] is {}", r, c, clip[c][r]);
+      if (!std::isfinite(view.view_from_world[c][r])) throw input_error("view: view_from_world[{}][{}] is {}", r, c, view.view_from_world[c][r]);
+    }
+  }
+  const bool perspective = clip[2][3] == -1 && clip[3][3] == 0, orthographic = clip[2][3] == 0 && clip[3][3] == 1;
+  if (!(clip[0][0] > 0) || !(clip[1][1] > 0) || !(perspective ? clip[3][2] != 0 : orthographic && clip[2][2] != 0)) {
+    throw input_error("view: clip_from_view is neither a perspective nor an orthographic projection along -z");
+  }
+  const glm::dmat3 rotation(view.view_from_world);
+  const glm::dmat3 error = rotation * glm::transpose(rotation) - glm::dmat3(1);
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      if (!(std::abs(error[c][r]) < 1e-5)) throw input_error("view: view_from_world is not rigid");
+    }
+  }
+}
+
+ViewParams view_params(const CullView& view, int tile) {
+  const glm::dmat4& clip = view.clip_from_view;  // column, row
+  ViewParams p{};
+  p.orthographic = is_orthographic(view);
+  // NDC x = 2 px / width - 1. Perspective: NDC x = clip[0][0] * (x / d) - clip[2][0], since w = d = -z.
+  const double ndc_x_offset = p.orthographic ? clip[3][0] : -clip[2][0];
+  const double ndc_y_offset = p.orthographic ? clip[3][1] : -clip[2][1];
+  p.slope_x_scale = float(2.0 / (view.width * clip[0][0]));
+  p.slope_x_offset = float((-1.0 - ndc_x_offset) / clip[0][0]);
+  p.slope_y_scale = float(2.0 / (view.height * clip[1][1]));
+  p.slope_y_offset = float((-1.0 - ndc_y_offset) / clip[1][1]);
+  // Perspective: depth = (clip[2][2] * z + clip[3][2]) / d; orthographic: depth = clip[2][2] * z + clip[3][2]; z = -d.
+  p.depth_a = float(p.orthographic ? 1.0 / clip[2][2] : clip[2][2]);
+  p.depth_b = float(clip[3][2]);
+  p.near_distance = float(near_distance(view));
+  p.width = view.width, p.height = view.height;
+  p.tile_size = tile;
+  p.tiles_x = (view.width + tile - 1) / tile, p.tiles_y = (view.height + tile - 1) / tile;
+  p.bins_x = (p.tiles_x + BIN_TILES - 1) / BIN_TILES, p.bins_y = (p.tiles_y + BIN_TILES - 1) / BIN_TILES;
+  return p;
+}
+
+CullParams cull_params(const CullView& view, int tile) {
+  const ViewParams v = view_params(view, tile);
+  const glm::dmat4& clip = view.clip_from_view;
+  const glm::dmat4& m = view.view_from_world;  // column, row
+  CullParams p{};
+  p.x_axis_x = float(m[0][0]), p.x_axis_y = float(m[1][0]), p.x_axis_z = float(m[2][0]);
+  p.y_axis_x = float(m[0][1]), p.y_axis_y = float(m[1][1]), p.y_axis_z = float(m[2][1]);
+  p.d_axis_x = float(-m[0][2]), p.d_axis_y = float(-m[1][2]), p.d_axis_z = float(-m[2][2]);
+  p.slope_x_scale = v.slope_x_scale, p.slope_x_offset = v.slope_x_offset;
+  p.slope_y_scale = v.slope_y_scale, p.slope_y_offset = v.slope_y_offset;
+  const double ndc_x_offset = v.orthographic ? clip[3][0] : -clip[2][0];
+  const double ndc_y_offset = v.orthographic ? clip[3][1] : -clip[2][1];
+  p.tile_x_scale = float(clip[0][0] * view.width / 2 / tile), p.tile_x_offset = float((1 + ndc_x_offset) * view.width / 2 / tile);
+  p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile), p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
+  p.depth_a = v.depth_a, p.depth_b = v.depth_b;
+  p.depth_a_rest = v.orthographic ? 0 : rest(clip[2][2], v.depth_a);
+  p.near_distance = v.near_distance;
+  p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);
+  p.width = v.width, p.height = v.height;
+  p.tile_size = v.tile_size, p.tiles_x = v.tiles_x, p.tiles_y = v.tiles_y, p.bins_x = v.bins_x, p.bins_y = v.bins_y;
+  p.slices = uint(view.slice_edges.size() + 1);
+  return p;
+}
+
+}  // namespace lightgrid

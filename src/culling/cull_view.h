@@ -1,0 +1,44 @@
+// A camera and an image size: all that culling knows of the viewer.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "shared/cull_params.h"
+#include "shared/view_params.h"
+
+namespace lightgrid {
+
+struct CullView {
+  int width = 0, height = 0;  // pixels
+  // Column vectors; view space is right-handed and looks along -z; clip depth is zero to one. Whether the view is
+  // orthographic, its depth reversed (near 1, far 0) or standard, and its far plane infinite is read off the matrix;
+  // off-centre projections included, oblique near planes not.
+  glm::dmat4 clip_from_view{1};
+  glm::dmat4 view_from_world{1};   // rigid; its translation is not used
+  glm::dvec3 eye{0};               // world, metres
+  std::vector<float> slice_edges;  // inner edges of the depth slices, metres, ascending; empty: one slice. The first
+                                   // slice begins at the eye, the last has no end.
+};
+
+enum class SliceSpacing { exponential, linear };
+
+// The inner edges of `slices` slices between two distances; near and far themselves are none, so that every distance
+// has a slice. Exponential (Olsson, Billeter, Assarsson 2012) wants near_m > 0, and takes far_m / 1000 where it is not
+// (an orthographic view).
+std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m);
+
+// Throws Error(input) where the matrices make no view: singular, not finite, a size below 1 or past 32,000 tiles.
+void check_view(const CullView& view, int tile);
+
+// The view in the numbers of shaders (lights and ambient are left 0) and of kernels. Tile counts are rounded up to cover
+// the image.
+ViewParams view_params(const CullView& view, int tile);
+CullParams cull_params(const CullView& view, int tile);
+
+// What a depth value means in this view: metres along the view axis, and the least distance there is.
+bool is_orthographic(const CullView& view);
+bool has_standard_depth(const CullView& view);
+double near_distance(const CullView& view);
+
+}  // namespace lightgrid

@@ -1,0 +1,63 @@
+// project_lights -> cull -> compact, a work-item a bin: for CPUs.
+#include <algorithm>
+
+#include "cl/launch.h"
+#include "culling/cull_pipeline.h"
+#include "shared/light_grid.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr size_t spare = 64;  // values that a vector load or store may reach past the last
+
+class LanesPipeline : public CullPipeline {
+ public:
+  LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
+      : device_(device), options_(options) {
+    const std::string defines = options.defines + (options.avx512 ? " -DAVX512" : "");
+    project_ = programs.kernel("project_lights_lanes", defines);
+    cull_ = programs.kernel("cull_lanes", defines);
+    compact_ = programs.kernel("compact_lanes", options.index_bytes == 4 ? "-DINDEX_32" : "");
+  }
+
+  void prepare(const CullParams& p) override {
+    const size_t regions = size_t(p.regions_x) * p.regions_y, bins = size_t(p.bins_x) * p.bins_y;
+    runs_ = std::clamp<uint>(p.light_stride / 512, 1, std::max(16, 2 * device_.info().compute_units));
+    lists_.at_least(device_, (regions * options_.view_arrays * (p.light_stride + 16) + spare) * sizeof(float));
+    run_counts_.at_least(device_, regions * runs_ * sizeof(cl_uint));
+    pool_.at_least(device_, (size_t(p.pool_blocks) * 16 * options_.view_arrays + spare) * sizeof(float));
+    staged_.at_least(device_, (size_t(p.staging_units) * 16 + spare) * options_.index_bytes);
+    cell_counts_.at_least(device_, bins * BIN_SIZE * p.slices * sizeof(cl_uint));
+    bins_.at_least(device_, bins * sizeof(cl_uint2));
+  }
+
+  void enqueue(const CullJob& job) override {
+    const size_t bins = size_t(job.params.bins_x) * job.params.bins_y;
+    launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, lists_.get(),
+           run_counts_.get(), job.counters, job.params_buffer);
+    launch(device_, "cull_lights", cull_, cl::NDRange(bins), cl::NDRange(1), lists_.get(), run_counts_.get(),
+           cl_uint(runs_), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(),
+           job.counters, job.params_buffer);
+    launch(device_, "compact_lists", compact_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
+           staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);
+  }
+
+  size_t memory_bytes() const override {
+    return lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() + cell_counts_.bytes() + bins_.bytes();
+  }
+
+ private:
+  ClDevice& device_;
+  PipelineOptions options_;
+  uint runs_ = 1;
+  cl::Kernel project_, cull_, compact_;
+  GrowingBuffer lists_, run_counts_, pool_, staged_, cell_counts_, bins_;
+};
+
+}  // namespace
+
+std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options) {
+  return std::make_unique<LanesPipeline>(device, programs, options);
+}
+
+}  // namespace lightgrid
