@@ -25,6 +25,7 @@ class Subcommand {
   // Outside least … most is an error; a default outside means "not given".
   void option(const std::string& names, int& value, const std::string& help, int least, int most);
   void option(const std::string& names, uint64_t& value, const std::string& help);
+  void flag(const std::string& names, bool& value, const std::string& help);
   // May be given more than once; with a separator, one word may hold several.
   void list(const std::string& names, std::vector<std::string>& values, const std::string& help, char separator = 0);
 

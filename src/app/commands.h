@@ -12,6 +12,9 @@ void add_compare(CommandLine& line);
 void add_plan(CommandLine& line);
 void add_scenes(CommandLine& line);
 void add_techniques(CommandLine& line);
+void add_capture(CommandLine& line);
+void add_cull(CommandLine& line);
+void add_inspect(CommandLine& line);
 void add_devices(CommandLine& line);
 void add_bench(CommandLine& line);
 

@@ -79,6 +79,7 @@ Tally tally_tile(const View& view, const std::vector<float>& depth, const std::v
       for (size_t i = begin; i < end; ++i) {
         const bool reaches = is_lit(lights[light], positions[i]);
         out.lit_of_pixel[pixels[i]] += reaches;
+        if (!listed.has(light)) out.lost_of_pixel[pixels[i]] += reaches;
         lit += reaches;
       }
       tally.lit += lit;
@@ -116,7 +117,8 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
                      const ListedLights& lists) {
   assert(depth.size() == size_t(view.width) * view.height);
   assert(lists.cell_of_pixel.empty() || lists.cell_of_pixel.size() == depth.size());
-  LitPairs out{std::vector<uint32_t>(depth.size(), 0), std::vector<uint32_t>(depth.size(), 0)};
+  const std::vector<uint32_t> none(depth.size(), 0);
+  LitPairs out{none, none, none};
   const std::vector<uint32_t> covered = covered_pixels(depth);
   const auto tiles = group_by_tile(view.width, covered);
   std::mutex adding;

@@ -30,7 +30,7 @@ ListedLights list_every_light(uint32_t count);
 // that are no light (index or list out of range) or stand in the list a second time, and one for a cell out
 // of range.
 struct LitPairs {
-  std::vector<uint32_t> listed_of_pixel, lit_of_pixel;  // width * height; 0 where not covered
+  std::vector<uint32_t> listed_of_pixel, lit_of_pixel, lost_of_pixel;  // width * height; 0 where not covered
   uint64_t listed = 0, lit = 0;
   uint64_t lost = 0;  // lit but not listed
   uint64_t wrong = 0;

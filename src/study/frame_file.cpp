@@ -95,7 +95,7 @@ FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
   return grid;
 }
 
-void read_lists(const fs::path& folder, GridLists& lists, size_t lights) {
+void read_lists(const fs::path& folder, HostGrid& lists, size_t lights) {
   const fs::path cells_path = folder / "grid.u32", indices_path = folder / "indices.u32";
   const uintmax_t cells = uintmax_t(lists.cells_x) * lists.cells_y * lists.slices,
                   found = size_of(cells_path);
@@ -116,7 +116,7 @@ void read_lists(const fs::path& folder, GridLists& lists, size_t lights) {
       throw input_error("{}: cell {}: first {} and count {} reach past the {} indices", cells_path.string(),
                         i, first, count, lists.indices.size());
     }
-    lists.first.push_back(first), lists.count.push_back(count);
+    lists.cells.push_back({first, count});
   }
   for (size_t i = 0; i < lists.indices.size(); ++i) {
     if (lists.indices[i] >= lights) {
@@ -156,16 +156,13 @@ void write_frame(const fs::path& folder, const CapturedFrame& frame) {
 
 void write_frame_grid(const fs::path& folder, const FrameGrid& grid) {
   make_folder(folder);
-  const GridLists& lists = grid.lists;
+  const HostGrid& lists = grid.lists;
   nlohmann::ordered_json header;
   header["cells"] = {lists.cells_x, lists.cells_y, lists.slices};
   header["tile"] = grid.tile;
   header["slice_edges"] = grid.slice_edges;
   header["settings"] = settings_json(grid.settings);
-  std::vector<uint32_t> cells;
-  for (size_t i = 0; i < lists.first.size(); ++i)
-    cells.push_back(lists.first[i]), cells.push_back(lists.count[i]);
-  write_file(folder / "grid.u32", bytes_of(cells));
+  write_file(folder / "grid.u32", bytes_of(lists.cells));
   write_file(folder / "indices.u32", bytes_of(lists.indices));
   write_file(folder / "grid.json", text_by_fields(header));
 }

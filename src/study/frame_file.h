@@ -11,7 +11,7 @@
 
 #include "scene/camera.h"
 #include "scene/view_lights.h"
-#include "study/grid_lists.h"
+#include "culling/light_culler.h"
 
 namespace lightgrid {
 
@@ -26,7 +26,7 @@ struct CapturedFrame {
 
 // A grid as it lies in a frame, with what made it.
 struct FrameGrid {
-  GridLists lists;
+  HostGrid lists;
   int tile = 16;
   std::vector<float> slice_edges;               // inner edges, metres; empty for one slice
   std::map<std::string, std::string> settings;  // as to_strings gives them

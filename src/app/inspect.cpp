@@ -1,0 +1,160 @@
+// lightgrid inspect SCENE --pixel X,Y: each light there, and which test kept or dropped it. -o DIR: the same
+// question of every pixel, as pictures.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/error.h"
+#include "base/write_file.h"
+#include "study/capture.h"
+#include "study/inspect.h"
+#include "study/inspect_maps.h"
+
+namespace lightgrid {
+namespace {
+
+struct InspectOptions {
+  SceneOptions scene;
+  DeviceOptions devices;
+  std::string pixel, output, json;
+  int dropped = 10;
+  bool all = false;
+};
+
+struct Place {
+  int x = 0, y = 0;
+};
+
+std::optional<Place> parse_place(const std::string& text) {
+  if (text.empty()) return {};
+  Place place;
+  const char* end = text.data() + text.size();
+  const auto x = std::from_chars(text.data(), end, place.x);
+  if (x.ec == std::errc() && x.ptr != end && *x.ptr == ',') {
+    const auto y = std::from_chars(x.ptr + 1, end, place.y);
+    if (y.ec == std::errc() && y.ptr == end) return place;
+  }
+  throw input_error("--pixel {}: not X,Y", text);
+}
+
+void check_place(const Place& place, const View& view) {
+  if (place.x >= 0 && place.y >= 0 && place.x < view.width && place.y < view.height) return;
+  throw input_error("--pixel {},{}: the image has pixels 0,0 to {},{}", place.x, place.y, view.width - 1,
+                    view.height - 1);
+}
+
+// What is looked at: a folder is a captured frame, which needs no OpenGL; all else is a scene, still to be
+// captured.
+struct Subject {
+  std::optional<ChosenScene> scene;
+  CapturedFrame frame;
+  Settings settings;
+  const View& view() const { return scene ? scene->view : frame.view; }
+};
+
+Subject load_frame(const SceneOptions& o) {
+  const SceneOptions plain;
+  const std::pair<const char*, bool> given[] = {{"--size", o.size != plain.size},
+                                                {"--camera", !o.camera.empty()},
+                                                {"--lights", o.lights >= 0},
+                                                {"--lights-file", !o.lights_file.empty()},
+                                                {"--light-radius", !o.light_radius.empty()}};
+  for (const auto& [option, is_given] : given) {
+    if (is_given) throw input_error("{}: {} is a captured frame, which has its own", option, o.scene);
+  }
+  Subject subject;
+  subject.frame = read_frame(o.scene);
+  subject.settings = frame_settings(subject.frame, o.set);
+  return subject;
+}
+
+Subject load_subject(const SceneOptions& o) {
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(o.scene, unreadable)) return load_frame(o);
+  return {load_chosen_scene(o), {}, chosen_settings(o)};
+}
+
+Devices open_devices_for(Subject& subject, const std::string& cl, GlBackend backend) {
+  if (subject.scene) {
+    Devices devices = open_devices(cl, backend);
+    subject.frame = capture_frame(devices, subject.scene->scene, subject.scene->view, subject.settings);
+    return devices;
+  }
+  Devices devices;
+  devices.cl = std::make_unique<ClDevice>(cl);
+  devices.programs = std::make_unique<ProgramCache>(*devices.cl);
+  return devices;
+}
+
+// 1 where a light was lost.
+int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& culler, const FrameGrid& grid,
+                  const Place& place) {
+  const PixelInspection pixel =
+      inspect_pixel(subject.frame, grid, culler.intervals(), subject.settings, place.x, place.y);
+  const int most = o.all ? std::numeric_limits<int>::max() : o.dropped;
+  if (!o.json.empty()) write_json(o.json, inspection_json(subject.frame, pixel, grid, most));
+  if (o.json != "-") std::fputs(inspection_table(subject.frame, pixel, most).c_str(), stdout);
+  return pixel.lost() ? 1 : 0;
+}
+
+int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGrid& grid) {
+  const InspectionMaps maps = inspection_maps(subject.frame, grid);
+  write_inspection_maps(o.output, subject.frame, maps);
+  const PairCounts& pairs = maps.pairs;
+  const auto a_pixel = [&](uint64_t count) {
+    return maps.covered ? double(count) / double(maps.covered) : 0;
+  };
+  if (o.json != "-") {
+    fmt::print("{}: listed.png, false_positives.png, lost.png; black is 0, yellow {} lights and more\n",
+               o.output, maps.top);
+    fmt::print(
+        "  a pixel: {:.2f} listed, {:.2f} lit, {:.2f} in vain; {} (pixel, light) pairs lost, {} wrong\n",
+        a_pixel(pairs.listed), a_pixel(pairs.lit), a_pixel(pairs.listed - (pairs.lit - pairs.lost)),
+        pairs.lost, pairs.wrong);
+  }
+  if (!o.json.empty() && o.pixel.empty()) write_json(o.json, inspection_json(subject.frame, maps, grid));
+  return pairs.lost || pairs.wrong ? 1 : 0;
+}
+
+int inspect(const InspectOptions& o) {
+  const std::optional<Place> place = parse_place(o.pixel);
+  if (!place && o.output.empty()) throw input_error("inspect: neither --pixel X,Y nor -o DIR is given");
+  chosen_settings(o.scene);  // a wrong setting is told before the scene is loaded
+  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  Subject subject = load_subject(o.scene);
+  if (place) check_place(*place, subject.view());
+  if (!o.output.empty()) make_folder(o.output);
+  Devices devices = open_devices_for(subject, o.devices.device, backend);
+  FrameCuller culler(*devices.cl, *devices.programs, subject.frame, subject.settings);
+  culler.run();
+  const FrameGrid grid = culler.grid();
+  int status = 0;
+  if (place) status = std::max(status, inspect_place(o, subject, culler, grid, *place));
+  if (!o.output.empty()) status = std::max(status, inspect_image(o, subject, grid));
+  return status;
+}
+
+}  // namespace
+
+void add_inspect(CommandLine& line) {
+  auto o = std::make_shared<InspectOptions>();
+  Subcommand command = line.add("inspect", "each light at a pixel: which test kept or dropped it",
+                                [o] { return inspect(*o); });
+  add_scene_options(command, o->scene);
+  add_device_options(command, o->devices);
+  command.option("--pixel", o->pixel, "X,Y from the lower left");
+  command.option("--dropped", o->dropped, "how many dropped lights to show, the nearest first", 0,
+                 100'000'000);
+  command.flag("--all", o->all, "show every dropped light");
+  command.option("-o,--output", o->output,
+                 "folder of pictures: listed, listed in vain and lost lights of each pixel");
+  command.option("--json", o->json, "as JSON into a file, - for stdout");
+}
+
+}  // namespace lightgrid

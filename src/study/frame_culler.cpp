@@ -1,0 +1,62 @@
+#include "study/frame_culler.h"
+
+#include "passes/frame/frame.h"
+
+namespace lightgrid {
+namespace {
+
+CullerOptions options_of(const Settings& settings) {
+  CullerOptions options;
+  options.cull_test = settings.cull_test;
+  options.depth_bounds = settings.depth_bounds;
+  options.shape = settings.kernel_shape;
+  options.tile = settings.tile;
+  return options;
+}
+
+std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
+  Scene scene;
+  scene.lights = local_world_lights(frame);
+  std::vector<int> all;
+  for (size_t i = 0; i < scene.lights.size(); ++i) all.push_back(int(i));
+  return cull_lights_of(scene, all);
+}
+
+}  // namespace
+
+Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set) {
+  Settings settings;
+  settings.tile = frame.tile;
+  for (const std::string& assignment : set) apply_setting(settings, assignment);
+  return settings;
+}
+
+FrameCuller::FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
+                         const Settings& settings)
+    : device_(device),
+      settings_(settings),
+      culler_(device, programs, options_of(settings)),
+      storage_(device) {
+  culler_.set_lights(cull_lights_of(frame));
+  culler_.set_view(cull_view(frame.view));
+  const size_t bytes = frame.depth.size() * sizeof(float);
+  depth_.values = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes);
+  device.queue().enqueueWriteBuffer(depth_.values, CL_TRUE, 0, bytes, frame.depth.data());
+}
+
+void FrameCuller::run() {
+  bounds_ = culler_.depth_bounds(depth_);
+  grid_ = culler_.cull(bounds_.opaque, storage_);
+}
+
+FrameGrid FrameCuller::grid() {
+  FrameGrid grid;
+  grid.lists = read_grid(device_, grid_, storage_);
+  grid.tile = settings_.tile;
+  grid.settings = to_strings(settings_);
+  return grid;
+}
+
+std::vector<DepthInterval> FrameCuller::intervals() { return culler_.read_bounds(bounds_.opaque); }
+
+}  // namespace lightgrid
