@@ -7,7 +7,7 @@
 
 namespace lightgrid {
 
-// view.json, lights.json and depth.f32 of the folder. Throws Error(input) that names the file and the field.
+// As read_frame (study/frame_file.h) reads it, without its directional lights.
 BenchFrame read_bench_frame(const std::filesystem::path& folder);
 
 }  // namespace lightgrid
