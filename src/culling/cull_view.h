@@ -1,4 +1,4 @@
-// A camera and an image size: all that culling knows of the viewer.
+// A camera and an image size: all that culling knows of the viewer. Metres; distances are along the view axis, d = -z.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,9 +11,10 @@ namespace lightgrid {
 
 struct CullView {
   int width = 0, height = 0;  // pixels
-  // Column vectors; view space is right-handed and looks along -z; clip depth is zero to one. Whether the view is
-  // orthographic, its depth reversed (near 1, far 0) or standard, and its far plane infinite is read off the matrix;
-  // off-centre projections included, oblique near planes not.
+  // For column vectors, m[column][row] as GLM has it; view space is right-handed and looks along -z; clip depth is zero
+  // to one (Vulkan's and Direct3D's, or OpenGL's after glClipControl). Whether the view is orthographic, its depth
+  // reversed (near 1, far 0: Reed, "Depth Precision Visualized", 2015) or standard, and its far plane infinite is read
+  // off the matrix; off-centre projections included, oblique near planes not.
   glm::dmat4 clip_from_view{1};
   glm::dmat4 view_from_world{1};   // rigid; its translation is not used
   glm::dvec3 eye{0};               // world, metres
@@ -23,22 +24,25 @@ struct CullView {
 
 enum class SliceSpacing { exponential, linear };
 
-// The inner edges of `slices` slices between two distances; near and far themselves are none, so that every distance
-// has a slice. Exponential (Olsson, Billeter, Assarsson 2012) wants near_m > 0, and takes far_m / 1000 where it is not
-// (an orthographic view).
+// The slices - 1 inner edges, ascending, of `slices` slices between two distances near_m < far_m, both finite; near and
+// far themselves are none, so that every distance has a slice. Exponential (Olsson, Billeter, Assarsson, "Clustered
+// Deferred and Forward Shading", HPG 2012) wants near_m > 0, and takes far_m / 1000 where it is not (an orthographic
+// view).
 std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m);
 
-// Throws Error(input) where the matrices make no view: singular, not finite, a size below 1 or past 32,000 tiles.
+// Throws Error(input) where they make no view: a size below 1 or past 32,000 tiles a side, a
+// matrix that is not finite, no projection of the two kinds, or not rigid. Of slice_edges nothing is checked.
 void check_view(const CullView& view, int tile);
 
-// The view in the numbers of shaders (lights and ambient are left 0) and of kernels. Tile counts are rounded up to cover
-// the image.
+// The view in the numbers of shaders (lights and ambient are left 0) and of kernels, for tiles of `tile` x `tile`
+// pixels from the lower left. Tile counts are rounded up to cover the image. Call check_view first.
 ViewParams view_params(const CullView& view, int tile);
 CullParams cull_params(const CullView& view, int tile);
 
-// What a depth value means in this view: metres along the view axis, and the least distance there is.
+// What a depth value means in this view, read off clip_from_view.
 bool is_orthographic(const CullView& view);
-bool has_standard_depth(const CullView& view);
-double near_distance(const CullView& view);
+bool has_standard_depth(const CullView& view);   // near 0, far 1
+double near_distance(const CullView& view);      // metres, of the near plane; where an orthographic one lies behind the
+                                                 // eye, negative
 
 }  // namespace lightgrid

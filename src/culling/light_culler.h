@@ -1,4 +1,17 @@
-// Depth bounds and lights to a light grid. Needs OpenCL only.
+// Depth bounds and lights to a light grid. Needs OpenCL only; docs/library.md shows its use.
+//
+//   LightCuller culler(device, programs, options);
+//   culler.set_lights(lights);                                  // when they change
+//   culler.set_view(view);                                      // each frame
+//   LightGrid grid = culler.cull(culler.depth_bounds(depth).opaque, storage);
+//
+// The method is tiled light culling (Olsson, Assarsson, "Tiled Shading", JGT 2011; Harada, McKee, Yang, "Forward+",
+// Eurographics 2012), in clusters where the view has slices (Olsson, Billeter, Assarsson, "Clustered Deferred and
+// Forward Shading", HPG 2012), coarse to fine. A list may hold a light too many, never one too few: docs/hard_cases.md.
+//
+// Errors are of type Error (base/error.h): input where what was given is wrong, machine where the device or its memory
+// does not do. Calls enqueue on the device's one queue; those that return host values, and cull, wait for it. Objects
+// of one device are for one thread at a time.
 #pragma once
 
 #include <limits>
@@ -13,30 +26,35 @@
 
 namespace lightgrid {
 
-// World space, metres. A light without end has an infinite radius; a negative or NaN one makes it be listed nowhere.
+// A point light, or a spot: what it may reach is a sphere, or the part of it in a cone. World space, metres.
 struct CullLight {
-  glm::dvec3 position{0};
+  glm::dvec3 position{0};  // finite
+  // Past it the light adds nothing. Infinite: a light without end; 0: the point alone; negative or NaN: listed nowhere.
   double radius_m = std::numeric_limits<double>::infinity();
-  glm::dvec3 direction{0, 0, -1};  // unit; of cones
-  double cos_outer = -1;           // cosine of the outer half-angle; below 0 (no cone, or past 90 degrees) the sphere decides
+  glm::dvec3 direction{0, 0, -1};  // unit, the way a spot shines
+  // Cosine of a spot's outer half-angle; below 0 (no cone, or one past 90 degrees) the sphere decides.
+  double cos_outer = -1;
 };
 
-// Depth values as clip_from_view makes them (z / w), row 0 at the bottom.
+// A depth buffer of this view in OpenCL memory: 32-bit floats, row 0 at the bottom, with `samples` values side by side
+// for each pixel. A value is z / w of clip_from_view, 0 to 1; the far end of that (0 in reversed depth, 1 in standard)
+// means that no surface is there. The view may be a part of a larger image.
 struct DepthInput {
-  cl::Buffer values;   // floats
-  int row_pixels = 0;  // from row to row; 0: the view's width
-  int x = 0, y = 0;    // the view's lower left pixel among them
+  cl::Buffer values;   // of the culler's context; (y + height - 1) * row_pixels + x + width pixels or more
+  int row_pixels = 0;  // pixels from row to row; 0: the view's width
+  int x = 0, y = 0;    // the view's lower left pixel in the image
 };
 
-// Intervals of distances, per tile, on the device. How they lie there is the kernels' affair: LightCuller::read_bounds.
+// Intervals of distances, one or two a tile, on the device, for views of this size. How they lie there is the kernels'
+// affair: LightCuller::read_bounds. The buffer is the culler's own and is written again by the next depth_bounds.
 struct TileBounds {
   cl::Buffer values;
   DepthBoundsMode mode = DepthBoundsMode::minmax;
 };
 
 struct DepthBounds {
-  TileBounds opaque;
-  TileBounds blend;  // from the near plane to where a blended surface can be seen; null unless asked for
+  TileBounds opaque;  // of the surfaces in the depth buffer
+  TileBounds blend;   // from the near plane to where a blended surface can be seen; null unless options asked for it
 };
 
 struct DepthInterval {
@@ -44,11 +62,12 @@ struct DepthInterval {
   bool operator==(const DepthInterval&) const = default;
 };
 
-// Where a light grid is kept. The default keeps it in OpenCL buffers; a renderer gives memory that OpenGL sees too.
+// Where a light grid is kept, of one culler at a time. ClGridStorage keeps it in OpenCL buffers of its own; a renderer
+// may give memory that its graphics interface sees too. Sizes are bytes; a call may ask for more than the grid needs.
 class GridStorage {
  public:
   virtual ~GridStorage() = default;
-  // A buffer of at least `bytes`; what it held may be lost when it grows.
+  // A buffer of at least `bytes` in the culler's context; what it held may be lost when it grows, not otherwise.
   virtual cl::Buffer& cells(size_t bytes) = 0;
   virtual cl::Buffer& indices(size_t bytes) = 0;
 };
@@ -66,36 +85,43 @@ class ClGridStorage : public GridStorage {
   size_t cells_bytes_ = 0, indices_bytes_ = 0;
 };
 
-// The finished grid in its storage: cells (uint2 first, count; x fastest, then y from the bottom, then slice from the
-// near plane) and sorted index lists. Same bytes on every device, in every kernel shape, for any number of threads.
+// The finished grid in its storage. Cells: uint2(first, count) into the indices, x fastest, then y from the bottom,
+// then slice from the near plane; cell_of_pixel (shared/light_grid.h) finds a pixel's first one. Indices: of
+// set_lights' lights, each cell's sorted and without repetition. Same bytes on every device, in every kernel shape, for
+// any number of threads.
 struct LightGrid {
-  int cells_x = 0, cells_y = 0, slices = 1;
-  uint64_t index_count = 0;
-  int index_bits = 16;
-  size_t cell_bytes = 0, index_bytes = 0;
+  int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
+  uint64_t index_count = 0;                  // of all lists together, below 2^32
+  int index_bits = 16;                       // 16 or 32 each
+  size_t cell_bytes = 0, index_bytes = 0;    // in use; the storage's buffers may be larger
 };
 
-// A grid on the host.
+// A grid on the host, in the same order; indices are widened to 32 bits.
 struct HostGrid {
   int cells_x = 0, cells_y = 0, slices = 1;
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;
   bool operator==(const HostGrid&) const = default;
 };
+// Waits.
 HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage);
 
-enum class DepthFormat { d32f, d24, d16 };  // what the depth values were rounded to
+// What the depth values were rounded to before they became floats: bounds are widened by a step of it. A surface so far
+// off that the format rounds its depth to the far end counts as none.
+enum class DepthFormat { d32f, d24, d16 };
 
+// shared/cull_settings.h says what the choices are, and where they come from. Other values than those listed are not
+// checked for.
 struct CullerOptions {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
-  KernelShape shape = KernelShape::automatic;
+  KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the grid is the same
   int tile = 16;               // pixels a side: 8, 16, 32 or 64
   DepthFormat depth_format = DepthFormat::d32f;
-  int samples = 1;             // depth values a pixel, side by side; more than one makes cells span whole pixels
+  int samples = 1;             // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
   bool blend = false;          // blended surfaces need bounds of their own
   int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights
-  bool pixel_centres = true;   // cells span the centres of their pixels, which is all that is shaded; false: whole pixels
+  bool pixel_centres = true;   // cells span their pixels' centres, which is all that is shaded; false: whole pixels
   bool portable = false;       // no builtins of one kind of CPU
 };
 
@@ -103,23 +129,28 @@ class CullPipeline;
 
 class LightCuller {
  public:
+  // Both outlive it. Kernels are built where they are first needed, or taken from the cache.
   LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options);
   ~LightCuller();
   LightCuller(LightCuller&&) noexcept;
 
   // The lights, in the order their indices mean: uploaded here, once, for any number of views.
   void set_lights(std::span<const CullLight> lights);
-  // Throws Error(input) as check_view does.
+  // Throws Error(input) as check_view does. Before any of the calls below.
   void set_view(const CullView& view);
 
+  // The view's tiles, of which the last ones may be cut, each to the distances of the surfaces in it. `depth` is not
+  // read where options say DepthBoundsMode::none.
   DepthBounds depth_bounds(const DepthInput& depth);
-  // Given intervals, one a tile, x fastest, then y from the bottom.
+  // Given intervals instead, one a tile, x fastest, then y from the bottom: at most tiles_x * tiles_y of params();
+  // tiles past the last are empty. They are taken as they are, not widened.
   TileBounds bounds_of(std::span<const DepthInterval> intervals);
-  // One a tile; of two halves, both together.
+  // One a tile, in that order; of two halves, both together. Waits.
   std::vector<DepthInterval> read_bounds(const TileBounds& bounds);
 
-  // Coarse to fine; memory is sized by what a first pass counts, grows, and the work is done again where it was short.
-  // More than 2^32 - 1 indices or more than the device has is Error(machine).
+  // The grid of the lights, the view and the bounds, in `storage`. Memory is sized by what a first pass counts, grows,
+  // and the work is done again where it was short. More than 2^32 - 1 indices or more memory than the device has is
+  // Error(machine); nothing is ever left out.
   LightGrid cull(const TileBounds& bounds, GridStorage& storage);
 
   // Tiles of the last depth_bounds in which some value was no depth: NaN, infinite, negative or past 1. They span every
@@ -128,7 +159,7 @@ class LightCuller {
 
   size_t memory_bytes() const;  // of all buffers but the grid's own
   KernelShape shape() const { return options_.shape; }
-  const CullParams& params() const { return params_; }
+  const CullParams& params() const { return params_; }  // tiles_x, tiles_y and what else kernels know of the view
 
  private:
   CullPipeline& pipeline(DepthBoundsMode mode);
