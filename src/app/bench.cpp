@@ -10,14 +10,16 @@
 #include "base/error.h"
 #include "study/bench/bench.h"
 #include "study/bench/row_filter.h"
+#include "study/bench/tune.h"
 
 namespace lightgrid {
 namespace {
 
 struct BenchCommand {
-  std::string device, filter, json;
+  std::string device, filter, json, write_frames;
   std::vector<std::string> replay, set, compare;
   TimingOptions timing{30, 3};
+  bool tune = false;
 };
 
 void show_progress(double done, const std::string& what) {
@@ -75,12 +77,35 @@ std::vector<BenchCase> cases_of(const BenchCommand& o) {
   return cases;
 }
 
+int tune(const BenchCommand& o) {
+  if (tuned_sizes_file().empty()) throw input_error("--tune: LIGHTGRID_TUNED=off leaves no file to write");
+  ClDevice device(o.device);
+  TuneOptions options{o.timing.frames, o.timing.warmup, {}};
+  if (isatty(STDERR_FILENO)) options.step = show_progress;
+  const TuneResult result = tune_kernels(device, options);
+  write_tuned_sizes(device.info(), result.best);
+  nlohmann::ordered_json json = {{"device", device.info().name}, {"best", result.best}, {"file", tuned_sizes_file().string()},
+                                 {"trials", nlohmann::ordered_json::array()}};
+  for (const TuneTrial& t : result.trials) {
+    json["trials"].push_back({{"setting", t.assignment}, {"ratio", t.ratio}, {"failure", t.failure}});
+    if (o.json != "-") fmt::print("{:<28}{}\n", t.assignment, t.failure.empty() ? fmt::format("x {:.2f}", t.ratio) : t.failure);
+  }
+  if (o.json != "-") fmt::print("kept in {}\n", tuned_sizes_file().string());
+  if (!o.json.empty()) write_json(o.json, json.dump(1));
+  return 0;
+}
+
 int bench(const BenchCommand& o) {
   RowFilter(o.filter);  // what is wrong with it is said before the work
   if (!o.json.empty()) check_output_file("--json", o.json);
+  if (o.tune) return tune(o);
   BenchOptions options{.cases = cases_of(o), .contestants = contestants_of(o), .filter = o.filter};
   options.frames = o.timing.frames, options.warmup = o.timing.warmup;
   if (isatty(STDERR_FILENO)) options.step = show_progress;
+  if (!o.write_frames.empty()) {
+    write_frames(o.write_frames, options);
+    return 0;
+  }
   const bool table = o.json != "-";
   if (table) {
     options.found = [](const std::vector<BenchRow>& rows) {
@@ -102,6 +127,8 @@ void add_bench(CommandLine& line) {
   Subcommand command = line.add("bench", "the culling kernels against the machine's limits", [o] { return bench(*o); });
   command.option("--filter", o->filter, "only rows in whose \"CASE/ROW\" this regular expression is found");
   command.list("--replay", o->replay, "a captured frame's folder instead of the standard frames; may be repeated");
+  command.option("--write-frames", o->write_frames, "writes the frames of the cases into this folder, and measures nothing");
+  command.flag("--tune", o->tune, "finds the fastest kernel shape and sizes, and keeps them for this device");
   command.list("--set", o->set, "a setting, KEY=VALUE; may be repeated");
   command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: run in turn, with ratios to the first; may be repeated");
   command.option("--device", o->device, "OpenCL device, by a part of its name");

@@ -4,7 +4,7 @@
     tests/benchmarks/culling.py --frames DIR [--prototype DIR] [--rounds N] [--runs N] [--threads 1,2]
                                 [--only RE] [--program FILE] [--csv FILE] [--table FILE]
 
-DIR holds one folder a frame (`lightgrid bench --write-frames DIR` makes the standard ones). The prototype's folder
+DIR holds one folder a frame; where it is absent, the standard frames are written there first. The prototype's folder
 holds `drv7` and `cull7.cl`; its program writes a `lights.bin` into each frame's folder. PoCL only: the number of
 threads is PoCL's. In each round each program runs once on each frame with each number of threads, in an order that
 turns around from round to round; a ratio is taken within a round, and the table gives the least and the median of the
@@ -43,8 +43,10 @@ def arguments():
     return parser.parse_args()
 
 
-def frames_in(folder, only):
+def frames_in(folder, only, program):
     """(name, lights) of each frame, fewest lights first."""
+    if not os.path.isdir(folder):
+        run([program, "bench", "--filter", "^(floor|spheres)-", "--write-frames", folder], 2)
     found = []
     for name in os.listdir(folder):
         path = os.path.join(folder, name, "lights.json")
@@ -228,7 +230,7 @@ def main():
     for key, values in COMPARISONS:
         if (key, values) not in comparisons:
             print(f"culling: this program has no {key}={values[1]}; left out", file=sys.stderr)
-    frames = frames_in(args.frames, args.only)
+    frames = frames_in(args.frames, args.only, args.program)
     threads = [int(t) for t in args.threads.split(",")]
     rows = measure(args, frames, comparisons)
     if args.csv:

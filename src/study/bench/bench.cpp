@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "study/bench/read_frame.h"
 #include "study/bench/row_filter.h"
 
 namespace lightgrid {
@@ -19,7 +18,7 @@ nlohmann::ordered_json machine_of(const ClDeviceInfo& info) {
           {"commit", commit_of_build()}};
 }
 
-nlohmann::ordered_json params_of(const BenchFrame& frame, const BenchContestant& contestant, const LightGrid& grid) {
+nlohmann::ordered_json params_of(const CapturedFrame& frame, const BenchContestant& contestant, const LightGrid& grid) {
   const double cells = double(grid.cells_x) * grid.cells_y;
   nlohmann::ordered_json params = {{"frame", frame.name},
                                    {"lights", frame.lights.size()},
@@ -31,7 +30,7 @@ nlohmann::ordered_json params_of(const BenchFrame& frame, const BenchContestant&
   return params;
 }
 
-KernelWork work_of(const BenchFrame& frame, const LightGrid& grid) {
+KernelWork work_of(const CapturedFrame& frame, const LightGrid& grid) {
   constexpr size_t bin = 8;
   KernelWork work;
   work.pixels = frame.depth.size(), work.lights = frame.lights.size();
@@ -41,11 +40,11 @@ KernelWork work_of(const BenchFrame& frame, const LightGrid& grid) {
   return work;
 }
 
-BenchFrame frame_of(const BenchCase& c) { return c.folder.empty() ? make_standard_frame(c.recipe) : read_bench_frame(c.folder); }
+CapturedFrame frame_of(const BenchCase& c) { return c.folder.empty() ? make_standard_frame(c.recipe) : read_frame(c.folder); }
 
 // The rows of one case before the filter.
 std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options, const BenchCase& c,
-                                   const BenchFrame& frame, const Limits& limits) {
+                                   const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;
   std::vector<CullingRun*> in_turn;
   std::vector<BenchContestant> contestants = options.contestants;
@@ -110,11 +109,20 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options) {
   for (const BenchCase& c : options.cases) {
     if (!wanted(c)) continue;
     if (options.step) options.step(0, c.name);
-    const BenchFrame frame = frame_of(c);
+    const CapturedFrame frame = frame_of(c);
     keep_rows(report, options, filter, measure_case(device, programs, options, c, frame, report.limits));
   }
   if (report.rows.empty()) throw input_error("--filter {}: no row's name matches", options.filter);
   return report;
+}
+
+void write_frames(const std::filesystem::path& folder, const BenchOptions& options) {
+  const RowFilter filter(options.filter);
+  for (const BenchCase& c : options.cases) {
+    if (!filter.keeps(c.name, "")) continue;
+    if (options.step) options.step(0, c.name);
+    write_frame(folder / c.name, frame_of(c));
+  }
 }
 
 nlohmann::ordered_json to_json(const BenchReport& report) {

@@ -1,6 +1,7 @@
 // The benchmark of the culling pipeline: limits first, then each case with its contestants in turn.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct BenchReport {
   std::string device;
   std::vector<BenchRow> rows;
 };
+
+// Writes the frames of those cases that the filter names, each into a folder of the case's name below `folder`.
+void write_frames(const std::filesystem::path& folder, const BenchOptions& options);
 
 // Throws Error(input) where the filter is no regular expression or nothing matches it.
 BenchReport run_bench(ClDevice& device, const BenchOptions& options);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/bench/frame.h"
+#include "study/bench/standard_frames.h"
 
 namespace lightgrid {
 

@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-CullerOptions culler_options(const BenchFrame& frame, const Settings& settings) {
+CullerOptions culler_options(const Settings& settings) {
   CullerOptions options;
   options.cull_test = settings.cull_test;
   options.depth_bounds = settings.depth_bounds;
@@ -15,6 +15,14 @@ CullerOptions culler_options(const BenchFrame& frame, const Settings& settings) 
   options.tile = settings.tile;
   options.portable = settings.portable;
   return options;
+}
+
+std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
+  Scene scene;
+  scene.lights = local_world_lights(frame);
+  std::vector<int> all(scene.lights.size());
+  std::iota(all.begin(), all.end(), 0);
+  return cull_lights_of(scene, all);
 }
 
 cl::Buffer upload(ClDevice& device, const std::vector<float>& values) {
@@ -26,23 +34,36 @@ cl::Buffer upload(ClDevice& device, const std::vector<float>& values) {
 
 }  // namespace
 
-CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const BenchFrame& frame, const Settings& settings)
+CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings)
     : device_(device),
-      culler_(std::make_unique<LightCuller>(device, programs, culler_options(frame, settings))),
+      view_(cull_view(frame.view)),
+      lights_(cull_lights_of(frame)),
+      culler_(std::make_unique<LightCuller>(device, programs, culler_options(settings))),
       storage_(device),
       depth_(upload(device, frame.depth)),
       depth_bytes_(frame.depth.size() * sizeof(float)) {
-  std::vector<int> all(frame.lights.size());
-  std::iota(all.begin(), all.end(), 0);
-  Scene scene;
-  scene.lights = frame.lights;
-  culler_->set_lights(cull_lights_of(scene, all));
-  culler_->set_view(cull_view(frame.view));
+  upload_lights();
+  upload_view();
   for (int i = 0; i < 2; ++i) run();
 }
 
-void CullingRun::run() {
-  grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_);
+void CullingRun::run() { grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_); }
+
+void CullingRun::upload_lights() {
+  culler_->set_lights(lights_);
+  device_.queue().finish();
+}
+
+void CullingRun::upload_view() {
+  culler_->set_view(view_);
+  device_.queue().finish();
+}
+
+void CullingRun::download_grid() {
+  host_.resize(grid_.cell_bytes + grid_.index_bytes);
+  device_.queue().enqueueReadBuffer(storage_.cells(0), CL_TRUE, 0, grid_.cell_bytes, host_.data());
+  if (grid_.index_bytes == 0) return;
+  device_.queue().enqueueReadBuffer(storage_.indices(0), CL_TRUE, 0, grid_.index_bytes, host_.data() + grid_.cell_bytes);
 }
 
 }  // namespace lightgrid

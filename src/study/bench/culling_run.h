@@ -5,14 +5,14 @@
 
 #include "culling/light_culler.h"
 #include "plan/settings.h"
-#include "study/bench/frame.h"
+#include "study/bench/standard_frames.h"
 
 namespace lightgrid {
 
 class CullingRun {
  public:
   // Uploads the frame and runs it twice, so that kernels are built and memory has its size.
-  CullingRun(ClDevice& device, ProgramCache& programs, const BenchFrame& frame, const Settings& settings);
+  CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings);
 
   // Depth bounds, cull and the finished grid, with one wait at the end.
   void run();

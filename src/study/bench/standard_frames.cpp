@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "study/bench/frame.h"
+#include "study/bench/standard_frames.h"
 #include "study/bench/standard_scene.h"
 
 namespace lightgrid {
@@ -103,8 +103,9 @@ std::vector<Light> scatter_in_view(int count, Random& random, std::vector<float>
   std::vector<Light> lights(count);
   for (Light& light : lights) {
     const float d = random.uniform(2, room_back), half = std::min(d * tan_x * 1.05f, 70.0f);
-    const float x = random.uniform(-half, half);
-    light.position = {x, random.uniform(room_floor, std::min(20.0f, d * room_tan_y)), -d};
+    const float x = random.uniform(-half, half), y = random.uniform(room_floor, std::min(20.0f, d * room_tan_y));
+    // Whole millimetres are short in a file: a million lights stay below what a lights file may have.
+    light.position = glm::round(glm::dvec3(x, y, -d) * 1000.0) / 1000.0;
     radii.push_back(random.uniform(0.6f, 1.4f));
   }
   return lights;
@@ -112,13 +113,13 @@ std::vector<Light> scatter_in_view(int count, Random& random, std::vector<float>
 
 }  // namespace
 
-BenchFrame make_standard_frame(const FrameRecipe& recipe) {
+CapturedFrame make_standard_frame(const FrameRecipe& recipe) {
   FrameRecipe calibration = recipe;
   calibration.width = calibration_width, calibration.height = calibration_height;
   const std::vector<float> distances = room_distances(calibration);
   const TileGrid grid = tile_grid(distances, calibration.width, calibration.height);
 
-  BenchFrame frame;
+  CapturedFrame frame;
   frame.name = recipe.spheres ? "spheres" : "floor";
   frame.view = room_view(recipe.width, recipe.height);
   Random random(2);
@@ -131,7 +132,6 @@ BenchFrame make_standard_frame(const FrameRecipe& recipe) {
     (mean_listed(grid, frame.lights, radii, scale) > wanted ? high : low) = scale;
   }
   for (size_t i = 0; i < radii.size(); ++i) frame.lights[i].radius_m = low * radii[i];
-  frame.mean_listed = mean_listed(grid, frame.lights, radii, low);
 
   const bool same = recipe.width == calibration.width && recipe.height == calibration.height;
   frame.depth = same ? distances : room_distances(recipe);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/random.h"
-#include "study/bench/frame.h"
+#include "study/bench/standard_frames.h"
 
 namespace lightgrid {
 
