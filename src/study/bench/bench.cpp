@@ -30,17 +30,25 @@ nlohmann::ordered_json params_of(const CapturedFrame& frame, const BenchContesta
   return params;
 }
 
-KernelWork work_of(const CapturedFrame& frame, const LightGrid& grid) {
+KernelWork work_of(const CapturedFrame& frame, const BenchContestant& contestant, const LightGrid& grid) {
   constexpr size_t bin = 8;
   KernelWork work;
   work.pixels = frame.depth.size(), work.lights = frame.lights.size();
-  work.tiles = size_t(grid.cells_x) * grid.cells_y;
+  work.tiles = size_t(grid.cells_x) * grid.cells_y, work.cells = grid.cell_bytes / 8;
   work.bins = ((grid.cells_x + bin - 1) / bin) * ((grid.cells_y + bin - 1) / bin);
   work.indices = grid.index_count, work.index_bytes = grid.index_bytes;
+  work.exact = to_strings(contestant.settings).at("cull_test") == "exact";
+  for (const Light& light : frame.lights) work.cones |= light.type == LightType::spot;
   return work;
 }
 
-CapturedFrame frame_of(const BenchCase& c) { return c.folder.empty() ? make_standard_frame(c.recipe) : read_frame(c.folder); }
+// Directional lights stand in no list.
+CapturedFrame frame_of(const BenchCase& c) {
+  if (c.folder.empty()) return make_standard_frame(c.recipe);
+  CapturedFrame frame = read_frame(c.folder);
+  frame.lights = local_world_lights(frame);
+  return frame;
+}
 
 // The rows of one case before the filter.
 std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options, const BenchCase& c,
@@ -61,7 +69,7 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   std::vector<BenchRow> rows;
   for (size_t i = 0; i < runs.size(); ++i) {
     const LightGrid& grid = runs[i]->grid();
-    const ContestantParams about{c.name, params_of(frame, contestants[i], grid), work_of(frame, grid)};
+    const ContestantParams about{c.name, params_of(frame, contestants[i], grid), work_of(frame, contestants[i], grid)};
     for (BenchRow& row : contestant_rows(about, measured.runs[i], measured.plain_read, limits)) {
       const auto first = std::find_if(rows.begin(), rows.end(), [&](const BenchRow& r) { return r.name == row.name; });
       if (first != rows.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;

@@ -17,17 +17,26 @@ class CullingRun {
   // Depth bounds, cull and the finished grid, with one wait at the end.
   void run();
 
+  // What a frame may need besides, each with its own wait.
+  void upload_lights();
+  void upload_view();
+  void download_grid();  // cells and indices into host memory
+
   const LightGrid& grid() const { return grid_; }
   const cl::Buffer& depth() const { return depth_; }
   size_t depth_bytes() const { return depth_bytes_; }
 
  private:
   ClDevice& device_;
+  View view_;
+  int tile_ = 16;
+  std::vector<ViewLight> lights_;
   std::unique_ptr<LightCuller> culler_;
   ClGridStorage storage_;
   cl::Buffer depth_;
   size_t depth_bytes_ = 0;
   LightGrid grid_;
+  std::vector<char> host_;
 };
 
 }  // namespace lightgrid

@@ -7,33 +7,58 @@ namespace {
 
 using Formula = KernelCost (*)(const KernelWork&);
 
-constexpr double interval_bytes = 8, cell_bytes = 8, sphere_bytes = 16;
-constexpr double sphere_test_flops = 40;  // planes and AABB of one light and one cell
+constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4;
+constexpr double bin_tiles = 64;
 
-// Compulsory traffic: each input and output once, as if caches held the rest. Tests: one of each light against each
-// bin where bins walk all lights, and one for each entry that is listed.
+// Floats of a light: place and radius, and with cones an axis and a cosine; in view space its tile rectangle and index
+// as well.
+double world_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 8 : 4); }
+double view_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 11 : 7); }
+
+// Operations of kernels/common/project.h and light_cell_tests.h, counted in their text: to view space and two pairs of
+// tangents; sphere against box; three Newton steps besides; cone against sphere besides.
+constexpr double project_flops = 100, box_flops = 18, exact_flops = 110, cone_flops = 60;
+double test_flops(const KernelWork& w) { return box_flops + (w.exact ? exact_flops : 0) + (w.cones ? cone_flops : 0); }
+
+// A bin has as many candidates as its longest list at least, and so its indices / 64.
+double least_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
+double bin_mark_bytes(const KernelWork& w) { return double(w.bins) * double(w.lights) / 8; }
+double cell_mark_bytes(const KernelWork& w) { return least_candidates(w) * bin_tiles / 8; }
+
+// What no kernel with these inputs and outputs can do without: each read and written once, as if caches held what is met
+// again, and one test for each entry that ends in a list.
 const std::map<std::string, Formula>& formulas() {
   static const std::map<std::string, Formula> table = {
-      {"depth_bounds", [](const KernelWork& w) { return KernelCost{4.0 * w.pixels + interval_bytes * w.tiles, 8.0 * w.tiles}; }},
-      {"cull_bins_count",
+      {"depth_bounds",
+       [](const KernelWork& w) { return KernelCost{4.0 * w.pixels + interval_bytes * w.tiles, 8.0 * w.tiles}; }},
+      {"project_lights",
        [](const KernelWork& w) {
-         return KernelCost{sphere_bytes * w.lights + interval_bytes * w.tiles + cell_bytes * w.bins,
-                           sphere_test_flops * w.lights};
+         return KernelCost{(world_bytes(w) + view_bytes(w)) * w.lights, project_flops * w.lights};
        }},
-      {"cull_bins_fill",
+      // For CPUs.
+      {"cull_lights",
        [](const KernelWork& w) {
-         return KernelCost{sphere_bytes * w.lights + interval_bytes * w.tiles + cell_bytes * w.bins,
-                           sphere_test_flops * w.lights};
+         return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + count_bytes * w.cells + w.index_bytes,
+                           test_flops(w) * w.indices};
        }},
-      {"cull_tiles_count",
+      {"compact_lists",
+       [](const KernelWork& w) { return KernelCost{2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0.0}; }},
+      // For GPUs.
+      {"bin_boxes",
+       [](const KernelWork& w) { return KernelCost{interval_bytes * w.tiles + 24.0 * w.bins, 12.0 * w.tiles}; }},
+      {"mark_bins",
        [](const KernelWork& w) {
-         return KernelCost{(interval_bytes + cell_bytes) * w.tiles, sphere_test_flops * w.indices};
+         return KernelCost{view_bytes(w) * w.lights + 24.0 * w.bins + bin_mark_bytes(w), box_flops * least_candidates(w)};
        }},
-      {"cull_tiles_fill",
+      {"list_candidates",
+       [](const KernelWork& w) { return KernelCost{bin_mark_bytes(w) + 2 * view_bytes(w) * least_candidates(w), 0.0}; }},
+      {"mark_cells",
        [](const KernelWork& w) {
-         return KernelCost{(interval_bytes + cell_bytes) * w.tiles + w.index_bytes, sphere_test_flops * w.indices};
+         return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + cell_mark_bytes(w),
+                           test_flops(w) * w.indices};
        }},
-      {"scan_counts", [](const KernelWork& w) { return KernelCost{2 * cell_bytes * (w.tiles + w.bins), 0.0}; }},
+      {"fill_lists",
+       [](const KernelWork& w) { return KernelCost{cell_mark_bytes(w) + cell_bytes * w.cells + w.index_bytes, 0.0}; }},
   };
   return table;
 }

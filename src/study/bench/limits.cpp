@@ -113,7 +113,8 @@ void PlainRead::fit(const cl::Buffer& buffer, size_t bytes, int tries) {
   const size_t units = group_ * size_t(device_.info().compute_units);
   double best_ms = std::numeric_limits<double>::infinity();
   size_t best = units;
-  for (const size_t times : {1, 2, 4, 8, 16, 32, 64}) {
+  // Not one item a unit: a unit that comes late would leave the other with all of its part.
+  for (const size_t times : {4, 8, 16, 32, 64}) {
     items_ = times * units;
     for (int i = 0; i < tries + 1; ++i) {
       const double ms = run(buffer, bytes);

@@ -47,11 +47,33 @@ void take(Samples& samples, double wall, const DeviceRun& run) {
 }
 
 MeasuredRun result_of(const Samples& samples) {
-  MeasuredRun run{spread_of(samples.wall), spread_of(samples.device), {}, spread_of(samples.overhead)};
+  MeasuredRun run;
+  run.wall = spread_of(samples.wall);
+  run.device = spread_of(samples.device);
+  run.overhead = spread_of(samples.overhead);
   for (size_t i = 0; i < samples.first.size(); ++i) {
     run.kernels.push_back({samples.first[i].label, samples.first[i].launches, spread_of(samples.kernels[i])});
   }
   return run;
+}
+
+template <typename Work>
+Spread time_alone(const Work& work) {
+  constexpr int runs = 5;
+  std::vector<double> samples;
+  for (int i = -1; i < runs; ++i) {
+    const Timer timer;
+    work();
+    if (i >= 0) samples.push_back(timer.elapsed_ms());
+  }
+  return spread_of(samples);
+}
+
+void measure_transfers(CullingRun& run, MeasuredRun& result) {
+  result.lights_upload = time_alone([&] { run.upload_lights(); });
+  result.view_upload = time_alone([&] { run.upload_view(); });
+  run.run();
+  result.grid_download = time_alone([&] { run.download_grid(); });
 }
 
 }  // namespace
@@ -76,7 +98,10 @@ MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& 
   }
   device.profiler().time_launches(false);
   MeasuredFrame measured;
-  for (const Samples& s : samples) measured.runs.push_back(result_of(s));
+  for (size_t i = 0; i < samples.size(); ++i) {
+    measured.runs.push_back(result_of(samples[i]));
+    measure_transfers(*contestants[i], measured.runs.back());
+  }
   measured.plain_read = spread_of(reads);
   return measured;
 }
