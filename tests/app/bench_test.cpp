@@ -75,7 +75,7 @@ TEST(BenchCommand, HasTheKeysThatOthersRead) {
 TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
   const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "4"});
   for (const char* name : {"pipeline", "pipeline_device", "launch_overhead", "depth_bounds", "plain_read", "lights_upload",
-                           "view_upload", "grid_download"}) {
+                           "grid_download"}) {
     EXPECT_EQ(rows_named(report, name).size(), 1u) << name;
   }
   double kernels = 0;

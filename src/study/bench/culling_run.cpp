@@ -36,14 +36,13 @@ cl::Buffer upload(ClDevice& device, const std::vector<float>& values) {
 
 CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings)
     : device_(device),
-      view_(cull_view(frame.view)),
       lights_(cull_lights_of(frame)),
       culler_(std::make_unique<LightCuller>(device, programs, culler_options(settings))),
       storage_(device),
       depth_(upload(device, frame.depth)),
       depth_bytes_(frame.depth.size() * sizeof(float)) {
   upload_lights();
-  upload_view();
+  culler_->set_view(cull_view(frame.view));
   for (int i = 0; i < 2; ++i) run();
 }
 
@@ -51,11 +50,6 @@ void CullingRun::run() { grid_ = culler_->cull(culler_->depth_bounds({depth_}).o
 
 void CullingRun::upload_lights() {
   culler_->set_lights(lights_);
-  device_.queue().finish();
-}
-
-void CullingRun::upload_view() {
-  culler_->set_view(view_);
   device_.queue().finish();
 }
 

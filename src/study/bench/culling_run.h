@@ -19,7 +19,6 @@ class CullingRun {
 
   // What a frame may need besides, each with its own wait.
   void upload_lights();
-  void upload_view();
   void download_grid();  // cells and indices into host memory
 
   const LightGrid& grid() const { return grid_; }
@@ -28,9 +27,7 @@ class CullingRun {
 
  private:
   ClDevice& device_;
-  View view_;
-  int tile_ = 16;
-  std::vector<ViewLight> lights_;
+  std::vector<CullLight> lights_;
   std::unique_ptr<LightCuller> culler_;
   ClGridStorage storage_;
   cl::Buffer depth_;

@@ -71,7 +71,6 @@ Spread time_alone(const Work& work) {
 
 void measure_transfers(CullingRun& run, MeasuredRun& result) {
   result.lights_upload = time_alone([&] { run.upload_lights(); });
-  result.view_upload = time_alone([&] { run.upload_view(); });
   run.run();
   result.grid_download = time_alone([&] { run.download_grid(); });
 }

@@ -19,7 +19,7 @@ struct MeasuredRun {
   Spread wall;                  // one wait at the end
   Spread device;                // the sum over all kernels of one run, which is timed by events, and not for `wall`
   std::vector<Kernel> kernels;  // in order of first launch
-  Spread lights_upload, view_upload, grid_download;  // wall clock, each with its wait
+  Spread lights_upload, grid_download;  // wall clock, each with its wait
   Spread overhead;              // wall less device, of the runs timed by events
 };
 

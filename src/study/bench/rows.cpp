@@ -55,7 +55,6 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
   const std::optional<KernelCost> sum = all_known ? std::optional(all) : std::nullopt;
   rows.push_back(row("plain_read", "limit", plain_read, KernelCost{depth_bytes, 0}));
   rows.push_back(row("lights_upload", "transfer", run.lights_upload, {}));
-  rows.push_back(row("view_upload", "transfer", run.view_upload, {}));
   rows.push_back(row("grid_download", "transfer", run.grid_download, {}));
   rows.push_back(row("launch_overhead", "overhead", run.overhead, {}));
   rows.push_back(row("pipeline_device", "pipeline", run.device, sum));
