@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/write_file.h"
 
 namespace lightgrid {
 namespace {
@@ -243,14 +244,11 @@ std::string camera_of_lights_file(const std::filesystem::path& path) {
 }
 
 void save_lights_file(const std::filesystem::path& path, const std::vector<Light>& lights) {
-  std::ofstream file(path, std::ios::binary);
-  file << "{\"lights\": [";
+  std::string text = "{\"lights\": [";
   for (size_t i = 0; i < lights.size(); ++i) {
-    file << (i ? ",\n  " : "\n  ") << to_json(lights[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += (i ? ",\n  " : "\n  ") + to_json(lights[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
   }
-  file << "\n]}\n";
-  file.close();
-  if (!file) throw input_error("{}: cannot be written", path.string());
+  write_file(path, text + "\n]}\n");
 }
 
 }  // namespace lightgrid

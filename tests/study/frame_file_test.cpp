@@ -156,6 +156,20 @@ TEST(FrameFile, CoveredDepthIsPositiveWhereASurfaceIsForBothKindsOfDepth) {
   EXPECT_EQ(covered, 37 * 18);
 }
 
+// Links in the folder are replaced, not followed: nothing outside it is written.
+TEST(FrameFile, WritingReplacesLinks) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path / "frame");
+  write_bytes(folder.path / "outside", "mine");
+  const char* files[] = {"view.json", "lights.json", "depth.f32", "grid.json", "grid.u32", "indices.u32"};
+  for (const char* file : files)
+    std::filesystem::create_symlink(folder.path / "outside", folder.path / "frame" / file);
+  write_frame(folder.path / "frame", small_frame());
+  write_frame_grid(folder.path / "frame", small_grid());
+  EXPECT_EQ(file_bytes(folder.path / "outside"), "mine");
+  EXPECT_EQ(fault_of(folder.path / "frame"), "");
+}
+
 // One field of view.json made wrong: what the line must hold.
 struct WrongView {
   const char* name;
