@@ -1,0 +1,7 @@
+# find_package(lightgrid): the target lightgrid::culling.
+include(CMakeFindDependencyMacro)
+find_dependency(Threads)
+find_dependency(glm)
+find_dependency(fmt)
+find_dependency(OpenCL)
+include(${CMAKE_CURRENT_LIST_DIR}/lightgridTargets.cmake)

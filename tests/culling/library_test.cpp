@@ -1,0 +1,112 @@
+// The culling library as others use it: installed, found by CMake, linked into the example of docs/examples, run.
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "support/run_command.h"
+#include "support/temp_folder.h"
+
+// The example's own view, depths and lights.
+#define main example_main
+#include "../../docs/examples/cull_depth/main.cpp"
+#undef main
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+bool has_tool(const std::string& name) { return run_command("command -v " + name).status == 0; }
+
+// Lights whose sphere holds the surface that the centre of some pixel of the tile shows.
+std::set<uint32_t> lights_of_tile(const std::vector<CullLight>& lights, const std::vector<float>& depth, int tx,
+                                  int ty) {
+  std::set<uint32_t> found;
+  for (int y = ty * 16; y < ty * 16 + 16; ++y) {
+    for (int x = tx * 16; x < tx * 16 + 16; ++x) {
+      const double value = depth[size_t(y) * width + x];
+      if (value == 0) continue;
+      const double d = near_m / value;
+      const glm::dvec3 place(d * slope_x * ((x + 0.5) * 2 / width - 1), d * slope_y * ((y + 0.5) * 2 / height - 1), -d);
+      for (size_t i = 0; i < lights.size(); ++i) {
+        if (glm::distance(place, lights[i].position) < lights[i].radius_m) found.insert(uint32_t(i));
+      }
+    }
+  }
+  return found;
+}
+
+// The numbers of a line that a pattern finds.
+std::vector<uint32_t> numbers_after(const std::string& text, const std::string& pattern) {
+  std::smatch match;
+  if (!std::regex_search(text, match, std::regex(pattern + "([ 0-9]*)\n"))) return {};
+  std::istringstream words(match[1].str());
+  return {std::istream_iterator<uint32_t>(words), {}};
+}
+
+TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
+  if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  const TempFolder temp;
+  const std::string prefix = temp.path / "prefix", build = temp.path / "build";
+  const auto must = [](const std::string& command) {
+    const CommandOutcome outcome = run_command(command + " 2>&1");
+    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
+    return outcome.output;
+  };
+  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR, prefix));
+  must(fmt::format("{} -S {}/docs/examples/cull_depth -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
+                   LIGHTGRID_SOURCE_DIR, build, prefix));
+  must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
+  if (HasFailure()) return;
+  const std::string out = must(build + "/cull_depth");
+
+  EXPECT_THAT(out, HasSubstr("80 x 45 tiles, "));
+  const std::vector<CullLight> lights = make_lights(500);
+  const std::vector<float> depth = make_depth();
+  const auto listed = numbers_after(out, "pixel 640 200:");
+  const auto reaching = lights_of_tile(lights, depth, 640 / 16, 200 / 16);
+  EXPECT_GE(reaching.size(), 3u);
+  EXPECT_THAT(listed, testing::IsSupersetOf(reaching));
+  EXPECT_LE(listed.size(), 2 * reaching.size());
+
+  size_t pairs = 0, tiles = 0;
+  for (int tile = 0; tile < 80 * 45; ++tile) {
+    const size_t count = lights_of_tile(lights, depth, tile % 80, tile / 80).size();
+    pairs += count, tiles += count > 0;
+  }
+  std::smatch numbers;
+  ASSERT_TRUE(std::regex_search(out, numbers, std::regex("tiles, ([0-9]+) of[^]*500 lights, ([0-9]+) entries"))) << out;
+  EXPECT_GE(std::stoul(numbers[1]), tiles);
+  EXPECT_GE(std::stoul(numbers[2]), pairs);
+  EXPECT_LE(std::stoul(numbers[2]), 2 * pairs);
+
+  if (!has_tool("ldd")) GTEST_SKIP() << "there is no ldd to ask what the example links";
+  const std::string libraries = must("ldd " + build + "/cull_depth");
+  EXPECT_THAT(libraries, HasSubstr("libOpenCL"));
+  for (const char* name : {"libGL", "libEGL", "libOSMesa", "libglapi", "libX11", "libpng", "libspdlog", "libdraco"}) {
+    EXPECT_THAT(libraries, Not(HasSubstr(name)));
+  }
+}
+
+// As on a machine that has OpenCL, GLM and fmt and none of what the program needs.
+TEST(Library, AloneIsConfiguredWithoutThePackagesOfTheProgram) {
+  if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  const TempFolder temp;
+  std::string command = fmt::format("{} -S {} -B {} -DLIGHTGRID_PROGRAM=OFF", LIGHTGRID_CONFIGURE, LIGHTGRID_SOURCE_DIR,
+                                    temp.path.string());
+  for (const char* package : {"CLI11", "draco", "GTest", "meshoptimizer", "nlohmann_json", "OpenGL", "PkgConfig", "PNG",
+                              "spdlog", "TinyGLTF", "tinyexr"}) {
+    command += fmt::format(" -DCMAKE_DISABLE_FIND_PACKAGE_{}=ON", package);
+  }
+  const CommandOutcome outcome = run_command(command + " 2>&1");
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,81 @@
+// One culler from view to view: what was before must not show.
+#include <gmock/gmock.h>
+
+#include "culling/culled_grid.h"
+#include "scene/random.h"
+
+namespace lightgrid {
+namespace {
+
+struct Scene {
+  View view;
+  std::vector<float> slice_edges;
+  std::vector<ViewLight> lights;
+};
+
+std::vector<ViewLight> some_lights(int count, bool spots, uint64_t seed) {
+  Random random(seed);
+  std::vector<ViewLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const double d = 0.5 + 20 * random.uniform();
+    const glm::dvec3 place(d * random.uniform(-1, 1), d * random.uniform(-0.6f, 0.6f), -d);
+    lights.push_back(spots && i % 2 ? spot_light(place, {0.3, -1, 0.1}, 4, 0.5) : point_light(place, 0.2 * d));
+  }
+  return lights;
+}
+
+HostGrid grid_of(LightCuller& culler, const Scene& scene) {
+  culler.set_lights(cull_lights_of(scene.lights));
+  CullView view = cull_view_of(scene.view);
+  view.slice_edges = scene.slice_edges;
+  culler.set_view(view);
+  const size_t tiles = tile_count(scene.view, 16);
+  ClGridStorage storage(test_device());
+  const TileBounds bounds = culler.bounds_of(std::vector<DepthInterval>(tiles, {1, 15}));
+  return read_grid(test_device(), culler.cull(bounds, storage), storage);
+}
+
+struct LightCullerOf : testing::TestWithParam<KernelShape> {
+  CullerOptions options{.shape = GetParam()};
+};
+
+TEST_P(LightCullerOf, LightsAndViewsThatChangeGiveTheGridsOfAFreshOne) {
+  const View small = view_of(127, 73, 60), large = view_of(640, 360, 90);
+  const View flat = orthographic_view_of(127, 73, 5, 0, 100);
+  const std::vector<float> edges = slice_edges(SliceSpacing::exponential, 8, 0.1, 50);
+  const std::vector<Scene> scenes = {{small, {}, some_lights(300, false, 1)}, {small, {}, some_lights(300, true, 2)},
+                                     {large, {}, some_lights(1000, true, 3)}, {small, {}, {}},
+                                     {flat, {}, some_lights(17, false, 4)},   {small, edges, some_lights(300, true, 5)},
+                                     {small, {}, some_lights(300, true, 5)},  {large, {}, some_lights(1, false, 6)}};
+  LightCuller culler(test_device(), test_programs(), options);
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    LightCuller fresh(test_device(), test_programs(), options);
+    const HostGrid expected = grid_of(fresh, scenes[i]);
+    EXPECT_TRUE(grid_of(culler, scenes[i]) == expected) << "scene " << i;
+    EXPECT_EQ(expected.indices.empty(), scenes[i].lights.empty()) << "scene " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, LightCullerOf, testing::Values(KernelShape::lanes, KernelShape::group),
+                         [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
+
+TEST(LightCuller, ChoosesTheShapeFromTheDevice) {
+  const LightCuller culler(test_device(), test_programs(), {});
+  EXPECT_EQ(culler.shape(), test_device().info().cpu ? KernelShape::lanes : KernelShape::group);
+}
+
+// Radii that reach nothing, in front of every pixel.
+TEST(LightCuller, ListsLightsOfNegativeOrNanRadiusNowhere) {
+  const View view = view_of(127, 73, 60);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<ViewLight> lights = {point_light({0, 0, -3}, -1), point_light({0, 0, -3}, nan),
+                                         point_light({0, 0, -3}, -INFINITY), point_light({0, 0, -3}, 100)};
+  const std::vector<glm::vec2> intervals(tile_count(view, 16), {1, 9});
+  for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+    const CulledGrid grid = cull_cells(view, lights, intervals, {.shape = shape});
+    for (size_t i = 0; i < grid.cells.size(); ++i) EXPECT_THAT(grid.list(i), testing::ElementsAre(3)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
