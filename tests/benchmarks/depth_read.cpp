@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "cl/launch.h"
 #include "culling/light_culler.h"
 #include "scene/camera.h"
 
