@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -77,6 +78,10 @@ std::vector<BenchCase> cases_of(const BenchCommand& o) {
   return cases;
 }
 
+bool gives_tile(const std::vector<std::string>& assignments) {
+  return std::any_of(assignments.begin(), assignments.end(), [](const std::string& a) { return a.starts_with("tile="); });
+}
+
 int tune(const BenchCommand& o) {
   if (tuned_sizes_file().empty()) throw input_error("--tune: LIGHTGRID_TUNED=off leaves no file to write");
   ClDevice device(o.device);
@@ -100,6 +105,7 @@ int bench(const BenchCommand& o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   if (o.tune) return tune(o);
   BenchOptions options{.cases = cases_of(o), .contestants = contestants_of(o), .filter = o.filter};
+  options.own_tile = !gives_tile(o.set) && !gives_tile(o.compare);
   options.frames = o.timing.frames, options.warmup = o.timing.warmup;
   if (isatty(STDERR_FILENO)) options.step = show_progress;
   if (!o.write_frames.empty()) {

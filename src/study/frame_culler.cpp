@@ -1,28 +1,10 @@
 #include "study/frame_culler.h"
 
+#include <numeric>
+
 #include "passes/frame/frame.h"
 
 namespace lightgrid {
-namespace {
-
-CullerOptions options_of(const Settings& settings) {
-  CullerOptions options;
-  options.cull_test = settings.cull_test;
-  options.depth_bounds = settings.depth_bounds;
-  options.shape = settings.kernel_shape;
-  options.tile = settings.tile;
-  return options;
-}
-
-std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
-  Scene scene;
-  scene.lights = local_world_lights(frame);
-  std::vector<int> all;
-  for (size_t i = 0; i < scene.lights.size(); ++i) all.push_back(int(i));
-  return cull_lights_of(scene, all);
-}
-
-}  // namespace
 
 Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set) {
   Settings settings;
@@ -31,11 +13,29 @@ Settings frame_settings(const CapturedFrame& frame, const std::vector<std::strin
   return settings;
 }
 
+CullerOptions culler_options(const Settings& settings) {
+  CullerOptions options;
+  options.cull_test = settings.cull_test;
+  options.depth_bounds = settings.depth_bounds;
+  options.shape = settings.kernel_shape;
+  options.tile = settings.tile;
+  options.portable = settings.portable;
+  return options;
+}
+
+std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
+  Scene scene;
+  scene.lights = local_world_lights(frame);
+  std::vector<int> all(scene.lights.size());
+  std::iota(all.begin(), all.end(), 0);
+  return cull_lights_of(scene, all);
+}
+
 FrameCuller::FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
                          const Settings& settings)
     : device_(device),
       settings_(settings),
-      culler_(device, programs, options_of(settings)),
+      culler_(device, programs, culler_options(settings)),
       storage_(device) {
   culler_.set_lights(cull_lights_of(frame));
   culler_.set_view(cull_view(frame.view));

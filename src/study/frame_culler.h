@@ -12,6 +12,11 @@ namespace lightgrid {
 // The default settings with the frame's tile size, then each KEY=VALUE of `set`.
 Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set);
 
+CullerOptions culler_options(const Settings& settings);
+
+// Of the point and spot lights.
+std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
+
 class FrameCuller {
  public:
   // settings.tile decides, not the frame's own. Uploads depth and lights; the frame may go then.

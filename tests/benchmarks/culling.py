@@ -2,13 +2,14 @@
 """The culling pipeline on captured frames, against a prototype and against itself, in one go.
 
     tests/benchmarks/culling.py --frames DIR [--prototype DIR] [--rounds N] [--runs N] [--threads 1,2]
-                                [--only RE] [--program FILE] [--csv FILE] [--table FILE]
+                                [--only RE] [--of median|least] [--program FILE] [--csv FILE] [--table FILE]
 
 DIR holds one folder a frame; where it is absent, the standard frames are written there first. The prototype's folder
 holds `drv7` and `cull7.cl`; its program writes a `lights.bin` into each frame's folder. PoCL only: the number of
 threads is PoCL's. In each round each program runs once on each frame with each number of threads, in an order that
-turns around from round to round; a ratio is taken within a round, and the table gives the least and the median of the
-rounds' ratios. Nothing else should run on the machine; where something does, the least is nearer the truth.
+turns around from round to round. The table gives two figures each: of the least times of all rounds, and the median
+over the rounds, where a ratio is one of two medians of that round. Nothing else should run on the machine; where
+something does, `--of least` takes a round's least times for its medians.
 
 The CSV has one line for each row of each round:
   commit,device,cores,round,frame,lights,threads,program,settings,row,runs,min_ms,median_ms,p90_ms
@@ -38,6 +39,7 @@ def arguments():
     parser.add_argument("--runs", type=int, default=40)
     parser.add_argument("--threads", default="1,2")
     parser.add_argument("--only", default="")
+    parser.add_argument("--of", choices=["median", "least"], default="median")
     parser.add_argument("--csv")
     parser.add_argument("--table")
     return parser.parse_args()
@@ -145,8 +147,9 @@ def default_settings(comparisons):
 class Found:
     """The rows by what they are of."""
 
-    def __init__(self, rows):
+    def __init__(self, rows, of):
         self.rows = rows
+        self.typical = {"median": "median_ms", "least": "min_ms"}[of]
 
     def per_round(self, frame, threads, program, settings, row, key):
         """{round: milliseconds}; several of one round are averaged (the default stands in each comparison)."""
@@ -157,9 +160,9 @@ class Found:
         return {number: statistics.mean(values) for number, values in found.items()}
 
     def ratio(self, above, below):
-        """"least of all / least of all (median of the rounds' ratios of medians)" of two such places."""
+        """Of the least times of two such places; and the median of the rounds' ratios."""
         low = [self.per_round(*place, "min_ms") for place in (above, below)]
-        mid = [self.per_round(*place, "median_ms") for place in (above, below)]
+        mid = [self.per_round(*place, self.typical) for place in (above, below)]
         both = sorted(set(mid[0]) & set(mid[1]))
         if not both:
             return None
@@ -167,7 +170,7 @@ class Found:
         return least, statistics.median(mid[0][r] / mid[1][r] for r in both)
 
     def time(self, place):
-        low, mid = self.per_round(*place, "min_ms"), self.per_round(*place, "median_ms")
+        low, mid = self.per_round(*place, "min_ms"), self.per_round(*place, self.typical)
         return (min(low.values()), statistics.median(mid.values())) if low else None
 
 
@@ -235,10 +238,11 @@ def main():
     rows = measure(args, frames, comparisons)
     if args.csv:
         write_csv(args.csv, rows)
-    found = Found(rows)
+    found = Found(rows, args.of)
     text = "\n".join([
         f"Commit {machine.get('commit', '')}; {machine.get('device', '')} ({machine.get('driver', '')}). "
-        f"{args.rounds} rounds of {args.runs} runs. Each cell: of the least times / the median over the rounds.", "",
+        f"{args.rounds} rounds of {args.runs} runs. "
+        f"Each cell: of the least times / the median over the rounds (of their {args.of} times).", "",
         *frame_table(found, frames, threads, comparisons), "", *scaling_lines(found, frames, threads, comparisons)])
     if args.table:
         with open(args.table, "w") as file:

@@ -58,6 +58,7 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   std::vector<BenchContestant> contestants = options.contestants;
   for (BenchContestant& contestant : contestants) {
     if (c.tile) contestant.settings.tile = c.tile;
+    if (!c.folder.empty() && options.own_tile) contestant.settings.tile = frame.tile;
     runs.push_back(std::make_unique<CullingRun>(device, programs, frame, contestant.settings));
     in_turn.push_back(runs.back().get());
   }

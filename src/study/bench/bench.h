@@ -20,6 +20,7 @@ struct BenchOptions {
   std::vector<BenchCase> cases;
   std::vector<BenchContestant> contestants;  // the first is what ratios refer to
   std::string filter;                        // a regular expression that must be found in "CASE/ROW"; empty: all
+  bool own_tile = true;                      // a captured frame's tile size, where the contestants give none
   int frames = 30, warmup = 3;
   std::function<void(const std::vector<BenchRow>&)> found;         // rows, as soon as a case is done; may be empty
   std::function<void(double done, const std::string& what)> step;  // progress; may be empty

@@ -1,29 +1,10 @@
 #include "study/bench/culling_run.h"
 
-#include <numeric>
-
 #include "passes/frame/frame.h"
+#include "study/frame_culler.h"
 
 namespace lightgrid {
 namespace {
-
-CullerOptions culler_options(const Settings& settings) {
-  CullerOptions options;
-  options.cull_test = settings.cull_test;
-  options.depth_bounds = settings.depth_bounds;
-  options.shape = settings.kernel_shape;
-  options.tile = settings.tile;
-  options.portable = settings.portable;
-  return options;
-}
-
-std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
-  Scene scene;
-  scene.lights = local_world_lights(frame);
-  std::vector<int> all(scene.lights.size());
-  std::iota(all.begin(), all.end(), 0);
-  return cull_lights_of(scene, all);
-}
 
 cl::Buffer upload(ClDevice& device, const std::vector<float>& values) {
   const size_t bytes = values.size() * sizeof(float);

@@ -11,7 +11,7 @@ namespace lightgrid {
 namespace {
 
 // Settings that change no result. Those that this program has not are passed over.
-const char* const tunable_keys[] = {"kernel-shape"};
+const char* const tunable_keys[] = {"kernel-shape", "portable"};
 
 std::vector<std::string> values_of(const std::string& key) {
   for (const SettingHelp& help : setting_help()) {
