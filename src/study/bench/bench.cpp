@@ -71,7 +71,7 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   for (size_t i = 0; i < runs.size(); ++i) {
     const LightGrid& grid = runs[i]->grid();
     const ContestantParams about{c.name, params_of(frame, contestants[i], grid), work_of(frame, contestants[i], grid)};
-    for (BenchRow& row : contestant_rows(about, measured.runs[i], measured.plain_read, limits)) {
+    for (BenchRow& row : contestant_rows(about, measured.runs[i], measured, limits)) {
       const auto first = std::find_if(rows.begin(), rows.end(), [&](const BenchRow& r) { return r.name == row.name; });
       if (first != rows.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
       rows.push_back(std::move(row));

@@ -108,7 +108,7 @@ double PlainRead::run(const cl::Buffer& buffer, size_t bytes) {
   return device_ms(device_);
 }
 
-void PlainRead::fit(const cl::Buffer& buffer, size_t bytes, int tries) {
+double PlainRead::fit(const cl::Buffer& buffer, size_t bytes, int tries) {
   device_.profiler().time_launches(true);
   const size_t units = group_ * size_t(device_.info().compute_units);
   double best_ms = std::numeric_limits<double>::infinity();
@@ -122,6 +122,7 @@ void PlainRead::fit(const cl::Buffer& buffer, size_t bytes, int tries) {
     }
   }
   items_ = best;
+  return best_ms;
 }
 
 Limits measure_limits(ClDevice& device, ProgramCache& programs, int runs, bool with_large) {

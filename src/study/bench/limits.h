@@ -13,8 +13,9 @@ class PlainRead {
  public:
   PlainRead(ClDevice& device, ProgramCache& programs);
 
-  // Tries numbers of items on this buffer and keeps the best; once for each size that is measured.
-  void fit(const cl::Buffer& buffer, size_t bytes, int tries = 5);
+  // Tries numbers of items on this buffer and keeps the best; once for each size that is measured. Returns the least
+  // time met, milliseconds on the device.
+  double fit(const cl::Buffer& buffer, size_t bytes, int tries = 5);
 
   // Milliseconds on the device. `bytes` is rounded down to what the kernel reads, bytes_read().
   double run(const cl::Buffer& buffer, size_t bytes);

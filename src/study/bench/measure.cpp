@@ -81,7 +81,7 @@ MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& 
                               const Rounds& rounds) {
   const cl::Buffer& depth = contestants.front()->depth();
   const size_t bytes = contestants.front()->depth_bytes();
-  read.fit(depth, bytes);
+  const double least = read.fit(depth, bytes);
   std::vector<Samples> samples(contestants.size());
   std::vector<double> reads;
   for (int round = -rounds.warmup; round < rounds.timed; ++round) {
@@ -102,6 +102,7 @@ MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& 
     measure_transfers(*contestants[i], measured.runs.back());
   }
   measured.plain_read = spread_of(reads);
+  measured.least_read_ms = std::min(least, measured.plain_read.min);
   return measured;
 }
 

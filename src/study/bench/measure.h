@@ -26,6 +26,7 @@ struct MeasuredRun {
 struct MeasuredFrame {
   std::vector<MeasuredRun> runs;  // one for each contestant
   Spread plain_read;              // of the same depth buffer, in the same rounds
+  double least_read_ms = 0;       // the least of those and of the runs before that fitted it
 };
 
 struct Rounds {

@@ -33,10 +33,10 @@ std::vector<BenchRow> limit_rows(const Limits& l) {
           limit_row("to_host", "transfer", l.to_host, depth)};
 }
 
-std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const Spread& plain_read,
+std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const MeasuredFrame& frame,
                                       const Limits& limits) {
   const double depth_bytes = double(PlainRead::bytes_read(4 * about.work.pixels));
-  const double read_gb_s = depth_bytes > 0 ? 1e-6 * depth_bytes / plain_read.min : limits.read_depth_gb_s();
+  const double read_gb_s = depth_bytes > 0 ? 1e-6 * depth_bytes / frame.least_read_ms : limits.read_depth_gb_s();
   const auto row = [&](const std::string& name, const char* kind, const Spread& ms, std::optional<KernelCost> cost) {
     BenchRow r{name, kind, about.case_name, about.params, ms, cost, {}, {}};
     if (cost) r.limit_ms = least_ms(*cost, read_gb_s, limits);
@@ -53,7 +53,7 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
     if (cost) all.bytes += cost->bytes, all.flops += cost->flops;
   }
   const std::optional<KernelCost> sum = all_known ? std::optional(all) : std::nullopt;
-  rows.push_back(row("plain_read", "limit", plain_read, KernelCost{depth_bytes, 0}));
+  rows.push_back(row("plain_read", "limit", frame.plain_read, KernelCost{depth_bytes, 0}));
   rows.push_back(row("lights_upload", "transfer", run.lights_upload, {}));
   rows.push_back(row("grid_download", "transfer", run.grid_download, {}));
   rows.push_back(row("launch_overhead", "overhead", run.overhead, {}));

@@ -34,7 +34,7 @@ struct ContestantParams {
   KernelWork work;
 };
 
-std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const Spread& plain_read,
+std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const MeasuredFrame& frame,
                                       const Limits& limits);
 
 nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device);
