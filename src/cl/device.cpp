@@ -117,4 +117,19 @@ ClDevice::ClDevice(const std::string& substring) {
   }
 }
 
+ClDevice::ClDevice(const cl::Device& device, const cl::Context& context, const cl::CommandQueue& queue)
+    : device_(device), context_(context), queue_(queue) {
+  try {
+    info_ = describe(device);
+    if (queue.getInfo<CL_QUEUE_CONTEXT>()() != context() || queue.getInfo<CL_QUEUE_DEVICE>()() != device()) {
+      throw input_error("OpenCL queue: it is of another context or device than those given with it");
+    }
+    if (queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) {
+      throw input_error("OpenCL queue: it is out of order; launches here rely on their order");
+    }
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, "OpenCL queue");
+  }
+}
+
 }  // namespace lightgrid

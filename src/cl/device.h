@@ -24,10 +24,14 @@ class ClDevice {
   // one.
   explicit ClDevice(const std::string& substring = "");
 
+  // What a host program has made already: a device, a context of it, and a queue of both, all three kept alive here.
+  // Throws Error(input) where the queue is not of them or not in order. Launches are timed only with profiling enabled.
+  ClDevice(const cl::Device& device, const cl::Context& context, const cl::CommandQueue& queue);
+
   const ClDeviceInfo& info() const { return info_; }
   cl::Device& device() { return device_; }
   cl::Context& context() { return context_; }
-  cl::CommandQueue& queue() { return queue_; }  // in order, profiling enabled
+  cl::CommandQueue& queue() { return queue_; }  // in order; profiling enabled where it was made here
   ClProfiler& profiler() { return profiler_; }
 
  private:

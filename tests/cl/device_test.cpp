@@ -67,6 +67,50 @@ TEST(ClDevice, IsTheOneThatTheChoiceNames) {
 
 TEST(ClDevice, ThatDoesNotExistIsAMachineError) { EXPECT_THROW(ClDevice("no device is called this"), Error); }
 
+TEST(ClDevice, MayBeWhatTheHostProgramHasMade) {
+  ClDevice first;
+  const cl::Context context(first.device());
+  const cl::CommandQueue queue(context, first.device());
+  ClDevice own(first.device(), context, queue);
+  EXPECT_EQ(own.info().name, first.info().name);
+  EXPECT_EQ(own.context()(), context());
+  EXPECT_EQ(own.queue()(), queue());
+  // A buffer of that context is written through it.
+  const cl::Buffer buffer(context, CL_MEM_READ_WRITE, 64);
+  own.queue().enqueueFillBuffer(buffer, cl_uint(7), 0, 64);
+  cl_uint read = 0;
+  queue.enqueueReadBuffer(buffer, CL_TRUE, 60, sizeof read, &read);
+  EXPECT_EQ(read, 7u);
+}
+
+TEST(ClDevice, TakesNoQueueOfAnotherContext) {
+  ClDevice first;
+  const cl::Context context(first.device());
+  try {
+    ClDevice own(first.device(), context, first.queue());
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_THAT(error.what(), HasSubstr("another context"));
+  }
+}
+
+TEST(ClDevice, TakesNoQueueOutOfOrder) {
+  ClDevice first;
+  cl_int refused = CL_SUCCESS;
+  cl_command_queue made = clCreateCommandQueue(first.context()(), first.device()(),
+                                               CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &refused);
+  if (refused != CL_SUCCESS) GTEST_SKIP() << first.info().name << " has none: " << cl_error_name(refused);
+  const cl::CommandQueue queue(made);  // takes it over
+  try {
+    ClDevice own(first.device(), first.context(), queue);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_THAT(error.what(), HasSubstr("out of order"));
+  }
+}
+
 TEST(ClErrors, AreNamedWithTheCallAndTheCode) {
   EXPECT_EQ(cl_error_name(CL_INVALID_KERNEL_ARGS), "CL_INVALID_KERNEL_ARGS");
   EXPECT_EQ(cl_error_name(-12345), "code -12345");
