@@ -13,6 +13,12 @@ typedef uint index_t;
 #else
 typedef ushort index_t;
 #endif
+#ifdef AVX512  // a compiler that knows this; vstore16 of ushort becomes 16 stores
+typedef index_t unaligned_indices __attribute__((ext_vector_type(16), aligned(2)));
+#define COPY_16(to, from) *(global unaligned_indices*)(to) = *(global const unaligned_indices*)(from)
+#else
+#define COPY_16(to, from) vstore16(vload16(0, from), 0, to)
+#endif
 
 kernel void compact_lanes(global const uint2* bins, global const uint* cell_counts, global const index_t* staged,
                           global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
@@ -26,7 +32,7 @@ kernel void compact_lanes(global const uint2* bins, global const uint* cell_coun
   global const index_t* from = staged + (size_t)bins[bin].x * 16;
   global index_t* to = indices + before;
   uint i = 0;
-  for (; i + 16 <= count; i += 16) vstore16(vload16(0, from + i), 0, to + i);
+  for (; i + 16 <= count; i += 16) COPY_16(to + i, from + i);
   for (; i < count; ++i) to[i] = from[i];
 
   const uint tx0 = bin % p->bins_x * BIN_TILES, ty0 = bin / p->bins_x * BIN_TILES;

@@ -55,11 +55,16 @@ kernel void project_lights_lanes(global const float* lights, global float* lists
         const TileRect rect = {as_int16(vload16(b, held.values[VIEW_FIRST])), as_int16(vload16(b, held.values[VIEW_LAST]))};
         const uint bits = mask_bits(rect_meets(rect, first, last));
         if (bits == 0) continue;
+#ifdef AVX512
 #pragma unroll
-        for (uint a = 0; a < VIEW_ARRAYS; ++a) {
-          append_reals(list + a * stride + count, vload16(b, held.values[a]), bits);
-        }
+        for (uint a = 0; a < VIEW_ARRAYS; ++a) append_reals(list + a * stride + count, vload16(b, held.values[a]), bits);
         count += popcount(bits);
+#else
+        for (uint left = bits; left; left &= left - 1, ++count) {
+          const uint i = b * 16 + lowest_bit(left);
+          for (uint a = 0; a < VIEW_ARRAYS; ++a) list[a * stride + count] = held.values[a][i];
+        }
+#endif
       }
       counts[r * items + item] = count;
     }

@@ -30,12 +30,12 @@ static inline mask_t mask_meets(ViewSphere s, const TestCell* c) {
 }
 #endif
 
-// lights: arrays of light_arrays.h, at the first of LANES lights.
+// lights: arrays of light_arrays.h, at the first of LANES lights. The cell holds something.
 static inline mask_t light_may_touch(global const float* lights, size_t stride, const TestCell* c, constant CullParams* p) {
   const ViewSphere s = load_sphere(lights, stride);
   mask_t keep = 0;
   for (int i = 0; i < INTERVALS; ++i) {
-    if (c->parts[i].near > c->parts[i].far) continue;
+    if (INTERVALS > 1 && c->parts[i].near > c->parts[i].far) continue;
     mask_t touch = may_touch(s, &c->parts[i], p);
 #ifdef SPOTS
     touch &= cone_may_touch(s, load_cone(lights + VIEW_CONE * stride, stride), &c->parts[i]);

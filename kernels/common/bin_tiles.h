@@ -1,4 +1,5 @@
-// All tiles of a bin at once, 16 at a time, with the boxes around each quad of them and around all: for CPUs.
+// All tiles of a bin at once, 16 at a time, with the boxes around each quad of 2 x 2 tiles, each block of 4 x 4, and all:
+// for CPUs.
 #pragma once
 
 #include "kernels/common/bin_cells.h"
@@ -56,14 +57,15 @@ static inline void store_cells(Span s, Cell* cells, uint every, uint n) {
   }
 }
 
-// quads: 16; near > far where a quad, or the bin, holds no surface.
-static inline void make_bin_tiles(global const float* bounds, uint bx, uint by, BinTiles* tiles, Cell* quads, Cell* bin,
+// quads: 16, blocks: 4; near > far where a quad, a block or the bin holds no surface.
+static inline void make_bin_tiles(global const float* bounds, uint bx, uint by, BinTiles* tiles, Cell* quads, Cell* blocks,
+                                  Cell* bin,
                                   constant CullParams* p) {
   Span all = no_span();
   for (uint k = 0; k < 4; ++k) {
     const int16 slot = (int)(k * 16) + LANE_INDEX;
-    const int16 tx = (int)(bx * BIN_TILES) + ((slot >> 1 & 6) | (slot & 1));
-    const int16 ty = (int)(by * BIN_TILES) + ((slot >> 3 & 6) | (slot >> 1 & 1));
+    const int16 tx = (int)(bx * BIN_TILES) + ((slot & 1) | (slot >> 1 & 2) | (slot >> 2 & 4));
+    const int16 ty = (int)(by * BIN_TILES) + ((slot >> 1 & 1) | (slot >> 2 & 2) | (slot >> 3 & 4));
     const TileSides sides = tile_sides(convert_float16(tx), convert_float16(ty), p);
 #if CULL_TEST == CULL_EXACT || defined(SLICES)
     vstore16(sides.x0, k, tiles->x0), vstore16(sides.x1, k, tiles->x1);
@@ -82,11 +84,12 @@ static inline void make_bin_tiles(global const float* bounds, uint bx, uint by, 
                          some ? box.x1 : high, some ? box.y0 : low, some ? box.y1 : high};
       here = join(here, span);
     }
-    const Span joined = join_quads(here);
+    const Span joined = join_quads(here), block = join_all(joined);
     store_cells(joined, quads + k * 4, 4, 4);
-    all = join(all, joined);
+    store_cells(block, blocks + k, 1, 1);
+    all = join(all, block);
   }
-  store_cells(join_all(all), bin, 1, 1);
+  store_cells(all, bin, 1, 1);
 }
 
 // Returns whether anything is in the cell.

@@ -17,7 +17,6 @@ static inline int16 packed(int16 v, uint bits) { return __builtin_ia32_compresss
 static inline void append_reals(global float* to, real v, uint bits) {
   *(global unaligned_floats*)to = as_float16(packed(as_int16(v), bits));
 }
-static inline void append_wholes(global float* to, whole v, uint bits) { append_reals(to, as_float16(v), bits); }
 static inline void append_ushorts(global ushort* to, whole v, uint bits) {
   *(global unaligned_ushorts*)to = convert_ushort16(packed(v, bits));
 }
@@ -33,14 +32,10 @@ static inline uint mask_bits(mask_t m) {
   return (uint)(e.x | e.y);
 }
 
-#define APPEND_LANES(to, type, v, bits)                                     \
-  type lanes[16];                                                           \
-  vstore16(v, 0, lanes);                                                    \
+static inline void append_reals(global float* to, real v, uint bits) {
+  float lanes[16];
+  vstore16(v, 0, lanes);
   for (uint left = bits; left; left &= left - 1) *to++ = lanes[lowest_bit(left)];
-
-static inline void append_reals(global float* to, real v, uint bits) { APPEND_LANES(to, float, v, bits) }
-static inline void append_wholes(global float* to, whole v, uint bits) { append_reals(to, as_float16(v), bits); }
-static inline void append_ushorts(global ushort* to, whole v, uint bits) { APPEND_LANES(to, int, v, bits) }
-static inline void append_uints(global uint* to, whole v, uint bits) { APPEND_LANES(to, int, v, bits) }
+}
 #endif
 #endif

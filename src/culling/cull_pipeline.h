@@ -28,10 +28,12 @@ class CullPipeline {
 };
 
 struct PipelineOptions {
-  std::string defines;  // of the light tests and the index type
+  std::string light_defines;  // of lights alone: test, cones
+  std::string defines;        // and of cells and index type
   bool avx512 = false;
   int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
   int index_bytes = 2;
+  bool many_lights = false;  // one more step from coarse to fine pays
 };
 
 std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);

@@ -17,10 +17,10 @@ class GroupPipeline : public CullPipeline {
  public:
   GroupPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : device_(device), options_(options) {
-    project_ = programs.kernel("project_lights_group", options.defines);
+    project_ = programs.kernel("project_lights_group", options.light_defines);
     boxes_kernel_ = programs.kernel("bin_boxes_group", options.defines);
     mark_bins_ = programs.kernel("mark_bins_group", options.defines);
-    list_ = programs.kernel("list_candidates_group", options.defines);
+    list_ = programs.kernel("list_candidates_group", options.light_defines);
     mark_cells_ = programs.kernel("mark_cells_group", options.defines);
     fill_ = programs.kernel("fill_lists_group", options.defines);
   }

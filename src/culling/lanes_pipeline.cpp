@@ -14,15 +14,15 @@ class LanesPipeline : public CullPipeline {
  public:
   LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : device_(device), options_(options) {
-    const std::string defines = options.defines + (options.avx512 ? " -DAVX512" : "");
-    project_ = programs.kernel("project_lights_lanes", defines);
-    cull_ = programs.kernel("cull_lanes", defines);
-    compact_ = programs.kernel("compact_lanes", options.index_bytes == 4 ? "-DINDEX_32" : "");
+    const std::string builtins = options.avx512 ? " -DAVX512" : "", defines = options.defines + builtins;
+    project_ = programs.kernel("project_lights_lanes", options.light_defines + builtins);
+    cull_ = programs.kernel("cull_lanes", defines + (options.many_lights ? " -DBINS=2" : ""));
+    compact_ = programs.kernel("compact_lanes", std::string(options.index_bytes == 4 ? "-DINDEX_32" : "") + (options.avx512 ? " -DAVX512" : ""));
   }
 
   void prepare(const CullParams& p) override {
     const size_t regions = size_t(p.regions_x) * p.regions_y, bins = size_t(p.bins_x) * p.bins_y;
-    runs_ = std::clamp<uint>(p.light_stride / 512, 1, std::max(16, 2 * device_.info().compute_units));
+    runs_ = std::clamp<uint>(p.light_stride / 512, 1, std::max(4, 2 * device_.info().compute_units));
     lists_.at_least(device_, (regions * options_.view_arrays * (p.light_stride + 16) + spare) * sizeof(float));
     run_counts_.at_least(device_, regions * runs_ * sizeof(cl_uint));
     pool_.at_least(device_, (size_t(p.pool_blocks) * 16 * options_.view_arrays + spare) * sizeof(float));
@@ -35,7 +35,9 @@ class LanesPipeline : public CullPipeline {
     const size_t bins = size_t(job.params.bins_x) * job.params.bins_y;
     launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, lists_.get(),
            run_counts_.get(), job.counters, job.params_buffer);
-    launch(device_, "cull_lights", cull_, cl::NDRange(bins), cl::NDRange(1), lists_.get(), run_counts_.get(),
+    const uint side = options_.many_lights ? 2 : 1;
+    const size_t items = size_t((job.params.bins_x + side - 1) / side) * ((job.params.bins_y + side - 1) / side);
+    launch(device_, "cull_lights", cull_, cl::NDRange(items), cl::NDRange(1), lists_.get(), run_counts_.get(),
            cl_uint(runs_), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(),
            job.counters, job.params_buffer);
     launch(device_, "compact_lists", compact_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),

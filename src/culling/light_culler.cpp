@@ -18,7 +18,7 @@ constexpr float far_away = 1e18f;   // as kernels/common/project.h
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
 constexpr int world_arrays = 8;     // as kernels/common/light_arrays.h
 constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16;
-constexpr uint most_regions = 64;
+constexpr uint most_regions = 64, many_lights = 16384;
 constexpr double half_ulp = 0x1p-24;
 
 cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
@@ -129,11 +129,6 @@ void LightCuller::set_view(const CullView& view) {
   // 32-bit floats near 1 are 2^-24 apart; near 0, where reversed depth has the distance, closer than slack.
   if (options_.depth_format == DepthFormat::d32f && params_.standard_depth) params_.depth_step = float(half_ulp);
   eye_ = view.eye;
-  params_.region_bins = 4;
-  const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
-  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions) params_.region_bins *= 2;
-  params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
-
   const float margin = params_.orthographic ? widen * std::abs(params_.depth_b * params_.depth_a) : 0.0f;
   std::vector<cl_float2> slices;
   float near = params_.orthographic ? -far_away : 0.0f;
@@ -168,7 +163,15 @@ cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
   return buffer;
 }
 
+void LightCuller::choose_regions() {
+  params_.region_bins = 4;
+  const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
+  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions) params_.region_bins *= 2;
+  params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
+}
+
 void LightCuller::upload_params() {
+  choose_regions();
   params_.light_count = light_count_, params_.light_stride = light_stride_;
   params_.index_capacity = uint(index_capacity_);
   const glm::dvec3 eye = eye_ - origin_;
@@ -190,10 +193,13 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   if (!opaque_()) opaque_ = empty_bounds(planes_of(options_.depth_bounds), far_away, -far_away);
   if (!blend_()) blend_ = options_.blend ? empty_bounds(2, far_away, -far_away) : device_buffer(device_, 0);
   // Depth's sense is the view's: a kernel is built for the one met.
-  const std::string defines =
-      fmt::format("-DTILE={} -DSAMPLES={} -DDEPTH_MODE={}{}{}", options_.tile, options_.samples, int(options_.depth_bounds),
-                  params_.standard_depth ? " -DSTANDARD_DEPTH" : "", options_.blend ? " -DBLEND" : "");
-  bounds_kernel_ = programs_.kernel(lanes ? "depth_bounds_lanes" : "depth_bounds_group", defines);
+  if (!bounds_kernel_() || bounds_kernel_standard_ != bool(params_.standard_depth)) {
+    bounds_kernel_standard_ = params_.standard_depth;
+    const std::string defines =
+        fmt::format("-DTILE={} -DSAMPLES={} -DDEPTH_MODE={}{}{}", options_.tile, options_.samples, int(options_.depth_bounds),
+                    params_.standard_depth ? " -DSTANDARD_DEPTH" : "", options_.blend ? " -DBLEND" : "");
+    bounds_kernel_ = programs_.kernel(lanes ? "depth_bounds_lanes" : "depth_bounds_group", defines);
+  }
   const uint row = uint(depth.row_pixels > 0 ? depth.row_pixels : int(params_.width));
   params_.depth_row = row * uint(options_.samples);
   params_.depth_first = (uint(depth.y) * row + uint(depth.x)) * uint(options_.samples);
@@ -241,11 +247,12 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   if (made) return *made;
   PipelineOptions options;
   options.avx512 = avx512_;
+  options.many_lights = light_count_ > many_lights;
   options.view_arrays = cones_ ? 11 : 7;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
-  options.defines = fmt::format("-DCULL_TEST={} -DDEPTH_MODE={}{}{}{}", int(options_.cull_test), int(mode),
-                                cones_ ? " -DSPOTS" : "", params_.slices > 1 ? " -DSLICES" : "",
-                                options.index_bytes == 4 ? " -DINDEX_32" : "");
+  options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
+  options.defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(mode),
+                                params_.slices > 1 ? " -DSLICES" : "", options.index_bytes == 4 ? " -DINDEX_32" : "");
   made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
                                               : make_group_pipeline(device_, programs_, options);
   return *made;

@@ -164,6 +164,7 @@ class LightCuller {
  private:
   CullPipeline& pipeline(DepthBoundsMode mode);
   cl::Buffer empty_bounds(int planes, float near, float far);
+  void choose_regions();
   void upload_params();
 
   ClDevice& device_;
@@ -176,6 +177,7 @@ class LightCuller {
   size_t index_capacity_ = 0, params_uploads_ = 0;
   CullParams uploaded_{};
   cl::Kernel bounds_kernel_;
+  bool bounds_kernel_standard_ = false;
   cl::Buffer params_buffer_, lights_, slices_, opaque_, blend_, counters_;
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};

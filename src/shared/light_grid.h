@@ -16,10 +16,13 @@ SHARED_FUNCTION uint cell_of_pixel(uint x, uint y, uint tile_size, uint tiles_x)
   return (y / tile_size) * tiles_x + x / tile_size;
 }
 
-// A bin's tiles in the order in which their lists lie in memory: quads of 2 x 2 tiles, row by row.
-SHARED_FUNCTION uint tile_x_of_slot(uint slot) { return (slot >> 1 & 6u) | (slot & 1u); }
-SHARED_FUNCTION uint tile_y_of_slot(uint slot) { return (slot >> 3 & 6u) | (slot >> 1 & 1u); }
-SHARED_FUNCTION uint slot_of_tile(uint x, uint y) { return (y & 6u) << 3 | (x & 6u) << 1 | (y & 1u) << 1 | (x & 1u); }
+// A bin's tiles in the order in which their lists lie in memory: Morton's (1966), so that 4 slots from a multiple of 4 on
+// are a quad of 2 x 2 tiles, and 16 a block of 4 x 4.
+SHARED_FUNCTION uint tile_x_of_slot(uint slot) { return (slot & 1u) | (slot >> 1 & 2u) | (slot >> 2 & 4u); }
+SHARED_FUNCTION uint tile_y_of_slot(uint slot) { return (slot >> 1 & 1u) | (slot >> 2 & 2u) | (slot >> 3 & 4u); }
+SHARED_FUNCTION uint slot_of_tile(uint x, uint y) {
+  return (x & 1u) | (y & 1u) << 1 | (x & 2u) << 1 | (y & 2u) << 2 | (x & 4u) << 2 | (y & 4u) << 3;
+}
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 }  // namespace lightgrid

@@ -299,30 +299,29 @@ TEST(LightGrid, NoPixelLosesALightUnderAnySetting) {
       value = random.uniform() < 0.1f ? 0.0f : surface;
     }
     const auto lights = scattered_lights(named.view, 400, true, 18);
-    for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
-      for (const int tile : {8, 16, 32, 64}) {
-        for (const DepthBoundsMode mode : {DepthBoundsMode::none, DepthBoundsMode::minmax, DepthBoundsMode::halfz,
-                                           DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32}) {
-          SCOPED_TRACE(fmt::format("{} test {} tile {} mode {}", named.name, int(test), tile, int(mode)));
-          CullerOptions options = options_of(test, KernelShape::automatic);
-          options.tile = tile, options.depth_bounds = mode;
-          const CulledGrid grid = cull_depth(named.view, lights, depth, options);
-          options.shape = KernelShape::group;
-          EXPECT_EQ(cull_depth(named.view, lights, depth, options), grid);
-          ListedLights lists;
-          for (uint y = 0; y < 73; ++y) {
-            for (uint x = 0; x < 127; ++x)
-              lists.cell_of_pixel.push_back(y / tile * grid.params.tiles_x + x / tile);
-          }
-          for (const glm::uvec2 cell : grid.cells)
-            lists.first.push_back(cell.x), lists.count.push_back(cell.y);
-          lists.indices = grid.indices;
-          const LitPairs pairs = count_pairs(named.view, depth, lights, lists);
-          EXPECT_EQ(pairs.lost, 0u);
-          EXPECT_EQ(pairs.wrong, 0u);
-          EXPECT_GT(pairs.lit, 200u);
-        }
+    // Every test with every kind of bounds; tile sizes take turns, and the other shape runs with some.
+    for (int combination = 0; combination < 25; ++combination) {
+      const int tile = 8 << combination % 4;
+      CullerOptions options = options_of(CullTest(combination / 5), KernelShape::lanes);
+      options.tile = tile, options.depth_bounds = DepthBoundsMode(combination % 5);
+      SCOPED_TRACE(fmt::format("{} test {} mode {} tile {}", named.name, combination / 5, combination % 5, tile));
+      const CulledGrid grid = cull_depth(named.view, lights, depth, options);
+      if (combination % 6 == 0) {
+        options.shape = KernelShape::group;
+        EXPECT_EQ(cull_depth(named.view, lights, depth, options), grid);
       }
+      ListedLights lists;
+      for (uint y = 0; y < 73; ++y) {
+        for (uint x = 0; x < 127; ++x)
+          lists.cell_of_pixel.push_back(y / tile * grid.params.tiles_x + x / tile);
+      }
+      for (const glm::uvec2 cell : grid.cells)
+        lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+      lists.indices = grid.indices;
+      const LitPairs pairs = count_pairs(named.view, depth, lights, lists);
+      EXPECT_EQ(pairs.lost, 0u);
+      EXPECT_EQ(pairs.wrong, 0u);
+      EXPECT_GT(pairs.lit, 200u);
     }
   }
 }

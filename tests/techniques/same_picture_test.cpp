@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
