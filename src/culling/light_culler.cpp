@@ -142,9 +142,14 @@ void LightCuller::set_view(const CullView& view) {
     slices_ = device_buffer(device_, slices.size() * sizeof slices[0]);
     device_.queue().enqueueWriteBuffer(slices_, CL_TRUE, 0, slices.size() * sizeof slices[0], slices.data());
   }
-  if (const glm::uvec2 tiles(params_.tiles_x, params_.tiles_y); tiles != bounds_tiles_) {
+  const glm::uvec2 tiles(params_.tiles_x, params_.tiles_y);
+  if (tiles != bounds_tiles_ || room.orthographic != params_.orthographic) {
     bounds_tiles_ = tiles;
     opaque_ = blend_ = cl::Buffer();
+  }
+  // Kernels are built for one cell a tile, or for several.
+  if ((room.slices > 1) != (params_.slices > 1)) {
+    for (auto& pipeline : pipelines_) pipeline.reset();
   }
 }
 

@@ -56,6 +56,30 @@ TEST_P(LightCullerOf, LightsAndViewsThatChangeGiveTheGridsOfAFreshOne) {
   }
 }
 
+TEST_P(LightCullerOf, SlicesMayComeAndGoWithTheView) {
+  const View view = view_of(127, 73, 60);
+  const Scene plain{view, {}, some_lights(300, false, 7)};
+  LightCuller culler(test_device(), test_programs(), options), fresh(test_device(), test_programs(), options);
+  CullView sliced = cull_view_of(view);
+  sliced.slice_edges = slice_edges(SliceSpacing::linear, 4, 0.1, 20);
+  const HostGrid expected = grid_of(fresh, {view, sliced.slice_edges, plain.lights});
+  grid_of(culler, plain);
+  culler.set_view(sliced);  // and the same lights
+  ClGridStorage storage(test_device());
+  const TileBounds bounds = culler.bounds_of(std::vector<DepthInterval>(tile_count(view, 16), {1, 15}));
+  EXPECT_TRUE(read_grid(test_device(), culler.cull(bounds, storage), storage) == expected);
+}
+
+// Behind the eye, too, once the view is orthographic.
+TEST_P(LightCullerOf, WithoutDepthBoundsTilesReachAsFarAsTheViewDoes) {
+  options.depth_bounds = DepthBoundsMode::none;
+  LightCuller culler(test_device(), test_programs(), options);
+  culler.set_view(cull_view_of(view_of(127, 73, 60)));
+  EXPECT_EQ(culler.read_bounds(culler.depth_bounds({}).opaque)[0], (DepthInterval{0, 1e18f}));
+  culler.set_view(cull_view_of(orthographic_view_of(127, 73, 5, 0, 100)));
+  EXPECT_EQ(culler.read_bounds(culler.depth_bounds({}).opaque)[0], (DepthInterval{-1e18f, 1e18f}));
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, LightCullerOf, testing::Values(KernelShape::lanes, KernelShape::group),
                          [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
 
