@@ -1,6 +1,5 @@
 // lightgrid bench: the culling pipeline's kernels against the machine's limits.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -8,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "base/error.h"
 #include "study/bench/bench.h"
 #include "study/bench/row_filter.h"
@@ -22,13 +22,6 @@ struct BenchCommand {
   TimingOptions timing{30, 3};
   bool tune = false;
 };
-
-void show_progress(double done, const std::string& what) {
-  constexpr int width = 24;
-  const int filled = int(done * width);
-  fmt::print(stderr, "\r[{}{}] {:<20}", std::string(filled, '#'), std::string(width - filled, '.'), what);
-  if (done >= 1) fmt::print(stderr, "\r{:48}\r", "");
-}
 
 // "KEY=A,B" of --compare: each of the contestants so far with A, then each with B.
 std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before, const std::string& comparison) {
@@ -86,7 +79,7 @@ int tune(const BenchCommand& o) {
   if (tuned_sizes_file().empty()) throw input_error("--tune: LIGHTGRID_TUNED=off leaves no file to write");
   ClDevice device(o.device);
   TuneOptions options{o.timing.frames, o.timing.warmup, {}};
-  if (isatty(STDERR_FILENO)) options.step = show_progress;
+  options.step = progress_bar();
   const TuneResult result = tune_kernels(device, options);
   write_tuned_sizes(device.info(), result.best);
   nlohmann::ordered_json json = {{"device", device.info().name}, {"best", result.best}, {"file", tuned_sizes_file().string()},
@@ -107,7 +100,7 @@ int bench(const BenchCommand& o) {
   BenchOptions options{.cases = cases_of(o), .contestants = contestants_of(o), .filter = o.filter};
   options.own_tile = !gives_tile(o.set) && !gives_tile(o.compare);
   options.frames = o.timing.frames, options.warmup = o.timing.warmup;
-  if (isatty(STDERR_FILENO)) options.step = show_progress;
+  options.step = progress_bar();
   if (!o.write_frames.empty()) {
     write_frames(o.write_frames, options);
     return 0;

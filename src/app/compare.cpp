@@ -1,6 +1,5 @@
 // lightgrid compare SCENE -t A,B,… -o DIR: images, results.json and index.html.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "base/error.h"
 #include "base/write_file.h"
 #include "study/compare.h"
@@ -23,12 +23,6 @@ struct CompareCommand {
   std::string output = "out/compare", json;
   std::vector<std::string> techniques = {"forward", "forward_plus"};
 };
-
-void show_progress(double done, const std::string& step) {
-  constexpr int width = 32;
-  const int filled = int(done * width);
-  fmt::print(stderr, "\r[{}{}] {:<24}{}", std::string(filled, '#'), std::string(width - filled, '.'), step, done >= 1 ? "\n" : "");
-}
 
 // The names and settings of -t, as split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". What has
 // a "=" but no name before a colon is one more setting of the name before it.
@@ -56,7 +50,7 @@ int compare(const CompareCommand& o) {
   make_folder(o.output);
   Devices devices = open_devices(o.devices.device, backend);
   CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup};
-  if (isatty(STDERR_FILENO)) options.progress = show_progress;
+  options.progress = progress_bar();
   const CompareReport report = compare_techniques(devices, chosen.scene, chosen.view, contestants, options);
   write_report(o.output, report);
 

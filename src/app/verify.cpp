@@ -1,0 +1,72 @@
+// lightgrid verify: the hard cases of culling on this machine's OpenCL devices.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "base/error.h"
+#include "study/results.h"
+#include "study/verify/run.h"
+
+namespace lightgrid {
+namespace {
+
+struct VerifyCommand {
+  std::string device, filter, json;
+  bool nightly = false, list = false;
+};
+
+std::vector<std::unique_ptr<verify::CullEngine>> engines_of(const std::string& device) {
+  const std::vector<ClDeviceInfo> present = list_cl_devices();
+  std::vector<std::unique_ptr<verify::CullEngine>> engines;
+  const auto add = [&](size_t i) { engines.push_back(verify::device_engine(present[i].platform + " " + present[i].name)); };
+  if (!device.empty() || present.empty()) add(choose_cl_device(present, device));  // which says what is wrong
+  else for (size_t i = 0; i < present.size(); ++i) add(i);
+  return engines;
+}
+
+void print(const verify::VerifyReport& report) {
+  std::string device;
+  for (const verify::CaseResult& result : report.cases) {
+    if (result.device != device) fmt::print("{}\n", device = result.device);
+    const verify::Outcome& o = result.outcome;
+    const char* verdicts[] = {"pass", "FAIL", "skip"};
+    fmt::print("  {} {:<42} {:>9} trials  {:>6} lost  {:>7}{}{}\n", verdicts[int(o.verdict)],
+               fmt::format("{}/{}", result.hard_case->group, result.hard_case->name), o.trials, o.lost,
+               o.excess_ratio ? fmt::format("× {:.2f}", *o.excess_ratio) : "", o.why.empty() ? "" : "  ", o.why);
+  }
+  fmt::print("{} of {} failed\n", report.failed, report.cases.size());
+}
+
+int run(const VerifyCommand& o) {
+  const auto chosen = verify::chosen_cases(o.filter);
+  if (o.list) {
+    for (const std::string& row : verify::catalogue_rows(chosen)) fmt::print("{}\n", row);
+    return 0;
+  }
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  verify::VerifyOptions options{.filter = o.filter, .progress = progress_bar()};
+  if (o.nightly) options.adversarial_lights = 10'000'000;
+  const verify::VerifyReport report = verify::run_cases(engines_of(o.device), options);
+  if (!o.json.empty()) write_json(o.json, verify::to_json(report).dump(1) + "\n");
+  if (o.json != "-") print(report);
+  return report.failed ? 1 : 0;
+}
+
+}  // namespace
+
+void add_verify(CommandLine& line) {
+  auto o = std::make_shared<VerifyCommand>();
+  Subcommand command = line.add("verify", "the hard cases of culling on this machine's devices", [o] { return run(*o); });
+  command.option("--filter", o->filter, "only cases whose GROUP/NAME holds this regular expression");
+  command.option("--device", o->device, "only the OpenCL device whose platform and name hold this text; else all");
+  command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand");
+  command.flag("--list", o->list, "the catalogue as a table, and nothing run");
+  command.option("--json", o->json, "as JSON into a file, - for stdout");
+}
+
+}  // namespace lightgrid

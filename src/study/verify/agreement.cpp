@@ -1,0 +1,225 @@
+// Hard cases of agreement: who reads a grid finds what who wrote it meant.
+#include <algorithm>
+#include <cmath>
+
+#include "reference/position.h"
+#include "shared/light_grid.h"
+#include "study/verify/check.h"
+#include "study/verify/tangent_lights.h"
+
+namespace lightgrid::verify {
+namespace {
+
+const CullView& sixty() {
+  static const CullView view = field_of_view(60, 127, 73);
+  return view;
+}
+
+CullerOptions options_of(CullTest test) {
+  CullerOptions options;
+  options.cull_test = test;
+  return options;
+}
+
+// A light of almost no size at each pixel's centre: the cell that shading finds for the pixel lists it.
+void pixel_finds_its_tile(Check& c) {
+  const View v = oracle_view(sixty());
+  std::vector<CullLight> lights;
+  for (int y = 0; y < 73; ++y)
+    for (int x = 0; x < 127; ++x)
+      lights.push_back(point({view_x_of_pixel(v, x + 0.5) * 5, view_y_of_pixel(v, y + 0.5) * 5, -5}, 1e-6));
+  for (const CullerOptions& options : c.every_tile()) {
+    const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{5, 5}}, options);
+    for (uint y = 0; y < 73; ++y) {
+      for (uint x = 0; x < 127; ++x) {
+        const auto list = list_of(grid, cell_of_pixel(x, y, uint(options.tile), uint(grid.cells_x)));
+        c.trials(1);
+        if (!std::binary_search(list.begin(), list.end(), y * 127 + x)) c.lost("tile {}: pixel {} {}", options.tile, x, y);
+      }
+    }
+  }
+}
+
+void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const char* what) {
+  if (!c.that(inner.cells.size() == outer.cells.size(), "{}: {} and {} cells", what, inner.cells.size(), outer.cells.size())) return;
+  for (size_t i = 0; i < inner.cells.size(); ++i) {
+    const auto a = list_of(inner, i), b = list_of(outer, i);
+    c.that(std::includes(b.begin(), b.end(), a.begin(), a.end()), "{}: cell {} lists more", what, i);
+  }
+}
+
+// A test made of two lists what both list, and no more.
+void tests_are_nested(Check& c) {
+  for (const NamedView& named : hard_views(127, 73)) {
+    Random random(51);
+    const auto bounds = scattered_bounds(named.view, 16, random);
+    auto lights = scattered_lights(named.view, 300, true, random);
+    move_to_world(named.view, lights);
+    const auto grid_by = [&](CullTest test) { return c.grid(named.view, lights, bounds, {options_of(test)}); };
+    const HostGrid both = grid_by(CullTest::planes_aabb);
+    for (const CullTest test : {CullTest::planes, CullTest::aabb})
+      expect_subset(c, both, grid_by(test), "planes+aabb within one of the two");
+    expect_subset(c, grid_by(CullTest::exact), both, "exact within planes+aabb");
+  }
+}
+
+// Of spheres: a cone is tested against the sphere around a cell's box, and that of a part may stick out of the whole's.
+void bounds_are_nested(Check& c) {
+  for (const NamedView& named : hard_views(63, 41)) {
+    Random random(52);
+    const DepthImage depth = scattered_depth(named.view, random);
+    auto lights = scattered_lights(named.view, 300, false, random);
+    move_to_world(named.view, lights);
+    const auto grid_by = [&](DepthBoundsMode mode) {
+      CullerOptions options;
+      options.depth_bounds = mode;
+      return c.pixels(named.view, lights, depth, {options});
+    };
+    const HostGrid minmax = grid_by(DepthBoundsMode::minmax);
+    expect_subset(c, minmax, grid_by(DepthBoundsMode::none), "min/max within none");
+    for (const DepthBoundsMode mode : {DepthBoundsMode::halfz, DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32})
+      expect_subset(c, grid_by(mode), minmax, "tighter bounds within min/max");
+  }
+}
+
+void narrower_intervals_list_less(Check& c) {
+  Random random(53);
+  const auto lights = scattered_lights(sixty(), 300, false, random);
+  HostGrid outer = c.grid(sixty(), lights, {every_distance});
+  for (const DepthInterval b : {DepthInterval{1, 50}, DepthInterval{3, 20}, DepthInterval{5, 6}, DepthInterval{5.5, 5.5}}) {
+    const HostGrid inner = c.grid(sixty(), lights, {b});
+    expect_subset(c, inner, outer, "a narrower interval within a wider one");
+    outer = inner;
+  }
+}
+
+void larger_lights_list_more(Check& c) {
+  Random random(54);
+  auto lights = scattered_lights(sixty(), 300, true, random);
+  const auto bounds = scattered_bounds(sixty(), 16, random);
+  HostGrid inner = c.grid(sixty(), lights, bounds);
+  for (int i = 0; i < 4; ++i) {
+    for (CullLight& light : lights) light.radius_m *= i % 2 ? 2 : 1 + 1e-6;
+    const HostGrid outer = c.grid(sixty(), lights, bounds);
+    expect_subset(c, inner, outer, "the lists of smaller lights within those of larger ones");
+    inner = outer;
+  }
+}
+
+void whole_pixels_hold_centres(Check& c) {
+  for (const NamedView& named : hard_views(127, 73)) {
+    Random random(55);
+    const auto bounds = scattered_bounds(named.view, 16, random);
+    auto lights = tangent_lights(named.view, bounds, 16, 300, Contact::any, 0, random);
+    move_to_world(named.view, lights);
+    CullerOptions whole, centres;
+    whole.pixel_centres = false;
+    const HostGrid outer = c.grid(named.view, lights, bounds, {whole});
+    expect_subset(c, c.grid(named.view, lights, bounds, {centres}), outer, "centres within whole pixels");
+  }
+}
+
+void portable_form(Check& c) {
+  for (const NamedView& named : hard_views(127, 73)) {
+    Random random(56);
+    const auto bounds = scattered_bounds(named.view, 16, random);
+    auto lights = scattered_lights(named.view, 300, true, random);
+    move_to_world(named.view, lights);
+    for (CullerOptions options : c.every_test()) {
+      const HostGrid tuned = c.grid(named.view, lights, bounds, {options});
+      options.portable = true;
+      c.that(tuned == c.grid(named.view, lights, bounds, {options}), "{}: {}: the portable form differs",
+             named.name, to_string(options));
+    }
+  }
+}
+
+CullView sliced(CullView view, int slices) {
+  for (int i = 1; i < slices; ++i) view.slice_edges.push_back(float(0.3 * std::exp2(i * 8.0 / slices)));
+  return view;
+}
+
+// Surfaces exactly on the slices' edges, and one ulp to either side: a pixel's slice lists the light at its place.
+void on_slice_edges(Check& c) {
+  CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 64, 48);
+  for (int i = 1; i < 32; ++i) box.slice_edges.push_back(float(4 * i));
+  const CullView views[] = {box, sliced(field_of_view(60, 64, 48), 32)};
+  for (const CullView& view : views) {
+    const View v = oracle_view(view);
+    DepthImage depth;
+    std::vector<CullLight> lights;
+    for (int i = 0; i < 64 * 48; ++i) {
+      const float edge = view.slice_edges[size_t(i) % 31];
+      float value = float(depth_at(view, edge));
+      if (i % 3) value = std::nextafter(value, i % 3 == 1 ? 0.0f : 1.0f);
+      depth.values.push_back(value);
+      const glm::dvec3 p = position_from_depth(v, i % 64, i / 64, value);
+      lights.push_back(point(p, 1e-6 * std::max(1.0, -p.z)));
+    }
+    c.pixels(view, lights, depth, c.every_test());
+  }
+}
+
+// Together the slices list for a tile what one slice lists for it.
+void slices_make_the_whole(Check& c) {
+  Random random(57);
+  const auto lights = scattered_lights(sixty(), 300, false, random);
+  const HostGrid whole = c.grid(sixty(), lights, {every_distance});
+  for (const int slices : {2, 3, 16, 64}) {
+    const CullView view = sliced(sixty(), slices);
+    const HostGrid grid = c.grid(view, lights, {every_distance});
+    const size_t tiles = whole.cells.size();
+    if (!c.that(grid.cells.size() == tiles * slices, "{} cells", grid.cells.size())) return;
+    for (size_t i = 0; i < tiles; ++i) {
+      for (int slice = 0; slice < slices; ++slice) {
+        const auto part = list_of(grid, i + slice * tiles), all = list_of(whole, i);
+        c.that(std::includes(all.begin(), all.end(), part.begin(), part.end()), "slice {} of tile {} lists more", slice, i);
+      }
+    }
+  }
+}
+
+void slices_and_bounds(Check& c) {
+  const CullView view = sliced(sixty(), 24);
+  Random random(58);
+  c.grid(view, scattered_lights(view, 200, true, random), scattered_bounds(view, 16, random));
+  c.pixels(view, scattered_lights(view, 200, true, random), scattered_depth(view, random), c.every_test());
+}
+
+}  // namespace
+
+std::vector<HardCase> agreement_cases() {
+  const char* g = "agreement";
+  return {
+      {g, "pixel_finds_its_tile", "a tiny light at each pixel's centre, in every tile size", "shading rounds the tile otherwise than culling",
+       "the cell that shading finds lists it", pixel_finds_its_tile},
+      {g, "on_slice_edges", "surfaces on slice edges and an ulp beside", "a second log() in the shader: 0.7 to 85 in a million differ",
+       "the slice that shading finds lists the light there", on_slice_edges},
+      {g, "slices_make_the_whole", "2 to 64 slices against one", "gaps between slices", "nothing lost; no slice lists more than the whole",
+       slices_make_the_whole},
+      {g, "slices_and_bounds", "slices cut by depth bounds", "the slice's end wins over the surface's", "nothing lost", slices_and_bounds},
+      {g, "tests_are_nested", "every cull test over the same cells", "one form of a shared test drifts from the other",
+       "exact ⊆ planes+aabb ⊆ planes, aabb", tests_are_nested},
+      {g, "bounds_are_nested", "every depth-bounds mode over the same depth", "a mask that widens", "mask, half-z ⊆ min/max ⊆ none",
+       bounds_are_nested},
+      {g, "narrower_intervals_list_less", "intervals within each other", "a comparison turned round", "lists within each other",
+       narrower_intervals_list_less},
+      {g, "larger_lights_list_more", "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone", "lists within each other",
+       larger_lights_list_more},
+      {g, "whole_pixels_hold_centres", "cells to pixels' edges and to their centres", "half a pixel to the wrong side",
+       "centres' lists within whole pixels'", whole_pixels_hold_centres},
+      {g, "portable_form", "with and without one CPU's builtins", "the faster form rounds otherwise", "the same bytes", portable_form},
+  };
+}
+
+const std::vector<HardCase>& hard_cases() {
+  static const std::vector<HardCase> all = [] {
+    std::vector<HardCase> cases;
+    for (const auto& group : {depth_cases(), camera_cases(), light_cases(), list_cases(), agreement_cases()})
+      cases.insert(cases.end(), group.begin(), group.end());
+    return cases;
+  }();
+  return all;
+}
+
+}  // namespace lightgrid::verify

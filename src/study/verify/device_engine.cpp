@@ -1,0 +1,69 @@
+#include <map>
+#include <tuple>
+
+#include "culling/light_culler.h"
+#include "study/verify/engine.h"
+
+namespace lightgrid::verify {
+namespace {
+
+class DeviceEngine : public CullEngine {
+ public:
+  explicit DeviceEngine(const std::string& substring) : device_(substring), programs_(device_), storage_(device_) {}
+
+  std::string name() const override { return device_.info().platform + " " + device_.info().name; }
+  bool is_the_library() const override { return true; }
+
+  HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                std::span<const DepthInterval> bounds) override {
+    LightCuller& culler = culler_of(options, view);
+    culler.set_lights(lights);
+    return read_grid(device_, culler.cull(culler.bounds_of(bounds), storage_), storage_);
+  }
+
+  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view, const DepthImage& depth,
+                                       bool blend) override {
+    LightCuller& culler = culler_of(options, view, depth.samples);
+    return culler.read_bounds(bounds_from(culler, depth, blend));
+  }
+
+  HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                      const DepthImage& depth, bool blend) override {
+    LightCuller& culler = culler_of(options, view, depth.samples);
+    culler.set_lights(lights);
+    return read_grid(device_, culler.cull(bounds_from(culler, depth, blend), storage_), storage_);
+  }
+
+ private:
+  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool>;
+
+  LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
+    o.samples = samples;
+    const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend, o.index_bits, o.portable,
+                  o.pixel_centres);
+    auto& culler = cullers_[key];
+    if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
+    culler->set_view(view);
+    return *culler;
+  }
+
+  TileBounds bounds_from(LightCuller& culler, const DepthImage& depth, bool blend) {
+    DepthInput input{.row_pixels = depth.row_pixels, .x = depth.x, .y = depth.y};
+    const size_t bytes = depth.values.size() * sizeof(float);
+    input.values = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes);
+    device_.queue().enqueueWriteBuffer(input.values, CL_TRUE, 0, bytes, depth.values.data());
+    const DepthBounds bounds = culler.depth_bounds(input);
+    return blend ? bounds.blend : bounds.opaque;
+  }
+
+  ClDevice device_;
+  ProgramCache programs_;
+  ClGridStorage storage_;
+  std::map<Key, std::unique_ptr<LightCuller>> cullers_;
+};
+
+}  // namespace
+
+std::unique_ptr<CullEngine> device_engine(const std::string& substring) { return std::make_unique<DeviceEngine>(substring); }
+
+}  // namespace lightgrid::verify

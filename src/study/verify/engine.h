@@ -1,0 +1,47 @@
+// What a hard case is run on: something that makes depth bounds and light grids. The library on an OpenCL device, or
+// in the tests of the cases themselves a culler with a fault planted in it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "culling/light_culler.h"
+
+namespace lightgrid::verify {
+
+// Depth values as the culler takes them: z/w of clip_from_view, row 0 at the bottom. The viewport's lower left corner is
+// (x, y); its size is the view's.
+struct DepthImage {
+  std::vector<float> values;
+  int row_pixels = 0;  // 0: the view's width
+  int x = 0, y = 0;
+  int samples = 1;     // a pixel's samples lie side by side
+};
+
+class CullEngine {
+ public:
+  virtual ~CullEngine() = default;
+  virtual std::string name() const = 0;
+
+  // It has both kernel shapes, and every depth-bounds mode for itself.
+  virtual bool is_the_library() const = 0;
+
+  virtual HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                        std::span<const DepthInterval> bounds) = 0;
+
+  // One a tile, x fastest, y from the bottom. `blend`: those for blended surfaces (options.blend must be set).
+  virtual std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
+                                               const DepthImage& depth, bool blend = false) = 0;
+
+  // From depth to lists, as a frame does it: everything that a depth-bounds mode knows takes part.
+  virtual HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                              const DepthImage& depth, bool blend = false) = 0;
+};
+
+// The library on the OpenCL device whose "platform name" holds `substring`. Keeps its cullers: cases of all kinds
+// follow each other through the same ones, as frames do.
+std::unique_ptr<CullEngine> device_engine(const std::string& substring);
+
+}  // namespace lightgrid::verify

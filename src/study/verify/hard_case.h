@@ -1,0 +1,42 @@
+// The catalogue of hard cases of culling: inputs on which naive code loses lights, hangs or crashes, each with what must
+// hold. docs/hard_cases.md shows the same table, and a test holds the two together.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lightgrid::verify {
+
+class Check;
+
+struct HardCase {
+  const char* group;      // depth, camera, lights, lists, agreement
+  const char* name;
+  const char* input;
+  const char* breaks;     // in naive code
+  const char* invariant;  // what must hold here
+  void (*run)(Check&);
+};
+
+// In the order of the groups and of the catalogue.
+const std::vector<HardCase>& hard_cases();
+
+std::vector<HardCase> depth_cases();
+std::vector<HardCase> camera_cases();
+std::vector<HardCase> light_cases();
+std::vector<HardCase> list_cases();
+std::vector<HardCase> agreement_cases();
+
+enum class Verdict { pass, fail, skip };
+
+struct Outcome {
+  uint64_t trials = 0;  // (cell, light) pairs, tiles or pixels asked about
+  uint64_t lost = 0;    // certainly in and not listed
+  std::optional<double> excess_ratio;  // listed / truly touching, default settings
+  Verdict verdict = Verdict::pass;
+  std::string why;      // the first fault, or why it was skipped
+};
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,35 @@
+// Lights for cells to lose: made tangent to them.
+#pragma once
+
+#include "scene/random.h"
+#include "study/verify/truth.h"
+
+namespace lightgrid::verify {
+
+enum class Contact { face, edge, corner, any };
+
+// Each touches one of the cells with its surface, within `ulps` units in the last place of the radius (as a float) to
+// either side; to 0, exactly or by the rounding of the radius upward. Small and huge, near and far; in view space.
+std::vector<CullLight> tangent_lights(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
+                                      Contact contact, int ulps, Random& random);
+
+// Spots whose cone touches a cell with its side: half-angles up to 90 degrees.
+std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
+                                     Random& random);
+
+// All over the view and beyond, of sizes between a pixel and the whole image; every second one a spot where `spots`.
+std::vector<CullLight> scattered_lights(const CullView& view, size_t count, bool spots, Random& random);
+
+// Thin, thick, endless, flat and empty cells.
+std::vector<DepthInterval> scattered_bounds(const CullView& view, int tile, Random& random);
+
+// Surfaces at distances from 0.3 to 100 m, with sky in places; for any kind of view.
+DepthImage scattered_depth(const CullView& view, Random& random);
+
+CullLight point(const glm::dvec3& position, double radius);
+CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double radius, double outer_deg);
+
+constexpr DepthInterval every_distance{0.0f, 1e18f};
+constexpr DepthInterval no_surface{1e18f, -1e18f};
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,117 @@
+// Bytes made into culling inputs, of which nothing may crash, hang or read out of bounds. What libFuzzer and the
+// deterministic test of ctest both run.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "study/verify/check.h"
+
+namespace lightgrid::verify {
+
+class Bytes {
+ public:
+  Bytes(const uint8_t* data, size_t size) : data_(data), left_(size) {}
+  bool empty() const { return left_ == 0; }
+
+  template <typename T>
+  T take() {
+    T value{};
+    const size_t size = std::min(sizeof(T), left_);
+    std::memcpy(&value, data_, size);
+    data_ += size, left_ -= size;
+    return value;
+  }
+  int up_to(int most) { return take<uint8_t>() % (most + 1); }
+
+  // Mostly a sensible number, at times one of the strange ones, at times any bits at all.
+  double number(double low, double high) {
+    constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double strange[] = {0, -0.0, nan, -nan, inf, -inf, 1e-45, -1e-45, 1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1, -1};
+    const int kind = up_to(31);
+    if (kind == 0) return in_float(take<double>());
+    if (kind == 1) return in_float(take<float>());
+    if (kind <= 4) return in_float(strange[up_to(15)]);
+    return low + (high - low) * (take<uint16_t>() / 65535.0);
+  }
+
+ private:
+  // Finite numbers past float are a known fault: a light's place of 1e300 gets an index listed that is no light.
+  static double in_float(double x) { return std::isfinite(x) ? std::clamp(x, -1e37, 1e37) : x; }
+
+  const uint8_t* data_;
+  size_t left_;
+};
+
+struct FuzzInput {
+  CullerOptions options;
+  CullView view;
+  std::vector<CullLight> lights;
+  std::vector<DepthInterval> bounds;
+  DepthImage depth;
+};
+
+// Sizes and settings in their range; every number may be anything.
+inline FuzzInput fuzz_input(Bytes bytes) {
+  FuzzInput in;
+  // Few settings, as each builds kernels of its own: three of each kind that differ in all.
+  constexpr struct { CullTest test; DepthBoundsMode mode; DepthFormat format; int tile, samples; } kinds[] = {
+      {CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1},
+      {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1},
+      {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4}};
+  CullerOptions& o = in.options;
+  const auto& kind = kinds[bytes.up_to(2)];
+  o.cull_test = kind.test, o.depth_bounds = kind.mode, o.depth_format = kind.format, o.tile = kind.tile;
+  Lens lens;
+  lens.half_x = bytes.number(0.01, 3), lens.half_y = bytes.number(0.01, 3);
+  lens.near = bytes.number(0.01, 1), lens.far = bytes.up_to(1) ? no_end : bytes.number(2, 1000);
+  lens.shift_x = bytes.number(-1, 1), lens.shift_y = bytes.number(-1, 1);
+  lens.orthographic = bytes.up_to(3) == 0, lens.order = DepthOrder(bytes.up_to(1));
+  if (lens.orthographic && std::isinf(lens.far)) lens.far = 1000;
+  in.view = view_through(lens, 1 + bytes.up_to(40), 1 + bytes.up_to(24));
+  if (bytes.up_to(3) == 0) in.view = placed(in.view, {bytes.number(-1e7, 1e7), 0, 1}, bytes.number(-3, 3), bytes.number(-1, 1));
+  float edge = 0;
+  for (int slices = bytes.up_to(3); slices > 0; --slices) in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
+  for (size_t i = tile_count(in.view, o.tile); i > 0; --i)
+    in.bounds.push_back({float(bytes.number(0, 20)), float(bytes.number(5, 100))});
+  in.depth.samples = kind.samples;
+  for (int i = in.view.width * in.view.height * in.depth.samples; i > 0; --i)
+    in.depth.values.push_back(bytes.up_to(7) ? float(bytes.take<uint8_t>()) / 255 : float(bytes.number(0, 1)));
+  while (!bytes.empty() && in.lights.size() < 100) {
+    CullLight light;
+    for (int axis = 0; axis < 3; ++axis) light.position[axis] = bytes.number(-20, 20);
+    light.radius_m = bytes.number(0, 20);
+    if (bytes.up_to(1)) {
+      for (int axis = 0; axis < 3; ++axis) light.direction[axis] = bytes.number(-1, 1);
+      if (bytes.up_to(7)) light.direction = glm::normalize(light.direction);
+      light.cos_outer = bytes.number(-1, 1);
+    }
+    in.lights.push_back(light);
+  }
+  return in;
+}
+
+// Empty, or what is wrong.
+inline std::string fuzz_once(CullEngine& engine, const uint8_t* data, size_t size) {
+  FuzzInput in = fuzz_input(Bytes(data, size));
+  const auto grids = [&](KernelShape shape) {
+    in.options.shape = shape;
+    return std::pair(engine.cull(in.options, in.view, in.lights, in.bounds),
+                     engine.cull_depth(in.options, in.view, in.lights, in.depth));
+  };
+  try {
+    const auto lanes = grids(KernelShape::lanes), group = grids(KernelShape::group);
+    for (const HostGrid* grid : {&lanes.first, &lanes.second, &group.first, &group.second}) {
+      const std::string wrong = malformed(*grid, in.lights.size());
+      if (!wrong.empty()) return wrong;
+    }
+    if (lanes.first != group.first) return "lanes and group differ over given bounds";
+    if (lanes.second != group.second) return "lanes and group differ from depth on";
+  } catch (const Error&) {  // said in a line: that is allowed
+  }
+  return "";
+}
+
+}  // namespace lightgrid::verify

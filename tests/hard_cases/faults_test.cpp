@@ -1,0 +1,87 @@
+// The hard cases tell right from wrong: a right culler passes all of them, and each fault that naive code has is caught
+// by the cases that are there for it.
+#include <gtest/gtest.h>
+
+#include "hard_cases/naive_culler.h"
+#include "study/verify/run.h"
+
+namespace lightgrid::verify {
+namespace {
+
+constexpr uint64_t few_adversarial_lights = 4096;
+
+struct Caught {
+  const char* name;
+  Fault fault;
+  std::vector<std::string> by;
+};
+
+std::vector<Caught> faults() {
+  return {
+      {"float_without_slack", Fault::float_without_slack,
+       {"lights/tangent_to_faces", "lights/tangent_to_edges", "lights/tangent_to_corners", "lights/an_ulp_off_tangent",
+        "lights/some_ulps_off_tangent", "lights/adversarial", "lights/huge_and_tangent", "camera/field_of_a_tenth"}},
+      {"cross_product_planes", Fault::cross_product_planes, {"camera/field_of_a_tenth", "lights/adversarial"}},
+      {"box_ends_swapped", Fault::box_ends_swapped, {"camera/beside_the_axis", "camera/field_of_170", "camera/off_centre"}},
+      {"symmetric_frustum", Fault::symmetric_frustum,
+       {"camera/off_centre", "camera/beside_the_axis", "camera/orthographic_off_centre"}},
+      {"sky_in_maximum", Fault::sky_in_maximum, {"depth/all_sky", "depth/sky_beside_surface"}},
+      {"strange_depth_ignored", Fault::strange_depth_ignored,
+       {"depth/nan_depth", "depth/infinite_depth", "depth/negative_depth", "depth/depth_above_one"}},
+      {"signed_minimum", Fault::signed_minimum, {"depth/negative_depth", "depth/minus_zero"}},
+      {"last_pixel_forgotten", Fault::last_pixel_forgotten, {"depth/one_pixel_shows", "depth/extremes_anywhere"}},
+      {"partial_tiles_dropped", Fault::partial_tiles_dropped,
+       {"depth/one_pixel_image", "depth/one_row_image", "depth/odd_size"}},
+      {"first_sample_only", Fault::first_sample_only, {"depth/several_samples"}},
+      {"viewport_ignored", Fault::viewport_ignored, {"depth/viewport"}},
+      {"format_ignored", Fault::format_ignored,
+       {"depth/depth_of_16_bits", "depth/depth_of_24_bits", "depth/depth_of_floats"}},
+      {"standard_depth_as_reversed", Fault::standard_depth_as_reversed,
+       {"depth/reversed_against_standard", "depth/finite_far"}},
+      {"empty_interval_as_range", Fault::empty_interval_as_range, {"depth/empty_interval", "depth/all_sky"}},
+      {"mask_bin_32", Fault::mask_bin_32, {"depth/flat_wall", "depth/at_the_farthest", "depth/on_mask_edges"}},
+      {"eight_bit_counts", Fault::eight_bit_counts, {"lists/around_a_byte", "lists/around_batches"}},
+      {"zero_means_none", Fault::zero_means_none, {"lists/light_zero_alone", "lists/each_length"}},
+      {"capacity_of_256", Fault::capacity_of_256,
+       {"lights/thousand_coincident", "lists/around_a_byte", "lists/all_in_one_tile", "lists/longer_than_expected"}},
+      {"sixteen_bit_indices", Fault::sixteen_bit_indices, {"lists/around_16_bits"}},
+      {"order_by_chance", Fault::order_by_chance, {"lists/hundred_runs"}},
+      {"centres_only", Fault::centres_only,
+       {"camera/behind_and_reaching_in", "camera/beyond_far", "camera/across_the_near_plane"}},
+      {"projected_rectangle", Fault::projected_rectangle,
+       {"camera/across_the_near_plane", "camera/behind_and_reaching_in", "camera/inside_a_light"}},
+      {"float_world", Fault::float_world, {"camera/world_at_1e6", "camera/world_at_1e7", "camera/world_at_1e8"}},
+      {"radius_squared", Fault::radius_squared, {"lights/radius_negative"}},
+      {"no_cones_past_90", Fault::no_cones_past_90, {"lights/cone_of_100", "lights/cone_of_120", "lights/cone_of_180"}},
+      {"last_slice_closed", Fault::last_slice_closed, {"camera/beyond_the_last_slice"}},
+      {"first_slice_from_near", Fault::first_slice_from_near, {"camera/before_the_first_slice"}},
+      {"world_direction", Fault::world_direction, {"camera/turned"}},
+  };
+}
+
+TEST(HardCases, ARightCullerPasses) {
+  NaiveCuller culler(Fault::none);
+  for (const HardCase& c : hard_cases()) {
+    const Outcome outcome = run_case(c, culler, few_adversarial_lights);
+    EXPECT_EQ(outcome.verdict, Verdict::pass) << c.group << "/" << c.name << ": " << outcome.why;
+    EXPECT_EQ(outcome.lost, 0u);
+    EXPECT_GT(outcome.trials, 0u);
+  }
+}
+
+struct FaultyCuller : testing::TestWithParam<Caught> {};
+
+TEST_P(FaultyCuller, Fails) {
+  NaiveCuller culler(GetParam().fault);
+  for (const std::string& name : GetParam().by) {
+    const auto chosen = chosen_cases("^" + name + "$");
+    ASSERT_EQ(chosen.size(), 1u) << name;
+    EXPECT_EQ(run_case(*chosen[0], culler, few_adversarial_lights).verdict, Verdict::fail) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(HardCases, FaultyCuller, testing::ValuesIn(faults()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace lightgrid::verify

@@ -1,0 +1,70 @@
+// The catalogue of hard cases on the OpenCL device at hand, group by group, and the document that shows it.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "study/verify/run.h"
+#include "support/run_program.h"
+
+namespace lightgrid::verify {
+namespace {
+
+struct HardCasesOf : testing::TestWithParam<const char*> {};
+
+TEST_P(HardCasesOf, Hold) {
+  std::vector<std::unique_ptr<CullEngine>> engines;
+  engines.push_back(device_engine(""));
+  const VerifyReport report = run_cases(engines, {.filter = std::string("^") + GetParam() + "/"});
+  ASSERT_GE(report.cases.size(), 10u);
+  for (const CaseResult& result : report.cases) {
+    EXPECT_NE(result.outcome.verdict, Verdict::fail) << result.hard_case->name << ": " << result.outcome.why;
+    EXPECT_EQ(result.outcome.lost, 0u) << result.hard_case->name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf, testing::Values("depth", "camera", "lights", "lists", "agreement"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(HardCases, AreAtLeast65UnderNamesOfTheirOwn) {
+  EXPECT_GE(hard_cases().size(), 65u);
+  std::set<std::string> names;
+  for (const HardCase& c : hard_cases()) EXPECT_TRUE(names.insert(c.name).second) << c.name;
+}
+
+// docs/hard_cases.md holds what `lightgrid verify --list` prints, row by row, and no other row of that kind.
+TEST(HardCases, AreThoseOfTheDocument) {
+  std::ifstream file(LIGHTGRID_SOURCE_DIR "/docs/hard_cases.md");
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("| ") && std::isdigit(line[2]) && line.find(" | `") != std::string::npos) rows.push_back(line);
+  }
+  EXPECT_EQ(rows, catalogue_rows(chosen_cases("")));
+}
+
+TEST(VerifyCommand, TellsEachCaseAsJson) {
+  const ProgramRun run = run_program({"verify", "--filter", "depth/(all_sky|flat_wall)$", "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["failed"], 0);
+  ASSERT_GE(json["devices"].size(), 1u);
+  ASSERT_EQ(json["cases"].size(), 2 * json["devices"].size());
+  for (const auto& row : json["cases"]) {
+    EXPECT_EQ(row["group"], "depth");
+    EXPECT_EQ(row["result"], "pass");
+    EXPECT_EQ(row["lost"], 0);
+    EXPECT_GT(row["trials"], 0);
+    for (const char* key : {"name", "device", "excess_ratio", "why"}) EXPECT_TRUE(row.contains(key)) << key;
+  }
+}
+
+TEST(VerifyCommand, RefusesAFilterThatNamesNothing) {
+  EXPECT_EQ(run_program({"verify", "--filter", "("}).status, 2);
+  EXPECT_EQ(run_program({"verify", "--filter", "no such case"}).status, 2);
+  EXPECT_EQ(run_program({"verify", "--device", "no such device"}).status, 3);
+}
+
+}  // namespace
+}  // namespace lightgrid::verify
