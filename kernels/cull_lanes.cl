@@ -136,10 +136,8 @@ static inline uint narrow(Candidates all, uint x, uint y, uint side, const Cell*
   return n;
 }
 
-// The lights of one cell of the bin's tile (x, y), written to `list`. Returns how many.
-static inline uint list_cell(Candidates few, uint x, uint y, const TestCell* cell, global index_t* list,
-                             constant CullParams* p) {
-  const int tile = (int)(1u << x | 0x100u << y);
+// The lights of one cell, written to `list`; `tile` is its tile as CANDIDATE_TILES has it. Returns how many.
+static inline uint list_cell(Candidates few, int tile, const TestCell* cell, global index_t* list, constant CullParams* p) {
   uint n = 0;
   for (uint i = 0; i < few.count; i += 16) {
     global const float* from = few.lights + i;
@@ -193,14 +191,14 @@ static inline void cull_bin(const Lights* lights, uint bin, global const float* 
   make_bin_tiles(bounds, bx, by, &tiles, quads, blocks, &whole_bin, p);
   if (lights->count == 0 || whole_bin.near > whole_bin.far) return;
 
-  const uint room = lights->count / 16 + 2;
-  global float* lists = allocate(pool, 4, room, counters, p);
+  const uint room = (lights->count / 16 + 2) | 1u;  // odd: arrays a power of two apart would collide in the cache
+  global float* lists = allocate(pool, 3, room, counters, p);
   if (!lists) return;
   const size_t stride = room * 16, step = stride * VIEW_ARRAYS;
   Candidates all = {lists, stride, 0}, some = {lists + step, stride, 0}, few = {lists + 2 * step, stride, 0};
   uint pairs;
   all.count = gather(*lights, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
-  const ulong wanted = (ulong)pairs * p->slices / 16 + 2;
+  const ulong wanted = (ulong)pairs * SLICE_COUNT / 16 + 2;
   const uint units = wanted > 0x0fffffffu ? 0x0fffffffu : (uint)wanted;
   const uint place = atomic_add(counters + 1, units);
   if ((ulong)place + wanted > p->staging_units) return;
@@ -215,19 +213,14 @@ static inline void cull_bin(const Lights* lights, uint bin, global const float* 
     const Candidates wider = {many ? some.lights : all.lights, stride, many ? some.count : all.count};
     few.count = narrow(wider, x, y, 2, &quads[quad], few.lights);
     if (few.count == 0) continue;
-    for (uint i = 0; i < 4; ++i) {
-      const uint slot = quad * 4 + i, tx = x + (i & 1), ty = y + (i >> 1);
-      for (uint slice = 0; slice < p->slices; ++slice) {
+    const int column = 1 << x, row = 0x100 << y;
+    const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
+    for (uint slot = quad * 4; slot < quad * 4 + 4; ++slot) {
+      for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
         TestCell cell;
         if (!pick_test_cell(&tiles, bounds, slot, slice, slices, &cell, p)) continue;
-#if CULL_TEST == CULL_EXACT && INTERVALS == 1
-        // The exact test costs as much as all before it: packed first, it runs on few lights at once.
-        const Candidates close = {lists + 3 * step, stride, narrow(few, tx, ty, 1, &cell.parts[0], lists + 3 * step)};
-        const uint n = list_cell(close, tx, ty, &cell, list + written, p);
-#else
-        const uint n = list_cell(few, tx, ty, &cell, list + written, p);
-#endif
-        cell_counts[slot * p->slices + slice] = n;
+        const uint n = list_cell(few, held_by[slot & 3], &cell, list + written, p);
+        cell_counts[slot * SLICE_COUNT + slice] = n;
         written += n;
       }
     }
@@ -250,8 +243,8 @@ kernel void cull_lanes(global const float* lists, global const uint* counts, uin
     for (uint bx = bx0; bx < bx1; ++bx) {
       const uint bin = by * p->bins_x + bx;
       bins[bin] = (uint2)(0u);
-      for (uint i = 0; i < BIN_SIZE * p->slices; i += 16) {
-        vstore16((uint16)(0u), 0, cell_counts + bin * BIN_SIZE * p->slices + i);
+      for (uint i = 0; i < BIN_SIZE * SLICE_COUNT; i += 16) {
+        vstore16((uint16)(0u), 0, cell_counts + bin * BIN_SIZE * SLICE_COUNT + i);
       }
     }
   }
@@ -267,7 +260,7 @@ kernel void cull_lanes(global const float* lists, global const uint* counts, uin
     for (uint bx = bx0; bx < bx1; ++bx) {
       const uint bin = by * p->bins_x + bx;
       cull_bin(&lights, bin, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, pool, staged,
-               cell_counts + bin * BIN_SIZE * p->slices, bins, counters, p);
+               cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins, counters, p);
     }
   }
 }

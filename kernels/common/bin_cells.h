@@ -10,6 +10,11 @@
 #include "kernels/common/depth_interval.h"
 
 #define INTERVALS (BOUND_PLANES == 4 ? 2 : 1)  // a tile
+#ifdef SLICES
+#define SLICE_COUNT (p->slices)
+#else
+#define SLICE_COUNT 1u
+#endif
 #define NOTHING 3e38f                          // side of the box around no tile at all
 
 // One cell: its intervals each with a box. A light need touch one of them only.

@@ -27,5 +27,9 @@ typedef int16 mask_t;  // 0 or -1 a lane
 static inline real lane_min(real a, real b) { return a < b ? a : b; }
 static inline real lane_max(real a, real b) { return a > b ? a : b; }
 
+#if LANES == 1
+#define any_lane(m) ((m) != 0)
+#endif
+
 // Position of the lowest set bit; ctz is missing from OpenCL C 1.2.
 static inline uint lowest_bit(uint bits) { return 31u - clz(bits & (0u - bits)); }

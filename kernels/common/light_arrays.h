@@ -1,7 +1,6 @@
 // Lights as structures of arrays.
 #pragma once
 
-#include "kernels/common/pack.h"
 #include "kernels/common/light_cell_tests.h"
 
 // World lights, light_stride floats each: x, y, z relative to the lights' origin, radius; with cones x, y, z of the unit

@@ -28,31 +28,43 @@ static inline mask_t sphere_may_touch(ViewSphere s, const Cell* c) {
 #endif
 
 #if CULL_TEST == CULL_EXACT
-// A certain lower bound of the squared distance from the centre to the cell itself. f(t), the squared distance to the
-// cell's cross-section at distance t, is convex with f'' >= 2: after three Newton steps (f is quadratic in pieces, so
-// they mostly end on the minimum) f >= f(t) + 2 g (u - t) + (u - t)^2 for every u in [near, far]. g is taken by its
-// rounding error nearer to the minimum.
-static inline real cell_distance2(ViewSphere s, const Cell* c, uint orthographic) {
-  real t = lane_min(lane_max(s.d, (real)(c->near)), (real)(c->far)), f = 0.0f, g = 0.0f, bend = 1.0f;
-  for (int i = 0; i < 3; ++i) {
-    if (i > 0) t = lane_min(lane_max(t - g / bend, (real)(c->near)), (real)(c->far));
-    const real scale = orthographic ? (real)(1.0f) : t;
-    const real left = c->x0 * scale - s.x, right = s.x - c->x1 * scale;
-    const real low = c->y0 * scale - s.y, high = s.y - c->y1 * scale;
-    real slope_x = left > (real)(0.0f) ? (real)(c->x0) : (right > (real)(0.0f) ? (real)(-c->x1) : (real)(0.0f));
-    real slope_y = low > (real)(0.0f) ? (real)(c->y0) : (high > (real)(0.0f) ? (real)(-c->y1) : (real)(0.0f));
-    if (orthographic) slope_x = slope_y = 0.0f;
-    const real x = lane_max(lane_max(left, right), (real)(0.0f)), y = lane_max(lane_max(low, high), (real)(0.0f));
-    const real d = t - s.d;
-    f = d * d + x * x + y * y;
-    g = d + slope_x * x + slope_y * y;
-    bend = 1.0f + slope_x * slope_x + slope_y * slope_y;
-  }
-  const real size = fabs(s.x) + fabs(s.y) + fabs(s.d) + s.r;
-  const real error = SLACK * size * bend;
-  const real room = g > (real)(0.0f) ? t - c->near : c->far - t;
-  const real step = lane_min(fabs(g) + error, room);
-  return f - (2.0f * (fabs(g) + error) - step) * step - error * error;
+// The squared distance f from the centre to the cell's cross-section at distance t, half its slope in t, and how much
+// that slope grows with t at least where the nearest side stays the same.
+typedef struct Section {
+  real f, g, bend;
+} Section;
+
+static inline Section section_at(ViewSphere s, const Cell* c, real t, uint orthographic) {
+  const real scale = orthographic ? (real)(1.0f) : t;
+  const real left = c->x0 * scale - s.x, right = s.x - c->x1 * scale;
+  const real low = c->y0 * scale - s.y, high = s.y - c->y1 * scale;
+  real slope_x = left > (real)(0.0f) ? (real)(c->x0) : (right > (real)(0.0f) ? (real)(-c->x1) : (real)(0.0f));
+  real slope_y = low > (real)(0.0f) ? (real)(c->y0) : (high > (real)(0.0f) ? (real)(-c->y1) : (real)(0.0f));
+  if (orthographic) slope_x = slope_y = 0.0f;
+  const real x = lane_max(lane_max(left, right), (real)(0.0f)), y = lane_max(lane_max(low, high), (real)(0.0f));
+  const real d = t - s.d;
+  const Section at = {d * d + x * x + y * y, d + slope_x * x + slope_y * y,
+                      1.0f + slope_x * slope_x + slope_y * slope_y};
+  return at;
+}
+
+// Of the lights in `keep`, those that may touch the cell itself. f is convex in t with f'' >= 2, so for every u in
+// [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a certain lower bound, whatever t is. t comes from one Newton step,
+// which mostly ends on the minimum, since f is quadratic in pieces. g is taken by its rounding error nearer to the
+// minimum. A light that touches the first section needs no bound. NaN keeps the light.
+static inline mask_t exact_may_touch(mask_t keep, ViewSphere s, const Cell* c, uint orthographic) {
+  const real near = c->near, far = c->far, r2 = s.r * s.r;
+  real t = lane_min(lane_max(s.d, near), far);
+  Section at = section_at(s, c, t, orthographic);
+  const mask_t open = keep & (at.f > r2);
+  if (!any_lane(open)) return keep;
+  t = lane_min(lane_max(t - at.g / at.bend, near), far);
+  at = section_at(s, c, t, orthographic);
+  const real error = SLACK * (fabs(s.x) + fabs(s.y) + fabs(s.d) + s.r) * at.bend;
+  const real steepest = fabs(at.g) + error;
+  const real step = lane_min(steepest, at.g > (real)(0.0f) ? t - near : far - t);
+  const mask_t beyond = at.f - (2.0f * steepest - step) * step - error * error > r2;
+  return keep & ((open & beyond) == (mask_t)(0));
 }
 #endif
 
@@ -70,7 +82,7 @@ static inline mask_t may_touch(ViewSphere s, const Cell* c, constant CullParams*
 #if CULL_TEST == CULL_SPHERE
   return sphere_may_touch(s, c);
 #elif CULL_TEST == CULL_EXACT
-  return (box_distance2(s, c) <= s.r * s.r) & ((cell_distance2(s, c, p->orthographic) > s.r * s.r) == (mask_t)(0));
+  return exact_may_touch(box_distance2(s, c) <= s.r * s.r, s, c, p->orthographic);
 #else
   return may_touch_coarsely(s, c);
 #endif

@@ -38,4 +38,5 @@ static inline void append_reals(global float* to, real v, uint bits) {
   for (uint left = bits; left; left &= left - 1) *to++ = lanes[lowest_bit(left)];
 }
 #endif
+#define any_lane(m) (mask_bits(m) != 0)
 #endif

@@ -1,7 +1,7 @@
 // A light in view space, and the tiles its sphere can be seen in.
 #pragma once
 
-#include "kernels/common/lanes.h"
+#include "kernels/common/pack.h"
 #include "shared/cull_params.h"
 #include "shared/cull_settings.h"
 

@@ -16,17 +16,6 @@ struct CullJob {
   cl::Buffer params_buffer, lights, bounds, slices, counters, cells, indices;
 };
 
-class CullPipeline {
- public:
-  virtual ~CullPipeline() = default;
-  // Makes or grows its buffers for the job's sizes. Candidates and staged lists (or marks) get room as params say.
-  virtual void prepare(const CullParams& params) = 0;
-  // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
-  // asked for, [4] and [5] low and high word of the number of indices.
-  virtual void enqueue(const CullJob& job) = 0;
-  virtual size_t memory_bytes() const = 0;
-};
-
 struct PipelineOptions {
   std::string light_defines;  // of lights alone: test, cones
   std::string defines;        // and of cells and index type
@@ -34,6 +23,20 @@ struct PipelineOptions {
   int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
   int index_bytes = 2;
   bool many_lights = false;  // one more step from coarse to fine pays
+  bool operator==(const PipelineOptions&) const = default;
+};
+
+class CullPipeline {
+ public:
+  explicit CullPipeline(const PipelineOptions& options) : options(options) {}
+  const PipelineOptions options;
+  virtual ~CullPipeline() = default;
+  // Makes or grows its buffers for the job's sizes. Candidates and staged lists (or marks) get room as params say.
+  virtual void prepare(const CullParams& params) = 0;
+  // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
+  // asked for, [4] and [5] low and high word of the number of indices.
+  virtual void enqueue(const CullJob& job) = 0;
+  virtual size_t memory_bytes() const = 0;
 };
 
 std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);

@@ -16,7 +16,7 @@ size_t rounded_up(size_t n, size_t step) { return (n + step - 1) / step * step; 
 class GroupPipeline : public CullPipeline {
  public:
   GroupPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
-      : device_(device), options_(options) {
+      : CullPipeline(options), device_(device) {
     project_ = programs.kernel("project_lights_group", options.light_defines);
     boxes_kernel_ = programs.kernel("bin_boxes_group", options.defines);
     mark_bins_ = programs.kernel("mark_bins_group", options.defines);
@@ -27,10 +27,10 @@ class GroupPipeline : public CullPipeline {
 
   void prepare(const CullParams& p) override {
     const size_t bins = size_t(p.bins_x) * p.bins_y, words = (size_t(p.light_count) + 31) / 32;
-    views_.at_least(device_, size_t(p.light_stride) * options_.view_arrays * sizeof(float));
+    views_.at_least(device_, size_t(p.light_stride) * options.view_arrays * sizeof(float));
     boxes_.at_least(device_, bins * box_bytes);
     bin_marks_.at_least(device_, bins * words * sizeof(cl_uint));
-    pool_.at_least(device_, size_t(p.pool_blocks) * 16 * options_.view_arrays * sizeof(float));
+    pool_.at_least(device_, size_t(p.pool_blocks) * 16 * options.view_arrays * sizeof(float));
     cell_marks_.at_least(device_, size_t(p.staging_units) * 16 * sizeof(cl_uint));
     bins_.at_least(device_, bins * sizeof(cl_uint4));
   }
@@ -58,7 +58,6 @@ class GroupPipeline : public CullPipeline {
 
  private:
   ClDevice& device_;
-  PipelineOptions options_;
   cl::Kernel project_, boxes_kernel_, mark_bins_, list_, mark_cells_, fill_;
   GrowingBuffer views_, boxes_, bin_marks_, pool_, cell_marks_, bins_;
 };

@@ -13,7 +13,7 @@ constexpr size_t spare = 64;  // values that a vector load or store may reach pa
 class LanesPipeline : public CullPipeline {
  public:
   LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
-      : device_(device), options_(options) {
+      : CullPipeline(options), device_(device) {
     const std::string builtins = options.avx512 ? " -DAVX512" : "", defines = options.defines + builtins;
     project_ = programs.kernel("project_lights_lanes", options.light_defines + builtins);
     cull_ = programs.kernel("cull_lanes", defines + (options.many_lights ? " -DBINS=2" : ""));
@@ -23,10 +23,10 @@ class LanesPipeline : public CullPipeline {
   void prepare(const CullParams& p) override {
     const size_t regions = size_t(p.regions_x) * p.regions_y, bins = size_t(p.bins_x) * p.bins_y;
     runs_ = std::clamp<uint>(p.light_stride / 512, 1, std::max(4, 2 * device_.info().compute_units));
-    lists_.at_least(device_, (regions * options_.view_arrays * (p.light_stride + 16) + spare) * sizeof(float));
+    lists_.at_least(device_, (regions * options.view_arrays * (p.light_stride + 16) + spare) * sizeof(float));
     run_counts_.at_least(device_, regions * runs_ * sizeof(cl_uint));
-    pool_.at_least(device_, (size_t(p.pool_blocks) * 16 * options_.view_arrays + spare) * sizeof(float));
-    staged_.at_least(device_, (size_t(p.staging_units) * 16 + spare) * options_.index_bytes);
+    pool_.at_least(device_, (size_t(p.pool_blocks) * 16 * options.view_arrays + spare) * sizeof(float));
+    staged_.at_least(device_, (size_t(p.staging_units) * 16 + spare) * options.index_bytes);
     cell_counts_.at_least(device_, bins * BIN_SIZE * p.slices * sizeof(cl_uint));
     bins_.at_least(device_, bins * sizeof(cl_uint2));
   }
@@ -35,7 +35,7 @@ class LanesPipeline : public CullPipeline {
     const size_t bins = size_t(job.params.bins_x) * job.params.bins_y;
     launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, lists_.get(),
            run_counts_.get(), job.counters, job.params_buffer);
-    const uint side = options_.many_lights ? 2 : 1;
+    const uint side = options.many_lights ? 2 : 1;
     const size_t items = size_t((job.params.bins_x + side - 1) / side) * ((job.params.bins_y + side - 1) / side);
     launch(device_, "cull_lights", cull_, cl::NDRange(items), cl::NDRange(1), lists_.get(), run_counts_.get(),
            cl_uint(runs_), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(),
@@ -50,7 +50,6 @@ class LanesPipeline : public CullPipeline {
 
  private:
   ClDevice& device_;
-  PipelineOptions options_;
   uint runs_ = 1;
   cl::Kernel project_, cull_, compact_;
   GrowingBuffer lists_, run_counts_, pool_, staged_, cell_counts_, bins_;

@@ -80,7 +80,7 @@ cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes)
 }
 
 LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
-    : device_(device), programs_(programs), options_(options) {
+    : device_(device), programs_(programs), options_(options), lights_(std::make_unique<GrowingBuffer>()) {
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
   }
@@ -99,7 +99,6 @@ void LightCuller::set_lights(std::span<const CullLight> lights) {
   light_count_ = uint(lights.size());
   light_stride_ = (light_count_ + lane_count - 1) / lane_count * lane_count;
   cones_ = std::any_of(lights.begin(), lights.end(), [](const CullLight& light) { return light.cos_outer >= 0; });
-  for (auto& pipeline : pipelines_) pipeline.reset();
   if (lights.empty()) return;
   origin_ = {middle(lights, 0), middle(lights, 1), middle(lights, 2)};
   const size_t stride = light_stride_;
@@ -114,8 +113,8 @@ void LightCuller::set_lights(std::span<const CullLight> lights) {
     // Rounding of the cosine is given to the cone.
     values[7 * stride + i] = light.cos_outer >= 0 ? float(std::max(0.0, light.cos_outer - 1e-6)) : 2.0f;
   }
-  lights_ = device_buffer(device_, values.size() * sizeof(float));
-  device_.queue().enqueueWriteBuffer(lights_, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+  device_.queue().enqueueWriteBuffer(lights_->at_least(device_, values.size() * sizeof(float)), CL_TRUE, 0,
+                                     values.size() * sizeof(float), values.data());
 }
 
 void LightCuller::set_view(const CullView& view) {
@@ -146,10 +145,6 @@ void LightCuller::set_view(const CullView& view) {
   if (tiles != bounds_tiles_ || room.orthographic != params_.orthographic) {
     bounds_tiles_ = tiles;
     opaque_ = blend_ = cl::Buffer();
-  }
-  // Kernels are built for one cell a tile, or for several.
-  if ((room.slices > 1) != (params_.slices > 1)) {
-    for (auto& pipeline : pipelines_) pipeline.reset();
   }
 }
 
@@ -248,8 +243,6 @@ std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
 }
 
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
-  std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
-  if (made) return *made;
   PipelineOptions options;
   options.avx512 = avx512_;
   options.many_lights = light_count_ > many_lights;
@@ -258,8 +251,11 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
   options.defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(mode),
                                 params_.slices > 1 ? " -DSLICES" : "", options.index_bytes == 4 ? " -DINDEX_32" : "");
-  made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
-                                              : make_group_pipeline(device_, programs_, options);
+  std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
+  if (!made || made->options != options) {
+    made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
+                                                : make_group_pipeline(device_, programs_, options);
+  }
   return *made;
 }
 
@@ -291,7 +287,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
     cl::Buffer indices = storage.indices(index_capacity_ * index_bytes);
     upload_params();
     kernels.prepare(params_);
-    kernels.enqueue({params_, params_buffer_, lights_, bounds.values, slices_, counters_, cells, indices});
+    kernels.enqueue({params_, params_buffer_, lights_->get(), bounds.values, slices_, counters_, cells, indices});
     cl_uint counters[8];
     device_.queue().enqueueReadBuffer(counters_, CL_TRUE, 0, sizeof counters, counters);
     const uint64_t total = counters[4] | uint64_t(counters[5]) << 32;

@@ -126,6 +126,7 @@ struct CullerOptions {
 };
 
 class CullPipeline;
+class GrowingBuffer;
 
 class LightCuller {
  public:
@@ -178,9 +179,10 @@ class LightCuller {
   CullParams uploaded_{};
   cl::Kernel bounds_kernel_;
   bool bounds_kernel_standard_ = false;
-  cl::Buffer params_buffer_, lights_, slices_, opaque_, blend_, counters_;
+  cl::Buffer params_buffer_, slices_, opaque_, blend_, counters_;
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
+  std::unique_ptr<GrowingBuffer> lights_;
   std::unique_ptr<CullPipeline> pipelines_[5];  // by DepthBoundsMode
 };
 
