@@ -20,24 +20,19 @@ TEST(GridDigest, IsTheSameWithAnyNumberOfThreads) {
         << threads << " threads";
 }
 
-// Without --uninitialized: Oclgrind 21.10 takes vectors made of compared lanes for uninitialized, and stops
-// at `freeze`. The lanes shape's bytes are not compared: Oclgrind gives it other ones than PoCL, with no
-// fault reported.
-TEST(GridDigest, IsThatOfOclgrindWhichFindsNoFault) {
-  if (run_command("command -v oclgrind").status != 0)
-    GTEST_SKIP() << "no oclgrind here (Debian package oclgrind)";
-  for (const std::string shape : {"group", "lanes"}) {
-    const CommandOutcome watched =
-        digest("LIGHTGRID_CL_CACHE=off oclgrind --build-options -cl-opt-disable --data-races", shape);
-    EXPECT_EQ(watched.status, 0);
-    // What it finds it prints before the program's line. A build that is only tried, for one kind of CPU, fails aloud.
-    std::string found;
-    std::istringstream lines(watched.output);
-    for (std::string line; std::getline(lines, line);)
-      if (!line.ends_with("errors generated.")) found += line + "\n";
-    if (shape == "group") EXPECT_EQ(found, digest("", shape).output);
-    else EXPECT_EQ(found.size(), 17u) << found;  // the digest's line and no other
-  }
+// Without --uninitialized: Oclgrind 21.10 takes vectors made of compared lanes for uninitialized, and stops at `freeze`.
+// The group shape only: for the lanes shape's vectors Oclgrind computes other numbers than PoCL.
+TEST(GridDigest, OfTheGroupShapeIsThatOfOclgrindWhichFindsNoFault) {
+  if (run_command("command -v oclgrind").status != 0) GTEST_SKIP() << "no oclgrind here (Debian package oclgrind)";
+  const CommandOutcome watched =
+      digest("LIGHTGRID_CL_CACHE=off oclgrind --build-options -cl-opt-disable --data-races", "group");
+  EXPECT_EQ(watched.status, 0);
+  // What it finds it prints before the program's line. A build that is only tried, for one kind of CPU, fails aloud.
+  std::string found;
+  std::istringstream lines(watched.output);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.ends_with("errors generated.")) found += line + "\n";
+  EXPECT_EQ(found, digest("", "group").output);
 }
 
 }  // namespace
