@@ -13,8 +13,9 @@ kernel void project_lights_group(global const float* lights, global float* views
   if (light == 0) counters[0] = counters[1] = counters[4] = counters[5] = 0;
   if (light >= stride) return;
   global const float* l = lights + light;
-  const ViewSphere s = view_sphere(LOAD(l), LOAD(l + stride), LOAD(l + 2 * stride), LOAD(l + 3 * stride), p);
-  const TileRect rect = tile_rect(s, p);
+  const float radius = l[3 * stride];
+  const ViewSphere s = view_sphere(l[0], l[stride], l[2 * stride], radius, p);
+  const TileRect rect = tile_rect(s, radius, p);
   global float* v = views + light;
   v[VIEW_X * stride] = s.x, v[VIEW_Y * stride] = s.y, v[VIEW_D * stride] = s.d, v[VIEW_R * stride] = s.r;
   v[VIEW_FIRST * stride] = as_float(rect.first), v[VIEW_LAST * stride] = as_float(rect.last);

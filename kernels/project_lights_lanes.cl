@@ -19,8 +19,9 @@ typedef struct Held {
 static inline void project_block(global const float* lights, uint at, uint n, Held* held, constant CullParams* p) {
   const size_t stride = p->light_stride;
   global const float* l = lights + at;
-  const ViewSphere s = view_sphere(LOAD(l), LOAD(l + stride), LOAD(l + 2 * stride), LOAD(l + 3 * stride), p);
-  const TileRect rect = tile_rect(s, p);
+  const float16 radius = LOAD(l + 3 * stride);
+  const ViewSphere s = view_sphere(LOAD(l), LOAD(l + stride), LOAD(l + 2 * stride), radius, p);
+  const TileRect rect = tile_rect(s, radius, p);
   vstore16(s.x, 0, held->values[VIEW_X] + n), vstore16(s.y, 0, held->values[VIEW_Y] + n);
   vstore16(s.d, 0, held->values[VIEW_D] + n), vstore16(s.r, 0, held->values[VIEW_R] + n);
   vstore16(as_float16(rect.first), 0, held->values[VIEW_FIRST] + n);

@@ -74,9 +74,10 @@ typedef struct TileRect {
   whole first, last;
 } TileRect;
 
-static inline TileRect tile_rect(ViewSphere s, constant CullParams* p) {
+// radius: without slack; below 0: no light.
+static inline TileRect tile_rect(ViewSphere s, real radius, constant CullParams* p) {
   whole x0 = 0, x1 = (int)p->tiles_x - 1, y0 = 0, y1 = (int)p->tiles_y - 1;
-  mask_t gone = !(s.r >= (real)(0.0f));
+  mask_t gone = !(radius >= (real)(0.0f));
 #if CULL_TEST != CULL_AABB && CULL_TEST != CULL_SPHERE
   real low_x = s.x - s.r, high_x = s.x + s.r, low_y = s.y - s.r, high_y = s.y + s.r;
   if (!p->orthographic) {

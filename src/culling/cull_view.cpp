@@ -53,6 +53,11 @@ void check_view(const CullView& view, int tile) {
   if (!(clip[0][0] > 0) || !(clip[1][1] > 0) || !(perspective ? clip[3][2] != 0 : orthographic && clip[2][2] != 0)) {
     throw input_error("view: clip_from_view is neither a perspective nor an orthographic projection along -z");
   }
+  // Kernels take these in float, and slack counts on numbers whose products are finite.
+  for (const double value : {2 / clip[0][0], 2 / clip[1][1], clip[2][0], clip[2][1], clip[3][0], clip[3][1], clip[2][2],
+                             clip[3][2], orthographic ? 1 / clip[2][2] : 0.0, near_distance(view)}) {
+    if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
+  }
   const glm::dmat3 rotation(view.view_from_world);
   const glm::dmat3 error = rotation * glm::transpose(rotation) - glm::dmat3(1);
   for (int c = 0; c < 3; ++c) {

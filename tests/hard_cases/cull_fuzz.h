@@ -31,16 +31,13 @@ class Bytes {
     constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double strange[] = {0, -0.0, nan, -nan, inf, -inf, 1e-45, -1e-45, 1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1, -1};
     const int kind = up_to(31);
-    if (kind == 0) return in_float(take<double>());
-    if (kind == 1) return in_float(take<float>());
-    if (kind <= 4) return in_float(strange[up_to(15)]);
+    if (kind == 0) return take<double>();
+    if (kind == 1) return take<float>();
+    if (kind <= 4) return strange[up_to(15)];
     return low + (high - low) * (take<uint16_t>() / 65535.0);
   }
 
  private:
-  // Finite numbers past float are a known fault: a light's place of 1e300 gets an index listed that is no light.
-  static double in_float(double x) { return std::isfinite(x) ? std::clamp(x, -1e37, 1e37) : x; }
-
   const uint8_t* data_;
   size_t left_;
 };
