@@ -16,7 +16,8 @@ install(TARGETS ${library_targets} EXPORT lightgridTargets
 # The public headers and what they include, under the names by which they are included here.
 set(public_headers
   base/error.h
-  shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h shared/view_params.h
+  shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h
+  shared/slices.h shared/view_params.h
   cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h
   culling/cull_view.h culling/light_culler.h)
 foreach(header IN LISTS public_headers)

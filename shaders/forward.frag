@@ -1,4 +1,5 @@
-// Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid, else every light.
+// Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS for its
+// masks, else every light.
 // BLEND: output is multiplied by coverage and laid over what is there.
 
 #include "shaders/common/surface.glsl"
@@ -6,8 +7,13 @@
 #include "shaders/common/brdf.glsl"
 #ifdef LIGHTS
 #include "shaders/lights/punctual.glsl"
-#ifdef LIGHTS_GRID
+#if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS)
+#include "shaders/lights/cell.glsl"
+#endif
+#if defined(LIGHTS_GRID)
 #include "shaders/lights/grid.glsl"
+#elif defined(LIGHTS_MASKS)
+#include "shaders/lights/masks.glsl"
 #else
 #include "shaders/lights/all.glsl"
 #endif

@@ -1,6 +1,7 @@
 #include "culling/cull_view.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "shared/light_grid.h"
@@ -15,7 +16,10 @@ float rest(double value, float taken) { return float(value - double(taken)); }
 }  // namespace
 
 std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m) {
-  if (spacing == SliceSpacing::exponential && !(near_m > 0)) near_m = far_m / 1000;
+  if (spacing == SliceSpacing::exponential && !(near_m > 0)) {
+    if (far_m > 0) near_m = far_m / 1000;
+    else spacing = SliceSpacing::linear;
+  }
   std::vector<float> edges;
   for (int k = 1; k < slices; ++k) {
     const double part = double(k) / slices;
@@ -24,6 +28,19 @@ std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, 
   }
   return edges;
 }
+
+std::array<float, MOST_SLICES> slice_keys(const CullView& view) {
+  const glm::dmat4& clip = view.clip_from_view;
+  std::array<float, MOST_SLICES> keys;
+  keys.fill(std::numeric_limits<float>::infinity());
+  for (size_t i = 0; i < view.slice_edges.size(); ++i) {
+    const double d = view.slice_edges[i], depth = clip[3][2] - clip[2][2] * d;
+    keys[i] = depth_key(view, float(is_orthographic(view) ? depth : depth / d));
+  }
+  return keys;
+}
+
+float depth_key(const CullView& view, float depth) { return has_standard_depth(view) ? depth : -depth; }
 
 bool is_orthographic(const CullView& view) { return view.clip_from_view[2][3] == 0; }
 
@@ -57,6 +74,14 @@ void check_view(const CullView& view, int tile) {
   for (const double value : {2 / clip[0][0], 2 / clip[1][1], clip[2][0], clip[2][1], clip[3][0], clip[3][1], clip[2][2],
                              clip[3][2], orthographic ? 1 / clip[2][2] : 0.0, near_distance(view)}) {
     if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
+  }
+  if (view.slice_edges.size() >= MOST_SLICES) {
+    throw input_error("view: {} slices are more than {}", view.slice_edges.size() + 1, MOST_SLICES);
+  }
+  for (size_t i = 0; i < view.slice_edges.size(); ++i) {
+    const float edge = view.slice_edges[i], before = i ? view.slice_edges[i - 1] : -INFINITY;
+    if (!std::isfinite(edge) || !(edge >= before)) throw input_error("view: slice_edges[{}] is {} after {}", i, edge, before);
+    if (!(edge > 0) && !is_orthographic(view)) throw input_error("view: slice_edges[{}] is {}, not in front of the eye", i, edge);
   }
   const glm::dmat3 rotation(view.view_from_world);
   const glm::dmat3 error = rotation * glm::transpose(rotation) - glm::dmat3(1);

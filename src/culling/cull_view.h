@@ -1,10 +1,13 @@
 // A camera and an image size: all that culling knows of the viewer. Metres; distances are along the view axis, d = -z.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "shared/cull_params.h"
+#include "shared/cull_settings.h"
+#include "shared/slices.h"
 #include "shared/view_params.h"
 
 namespace lightgrid {
@@ -22,16 +25,20 @@ struct CullView {
                                    // slice begins at the eye, the last has no end.
 };
 
-enum class SliceSpacing { exponential, linear };
-
 // The slices - 1 inner edges, ascending, of `slices` slices between two distances near_m < far_m, both finite; near and
 // far themselves are none, so that every distance has a slice. Exponential (Olsson, Billeter, Assarsson, "Clustered
-// Deferred and Forward Shading", HPG 2012) wants near_m > 0, and takes far_m / 1000 where it is not (an orthographic
-// view).
+// Deferred and Forward Shading", HPG 2012) wants near_m > 0: where it is not, in an orthographic view, far_m / 1000 stands
+// for it, and where all is behind the eye slices are linear.
 std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m);
 
+// What shading compares a pixel's depth key with (shared/slices.h): the view's edges as depth keys, ascending, then
+// infinity. Each differs from its edge by one rounding of a depth, for which the kernels' slices are wide enough.
+std::array<float, MOST_SLICES> slice_keys(const CullView& view);
+float depth_key(const CullView& view, float depth);
+
 // Throws Error(input) where they make no view: a size below 1 or past 32,000 tiles a side, a
-// matrix that is not finite, no projection of the two kinds, or not rigid. Of slice_edges nothing is checked.
+// matrix that is not finite, no projection of the two kinds, or not rigid; or slice edges that do not ascend, are not
+// finite, not in front of a perspective view's eye, or more than MOST_SLICES - 1.
 void check_view(const CullView& view, int tile);
 
 // The view in the numbers of shaders (lights and ambient are left 0) and of kernels, for tiles of `tile` x `tile`

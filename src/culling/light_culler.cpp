@@ -17,7 +17,7 @@ namespace {
 constexpr float far_away = 1e18f;   // as kernels/common/project.h
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
 constexpr int world_arrays = 8;     // as kernels/common/light_arrays.h
-constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16;
+constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16, mask_group = 64;
 constexpr uint most_regions = 64, many_lights = 16384;
 constexpr double half_ulp = 0x1p-24;
 
@@ -295,6 +295,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
   if (light_count_ == 0) {
     device_.queue().enqueueFillBuffer(cells, cl_uint(0), 0, grid.cell_bytes);
     storage.indices(0);
+    if (options_.lists == GridLists::masks) storage.masks(0);
     device_.queue().finish();
     return grid;
   }
@@ -330,9 +331,24 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
     } else {
       grid.index_count = total;
       grid.index_bytes = total * index_bytes;
+      if (options_.lists == GridLists::masks) make_masks(grid, storage);
       return grid;
     }
   }
+}
+
+void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {
+  const size_t cells = grid.cell_bytes / sizeof(cl_uint2), largest = device_.info().max_allocation_bytes;
+  grid.mask_words = (light_count_ + 31) / 32;
+  grid.mask_bytes = cells * grid.mask_words * sizeof(cl_uint);
+  if (grid.mask_bytes > largest) {
+    throw machine_error("light culling: masks of {} cells for {} lights need {} bytes, more than {} allows; use lists, larger "
+                        "tiles or fewer slices", cells, light_count_, grid.mask_bytes, device_.info().name);
+  }
+  cl::Kernel kernel = programs_.kernel("lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
+  launch(device_, "lists_to_masks", kernel, cl::NDRange((cells + mask_group - 1) / mask_group * mask_group),
+         cl::NDRange(mask_group), storage.cells(grid.cell_bytes), storage.indices(grid.index_bytes), cl_uint(cells),
+         cl_uint(grid.mask_words), storage.masks(grid.mask_bytes));
 }
 
 uint32_t LightCuller::strange_tiles() {
@@ -350,7 +366,9 @@ size_t LightCuller::memory_bytes() const {
 }
 
 HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage) {
-  HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}};
+  HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}, {}};
+  host.masks.resize(grid.mask_bytes / sizeof(cl_uint));
+  if (grid.mask_bytes) device.queue().enqueueReadBuffer(storage.masks(grid.mask_bytes), CL_TRUE, 0, grid.mask_bytes, host.masks.data());
   host.cells.resize(grid.cell_bytes / sizeof(glm::uvec2));
   host.indices.resize(grid.index_count);
   device.queue().enqueueReadBuffer(storage.cells(grid.cell_bytes), CL_TRUE, 0, grid.cell_bytes, host.cells.data());

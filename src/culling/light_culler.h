@@ -70,6 +70,7 @@ class GridStorage {
   // A buffer of at least `bytes` in the culler's context; what it held may be lost when it grows, not otherwise.
   virtual cl::Buffer& cells(size_t bytes) = 0;
   virtual cl::Buffer& indices(size_t bytes) = 0;
+  virtual cl::Buffer& masks(size_t bytes) = 0;  // asked for only where CullerOptions wants masks
 };
 
 class ClGridStorage : public GridStorage {
@@ -77,23 +78,26 @@ class ClGridStorage : public GridStorage {
   explicit ClGridStorage(ClDevice& device) : device_(device) {}
   cl::Buffer& cells(size_t bytes) override { return grown(cells_, cells_bytes_, bytes); }
   cl::Buffer& indices(size_t bytes) override { return grown(indices_, indices_bytes_, bytes); }
+  cl::Buffer& masks(size_t bytes) override { return grown(masks_, masks_bytes_, bytes); }
 
  private:
   cl::Buffer& grown(cl::Buffer& buffer, size_t& size, size_t bytes);
   ClDevice& device_;
-  cl::Buffer cells_, indices_;
-  size_t cells_bytes_ = 0, indices_bytes_ = 0;
+  cl::Buffer cells_, indices_, masks_;
+  size_t cells_bytes_ = 0, indices_bytes_ = 0, masks_bytes_ = 0;
 };
 
 // The finished grid in its storage. Cells: uint2(first, count) into the indices, x fastest, then y from the bottom,
 // then slice from the near plane; cell_of_pixel (shared/light_grid.h) finds a pixel's first one. Indices: of
-// set_lights' lights, each cell's sorted and without repetition. Same bytes on every device, in every kernel shape, for
+// set_lights' lights, each cell's sorted and without repetition. Masks, where they were asked for: mask_words 32-bit words a
+// cell, in the cells' order, in which light i is bit i % 32 of word i / 32; they say what the lists say. Same bytes on every device, in every kernel shape, for
 // any number of threads.
 struct LightGrid {
   int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
   uint64_t index_count = 0;                  // of all lists together, below 2^32
   int index_bits = 16;                       // 16 or 32 each
   size_t cell_bytes = 0, index_bytes = 0;    // in use; the storage's buffers may be larger
+  size_t mask_words = 0, mask_bytes = 0;     // 0 where there are no masks
 };
 
 // A grid on the host, in the same order; indices are widened to 32 bits.
@@ -101,6 +105,7 @@ struct HostGrid {
   int cells_x = 0, cells_y = 0, slices = 1;
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;
+  std::vector<uint32_t> masks;    // empty where there are none
   bool operator==(const HostGrid&) const = default;
 };
 // Waits.
@@ -119,6 +124,7 @@ struct CullerOptions {
   int tile = 16;               // pixels a side: 8, 16, 32 or 64
   DepthFormat depth_format = DepthFormat::d32f;
   int samples = 1;             // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
+  GridLists lists = GridLists::lists;  // masks: bitmasks as well
   bool blend = false;          // blended surfaces need bounds of their own
   int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights
   bool pixel_centres = true;   // cells span their pixels' centres, which is all that is shaded; false: whole pixels
@@ -164,6 +170,7 @@ class LightCuller {
 
  private:
   CullPipeline& pipeline(DepthBoundsMode mode);
+  void make_masks(LightGrid& grid, GridStorage& storage);
   cl::Buffer empty_bounds(int planes, float near, float far);
   void choose_regions();
   void upload_params();

@@ -1,4 +1,4 @@
-// Lights against the cells of the light grid, in OpenCL; the grid goes over to OpenGL as two buffer textures.
+// Lights against the cells of the light grid, in OpenCL; the grid goes over to OpenGL as buffer textures.
 #include "passes/passes.h"
 
 namespace lightgrid {
@@ -7,12 +7,18 @@ namespace {
 GridTextures cull(Frame& f, const char* name, const TileBounds& bounds, SharedGridStorage& storage, bool blend) {
   auto pass = f.timer.pass(name, "cl");
   const LightGrid grid = f.culler().cull(bounds, storage);
-  storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
-  storage.indices_.buffer->hand_to_gl(grid.index_bytes);
+  const bool masks = f.plan.settings.grid_lists == GridLists::masks;
+  if (masks) {
+    storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
+  } else {
+    storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
+    storage.indices_.buffer->hand_to_gl(grid.index_bytes);
+  }
   f.note_grid(grid, blend);
   pass.moves(f.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8,
-             grid.cell_bytes + grid.index_bytes);
-  return {grid, storage.cells_.texture.name(), storage.indices_.texture.name()};
+             grid.cell_bytes + grid.index_bytes + grid.mask_bytes);
+  if (masks) return {grid, 0, 0, storage.masks_.texture.name()};
+  return {grid, storage.cells_.texture.name(), storage.indices_.texture.name(), 0};
 }
 
 }  // namespace

@@ -12,10 +12,11 @@ struct DepthImage {
   GLuint framebuffer = 0;  // without colour
 };
 
-// A light grid as the shading code reads it: two buffer textures.
+// A light grid as the shading code reads it: as lists, or as masks.
 struct GridTextures {
   LightGrid grid;
-  GLuint cells = 0, indices = 0;
+  GLuint cells = 0, indices = 0;  // buffer textures
+  GLuint masks = 0;
 };
 
 struct ShadedImage {

@@ -121,6 +121,26 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   plan.decisions.push_back({"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
 }
 
+// From the near plane to the farthest that anything in view can be.
+void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& needs, FramePlan& plan) {
+  plan.slices = needs.slices ? plan.settings.slices : 1;
+  double far_m = view.near_m;
+  for (const auto* list : {&plan.opaque, &plan.blended}) {
+    for (int i : *list) {
+      const Instance& instance = scene.instances[i];
+      far_m = std::max(far_m, farthest_of_box(view_from_object(view, instance.world_from_object), scene.meshes[instance.mesh].bounds));
+    }
+  }
+  far_m = std::min(far_m, view.far_m);
+  plan.slice_near_m = view.near_m;
+  plan.slice_far_m = far_m > view.near_m ? far_m : view.near_m + 1;
+  const bool needed = plan.light_grid && plan.slices > 1;
+  plan.decisions.push_back({"depth slices", needed,
+                            needed ? fmt::format("{} from {:.3g} m to {:.3g} m", plan.slices, plan.slice_near_m, plan.slice_far_m)
+                            : !needs.slices ? "the technique cuts tiles into none"
+                            : plan.light_grid ? "slices=1" : "no light grid"});
+}
+
 void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.local_lights = plan.spots = plan.directional = plan.blend = plan.mask = true;
@@ -146,14 +166,18 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_surfaces(scene, view, plan);
   plan_lights(scene, view, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;
-  plan.blend_grid = plan.light_grid && plan.blend;
+  const bool bounded = settings.depth_bounds != DepthBoundsMode::none;
+  plan.blend_grid = plan.light_grid && plan.blend && bounded;
   plan.decisions.push_back({"light grid", plan.light_grid,
                             !needs.light_grid      ? "the technique reads none"
                             : !plan.local_lights ? "no light has a place"
                                                  : light_witness(scene, plan.local[0])});
   plan.decisions.push_back({"blended light grid", plan.blend_grid,
                             plan.blend_grid ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
-                                            : plan.light_grid ? "no blended material in view" : "no light grid"});
+                            : !plan.light_grid ? "no light grid"
+                            : !plan.blend      ? "no blended material in view"
+                                               : "without depth bounds, one grid serves all surfaces"});
+  plan_slices(scene, view, needs, plan);
   plan.decisions.push_back({"shadows", false, "no light casts one: shadows are not part of any technique yet"});
   if (settings.everything_on) turn_everything_on(plan, needs);
   return plan;

@@ -40,6 +40,7 @@ struct Decision {
 // What a technique asks of the plan.
 struct TechniqueNeeds {
   bool light_grid = false;
+  bool slices = false;  // whose tiles are cut into depth slices
 };
 
 struct FramePlan {
@@ -57,6 +58,8 @@ struct FramePlan {
   bool blend_grid = false;     // and a grid of its own
   bool mask = false;
   int index_bits = 16;
+  int slices = 1;              // cells a tile,
+  double slice_near_m = 0, slice_far_m = 0;  // between these distances
   uint32_t features = 0;       // union over the instances seen: which vertex streams and textures exist
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order

@@ -9,11 +9,13 @@
 
 namespace lightgrid {
 
-
 struct Settings {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;  // pixels a side: 8, 16, 32 or 64
+  int slices = 24;  // depth slices of techniques that have some: 1, 2, 4, 8, 16, 24, 32 or 64
+  SliceSpacing slice_spacing = SliceSpacing::exponential;
+  GridLists grid_lists = GridLists::lists;
   KernelShape kernel_shape = KernelShape::automatic;
   bool portable = false;       // kernels without the builtins of one kind of CPU
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against

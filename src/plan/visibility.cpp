@@ -34,6 +34,15 @@ bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, con
   return true;
 }
 
+double farthest_of_box(const glm::dmat4& view_from_object, const Aabb& box) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z, 1);
+    farthest = std::max(farthest, -(view_from_object * p).z);
+  }
+  return farthest;
+}
+
 bool may_see_sphere(const Frustum& frustum, glm::dvec3 center_view, double radius) {
   for (int i = 0; i < frustum.count; ++i) {
     if (glm::dot(glm::dvec3(frustum.planes[i]), center_view) + frustum.planes[i].w < -radius) return false;

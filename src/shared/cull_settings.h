@@ -8,6 +8,8 @@ namespace lightgrid {
 enum class CullTest { sphere, planes, aabb, planes_aabb, exact };
 enum class DepthBoundsMode { none, minmax, halfz, halfz_modified, mask32 };
 enum class KernelShape { automatic, lanes, group };
+enum class SliceSpacing { exponential, linear };
+enum class GridLists { lists, masks };
 }  // namespace lightgrid
 #else
 #define CULL_SPHERE 0       // the sphere around the cell's box

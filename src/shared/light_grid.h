@@ -16,6 +16,11 @@ SHARED_FUNCTION uint cell_of_pixel(uint x, uint y, uint tile_size, uint tiles_x)
   return (y / tile_size) * tiles_x + x / tile_size;
 }
 
+// The same tile's cell in a slice, from that in the first one.
+SHARED_FUNCTION uint cell_in_slice(uint first_cell, uint slice, uint tiles_x, uint tiles_y) {
+  return slice * tiles_x * tiles_y + first_cell;
+}
+
 // A bin's tiles in the order in which their lists lie in memory: Morton's (1966), so that 4 slots from a multiple of 4 on
 // are a quad of 2 x 2 tiles, and 16 a block of 4 x 4.
 SHARED_FUNCTION uint tile_x_of_slot(uint slot) { return (slot & 1u) | (slot >> 1 & 2u) | (slot >> 2 & 4u); }

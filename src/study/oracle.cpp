@@ -1,5 +1,7 @@
 #include "study/oracle.h"
 
+#include <bit>
+
 #include "passes/surfaces.h"
 #include "reference/position.h"
 #include "reference/shading.h"
@@ -21,6 +23,34 @@ std::vector<T> read_buffer(GLuint buffer, size_t count) {
   std::vector<T> values(count);
   if (count) glGetNamedBufferSubData(buffer, 0, GLsizeiptr(count * sizeof(T)), values.data());
   return values;
+}
+
+void add_lists(SharedGridStorage& storage, const LightGrid& grid, ListedLights& lists) {
+  const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
+  for (const glm::uvec2& cell : read_buffer<glm::uvec2>(storage.cells_.buffer->gl_buffer(), count)) {
+    lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  }
+  const GLuint indices = storage.indices_.buffer->gl_buffer();
+  if (grid.index_bits == 16) {
+    const auto narrow = read_buffer<uint16_t>(indices, grid.index_count);
+    lists.indices.assign(narrow.begin(), narrow.end());
+  } else {
+    lists.indices = read_buffer<uint32_t>(indices, grid.index_count);
+  }
+}
+
+void add_masks(SharedGridStorage& storage, const LightGrid& grid, ListedLights& lists) {
+  const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
+  const auto words = read_buffer<uint32_t>(storage.masks_.buffer->gl_buffer(), count * grid.mask_words);
+  for (size_t cell = 0; cell < count; ++cell) {
+    lists.first.push_back(uint32_t(lists.indices.size()));
+    for (size_t w = 0; w < grid.mask_words; ++w) {
+      for (uint32_t bits = words[cell * grid.mask_words + w]; bits; bits &= bits - 1) {
+        lists.indices.push_back(uint32_t(w * 32 + std::countr_zero(bits)));
+      }
+    }
+    lists.count.push_back(uint32_t(lists.indices.size()) - lists.first.back());
+  }
 }
 
 Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
@@ -51,30 +81,36 @@ std::vector<float> read_depth(Frame& f) {
   return depth;
 }
 
-ListedLights listed_lights(Frame& f) {
+std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& depth) {
+  const CullView view = cull_view(f.view, f.plan);
+  const auto edges = slice_keys(view);
+  std::vector<uint32_t> cells;
+  cells.reserve(depth.size());
+  for (int y = 0; y < f.view.height; ++y) {
+    for (int x = 0; x < f.view.width; ++x) {
+      const uint slice = slice_of_key(depth_key(view, depth[cells.size()]), edges.data());
+      const uint first = cell_of_pixel(x, y, f.params.tile_size, f.params.tiles_x);
+      cells.push_back(cell_in_slice(first, slice, f.params.tiles_x, f.params.tiles_y));
+    }
+  }
+  return cells;
+}
+
+ListedLights listed_lights(Frame& f, const std::vector<float>& depth) {
   if (!f.plan.light_grid) return list_every_light(uint32_t(f.plan.local.size()));
   const LightGrid& grid = f.opaque_grid_last;
   ListedLights lists;
-  lists.cell_of_pixel.reserve(size_t(f.view.width) * f.view.height);
-  for (int y = 0; y < f.view.height; ++y) {
-    for (int x = 0; x < f.view.width; ++x) {
-      lists.cell_of_pixel.push_back(cell_of_pixel(x, y, f.params.tile_size, f.params.tiles_x));
-    }
-  }
-  const auto cells = read_buffer<glm::uvec2>(f.opaque_grid().cells_.buffer->gl_buffer(), size_t(grid.cells_x) * grid.cells_y);
-  for (const glm::uvec2& cell : cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
-  const GLuint indices = f.opaque_grid().indices_.buffer->gl_buffer();
-  if (grid.index_bits == 16) {
-    const auto narrow = read_buffer<uint16_t>(indices, grid.index_count);
-    lists.indices.assign(narrow.begin(), narrow.end());
+  lists.cell_of_pixel = cells_of_pixels(f, depth);
+  if (f.plan.settings.grid_lists == GridLists::masks) {
+    add_masks(f.opaque_grid(), grid, lists);
   } else {
-    lists.indices = read_buffer<uint32_t>(indices, grid.index_count);
+    add_lists(f.opaque_grid(), grid, lists);
   }
   return lists;
 }
 
 LitPairs count_listed_pairs(Frame& f, const std::vector<float>& depth) {
-  return count_pairs(f.view, depth, local_lights(f), listed_lights(f));
+  return count_pairs(f.view, depth, local_lights(f), listed_lights(f, depth));
 }
 
 ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,

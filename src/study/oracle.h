@@ -10,9 +10,12 @@ namespace lightgrid {
 // The depth image of the last frame: width * height, row 0 at the bottom, 0 where nothing is.
 std::vector<float> read_depth(Frame& f);
 
+// The cell of the light grid that shading reads at each pixel, from the depth image of the frame.
+std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& depth);
+
 // The lists that the last frame shaded opaque surfaces from; without a grid, every point and spot light at every
-// pixel. Indices count point and spot lights only, in scene order.
-ListedLights listed_lights(Frame& f);
+// pixel. Indices count point and spot lights only, in scene order. A pixel's slice follows from its depth.
+ListedLights listed_lights(Frame& f, const std::vector<float>& depth);
 
 // Those lists against the lights that truly reach each pixel.
 LitPairs count_listed_pairs(Frame& f, const std::vector<float>& depth);

@@ -3,10 +3,10 @@
 
 namespace lightgrid {
 
-extern const Technique forward, forward_plus;
+extern const Technique forward, forward_plus, clustered;
 
 const std::vector<const Technique*>& techniques() {
-  static const std::vector<const Technique*> all = {&forward, &forward_plus};
+  static const std::vector<const Technique*> all = {&forward, &forward_plus, &clustered};
   return all;
 }
 

@@ -16,6 +16,9 @@ struct Technique {
   ShadedImage (*render)(Frame& f);
 };
 
+// The recipe of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended surfaces.
+ShadedImage shade_from_light_grid(Frame& f);
+
 const std::vector<const Technique*>& techniques();
 
 // Throws Error(input) that lists the names there are.

@@ -31,8 +31,8 @@ cl::Buffer buffer_of(const std::vector<T>& values) {
 }
 
 // Here the world is view space.
-inline CullView cull_view_of(const View& view) {
-  return {view.width, view.height, view.clip_from_view, glm::dmat4(1), glm::dvec3(0), {}};
+inline CullView cull_view_of(const View& view, const std::vector<float>& slice_edges = {}) {
+  return {view.width, view.height, view.clip_from_view, glm::dmat4(1), glm::dvec3(0), slice_edges};
 }
 
 inline std::vector<CullLight> cull_lights_of(const std::vector<ViewLight>& lights) {
@@ -62,6 +62,7 @@ struct CulledGrid {
   LightGrid grid;
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;  // widened
+  std::vector<uint32_t> masks;
 
   std::vector<uint32_t> list(size_t cell) const {
     return {indices.begin() + cells[cell].x, indices.begin() + cells[cell].x + cells[cell].y};
@@ -71,10 +72,11 @@ struct CulledGrid {
 
 // The grid of these lights over given intervals, one a tile.
 inline CulledGrid cull_cells(const View& view, const std::vector<ViewLight>& lights,
-                             const std::vector<glm::vec2>& intervals, const CullerOptions& options) {
+                             const std::vector<glm::vec2>& intervals, const CullerOptions& options,
+                             const std::vector<float>& slice_edges = {}) {
   LightCuller culler(test_device(), test_programs(), options);
   culler.set_lights(cull_lights_of(lights));
-  culler.set_view(cull_view_of(view));
+  culler.set_view(cull_view_of(view, slice_edges));
   std::vector<DepthInterval> given;
   for (const glm::vec2& i : intervals) given.push_back({i.x, i.y});
   ClGridStorage storage(test_device());
@@ -82,7 +84,7 @@ inline CulledGrid cull_cells(const View& view, const std::vector<ViewLight>& lig
   result.grid = culler.cull(culler.bounds_of(given), storage);
   result.params = culler.params();
   const HostGrid host = read_grid(test_device(), result.grid, storage);
-  result.cells = host.cells, result.indices = host.indices;
+  result.cells = host.cells, result.indices = host.indices, result.masks = host.masks;
   return result;
 }
 
@@ -97,7 +99,7 @@ inline CulledGrid cull_depth(const View& view, const std::vector<ViewLight>& lig
   result.grid = culler.cull(culler.depth_bounds({buffer_of(depth)}).opaque, storage);
   result.params = culler.params();
   const HostGrid host = read_grid(test_device(), result.grid, storage);
-  result.cells = host.cells, result.indices = host.indices;
+  result.cells = host.cells, result.indices = host.indices, result.masks = host.masks;
   return result;
 }
 

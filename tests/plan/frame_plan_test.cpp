@@ -118,6 +118,35 @@ TEST(FramePlan, ATechniqueWithoutAGridHasNone) {
   EXPECT_EQ(decision(plan, "light grid").why, "the technique reads none");
 }
 
+TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
+  SmallScene s = small_scene();
+  constexpr TechniqueNeeds clusters{.light_grid = true, .slices = true};
+  const View view = small_view(17, 9);
+  const FramePlan plan = plan_frame(s.scene, view, {.slices = 8}, clusters);
+  EXPECT_EQ(plan.slices, 8);
+  EXPECT_EQ(plan.slice_near_m, 0.1);
+  EXPECT_NEAR(plan.slice_far_m, 4, 1e-6);  // the wall
+  EXPECT_EQ(decision(plan, "depth slices").why, "8 from 0.1 m to 4 m");
+  Camera near_far = look_at({0, 0, 0}, {0, 0, -1});
+  near_far.far_m = 3.5;
+  EXPECT_NEAR(plan_frame(s.scene, make_view(near_far, 17, 9), {}, clusters).slice_far_m, 3.5, 1e-6);
+  EXPECT_EQ(plan_of(s.scene).slices, 1);
+  EXPECT_EQ(decision(plan_of(s.scene), "depth slices").why, "the technique cuts tiles into none");
+  EXPECT_FALSE(decision(plan_frame(s.scene, view, {.slices = 1}, clusters), "depth slices").needed);
+  EXPECT_FALSE(decision(plan_frame(small_scene(false).scene, view, {}, clusters), "depth slices").needed);
+  const FramePlan empty = plan_frame({}, view, {}, clusters);
+  EXPECT_GT(empty.slice_far_m, empty.slice_near_m);
+}
+
+TEST(FramePlan, WithoutDepthBoundsOneGridServesAll) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  const FramePlan plan = plan_of(s.scene, {.depth_bounds = DepthBoundsMode::none});
+  EXPECT_TRUE(plan.blend && plan.light_grid);
+  EXPECT_FALSE(plan.blend_grid);
+  EXPECT_EQ(decision(plan, "blended light grid").why, "without depth bounds, one grid serves all surfaces");
+}
+
 TEST(FramePlan, WithoutALightThatHasAPlaceThereIsNoGrid) {
   SmallScene s = small_scene(false);
   s.scene.lights.emplace_back().type = LightType::directional;

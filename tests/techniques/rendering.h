@@ -50,10 +50,10 @@ inline testing::AssertionResult identical(const Image& a, const Image& b) {
              error.rmse, count_nan_pixels(a), count_nan_pixels(b));
 }
 
-// forward_plus against forward, and its lists against the lights that reach each pixel.
+// A technique with light lists against forward, and its lists against the lights that reach each pixel.
 inline void expect_exact(const Scene& scene, const View& view, const Settings& settings,
-                         const Image& forward) {
-  TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward_plus"));
+                         const Image& forward, const char* technique = "forward_plus") {
+  TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
   EXPECT_TRUE(identical(run.image(), forward));
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);

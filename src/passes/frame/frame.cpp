@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/error.h"
+
 namespace lightgrid {
 namespace {
 
@@ -36,10 +38,25 @@ LightTexels texels_of(const std::vector<ViewLight>& lights, const FramePlan& pla
 cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
     shared.texture = GlTexture();
+    GLint texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
+    if (bytes / texel_bytes > size_t(texels)) {
+      throw machine_error("light grid: {} bytes are more than the {} texels that a buffer texture may have in this OpenGL; use "
+                          "larger tiles, fewer slices or fewer lights", bytes, texels);
+    }
     shared.buffer.emplace(*devices.cl, devices.bridge, bytes);
     shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
   }
   return shared.buffer->cl_buffer();
+}
+
+// The uniform block of shared/slices.h: std140 gives each float a vec4's room.
+GlBuffer slice_block_of(const CullView& view) {
+  glm::vec4 block[MOST_SLICES];
+  const std::array<float, MOST_SLICES> keys = slice_keys(view);
+  for (size_t i = 0; i < MOST_SLICES; ++i) block[i] = glm::vec4(keys[i], 0, 0, 0);
+  return make_buffer(sizeof block, block);
 }
 
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
@@ -53,6 +70,12 @@ ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& a
 
 CullView cull_view(const View& view) {
   return {view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}};
+}
+
+CullView cull_view(const View& view, const FramePlan& plan) {
+  CullView culled = cull_view(view);
+  culled.slice_edges = slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+  return culled;
 }
 
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices) {
@@ -80,6 +103,14 @@ cl::Buffer& SharedGridStorage::indices(size_t bytes) {
   return grown(devices_, indices_, bytes, index_bits_ == 16 ? GL_R16UI : GL_R32UI);
 }
 
+cl::Buffer& SharedGridStorage::masks(size_t bytes) { return grown(devices_, masks_, bytes, GL_R32UI); }
+
+size_t SharedGridStorage::allocated_bytes() const {
+  size_t bytes = 0;
+  for (const SharedTexture* shared : {&cells_, &indices_, &masks_}) bytes += shared->buffer ? shared->buffer->size() : 0;
+  return bytes;
+}
+
 Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan plan_of_frame)
     : devices(devices),
       scene(scene),
@@ -95,6 +126,7 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
         }
       }) {
   view_block_ = make_buffer(sizeof params, &params);
+  if (plan.light_grid && plan.slices > 1) slice_block_ = slice_block_of(cull_view(view, plan));
   const LightTexels texels = texels_of(lights_in_view(scene, view), plan);
   const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones,
                                              &texels.directional};
@@ -148,6 +180,7 @@ SharedBuffer& Frame::depth_copy() {
 
 void Frame::bind_lights() const {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_block_.name());
+  if (slice_block_) glBindBufferBase(GL_UNIFORM_BUFFER, 2, slice_block_.name());
   for (int i = 0; i < 4; ++i) {
     if (light_textures_[i]) glBindTextureUnit(8 + i, light_textures_[i].name());
   }
@@ -162,12 +195,13 @@ LightCuller& Frame::culler() {
     options.tile = plan.settings.tile;
     options.portable = plan.settings.portable;
     options.blend = plan.blend_grid;
+    options.lists = plan.settings.grid_lists;
     options.index_bits = plan.index_bits;
     culler_.emplace(*devices.cl, *devices.programs, options);
     if (plan.light_grid) {
       culler_->set_lights(cull_lights_of(scene, plan.local));
     }
-    culler_->set_view(cull_view(view));
+    culler_->set_view(cull_view(view, plan));
   }
   return *culler_;
 }
@@ -183,8 +217,9 @@ SharedGridStorage& Frame::blend_grid() {
 }
 
 size_t Frame::light_grid_bytes() const {
-  return opaque_grid_last.cell_bytes + opaque_grid_last.index_bytes + blend_grid_last.cell_bytes +
-         blend_grid_last.index_bytes;
+  size_t bytes = 0;
+  for (const LightGrid* grid : {&opaque_grid_last, &blend_grid_last}) bytes += grid->cell_bytes + grid->index_bytes + grid->mask_bytes;
+  return bytes;
 }
 
 size_t Frame::memory_bytes() const {

@@ -26,8 +26,9 @@ struct Devices {
 // Opens both devices. Throws Error(machine) where one is missing.
 Devices open_devices(const std::string& cl_substring, GlBackend backend);
 
-// What culling knows of a view, and of the lights `indices` of a scene.
+// What culling knows of a view, of the slices of a plan, and of the lights `indices` of a scene.
 CullView cull_view(const View& view);
+CullView cull_view(const View& view, const FramePlan& plan);
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices);
 
 // A buffer shared by OpenCL and OpenGL, with the texture through which shaders read it.
@@ -42,8 +43,9 @@ class SharedGridStorage : public GridStorage {
   SharedGridStorage(Devices& devices, int index_bits) : devices_(devices), index_bits_(index_bits) {}
   cl::Buffer& cells(size_t bytes) override;
   cl::Buffer& indices(size_t bytes) override;
-  size_t allocated_bytes() const { return cells_.buffer->size() + indices_.buffer->size(); }
-  SharedTexture cells_, indices_;
+  cl::Buffer& masks(size_t bytes) override;
+  size_t allocated_bytes() const;
+  SharedTexture cells_, indices_, masks_;
 
  private:
   Devices& devices_;
@@ -83,7 +85,7 @@ struct Frame {
   LightGrid opaque_grid_last, blend_grid_last;
 
  private:
-  GlBuffer view_block_;
+  GlBuffer view_block_, slice_block_;
   GlBuffer light_buffers_[4];
   GlTexture light_textures_[4];
   std::map<std::string, GlProgram> programs_;

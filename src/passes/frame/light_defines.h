@@ -5,11 +5,11 @@
 
 namespace lightgrid {
 
-// Binds the lights, and the grid's two textures where there is one.
+// Binds the lights, and the grid's textures where there is one.
 inline void bind_lights(Frame& f, const GridTextures* grid) {
   f.bind_lights();
   if (!grid) return;
-  glBindTextureUnit(12, grid->cells);
+  glBindTextureUnit(12, grid->masks ? grid->masks : grid->cells);
   glBindTextureUnit(13, grid->indices);
 }
 
@@ -18,7 +18,8 @@ inline std::vector<std::string> light_defines(const Frame& f, uint32_t features,
   if (f.plan.local_lights) defines.emplace_back("LIGHTS");
   if (f.plan.spots) defines.emplace_back("SPOTS");
   if (f.plan.directional) defines.emplace_back("DIRECTIONAL");
-  if (grid) defines.emplace_back("LIGHTS_GRID");
+  if (grid) defines.emplace_back(grid->masks ? "LIGHTS_MASKS" : "LIGHTS_GRID");
+  if (grid && f.plan.slices > 1) defines.emplace_back("SLICES");
   return defines;
 }
 

@@ -1,0 +1,18 @@
+// The cell of the light grid that shading finds.
+//   GIVEN_DEPTH: for depth values out of a texture.
+#include "shared/view_params.h"
+#include "shaders/lights/cell.glsl"
+
+#ifdef GIVEN_DEPTH
+layout(binding = 0) uniform sampler2D given_depth;
+#endif
+
+layout(location = 0) out uint cell;
+
+void main() {
+#ifdef GIVEN_DEPTH
+  cell = cell_at(uvec2(gl_FragCoord.xy), texelFetch(given_depth, ivec2(gl_FragCoord.xy), 0).r);
+#else
+  cell = cell_here();
+#endif
+}

@@ -1,0 +1,16 @@
+// The cells that shading finds, for tests: not part of any technique's frame.
+#pragma once
+
+#include "passes/passes.h"
+
+namespace lightgrid {
+
+inline constexpr uint32_t no_cell = 0xffffffffu;
+
+// Of each pixel that shows an opaque surface, else no_cell. Uses the depth image of the last frame.
+std::vector<uint32_t> shaded_cells(Frame& f);
+
+// Of each pixel, were its depth the one given.
+std::vector<uint32_t> cells_at_depths(Frame& f, const std::vector<float>& depths);
+
+}  // namespace lightgrid

@@ -1,0 +1,195 @@
+// clustered gives the bytes of the brute-force image, and shading finds the cells that the oracle takes.
+#include <cmath>
+
+#include "passes/cells.h"
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+struct BuiltinClustered : testing::TestWithParam<const char*> {
+  const Scene scene = find_builtin_scene(GetParam())->make();
+};
+
+TEST_P(BuiltinClustered, HasTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
+  for (const Camera& camera : scene.cameras) {
+    SCOPED_TRACE(camera.name);
+    const View view = make_view(camera, 95, 53);
+    expect_exact(scene, view, {}, render(scene, view, "forward"), "clustered");
+  }
+  for (const glm::ivec2 size : {glm::ivec2(17, 9), glm::ivec2(1, 1)}) {
+    const View view = default_view(scene, size.x, size.y);
+    expect_exact(scene, view, {}, render(scene, view, "forward"), "clustered");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinClustered, testing::Values("hall", "spheres", "terrain", "street"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// Each test, bound, spacing and shape, in few combinations: every one is kernels to build.
+const Settings some_of_each[] = {
+    {.cull_test = CullTest::exact, .depth_bounds = DepthBoundsMode::halfz, .slices = 8, .slice_spacing = SliceSpacing::linear},
+    {.cull_test = CullTest::sphere, .depth_bounds = DepthBoundsMode::halfz_modified, .tile = 64, .slices = 64,
+     .kernel_shape = KernelShape::group},
+    {.cull_test = CullTest::aabb, .depth_bounds = DepthBoundsMode::mask32, .tile = 8, .slices = 2,
+     .grid_lists = GridLists::masks},
+    {.cull_test = CullTest::planes, .depth_bounds = DepthBoundsMode::none, .slices = 32,
+     .slice_spacing = SliceSpacing::linear},
+};
+
+// The small scene with glass, a spot and many lamps.
+Scene crowded_scene() {
+  SmallScene s = small_scene();
+  for (const Effect& effect : effects()) {
+    if (effect.name == "blend" || effect.name == "spot") effect.add(s);
+  }
+  for (int i = 0; i < 60; ++i) {
+    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.2f + 0.01f * i);
+  }
+  return s.scene;
+}
+
+TEST(Clustered, HasTheBytesUnderSomeOfEachSetting) {
+  const Scene scene = crowded_scene();
+  const View view = small_view(127, 73);
+  const Image forward = render(scene, view, "forward");
+  for (const Settings& settings : some_of_each) {
+    SCOPED_TRACE(testing::PrintToString(to_strings(settings)));
+    expect_exact(scene, view, settings, forward, "clustered");
+  }
+}
+
+TEST(Clustered, OneSliceIsForwardPlus) {
+  const Scene scene = crowded_scene();
+  const View view = small_view(127, 73);
+  TechniqueRun one(test_devices(), scene, view, {.slices = 1}, find_technique("clustered"));
+  TechniqueRun plus(test_devices(), scene, view, {}, find_technique("forward_plus"));
+  one.run_frame(), plus.run_frame();
+  EXPECT_EQ(one.frame().opaque_grid_last.cell_bytes, plus.frame().opaque_grid_last.cell_bytes);
+  EXPECT_EQ(one.frame().opaque_grid_last.index_count, plus.frame().opaque_grid_last.index_count);
+  EXPECT_TRUE(identical(one.image(), plus.image()));
+}
+
+// Bitmasks instead of lists, for opaque surfaces and for glass, by tiles and by clusters; at counts of lights about the
+// width of a word, a light far away before the others.
+TEST(GridMasks, HaveTheBytesOfEveryLightAtEveryPixel) {
+  for (const int more : {0, 1, 25, 26, 27, 60}) {
+    SCOPED_TRACE(more);
+    SmallScene s = small_scene();
+    effects()[0].add(s);
+    for (int i = 0; i < more; ++i) add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.2f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.8f);
+    const View view = small_view(127, 73);
+    const Image forward = render(s.scene, view, "forward");
+    expect_exact(s.scene, view, {.grid_lists = GridLists::masks}, forward);
+    expect_exact(s.scene, view, {.grid_lists = GridLists::masks}, forward, "clustered");
+    expect_exact(s.scene, view, {.depth_bounds = DepthBoundsMode::none, .grid_lists = GridLists::masks}, forward, "clustered");
+  }
+}
+
+TEST(GridMasks, HaveTheBytesOnBuiltinScenes) {
+  for (const char* name : {"hall", "spheres"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = find_builtin_scene(name)->make();
+    const View view = default_view(scene, 95, 53);
+    const Image forward = render(scene, view, "forward");
+    for (const char* technique : {"forward_plus", "clustered"}) {
+      expect_exact(scene, view, {.grid_lists = GridLists::masks}, forward, technique);
+    }
+  }
+}
+
+TEST(GridMasks, OfNoLightsAreNothingAndEverythingOnChangesNoByte) {
+  const View view = small_view(17, 9);
+  for (const Scene& scene : {small_scene(false).scene, crowded_scene()}) {
+    for (const bool everything : {false, true}) {
+      EXPECT_TRUE(identical(render(scene, view, "clustered", {.grid_lists = GridLists::masks, .everything_on = everything}),
+                            render(scene, view, "forward")));
+    }
+  }
+}
+
+// Slices part what a tile with a gap in depth cannot.
+TEST(Clustered, ListsFewerLightsThanTilesWhereDepthHasGaps) {
+  const Scene scene = find_builtin_scene("spheres")->make();
+  const View view = default_view(scene, 160, 90);
+  uint64_t listed[2];
+  for (const int i : {0, 1}) {
+    TechniqueRun run(test_devices(), scene, view, {}, find_technique(i ? "clustered" : "forward_plus"));
+    run.run_frame();
+    listed[i] = count_listed_pairs(run.frame(), read_depth(run.frame())).listed;
+  }
+  EXPECT_LT(listed[1], 0.9 * double(listed[0]));
+}
+
+View orthographic_small_view(double near_m) {
+  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+  camera.orthographic = true;
+  camera.half_width_m = camera.half_height_m = 2;
+  camera.near_m = near_m, camera.far_m = 10;
+  return make_view(camera, 127, 73);
+}
+
+TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  Camera ends = look_at({0, 0, 0}, {0, 0, -1});
+  ends.far_m = 4.5;
+  for (const View& view : {orthographic_small_view(0), orthographic_small_view(-3), make_view(ends, 127, 73)}) {
+    const Image forward = render(s.scene, view, "forward");
+    EXPECT_GT(brightest_channel(forward), 0.2f);
+    for (const DepthBoundsMode bounds : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
+      expect_exact(s.scene, view, {.depth_bounds = bounds}, forward, "clustered");
+      expect_exact(s.scene, view, {.depth_bounds = bounds}, forward);
+    }
+  }
+}
+
+// Opaque and blended surfaces at all depths stand in cells of one grid.
+TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  const View view = small_view(127, 73);
+  for (const char* technique : {"clustered", "forward_plus"}) {
+    TechniqueRun run(test_devices(), s.scene, view, {.depth_bounds = DepthBoundsMode::none}, find_technique(technique));
+    run.run_frame();
+    EXPECT_FALSE(run.frame().plan.blend_grid);
+    EXPECT_EQ(run.frame().blend_grid_last.cell_bytes, 0u);
+    EXPECT_TRUE(identical(run.image(), render(s.scene, view, "forward")));
+  }
+}
+
+// Depths on the edges, a unit in the last place to either side, at both ends, and everywhere between.
+std::vector<float> telling_depths(const Frame& f) {
+  std::vector<float> telling = {0, 1, 0.5f, 1e-20f, 1e-38f};
+  for (const float key : slice_keys(cull_view(f.view, f.plan))) {
+    if (std::isinf(key)) continue;
+    for (const float end : {key, -1.0f, 1.0f}) telling.push_back(-std::nextafter(key, end));
+  }
+  std::vector<float> depths;
+  for (size_t i = 0; i < size_t(f.view.width) * f.view.height; ++i) {
+    depths.push_back(telling[i % telling.size()]);
+  }
+  return depths;
+}
+
+TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
+  const Scene hall = find_builtin_scene("hall")->make(), small = small_scene().scene;
+  const std::pair<const Scene*, View> cases[] = {{&hall, default_view(hall, 127, 73)}, {&small, orthographic_small_view(0)}};
+  for (const auto& [scene, view] : cases) {
+    for (const int slices : {1, 24, 64}) {
+      TechniqueRun run(test_devices(), *scene, view, {.slices = slices}, find_technique("clustered"));
+      run.run_frame();
+      Frame& f = run.frame();
+      const std::vector<float> depth = read_depth(f);
+      std::vector<uint32_t> expected = cells_of_pixels(f, depth);
+      for (size_t i = 0; i < depth.size(); ++i) expected[i] = depth[i] > 0 ? expected[i] : no_cell;
+      EXPECT_EQ(shaded_cells(f), expected);
+      const std::vector<float> telling = telling_depths(f);
+      EXPECT_EQ(cells_at_depths(f, telling), cells_of_pixels(f, telling));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
