@@ -49,22 +49,25 @@ static inline Section section_at(ViewSphere s, const Cell* c, real t, uint ortho
 }
 
 // Of the lights in `keep`, those that may touch the cell itself. f is convex in t with f'' >= 2, so for every u in
-// [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a certain lower bound, whatever t is. t comes from one Newton step,
-// which mostly ends on the minimum, since f is quadratic in pieces. g is taken by its rounding error nearer to the
-// minimum. A light that touches the first section needs no bound. NaN keeps the light.
+// [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a certain lower bound, whatever t is. t follows Newton, who mostly
+// ends on the minimum at once, since f is quadratic in pieces. g is taken by its rounding error nearer to the minimum.
+// A light is decided by a section that it touches, or by a bound past its radius; after four steps, or by NaN, it is kept.
 static inline mask_t exact_may_touch(mask_t keep, ViewSphere s, const Cell* c, uint orthographic) {
   const real near = c->near, far = c->far, r2 = s.r * s.r;
   real t = lane_min(lane_max(s.d, near), far);
   Section at = section_at(s, c, t, orthographic);
-  const mask_t open = keep & (at.f > r2);
-  if (!any_lane(open)) return keep;
-  t = lane_min(lane_max(t - at.g / at.bend, near), far);
-  at = section_at(s, c, t, orthographic);
-  const real error = SLACK * (fabs(s.x) + fabs(s.y) + fabs(s.d) + s.r) * at.bend;
-  const real steepest = fabs(at.g) + error;
-  const real step = lane_min(steepest, at.g > (real)(0.0f) ? t - near : far - t);
-  const mask_t beyond = at.f - (2.0f * steepest - step) * step - error * error > r2;
-  return keep & ((open & beyond) == (mask_t)(0));
+  mask_t open = keep & (at.f > r2);
+  for (int i = 0; i < 4 && any_lane(open); ++i) {
+    t = lane_min(lane_max(t - at.g / at.bend, near), far);
+    at = section_at(s, c, t, orthographic);
+    const real error = SLACK * (fabs(s.x) + fabs(s.y) + fabs(s.d) + s.r) * at.bend;
+    const real steepest = fabs(at.g) + error;
+    const real step = lane_min(steepest, at.g > (real)(0.0f) ? t - near : far - t);
+    const mask_t beyond = open & (at.f - (2.0f * steepest - step) * step - error * error > r2);
+    keep &= beyond == (mask_t)(0);
+    open &= (at.f > r2) & (beyond == (mask_t)(0));
+  }
+  return keep;
 }
 #endif
 

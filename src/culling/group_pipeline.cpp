@@ -1,4 +1,4 @@
-// project_lights -> bin_boxes -> mark_bins -> list_candidates -> mark_cells -> fill_lists: for GPUs.
+// project_lights -> list_candidates -> mark_cells -> fill_lists: for GPUs.
 #include <algorithm>
 
 #include "cl/launch.h"
@@ -8,7 +8,6 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t box_bytes = 10 * sizeof(float);  // of a Cell at most: kernels/common/cell.h
 constexpr size_t list_items = 256, most_word_groups = 32;
 
 size_t rounded_up(size_t n, size_t step) { return (n + step - 1) / step * step; }
@@ -18,18 +17,14 @@ class GroupPipeline : public CullPipeline {
   GroupPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
     project_ = programs.kernel("project_lights_group", options.light_defines);
-    boxes_kernel_ = programs.kernel("bin_boxes_group", options.defines);
-    mark_bins_ = programs.kernel("mark_bins_group", options.defines);
-    list_ = programs.kernel("list_candidates_group", options.light_defines);
+    list_ = programs.kernel("list_candidates_group", options.defines);
     mark_cells_ = programs.kernel("mark_cells_group", options.defines);
     fill_ = programs.kernel("fill_lists_group", options.defines);
   }
 
   void prepare(const CullParams& p) override {
-    const size_t bins = size_t(p.bins_x) * p.bins_y, words = (size_t(p.light_count) + 31) / 32;
+    const size_t bins = size_t(p.bins_x) * p.bins_y;
     views_.at_least(device_, size_t(p.light_stride) * options.view_arrays * sizeof(float));
-    boxes_.at_least(device_, bins * box_bytes);
-    bin_marks_.at_least(device_, bins * words * sizeof(cl_uint));
     pool_.at_least(device_, size_t(p.pool_blocks) * 16 * options.view_arrays * sizeof(float));
     cell_marks_.at_least(device_, size_t(p.staging_units) * 16 * sizeof(cl_uint));
     bins_.at_least(device_, bins * sizeof(cl_uint4));
@@ -37,15 +32,10 @@ class GroupPipeline : public CullPipeline {
 
   void enqueue(const CullJob& job) override {
     const size_t bins = size_t(job.params.bins_x) * job.params.bins_y, words = (size_t(job.params.light_count) + 31) / 32;
-    const size_t bin_items = std::min<size_t>(64, rounded_up(bins, 32));
     launch(device_, "project_lights", project_, cl::NDRange(rounded_up(std::max(job.params.light_stride, 8u), 64)),
            cl::NDRange(64), job.lights, views_.get(), job.counters, job.params_buffer);
-    launch(device_, "bin_boxes", boxes_kernel_, cl::NDRange(bins * BIN_SIZE), cl::NDRange(BIN_SIZE), job.bounds, boxes_.get(),
-           job.params_buffer);
-    launch(device_, "mark_bins", mark_bins_, cl::NDRange(rounded_up(bins, bin_items), words), cl::NDRange(bin_items, 1),
-           views_.get(), boxes_.get(), bin_marks_.get(), job.params_buffer);
     launch(device_, "list_candidates", list_, cl::NDRange(bins * list_items), cl::NDRange(list_items), views_.get(),
-           bin_marks_.get(), pool_.get(), bins_.get(), job.counters, job.params_buffer);
+           job.bounds, pool_.get(), bins_.get(), job.counters, job.params_buffer);
     launch(device_, "mark_cells", mark_cells_, cl::NDRange(bins * BIN_SIZE, std::min(words, most_word_groups)),
            cl::NDRange(BIN_SIZE, 1), pool_.get(), bins_.get(), job.bounds, job.slices, cell_marks_.get(), job.params_buffer);
     launch(device_, "fill_lists", fill_, cl::NDRange(bins * list_items), cl::NDRange(list_items), pool_.get(), bins_.get(),
@@ -53,13 +43,13 @@ class GroupPipeline : public CullPipeline {
   }
 
   size_t memory_bytes() const override {
-    return views_.bytes() + boxes_.bytes() + bin_marks_.bytes() + pool_.bytes() + cell_marks_.bytes() + bins_.bytes();
+    return views_.bytes() + pool_.bytes() + cell_marks_.bytes() + bins_.bytes();
   }
 
  private:
   ClDevice& device_;
-  cl::Kernel project_, boxes_kernel_, mark_bins_, list_, mark_cells_, fill_;
-  GrowingBuffer views_, boxes_, bin_marks_, pool_, cell_marks_, bins_;
+  cl::Kernel project_, list_, mark_cells_, fill_;
+  GrowingBuffer views_, pool_, cell_marks_, bins_;
 };
 
 }  // namespace

@@ -44,14 +44,11 @@ const std::map<std::string, Formula>& formulas() {
       {"compact_lists",
        [](const KernelWork& w) { return KernelCost{2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0.0}; }},
       // For GPUs.
-      {"bin_boxes",
-       [](const KernelWork& w) { return KernelCost{interval_bytes * w.tiles + 24.0 * w.bins, 12.0 * w.tiles}; }},
-      {"mark_bins",
-       [](const KernelWork& w) {
-         return KernelCost{view_bytes(w) * w.lights + 24.0 * w.bins + bin_mark_bytes(w), box_flops * least_candidates(w)};
-       }},
       {"list_candidates",
-       [](const KernelWork& w) { return KernelCost{bin_mark_bytes(w) + 2 * view_bytes(w) * least_candidates(w), 0.0}; }},
+       [](const KernelWork& w) {
+         return KernelCost{interval_bytes * w.tiles + view_bytes(w) * (w.lights + 2 * least_candidates(w)),
+                           box_flops * least_candidates(w)};
+       }},
       {"mark_cells",
        [](const KernelWork& w) {
          return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + cell_mark_bytes(w),
