@@ -264,6 +264,21 @@ std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
   return intervals;
 }
 
+CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
+  upload_params();
+  CullInputs in{params_, bounds.mode, {}, {}, {}};
+  const auto read = [&](const cl::Buffer& buffer, auto& values, size_t count) {
+    values.resize(count);
+    if (count) device_.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof values[0], values.data());
+  };
+  if (light_count_) read(lights_->get(), in.lights, world_arrays * size_t(light_stride_));
+  read(bounds.values, in.bounds, size_t(params_.bins_x) * params_.bins_y * planes_of(bounds.mode) * BIN_SIZE);
+  constexpr float endless = std::numeric_limits<float>::infinity();
+  if (params_.slices > 1) read(slices_, in.slices, params_.slices);
+  else in.slices.emplace_back(-endless, endless);
+  return in;
+}
+
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
   options.avx512 = avx512_;

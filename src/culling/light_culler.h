@@ -131,6 +131,14 @@ struct CullerOptions {
   bool portable = false;       // no builtins of one kind of CPU
 };
 
+// All that the culling kernels read, as it lies in the device's memory: for a check that does their work by other means.
+struct CullInputs {
+  CullParams params{};
+  DepthBoundsMode mode = DepthBoundsMode::minmax;
+  std::vector<float> lights, bounds;  // kernels/common/light_arrays.h, depth_bounds.h
+  std::vector<glm::vec2> slices;      // near and far of each, metres; of a single one infinite
+};
+
 class CullPipeline;
 class GrowingBuffer;
 
@@ -159,6 +167,9 @@ class LightCuller {
   // and the work is done again where it was short. More than 2^32 - 1 indices or more memory than the device has is
   // Error(machine); nothing is ever left out.
   LightGrid cull(const TileBounds& bounds, GridStorage& storage);
+
+  // What cull(bounds) would read. Waits.
+  CullInputs read_inputs(const TileBounds& bounds);
 
   // Tiles of the last depth_bounds in which some value was no depth: NaN, infinite, negative or past 1. They span every
   // distance. Waits.

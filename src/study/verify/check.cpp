@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "reference/position.h"
 #include "shared/light_grid.h"
+#include "study/verify/float_twin.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -286,6 +287,20 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
     if (&options == &settings[0]) first = std::move(lanes);
   }
   return first;
+}
+
+void Check::same_as_twin(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
+                         const CullerOptions& options, bool blend) {
+  for (const CullerOptions& shaped : in_both_shapes(options)) {
+    const auto run = engine.kernel_run(shaped, view, lights, depth, blend);
+    if (!run) return;
+    const CullInputs& in = run->inputs;
+    const auto bounds = twin_bounds(in.params, options.depth_bounds, blend, depth.samples, depth.values);
+    const std::string bounds_off = difference(bounds, in.bounds), grid_off = difference(twin_grid(in, options.cull_test), run->grid);
+    that(bounds_off.empty(), "{}: bounds are not the float twin's: {}", to_string(shaped), bounds_off);
+    that(grid_off.empty(), "{}: lists are not the float twin's: {}", to_string(shaped), grid_off);
+    trials(run->grid.cells.size() * lights.size());
+  }
 }
 
 }  // namespace lightgrid::verify

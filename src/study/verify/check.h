@@ -41,6 +41,11 @@ class Check {
   HostGrid pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                   const std::vector<CullerOptions>& settings);
 
+  // The kernels' raw bounds and grid have the bytes of the float twin (float_twin.h), in both shapes. Asks nothing of what
+  // is not the library.
+  void same_as_twin(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
+                    const CullerOptions& options, bool blend = false);
+
   // Anything else that must hold: one trial.
   template <typename... Args>
   bool that(bool holds, fmt::format_string<Args...> format, Args&&... args) {

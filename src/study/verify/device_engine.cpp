@@ -34,6 +34,15 @@ class DeviceEngine : public CullEngine {
     return read_grid(device_, culler.cull(bounds_from(culler, depth, blend), storage_), storage_);
   }
 
+  std::optional<KernelRun> kernel_run(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                                      const DepthImage& depth, bool blend) override {
+    LightCuller& culler = culler_of(options, view, depth.samples);
+    culler.set_lights(lights);
+    const TileBounds bounds = bounds_from(culler, depth, blend);
+    HostGrid grid = read_grid(device_, culler.cull(bounds, storage_), storage_);
+    return KernelRun{culler.read_inputs(bounds), std::move(grid)};
+  }
+
  private:
   using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool>;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ struct DepthImage {
   int row_pixels = 0;  // 0: the view's width
   int x = 0, y = 0;
   int samples = 1;     // a pixel's samples lie side by side
+};
+
+// A cull from depth with all that went in, for the float twin.
+struct KernelRun {
+  CullInputs inputs;
+  HostGrid grid;
 };
 
 class CullEngine {
@@ -38,6 +45,12 @@ class CullEngine {
   // From depth to lists, as a frame does it: everything that a depth-bounds mode knows takes part.
   virtual HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
                               const DepthImage& depth, bool blend = false) = 0;
+
+  // The same, with what the kernels read; of the library only.
+  virtual std::optional<KernelRun> kernel_run(const CullerOptions&, const CullView&, std::span<const CullLight>,
+                                              const DepthImage&, bool /*blend*/) {
+    return {};
+  }
 };
 
 // The library on the OpenCL device whose "platform name" holds `substring`. Keeps its cullers: cases of all kinds

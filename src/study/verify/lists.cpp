@@ -179,6 +179,32 @@ void many_cells(Check& c) {
   c.grid(view, scattered_lights(view, 60, true, random), {every_distance}, {tile_of(8)});
 }
 
+// Lights tangent to the very cells, where a coarse step's rounding could drop what the fine one keeps. Every test in
+// slices, every kind of bounds without, in half of the views each; tile sizes by turns.
+void float_twin(Check& c) {
+  Random random(47);
+  int turn = 0;
+  for (NamedView named : hard_views(127, 73)) {
+    const bool slices = turn++ % 2;
+    if (slices) named.view.slice_edges = {0.5f, 1, 2, 5, 10, 30};
+    const DepthImage depth = scattered_depth(named.view, random);
+    for (int i = 0; i < 5; ++i) {
+      CullerOptions options = tile_of(8 << (i + turn) % 4);
+      if (slices) options.cull_test = CullTest(i);
+      else options.depth_bounds = DepthBoundsMode(i);
+      if (i == 4) options.cull_test = CullTest::exact;
+      const auto bounds = c.engine.depth_bounds(options, named.view, depth);
+      auto lights = scattered_lights(named.view, 100, true, random);
+      for (const auto& more : {tangent_lights(named.view, bounds, options.tile, 150, Contact::any, 1, random),
+                               tangent_spots(named.view, bounds, options.tile, 100, random)})
+        lights.insert(lights.end(), more.begin(), more.end());
+      move_to_world(named.view, lights);
+      if (i == turn % 5) c.pixels(named.view, lights, depth, {options});
+      c.same_as_twin(named.view, lights, depth, options);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<HardCase> list_cases() {
@@ -210,6 +236,9 @@ std::vector<HardCase> list_cases() {
       {g, "lists_past_16_bits", "160,000 entries", "16-bit offsets", "lists lie side by side without a gap", lists_past_16_bits},
       {g, "many_cells", "64 slices × 920 tiles", "cells × lights in 32 bits; one list's range overlaps the next", "nothing lost, no overlap",
        many_cells},
+      {g, "float_twin", "lights tangent to the cells of random surfaces, under every test and every kind of bounds",
+       "a coarse step drops what the fine one keeps; one device rounds otherwise",
+       "bounds and lists have the bytes of a flat C++ program", float_twin},
   };
 }
 

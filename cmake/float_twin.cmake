@@ -1,0 +1,24 @@
+# The float twin of the culling kernels (src/study/verify/float_twin.h) compiles the kernels' own headers as C++: once for
+# each setting that is a macro there. Its sources are left out of the folder's list and come back as objects.
+set(float_twin_sources verify/twin/cells.cpp verify/twin/depth.cpp)
+
+function(lightgrid_twin_objects source name)
+  set(root ${PROJECT_BINARY_DIR}/include/kernels)
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/kernels ${root}/kernels SYMBOLIC)
+  add_library(float_twin_${name} OBJECT ${PROJECT_SOURCE_DIR}/src/study/${source})
+  target_include_directories(float_twin_${name} PRIVATE ${root} ${PROJECT_BINARY_DIR}/include/study)
+  target_link_libraries(float_twin_${name} PRIVATE lightgrid_shared)
+  target_compile_definitions(float_twin_${name} PRIVATE ${ARGN})
+  target_sources(lightgrid_study PRIVATE $<TARGET_OBJECTS:float_twin_${name}>)
+endfunction()
+
+function(lightgrid_float_twin)
+  foreach(test RANGE 4)
+    foreach(mode 1 2 4)  # minmax, halfz, mask32: one of each layout of bounds
+      lightgrid_twin_objects(verify/twin/cells.cpp cells_${test}_${mode} CULL_TEST=${test} DEPTH_MODE=${mode})
+    endforeach()
+  endforeach()
+  lightgrid_twin_objects(verify/twin/depth.cpp depth_reversed)
+  lightgrid_twin_objects(verify/twin/depth.cpp depth_standard STANDARD_DEPTH)
+endfunction()
