@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/contestants.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
@@ -23,32 +24,10 @@ struct BenchCommand {
   bool tune = false;
 };
 
-// "KEY=A,B" of --compare: each of the contestants so far with A, then each with B.
-std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before, const std::string& comparison) {
-  const size_t equals = comparison.find('=');
-  if (equals == std::string::npos) throw input_error("--compare {}: not KEY=VALUE,VALUE,…", comparison);
-  const std::string key = comparison.substr(0, equals + 1);
-  std::vector<BenchContestant> after;
-  for (size_t begin = equals + 1; begin <= comparison.size();) {
-    const size_t end = std::min(comparison.find(',', begin), comparison.size());
-    const std::string assignment = key + comparison.substr(begin, end - begin);
-    for (BenchContestant contestant : before) {
-      apply_setting(contestant.settings, assignment);
-      contestant.compared += (contestant.compared.empty() ? "" : " ") + assignment;
-      after.push_back(contestant);
-    }
-    begin = end + 1;
-  }
-  return after;
-}
-
 std::vector<BenchContestant> contestants_of(const BenchCommand& o) {
-  std::vector<BenchContestant> contestants(1);
-  for (const std::string& assignment : o.set) apply_setting(contestants[0].settings, assignment);
-  for (const std::string& comparison : o.compare) contestants = multiplied(contestants, comparison);
-  constexpr size_t most = 64;
-  if (contestants.size() > most) throw input_error("--compare: {} combinations; {} at most", contestants.size(), most);
-  return contestants;
+  Settings base;
+  for (const std::string& assignment : o.set) apply_setting(base, assignment);
+  return contestants_of(base, o.compare, 64);
 }
 
 void check_frame_folder(const std::string& folder) {

@@ -1,5 +1,5 @@
 // lightgrid inspect SCENE --pixel X,Y: each light there, and which test kept or dropped it. -o DIR: the same
-// question of every pixel, as pictures.
+// question of every pixel, as pictures. --compare KEY=A,B: how accurate the lists of several settings are.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -8,12 +8,14 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/contestants.h"
 #include "app/options.h"
 #include "base/error.h"
 #include "base/write_file.h"
 #include "study/capture.h"
 #include "study/inspect.h"
 #include "study/inspect_maps.h"
+#include "study/list_accuracy.h"
 
 namespace lightgrid {
 namespace {
@@ -22,6 +24,7 @@ struct InspectOptions {
   SceneOptions scene;
   DeviceOptions devices;
   std::string pixel, output, json;
+  std::vector<std::string> compare;
   int dropped = 10;
   bool all = false;
 };
@@ -121,9 +124,29 @@ int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGr
   return pairs.lost || pairs.wrong ? 1 : 0;
 }
 
+// Each combination's lists against one answer of the oracle.
+int compare_settings(const InspectOptions& o, const Subject& subject, Devices& devices) {
+  const LitBlocks truth = find_lit_blocks(subject.frame);
+  std::vector<AccuracyRow> rows;
+  uint64_t lost = 0;
+  for (const BenchContestant& c : contestants_of(subject.settings, o.compare, 1000)) {
+    FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings);
+    culler.run();
+    rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(culler.grid()))});
+    lost += rows.back().accuracy.lost;
+    if (o.json != "-") std::fputs(accuracy_line(rows.back()).c_str(), stdout);
+  }
+  if (!o.json.empty()) write_json(o.json, accuracy_json(subject.frame, subject.settings, rows));
+  return lost ? 1 : 0;
+}
+
 int inspect(const InspectOptions& o) {
   const std::optional<Place> place = parse_place(o.pixel);
-  if (!place && o.output.empty()) throw input_error("inspect: neither --pixel X,Y nor -o DIR is given");
+  const bool one_grid = place || !o.output.empty();
+  if (!one_grid && o.compare.empty()) {
+    throw input_error("inspect: none of --pixel X,Y, -o DIR and --compare KEY=A,B is given");
+  }
+  if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
   chosen_settings(o.scene);  // a wrong setting is told before the scene is loaded
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
@@ -131,6 +154,7 @@ int inspect(const InspectOptions& o) {
   if (place) check_place(*place, subject.view());
   if (!o.output.empty()) make_folder(o.output);
   Devices devices = open_devices_for(subject, o.devices.device, backend);
+  if (!one_grid) return compare_settings(o, subject, devices);
   FrameCuller culler(*devices.cl, *devices.programs, subject.frame, subject.settings);
   culler.run();
   const FrameGrid grid = culler.grid();
@@ -154,6 +178,8 @@ void add_inspect(CommandLine& line) {
   command.flag("--all", o->all, "show every dropped light");
   command.option("-o,--output", o->output,
                  "folder of pictures: listed, listed in vain and lost lights of each pixel");
+  command.list("--compare", o->compare,
+               "KEY=VALUE,VALUE,…: how accurate the lists of each are; repeated, every combination");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

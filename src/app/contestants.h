@@ -1,0 +1,16 @@
+// --set and --compare: which settings a command runs beside each other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/bench/bench.h"
+
+namespace lightgrid {
+
+// Every combination of the values that the comparisons ("KEY=A,B") give, on top of `base`; `base` alone where there
+// are none. Throws Error(input) past `most` combinations.
+std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
+                                            size_t most);
+
+}  // namespace lightgrid

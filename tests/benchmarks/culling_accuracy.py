@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Accuracy of the light lists against time, for every cull test, depth bounds and tile size.
+
+    tests/benchmarks/culling_accuracy.py --frames DIR [--only RE] [--rounds N] [--runs N] [--threads N]
+                                         [--program FILE] [--csv FILE] [--doc FILE] [--from-csv]
+
+DIR holds one folder a frame. Those that are missing are made: the standard frames floor with 256, 1024 and 4096 lights
+and spheres with 1024 at 1920x1080, and captures at 1280x720 of the built-in scenes spheres and hall with 1024 lights
+and, where ../shared has it, of Sponza with 1024. Frames of other names in DIR are left alone.
+
+Accuracy is counted once, since the lists are the same bytes each time (`lightgrid inspect --compare`, the oracle in
+double). Times are those of `lightgrid bench --compare`, settings in turn, least of all rounds. The CSV has one line a
+setting of a frame; --doc puts the tables between the markers of that page; --from-csv only does that.
+"""
+import argparse
+import csv
+import glob
+import json
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+TESTS = ["sphere", "planes", "aabb", "planes+aabb", "exact"]
+BOUNDS = ["none", "minmax", "halfz", "halfz-modified", "mask32"]
+TILES = [8, 16, 32, 64]
+SHADING_NS = [0.85, 3.5]  # a listed (pixel, light) pair: as a 16-wide OpenCL kernel, as an OpenGL shader on a CPU
+STANDARD = {"floor256": "floor-256", "floor1024": "floor-1024", "floor4096": "floor-4096", "spheres1024": "spheres-1024"}
+SPONZA = os.path.join(ROOT, "..", "shared", "scenes", "large", "Sponza", "Sponza.gltf")
+SPONZA_LIGHTS = os.path.join(ROOT, "..", "shared", "bench", "sponza_lights.json")
+COLUMNS = ["commit", "device", "threads", "frame", "width", "height", "tile", "cull_test", "depth_bounds", "listed",
+           "lit", "lost", "perfect", "tiles_lit", "tiles_in_vain", "tile_p99", "tile_worst", "runs", "min_ms"]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--frames")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--rounds", type=int, default=1)
+    parser.add_argument("--runs", type=int, default=15)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--program", default=os.path.join(ROOT, "build", "src", "lightgrid"))
+    parser.add_argument("--csv", default=os.path.join(ROOT, "docs", "results", "culling_accuracy.csv"))
+    parser.add_argument("--doc", default=os.path.join(ROOT, "docs", "results", "culling.md"))
+    parser.add_argument("--from-csv", action="store_true")
+    args = parser.parse_args()
+    if not args.frames and not args.from_csv:
+        parser.error("--frames is missing")
+    return args
+
+
+def run(command, threads=0):
+    environment = dict(os.environ)
+    if threads:
+        environment.update(POCL_AFFINITY="1", POCL_MAX_PTHREAD_COUNT=str(threads))
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    if done.returncode:  # inspect ends with 1 where a light is lost
+        sys.exit(f"culling_accuracy: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def captures():
+    """What `capture` is asked for, by frame."""
+    found = {f"{name}-scene": [name, "--lights", "1024"] for name in ("spheres", "hall")}
+    if os.path.isfile(SPONZA) and os.path.isfile(SPONZA_LIGHTS):
+        found["sponza"] = [SPONZA, "--lights-file", SPONZA_LIGHTS]
+    else:
+        print("culling_accuracy: no Sponza in ../shared; left out", file=sys.stderr)
+    return found
+
+
+def make_frames(args):
+    """Folders of frames by name, in the order of the tables."""
+    folders = {}
+    for name, case in STANDARD.items():
+        folder = os.path.join(args.frames, name)
+        if not os.path.isdir(folder):
+            run([args.program, "bench", "--filter", f"^{case}/", "--write-frames", args.frames])
+            folder = os.path.join(args.frames, case)
+        folders[name] = folder
+    for name, scene in captures().items():
+        folders[name] = os.path.join(args.frames, name)
+        if not os.path.isdir(folders[name]):
+            run([args.program, "capture", *scene, "--size", "1280x720", "-o", folders[name]])
+    return {name: folder for name, folder in folders.items() if re.search(args.only, name)}
+
+
+def comparison():
+    return ["--compare", "cull-test=" + ",".join(TESTS), "--compare", "depth-bounds=" + ",".join(BOUNDS)]
+
+
+def measure_accuracy(args, folder):
+    """{(tile, test, bounds): row}."""
+    tiles = ",".join(str(tile) for tile in TILES)
+    report = json.loads(run([args.program, "inspect", folder, *comparison(), "--compare", f"tile={tiles}", "--json", "-"]))
+    rows = {}
+    for found in report["rows"]:
+        chosen = dict(part.split("=") for part in found["compared"].split())
+        key = (int(chosen["tile"]), chosen["cull-test"], chosen["depth-bounds"])
+        pairs, tiles_of = found["pairs"], found["tiles"]
+        rows[key] = {"width": report["size"][0], "height": report["size"][1], "tile": key[0], "cull_test": key[1],
+                     "depth_bounds": key[2], **pairs, "tiles_lit": tiles_of["lit"], "tiles_in_vain": tiles_of["in_vain"],
+                     "tile_p99": round(tiles_of["p99"], 4), "tile_worst": round(tiles_of["worst"], 4)}
+    return rows
+
+
+def measure_time(args, folder, rows):
+    for number in range(args.rounds):
+        for tile in TILES[::1 if number % 2 == 0 else -1]:
+            report = json.loads(run([args.program, "bench", "--replay", folder, "--filter", "/pipeline$", "--set",
+                                     f"tile={tile}", *comparison(), "--frames", str(args.runs), "--json", "-"],
+                                    args.threads))
+            for found in report["rows"]:
+                chosen = dict(part.split("=") for part in found["params"]["compared"].split())
+                row = rows[(tile, chosen["cull-test"], chosen["depth-bounds"])]
+                row["min_ms"] = round(min(row.get("min_ms", found["min_ms"]), found["min_ms"]), 4)
+                row["runs"] = row.get("runs", 0) + found["runs"]
+                row["commit"] = report["machine"]["commit"]
+                row["device"] = f"{report['machine']['device']} ({report['machine']['driver']})"
+
+
+def measure(args):
+    rows = []
+    for name, folder in make_frames(args).items():
+        of_frame = measure_accuracy(args, folder)
+        measure_time(args, folder, of_frame)
+        rows += [{"frame": name, "threads": args.threads, **row} for row in of_frame.values()]
+        print(f"culling_accuracy: {name}", file=sys.stderr)
+    with open(args.csv, "w", newline="") as file:
+        out = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        out.writeheader()
+        out.writerows(rows)
+
+
+class Results:
+    def __init__(self, path):
+        self.at = {}
+        with open(path) as file:
+            for row in csv.DictReader(file):
+                self.at[(row["frame"], int(row["tile"]), row["cull_test"], row["depth_bounds"])] = row
+        self.frames = list(dict.fromkeys(key[0] for key in self.at))
+
+    def ratio(self, *place, of="listed"):
+        row = self.at[place]
+        return int(row[of]) / int(row["lit"])
+
+    def ms(self, *place, shading_ns=0.0):
+        row = self.at[place]
+        return float(row["min_ms"]) + int(row["listed"]) * shading_ns * 1e-6
+
+    def best(self, frame, value):
+        return min((place for place in self.at if place[0] == frame), key=lambda place: value(*place))
+
+
+def table(head, rows):
+    return ["| " + " | ".join(head) + " |", "| --- |" + " ---: |" * (len(head) - 1),
+            *("| " + " | ".join(row) + " |" for row in rows)]
+
+
+def frame_tables(found):
+    lines = []
+    for frame in found.frames:
+        row = found.at[(frame, 16, "exact", "minmax")]
+        lines += ["", f"`{frame}`, {row['width']} x {row['height']}, {int(row['lit']) / 1e6:.2f} million lit pairs; "
+                  f"a perfect list a tile {found.ratio(frame, 16, 'exact', 'minmax', of='perfect'):.3f}", ""]
+        lines += table(["cull-test"] + [f"`{bounds}`" for bounds in BOUNDS],
+                       [[f"`{test}`"] + [f"{found.ratio(frame, 16, test, bounds):.3f} / {found.ms(frame, 16, test, bounds):.2f}"
+                                         for bounds in BOUNDS] for test in TESTS])
+    return lines[1:]
+
+
+def tile_table(found):
+    rows = []
+    for frame in found.frames:
+        for tile in TILES:
+            cells = [frame, str(tile), f"{found.ratio(frame, tile, 'exact', 'minmax', of='perfect'):.3f}"]
+            for test, bounds in [("planes+aabb", "minmax"), ("exact", "minmax"), ("exact", "mask32")]:
+                place = (frame, tile, test, bounds)
+                row = found.at[place]
+                cells.append(f"{found.ratio(*place):.3f} / {float(row['tile_p99']):.1f} / {float(row['tile_worst']):.0f} / "
+                             f"{found.ms(*place):.2f}")
+            rows.append(cells)
+    return table(["frame", "tile", "perfect list", "`planes+aabb`, `minmax`", "`exact`, `minmax`", "`exact`, `mask32`"], rows)
+
+
+def name_of(place):
+    return f"`{place[2]}` `{place[3]}` {place[1]}"
+
+
+def winner_table(found):
+    default = lambda frame: (frame, 16, "planes+aabb", "minmax")
+    rows = []
+    for frame in found.frames:
+        cells = [frame]
+        for ns in [0, *SHADING_NS]:
+            cost = lambda *place, ns=ns: found.ms(*place, shading_ns=ns)
+            best = found.best(frame, cost)
+            digits = 2 if ns == 0 else 1
+            cells.append(f"{name_of(best)}: {cost(*best):.{digits}f} ({cost(*default(frame)):.{digits}f})")
+        best = found.best(frame, found.ratio)
+        cells.append(f"{name_of(best)}: {found.ratio(*best):.3f}")
+        rows.append(cells)
+    return table(["frame", "culling alone, ms", *(f"with shading at {ns} ns, ms" for ns in SHADING_NS), "listed / lit"], rows)
+
+
+def tightest_at_16(found, frame):
+    places = [place for place in found.at if place[0] == frame and place[1] == 16]
+    return min(places, key=lambda place: found.ratio(*place))
+
+
+def target_table(found):
+    wanted = {"floor256": (1.12, 1.10), "floor1024": (1.23, 1.19), "floor4096": (1.40, 1.33), "spheres1024": (1.33, 1.27)}
+    met = lambda value, most: f"{value:.4f}, at most {most}: {'met' if value <= most else 'missed'}"
+    rows = []
+    for frame in (f for f in found.frames if f in wanted):
+        tight = tightest_at_16(found, frame)
+        exact = found.ratio(frame, 16, "exact", "minmax")
+        over = found.ratio(*tight) / found.ratio(*tight, of="perfect")
+        rows.append([frame, met(found.ratio(frame, 16, "planes+aabb", "minmax"), wanted[frame][0]),
+                     met(exact, wanted[frame][1]),
+                     f"{name_of(tight)}: {found.ratio(*tight):.4f}, below `exact`: {'met' if found.ratio(*tight) < exact else 'missed'}",
+                     met(over, 1.25)])
+    return table(["frame", "default", "`exact`, `minmax`", "tightest at 16 pixels", "tightest / perfect list"], rows)
+
+
+def total_line(found):
+    rows = found.at.values()
+    first = next(iter(rows))
+    commits = ", ".join(sorted({row["commit"] for row in rows}))
+    return [f"Commit {commits}; {first['device']}, {first['threads']} thread(s). {len(found.at)} settings of "
+            f"{len(found.frames)} frames; pairs lost: {sum(int(row['lost']) for row in rows)}."]
+
+
+def fill(text, name, lines):
+    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)", re.S)
+    if not pattern.search(text):
+        sys.exit(f"culling_accuracy: the page has no <!-- {name} --> ... <!-- /{name} -->")
+    return pattern.sub(lambda m: m[1] + "\n".join(lines) + "\n" + m[2], text)
+
+
+def main():
+    args = arguments()
+    if not args.from_csv:
+        measure(args)
+    found = Results(args.csv)
+    with open(args.doc) as file:
+        text = file.read()
+    for name, make in [("total", total_line), ("targets", target_table), ("winners", winner_table),
+                       ("tiles", tile_table), ("frames", frame_tables)]:
+        text = fill(text, name, make(found))
+    with open(args.doc, "w") as file:
+        file.write(text)
+
+
+main()
