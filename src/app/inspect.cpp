@@ -132,7 +132,9 @@ int compare_settings(const InspectOptions& o, const Subject& subject, Devices& d
   for (const BenchContestant& c : contestants_of(subject.settings, o.compare, 1000)) {
     FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings);
     culler.run();
-    rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(culler.grid()))});
+    const FrameGrid grid = culler.grid();
+    if (grid.lists.slices != 1) throw input_error("inspect: --compare takes grids of one slice, not {}", grid.lists.slices);
+    rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(grid))});
     lost += rows.back().accuracy.lost;
     if (o.json != "-") std::fputs(accuracy_line(rows.back()).c_str(), stdout);
   }
