@@ -22,7 +22,6 @@ double test_flops(const KernelWork& w) { return box_flops + (w.exact ? exact_flo
 
 // A bin has as many candidates as its longest list at least, and so its indices / 64.
 double least_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
-double bin_mark_bytes(const KernelWork& w) { return double(w.bins) * double(w.lights) / 8; }
 double cell_mark_bytes(const KernelWork& w) { return least_candidates(w) * bin_tiles / 8; }
 
 // What no kernel with these inputs and outputs can do without: each read and written once, as if caches held what is met
