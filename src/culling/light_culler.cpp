@@ -106,7 +106,6 @@ LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerO
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
   }
-  avx512_ = !options.portable && options_.shape == KernelShape::lanes && builds_avx512(device, programs);
   params_buffer_ = device_buffer(device_, sizeof(CullParams));
   const cl_uint zeros[8] = {};
   counters_ = device_buffer(device_, sizeof zeros);
@@ -281,7 +280,9 @@ CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
 
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
-  options.avx512 = avx512_;
+  // Asked at the first cull: who wants depth bounds alone builds nothing else.
+  if (!avx512_) avx512_ = !options_.portable && options_.shape == KernelShape::lanes && builds_avx512(device_, programs_);
+  options.avx512 = *avx512_;
   options.many_lights = light_count_ > many_lights;
   options.view_arrays = cones_ ? 11 : 7;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;

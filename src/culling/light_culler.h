@@ -16,6 +16,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -189,7 +190,8 @@ class LightCuller {
   ClDevice& device_;
   ProgramCache& programs_;
   CullerOptions options_;
-  bool cones_ = false, avx512_ = false;
+  bool cones_ = false;
+  std::optional<bool> avx512_;  // whether the device builds AVX-512 kernels
   glm::dvec3 origin_{0}, eye_{0};  // world: of the uploaded lights, and of the view
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
