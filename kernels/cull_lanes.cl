@@ -14,7 +14,8 @@
 // -DBINS: a work-item takes BINS x BINS bins of one region, and first narrows the region's list to them: pays for many
 // lights (default 1)
 //
-// Where room runs out a bin writes nothing; the host reads what was asked for and runs the kernels again with more.
+// Where room runs out a bin writes nothing and sets counters[3]; the host reads what was asked for and runs the kernels
+// again with more.
 #define LANES 16
 #include "kernels/common/bin_tiles.h"
 
@@ -158,7 +159,9 @@ static inline uint list_cell(Candidates few, int tile, const TestCell* cell, glo
 static inline global float* allocate(global float* pool, uint lists, uint blocks, global volatile uint* counters,
                                      constant CullParams* p) {
   const uint at = atomic_add(counters, lists * blocks);
-  return (ulong)at + lists * blocks <= p->pool_blocks ? pool + (size_t)at * 16 * VIEW_ARRAYS : 0;
+  if ((ulong)at + lists * blocks <= p->pool_blocks) return pool + (size_t)at * 16 * VIEW_ARRAYS;
+  counters[3] = 1u;
+  return 0;
 }
 
 #if BINS > 1
@@ -201,7 +204,10 @@ static inline void cull_bin(const Lights* lights, uint bin, global const float* 
   const ulong wanted = (ulong)pairs * SLICE_COUNT / 16 + 2;
   const uint units = wanted > 0x0fffffffu ? 0x0fffffffu : (uint)wanted;
   const uint place = atomic_add(counters + 1, units);
-  if ((ulong)place + wanted > p->staging_units) return;
+  if ((ulong)place + wanted > p->staging_units) {
+    counters[3] = 1u;
+    return;
+  }
 
   global index_t* list = staged + (size_t)place * 16;
   const bool many = all.count > MANY;

@@ -6,7 +6,8 @@
 // bins      uint4 a bin: its first block, number of candidates, where its cells' marks will lie (in units of 16 words:
 //           counters[1]), and 0, to which mark_cells_group.cl adds the number of its indices
 //
-// Where room runs out a bin writes nothing; the host reads what was asked for and runs the kernels again with more.
+// Where room runs out a bin writes nothing and sets counters[3]; the host reads what was asked for and runs the kernels
+// again with more.
 // -DGROUP  items a group, a power of two, BIN_SIZE at least (default 256)
 #ifndef GROUP
 #define GROUP 256
@@ -83,6 +84,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void list_candidates_g
     const bool fits = (ulong)at + blocks <= p->pool_blocks && (ulong)marks_at + units <= p->staging_units;
     bins[bin] = (uint4)(at, fits ? count : 0u, marks_at, 0u);
     block = at, room = fits;
+    if (!fits) counters[3] = 1u;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   const size_t to_stride = (count + 15) / 16 * 16;

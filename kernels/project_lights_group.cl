@@ -2,7 +2,7 @@
 //
 // lights    as kernels/common/light_arrays.h says
 // views     VIEW_ARRAYS arrays of light_stride each
-// counters  [0], [1], [4], [5] set to 0, for the kernels that follow
+// counters  [0], [1], [3], [4], [5] set to 0, for the kernels that follow
 #define LANES 1
 #include "kernels/common/light_arrays.h"
 
@@ -10,7 +10,7 @@ kernel void project_lights_group(global const float* lights, global float* views
                                  constant CullParams* p) {
   const uint light = get_global_id(0);
   const size_t stride = p->light_stride;
-  if (light == 0) counters[0] = counters[1] = counters[4] = counters[5] = 0;
+  if (light == 0) counters[0] = counters[1] = counters[3] = counters[4] = counters[5] = 0;
   if (light >= stride) return;
   global const float* l = lights + light;
   const float radius = l[3 * stride];

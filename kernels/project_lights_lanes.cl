@@ -5,7 +5,7 @@
 // lists     a region's lights: VIEW_ARRAYS arrays of light_stride + 16 each. A work-item's part begins where its run
 //           does, so that parts never meet
 // counts    of a region: one a work-item
-// counters  [0], [1], [4], [5] set to 0, for the kernels that follow
+// counters  [0], [1], [3], [4], [5] set to 0, for the kernels that follow
 #define LANES 16
 #include "kernels/common/light_arrays.h"
 
@@ -41,7 +41,7 @@ kernel void project_lights_lanes(global const float* lights, global float* lists
   const uint from = (uint)((ulong)blocks * item / items), to = (uint)((ulong)blocks * (item + 1) / items);
   const size_t stride = p->light_stride + 16;
   const int side = (int)(p->region_bins * BIN_TILES);
-  if (item == 0) counters[0] = counters[1] = counters[4] = counters[5] = 0;
+  if (item == 0) counters[0] = counters[1] = counters[3] = counters[4] = counters[5] = 0;
   for (uint r = 0; r < regions; ++r) counts[r * items + item] = 0;
   Held held;
   for (uint base = from; base < to; base += BLOCKS) {

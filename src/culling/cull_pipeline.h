@@ -34,7 +34,7 @@ class CullPipeline {
   // Makes or grows its buffers for the job's sizes. Candidates and staged lists (or marks) get room as params say.
   virtual void prepare(const CullParams& params) = 0;
   // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
-  // asked for, [4] and [5] low and high word of the number of indices.
+  // asked for, [3] whether some bin found no room, [4] and [5] low and high word of the number of indices.
   virtual void enqueue(const CullJob& job) = 0;
   virtual size_t memory_bytes() const = 0;
 };

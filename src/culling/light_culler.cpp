@@ -344,6 +344,9 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
       params_.staging_units = uint(grown(counters[1], 64, "units of 16 list entries"));
     } else if (total > index_capacity_) {
       index_capacity_ = grown(total, index_bytes, "light indices");
+    } else if (counters[3]) {  // what was asked for went round 2^32
+      throw machine_error("light culling: candidates and lists need more memory than {} can be asked for; use fewer or smaller lights",
+                          device_.info().name);
     } else {
       grid.index_count = total;
       grid.index_bytes = total * index_bytes;
@@ -361,7 +364,8 @@ void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {
     throw machine_error("light culling: masks of {} cells for {} lights need {} bytes, more than {} allows; use lists, larger "
                         "tiles or fewer slices", cells, light_count_, grid.mask_bytes, device_.info().name);
   }
-  cl::Kernel kernel = programs_.kernel("lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
+  cl::Kernel& kernel = masks_kernels_[grid.index_bits == 32];
+  if (!kernel()) kernel = programs_.kernel("lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
   launch(device_, "lists_to_masks", kernel, cl::NDRange((cells + mask_group - 1) / mask_group * mask_group),
          cl::NDRange(mask_group), storage.cells(grid.cell_bytes), storage.indices(grid.index_bytes), cl_uint(cells),
          cl_uint(grid.mask_words), storage.masks(grid.mask_bytes));

@@ -197,7 +197,7 @@ class LightCuller {
   uint light_count_ = 0, light_stride_ = 0;
   size_t index_capacity_ = 0, params_uploads_ = 0;
   CullParams uploaded_{};
-  cl::Kernel bounds_kernel_;
+  cl::Kernel bounds_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
   cl::Buffer params_buffer_, slices_, opaque_, blend_, counters_;
   size_t bounds_bytes_ = 0;

@@ -37,8 +37,8 @@ TileDistances tile_distances(Frame& f, const DepthBounds& bounds);
 GridTextures cull_lights(Frame& f, const DepthBounds& bounds);
 GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds);
 
-// Shades opaque surfaces, at the depth that the prepass left, from the grid's lists, or, without a grid, from every light. What `distances` shows to be
-// hidden is not drawn.
+// Shades opaque surfaces, at the depth that the prepass left, from the grid's lists, or, without a grid, from every light.
+// What `distances` shows to be hidden is not drawn.
 ShadedImage shade_forward(Frame& f, const TileDistances& distances, const GridTextures* grid);
 
 // Lays blended surfaces over the image, back to front. Without a grid: from every light.
