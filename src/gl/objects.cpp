@@ -86,7 +86,11 @@ GlFramebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint dept
     glNamedFramebufferTexture(name, attachment, color, 0);
     buffers.push_back(attachment);
   }
-  if (depth) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth, 0);
+  if (depth) {
+    GLint stencil_bits = 0;
+    glGetTextureLevelParameteriv(depth, 0, GL_TEXTURE_STENCIL_SIZE, &stencil_bits);
+    glNamedFramebufferTexture(name, stencil_bits ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depth, 0);
+  }
   if (buffers.empty()) {
     glNamedFramebufferDrawBuffer(name, GL_NONE);
     glNamedFramebufferReadBuffer(name, GL_NONE);

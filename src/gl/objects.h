@@ -48,7 +48,7 @@ GlTexture make_buffer_texture(GLenum format, GLuint buffer);
 GlSampler make_sampler();
 GlVertexArray make_vertex_array();
 
-// A framebuffer of colour attachments and a depth texture (0: none), checked for completeness.
+// A framebuffer of colour attachments and a depth texture, perhaps with stencil (0: none), checked for completeness.
 GlFramebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
 
 }  // namespace lightgrid

@@ -10,7 +10,7 @@ template <typename Draw>
 std::vector<uint32_t> cells_drawn(Frame& f, const Draw& draw) {
   const int width = f.view.width, height = f.view.height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
-  const GlFramebuffer framebuffer = make_framebuffer({target.name()}, f.depth_texture());
+  const GlFramebuffer framebuffer = make_framebuffer({target.name()}, f.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, width, height);
   glClearNamedFramebufferuiv(framebuffer.name(), GL_COLOR, 0, &no_cell);

@@ -20,7 +20,7 @@ SurfaceImages read_surfaces(Frame& f) {
                                 make_texture_2d(GL_RGBA32F, width, height),
                                 make_texture_2d(GL_RGBA32F, width, height)};
   const GlFramebuffer framebuffer =
-      make_framebuffer({targets[0].name(), targets[1].name(), targets[2].name()}, f.depth_texture());
+      make_framebuffer({targets[0].name(), targets[1].name(), targets[2].name()}, f.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, width, height);
   const float clear[4] = {0, 0, 0, 0};

@@ -163,6 +163,7 @@ std::vector<std::string> defines_of(uint32_t features) {
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs) {
   FramePlan plan;
   plan.settings = settings;
+  plan.stencil = needs.stencil;
   plan_surfaces(scene, view, plan);
   plan_lights(scene, view, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;

@@ -40,7 +40,8 @@ struct Decision {
 // What a technique asks of the plan.
 struct TechniqueNeeds {
   bool light_grid = false;
-  bool slices = false;  // whose tiles are cut into depth slices
+  bool slices = false;   // whose tiles are cut into depth slices
+  bool stencil = false;  // beside the depth buffer
 };
 
 struct FramePlan {
@@ -57,6 +58,7 @@ struct FramePlan {
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // and a grid of its own
   bool mask = false;
+  bool stencil = false;        // 8 bits beside depth
   int index_bits = 16;
   int slices = 1;              // cells a tile,
   double slice_near_m = 0, slice_far_m = 0;  // between these distances

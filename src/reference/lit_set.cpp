@@ -107,12 +107,6 @@ std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm
   return lit;
 }
 
-ListedLights list_every_light(uint32_t count) {
-  ListedLights lists{.first = {0}, .count = {count}};
-  for (uint32_t i = 0; i < count; ++i) lists.indices.push_back(i);
-  return lists;
-}
-
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
                      const ListedLights& lists) {
   assert(depth.size() == size_t(view.width) * view.height);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/listed_lights.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {
@@ -14,17 +15,6 @@ bool is_lit(const ViewLight& light, const glm::dvec3& position);
 
 // Ascending indices.
 std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm::dvec3& position);
-
-// A technique's light lists. Pixel p walks indices[first[c]] ... indices[first[c] + count[c] - 1], where
-// c = cell_of_pixel[p]; an empty cell_of_pixel means that all pixels walk cell 0.
-struct ListedLights {
-  std::vector<uint32_t> cell_of_pixel;  // width * height, row 0 at the bottom
-  std::vector<uint32_t> first, count;   // one a cell
-  std::vector<uint32_t> indices;        // into the lights given to count_pairs
-};
-
-// One cell of lights 0 ... count - 1 for all pixels: what a technique without lists does.
-ListedLights list_every_light(uint32_t count);
 
 // (pixel, light) pairs over the covered pixels (depth > 0). Listed counts list entries; wrong counts entries
 // that are no light (index or list out of range) or stand in the list a second time, and one for a cell out

@@ -53,7 +53,7 @@ CompareReport compare_techniques(Devices& devices, const Scene& scene, const Vie
   for (auto& run : runs) {
     RunResult& row = report.rows.emplace_back(run->result());
     row.error = compare_images(run->image(), reference->image());
-    LitPairs pairs = count_listed_pairs(run->frame(), depth);
+    LitPairs pairs = count_listed_pairs(*run, depth);
     row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
     report.images.push_back(run->image());
     report.listed.push_back(std::move(pairs.listed_of_pixel));

@@ -96,7 +96,9 @@ std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& 
   return cells;
 }
 
-ListedLights listed_lights(Frame& f, const std::vector<float>& depth) {
+ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
+  Frame& f = run.frame();
+  if (run.technique().listed) return run.technique().listed(f);
   if (!f.plan.light_grid) return list_every_light(uint32_t(f.plan.local.size()));
   const LightGrid& grid = f.opaque_grid_last;
   ListedLights lists;
@@ -109,8 +111,8 @@ ListedLights listed_lights(Frame& f, const std::vector<float>& depth) {
   return lists;
 }
 
-LitPairs count_listed_pairs(Frame& f, const std::vector<float>& depth) {
-  return count_pairs(f.view, depth, local_lights(f), listed_lights(f, depth));
+LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {
+  return count_pairs(run.frame().view, depth, local_lights(run.frame()), listed_lights(run, depth));
 }
 
 ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,

@@ -3,7 +3,7 @@
 
 #include "reference/lit_set.h"
 #include "study/results.h"
-#include "techniques/technique.h"
+#include "study/run_technique.h"
 
 namespace lightgrid {
 
@@ -13,12 +13,12 @@ std::vector<float> read_depth(Frame& f);
 // The cell of the light grid that shading reads at each pixel, from the depth image of the frame.
 std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& depth);
 
-// The lists that the last frame shaded opaque surfaces from; without a grid, every point and spot light at every
-// pixel. Indices count point and spot lights only, in scene order. A pixel's slice follows from its depth.
-ListedLights listed_lights(Frame& f, const std::vector<float>& depth);
+// What the last frame of a run shaded opaque surfaces with: as the technique tells it, from the light grid, or every
+// point and spot light at every pixel. A pixel's slice follows from its depth.
+ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 
-// Those lists against the lights that truly reach each pixel.
-LitPairs count_listed_pairs(Frame& f, const std::vector<float>& depth);
+// Those against the lights that truly reach each pixel.
+LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth);
 
 // Model and precision errors at up to `samples` pixels that no blended surface covers: shades the surfaces that
 // OpenGL saw, in double. `every_light` is the float image of the technique `forward`.

@@ -35,6 +35,7 @@ RunResult TechniqueRun::result() const {
   }
   result.memory_total = frame_.memory_bytes();
   result.memory_light_grid = frame_.light_grid_bytes();
+  result.memory_gbuffer = frame_.targets.bytes(TargetUse::gbuffer);
   result.nan_pixels = count_nan_pixels(image_);
   for (const Decision& decision : frame_.plan.decisions) {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});

@@ -4,8 +4,12 @@
 
 namespace lightgrid {
 
-extern const Technique clustered{"clustered", "light lists of tiles cut into depth slices",
-                                 "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
-                                 {.light_grid = true, .slices = true}, shade_from_light_grid};
+extern const Technique clustered{
+    .name = "clustered",
+    .summary = "light lists of tiles cut into depth slices",
+    .source = "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
+    .needs = {.light_grid = true, .slices = true},
+    .settings = {"cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "grid-lists", "kernel-shape", "portable"},
+    .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -11,6 +11,11 @@ static ShadedImage render(Frame& f) {
   return image;
 }
 
-extern const Technique forward{"forward", "every light at every pixel", "the baseline", {.light_grid = false}, render};
+extern const Technique forward{.name = "forward",
+                               .summary = "every light at every pixel",
+                               .source = "the baseline",
+                               .needs = {},
+                               .settings = {"depth-bounds", "tile"},
+                               .render = render};
 
 }  // namespace lightgrid

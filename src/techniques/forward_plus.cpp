@@ -3,8 +3,12 @@
 
 namespace lightgrid {
 
-extern const Technique forward_plus{"forward_plus", "per-tile light lists",
-                                    "Harada, McKee, Yang: Forward+, Eurographics 2012", {.light_grid = true},
-                                    shade_from_light_grid};
+extern const Technique forward_plus{
+    .name = "forward_plus",
+    .summary = "per-tile light lists",
+    .source = "Harada, McKee, Yang: Forward+, Eurographics 2012",
+    .needs = {.light_grid = true},
+    .settings = {"cull-test", "depth-bounds", "tile", "grid-lists", "kernel-shape", "portable"},
+    .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passes/passes.h"
+#include "scene/listed_lights.h"
 
 namespace lightgrid {
 
@@ -13,7 +14,11 @@ struct Technique {
   const char* summary;  // one line
   const char* source;   // paper or article, year
   TechniqueNeeds needs;
+  std::vector<const char*> settings;  // keys of those that it reads (plan/settings.h)
   ShadedImage (*render)(Frame& f);
+  // What the last frame shaded each pixel of its opaque surfaces with. Null: the frame's light grid or, without one,
+  // every light.
+  ListedLights (*listed)(Frame& f) = nullptr;
 };
 
 // The recipe of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended surfaces.

@@ -192,7 +192,7 @@ TEST(Capture, HasTheGridThatTheRendererShadesFrom) {
   const FrameGrid grid = cull(frame, settings);
   TechniqueRun run(software_devices(), small.scene, view, settings, find_technique("forward_plus"));
   run.run_frame();
-  const ListedLights shaded = listed_lights(run.frame(), frame.depth);
+  const ListedLights shaded = listed_lights(run, frame.depth);
   const ListedLights captured = listed_lights(frame, grid);
   EXPECT_EQ(captured.first, shaded.first);
   EXPECT_EQ(captured.count, shaded.count);

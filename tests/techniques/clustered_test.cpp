@@ -117,7 +117,7 @@ TEST(Clustered, ListsFewerLightsThanTilesWhereDepthHasGaps) {
   for (const int i : {0, 1}) {
     TechniqueRun run(test_devices(), scene, view, {}, find_technique(i ? "clustered" : "forward_plus"));
     run.run_frame();
-    listed[i] = count_listed_pairs(run.frame(), read_depth(run.frame())).listed;
+    listed[i] = count_listed_pairs(run, read_depth(run.frame())).listed;
   }
   EXPECT_LT(listed[1], 0.9 * double(listed[0]));
 }

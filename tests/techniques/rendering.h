@@ -57,7 +57,7 @@ inline void expect_exact(const Scene& scene, const View& view, const Settings& s
   run.run_frame();
   EXPECT_TRUE(identical(run.image(), forward));
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run.frame(), read_depth(run.frame()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run.frame()));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
   EXPECT_GE(pairs.listed, pairs.lit);

@@ -124,7 +124,8 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
         } else {
           glFinish();
         }
-      }) {
+      }),
+      targets(view.width, view.height, plan.stencil) {
   view_block_ = make_buffer(sizeof params, &params);
   if (plan.light_grid && plan.slices > 1) slice_block_ = slice_block_of(cull_view(view, plan));
   const LightTexels texels = texels_of(lights_in_view(scene, view), plan);
@@ -151,26 +152,8 @@ const GlProgram& Frame::program(const std::string& vertex, const std::string& fr
   return programs_.try_emplace(key, vertex, fragment, defines).first->second;
 }
 
-GLuint Frame::depth_texture() {
-  if (!depth_) {
-    depth_ = make_texture_2d(GL_DEPTH_COMPONENT32F, view.width, view.height);
-    target_bytes_ += size_t(view.width) * view.height * 4;
-  }
-  return depth_.name();
-}
-
-GLuint Frame::depth_framebuffer() {
-  if (!depth_only_) depth_only_ = make_framebuffer({}, depth_texture());
-  return depth_only_.name();
-}
-
 GLuint Frame::color_framebuffer() {
-  if (!color_) {
-    color_ = make_texture_2d(GL_RGBA32F, view.width, view.height);
-    target_bytes_ += size_t(view.width) * view.height * 16;
-    color_and_depth_ = make_framebuffer({color_.name()}, depth_texture());
-  }
-  return color_and_depth_.name();
+  return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
 SharedBuffer& Frame::depth_copy() {
@@ -223,8 +206,8 @@ size_t Frame::light_grid_bytes() const {
 }
 
 size_t Frame::memory_bytes() const {
-  size_t bytes =
-      gpu.geometry_bytes() + gpu.texture_bytes() + target_bytes_ + light_bytes_;
+  size_t bytes = gpu.geometry_bytes() + gpu.texture_bytes() + targets.bytes() + light_bytes_;
+  for (const auto& [type, kept] : kept_) bytes += kept->memory_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (depth_copy_) bytes += depth_copy_->size();
   if (culler_) bytes += culler_->memory_bytes();

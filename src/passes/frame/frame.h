@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <typeindex>
 
 #include "bridge/shared_buffer.h"
 #include "cl/program_cache.h"
@@ -12,6 +13,7 @@
 #include "gl/program.h"
 #include "passes/frame/gpu_scene.h"
 #include "passes/frame/pass_timer.h"
+#include "passes/frame/targets.h"
 
 namespace lightgrid {
 
@@ -52,6 +54,13 @@ class SharedGridStorage : public GridStorage {
   int index_bits_;
 };
 
+// What one pass keeps from frame to frame beyond targets and programs: Frame::kept makes it.
+class Kept {
+ public:
+  virtual ~Kept() = default;
+  virtual size_t memory_bytes() const { return 0; }
+};
+
 struct Frame {
   Frame(Devices& devices, const Scene& scene, const View& view, FramePlan plan);
 
@@ -66,14 +75,21 @@ struct Frame {
   // A program of the plan's: made at first use. `features` and what else tells variants apart go into the key.
   const GlProgram& program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
 
-  // Targets, made at first use.
-  GLuint depth_texture();
-  GLuint depth_framebuffer();
-  GLuint color_framebuffer();  // linear RGBA, 32-bit float, over the depth texture
+  Targets targets;
+  GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
+  GLuint color_framebuffer();  // linear RGBA, 32-bit float, over the depth image
   SharedBuffer& depth_copy();  // where OpenCL reads depth
 
   // Point and spot lights as the shaders read them (shaders/lights/punctual.glsl), and directional ones.
   void bind_lights() const;
+
+  // The one T of this frame: T(Frame&) at first use.
+  template <typename T>
+  T& kept() {
+    std::unique_ptr<Kept>& slot = kept_[typeid(T)];
+    if (!slot) slot = std::make_unique<T>(*this);
+    return static_cast<T&>(*slot);
+  }
 
   LightCuller& culler();  // made at first use; builds what culls, and holds lights, only where there is a grid
   SharedGridStorage& opaque_grid();
@@ -89,12 +105,11 @@ struct Frame {
   GlBuffer light_buffers_[4];
   GlTexture light_textures_[4];
   std::map<std::string, GlProgram> programs_;
-  GlTexture depth_, color_;
-  GlFramebuffer depth_only_, color_and_depth_;
   std::optional<SharedBuffer> depth_copy_;
   std::optional<LightCuller> culler_;
   std::optional<SharedGridStorage> grids_[2];
-  size_t target_bytes_ = 0, light_bytes_ = 0;
+  std::map<std::type_index, std::unique_ptr<Kept>> kept_;
+  size_t light_bytes_ = 0;
 };
 
 }  // namespace lightgrid

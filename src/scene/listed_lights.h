@@ -1,0 +1,20 @@
+// Which lights a technique shaded each pixel with, for the oracle to judge.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lightgrid {
+
+// Pixel p walks indices[first[c]] ... indices[first[c] + count[c] - 1], where
+// c = cell_of_pixel[p]; an empty cell_of_pixel means that all pixels walk cell 0.
+struct ListedLights {
+  std::vector<uint32_t> cell_of_pixel;  // width * height, row 0 at the bottom
+  std::vector<uint32_t> first, count;   // one a cell
+  std::vector<uint32_t> indices;        // of point and spot lights in scene order (FramePlan::local)
+};
+
+// One cell of lights 0 ... count - 1 for all pixels: what a technique without lists does.
+ListedLights list_every_light(uint32_t count);
+
+}  // namespace lightgrid
