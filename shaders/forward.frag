@@ -4,7 +4,7 @@
 
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
-#include "shaders/common/brdf.glsl"
+#include "shared/brdf.h"
 #ifdef LIGHTS
 #include "shaders/lights/punctual.glsl"
 #if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS)
@@ -37,7 +37,7 @@ void main() {
     ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
     vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
     // Precise: a compiler that fuses multiplications with additions would round by what else the program holds.
-    precise vec3 own = s.emissive + ambient * (p.diffuse * PI + p.f0) * s.occlusion;
+    precise vec3 own = s.emissive + ambient * (p.diffuse * SHADING_PI + p.f0) * s.occlusion;
     color = own;
 #ifdef DIRECTIONAL
     color += directional_light_sum(p);

@@ -53,6 +53,7 @@ void add_scene_options(Subcommand& command, SceneOptions& o) {
   command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.option("--seed", o.seed, "of the scatter");
+  command.option("--brdf", o.brdf, "ggx or blinn: short for --set brdf=…");
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
@@ -109,6 +110,7 @@ ChosenScene load_chosen_scene(const SceneOptions& o) {
 Settings chosen_settings(const SceneOptions& o) {
   Settings settings;
   for (const std::string& assignment : o.set) apply_setting(settings, assignment);
+  if (!o.brdf.empty()) apply_setting(settings, "brdf=" + o.brdf);
   return settings;
 }
 

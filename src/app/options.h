@@ -22,6 +22,7 @@ struct SceneOptions {
   std::string lights_file;
   std::string light_radius;
   uint64_t seed = 1;
+  std::string brdf;  // empty: ggx, or as --set has it
   std::vector<std::string> set;
 };
 

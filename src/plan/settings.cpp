@@ -26,6 +26,9 @@ Choice choice(const char* value, T Settings::*member, T meant) {
 
 const std::vector<Setting>& all_settings() {
   static const std::vector<Setting> settings = {
+      {"brdf",
+       "the specular lobe: GGX, or Blinn-Phong of the same width",
+       {choice("ggx", &Settings::brdf, Brdf::ggx), choice("blinn", &Settings::brdf, Brdf::blinn)}},
       {"cull-test",
        "which test decides whether a light may touch a cell",
        {choice("planes+aabb", &Settings::cull_test, CullTest::planes_aabb),

@@ -9,7 +9,10 @@
 
 namespace lightgrid {
 
+enum class Brdf { ggx, blinn };  // the specular lobe: shared/brdf.h
+
 struct Settings {
+  Brdf brdf = Brdf::ggx;
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;  // pixels a side: 8, 16, 32 or 64

@@ -33,9 +33,15 @@ double smith_visibility(double n_dot_v, double n_dot_l, double alpha) {
                 n_dot_v * std::sqrt(n_dot_l * n_dot_l * (1 - a2) + a2));
 }
 
+// Blinn-Phong as wide as GGX of that alpha: (n + 2) / (8 pi) cos^n.
+double blinn_lobe(const dvec3& normal, const dvec3& half, double alpha) {
+  const double exponent = 2 / (alpha * alpha) - 2, cosine = std::max(glm::dot(normal, half), 0.0);
+  return (exponent + 2) / (8 * std::numbers::pi) * std::pow(cosine, exponent);
+}
+
 dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3& to_eye,
-                     const ViewLight& light, bool window) {
-  const double arriving = attenuation(light, position, window);
+                     const ViewLight& light, const ShadeSettings& settings) {
+  const double arriving = attenuation(light, position, settings.window);
   if (arriving == 0) return dvec3(0);
   dvec3 to_light = -light.direction;
   if (light.type != LightType::directional) {
@@ -44,12 +50,12 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
   }
   const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
   if (n_dot_l == 0) return dvec3(0);
-  return brdf(surface, to_eye, to_light) * n_dot_l * light.radiant_intensity * arriving;
+  return brdf(surface, to_eye, to_light, settings.brdf) * n_dot_l * light.radiant_intensity * arriving;
 }
 
 }  // namespace
 
-dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light) {
+dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
   const dvec3 sum = to_eye + to_light;
   // Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there: nothing is
   // diffuse.
@@ -61,7 +67,8 @@ dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light) {
   const dvec3 f0 = normal_reflectance(surface);
   const dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1 - std::abs(glm::dot(to_eye, half)), 5);
   const double specular =
-      smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(surface.normal, half, alpha);
+      lobe == Brdf::blinn ? blinn_lobe(surface.normal, half, alpha)
+                          : smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(surface.normal, half, alpha);
   return (1.0 - fresnel) * diffuse_color(surface) * std::numbers::inv_pi + fresnel * specular;
 }
 
@@ -73,7 +80,7 @@ dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
       settings.ambient * (diffuse_color(surface) + normal_reflectance(surface)) * surface.occlusion;
   radiance += surface.emissive;
   for (const ViewLight& light : lights) {
-    radiance += light_radiance(surface, position, to_eye, light, settings.window);
+    radiance += light_radiance(surface, position, to_eye, light, settings);
   }
   return radiance;
 }

@@ -1,10 +1,11 @@
-// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B) under
-// KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL follows too.
+// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B), with GGX or Blinn-Phong,
+// under KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL follows too.
 #pragma once
 
 #include <functional>
 #include <vector>
 
+#include "plan/settings.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {
@@ -18,9 +19,10 @@ struct Surface {
 };
 
 // Reflected over arriving radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr.
-glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light);
+glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light, Brdf lobe = Brdf::ggx);
 
 struct ShadeSettings {
+  Brdf brdf = Brdf::ggx;
   glm::dvec3 ambient{0};
   bool window = true;  // false: lights reach everything, as if their radius were infinite
 };

@@ -126,7 +126,7 @@ ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, con
   pixels = sample_pixels(pixels, samples);
   const auto surface_at = [&](uint32_t pixel) { return surface_of(surfaces, pixel); };
   const std::vector<ViewLight> lights = lights_in_view(f.scene, f.view);
-  ShadeSettings settings{.ambient = f.scene.ambient, .window = true};
+  ShadeSettings settings{.brdf = f.plan.settings.brdf, .ambient = f.scene.ambient, .window = true};
   const Image with_window = as_image(shade_pixels(f.view, depth, surface_at, lights, settings, pixels));
   settings.window = false;
   const Image without = as_image(shade_pixels(f.view, depth, surface_at, lights, settings, pixels));

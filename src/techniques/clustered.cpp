@@ -9,7 +9,8 @@ extern const Technique clustered{
     .summary = "light lists of tiles cut into depth slices",
     .source = "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
     .needs = {.light_grid = true, .slices = true},
-    .settings = {"cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "grid-lists", "kernel-shape", "portable"},
+    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "grid-lists", "kernel-shape",
+                 "portable"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -15,7 +15,7 @@ extern const Technique forward{.name = "forward",
                                .summary = "every light at every pixel",
                                .source = "the baseline",
                                .needs = {},
-                               .settings = {"depth-bounds", "tile"},
+                               .settings = {"brdf", "depth-bounds", "tile"},
                                .render = render};
 
 }  // namespace lightgrid

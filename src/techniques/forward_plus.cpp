@@ -8,7 +8,7 @@ extern const Technique forward_plus{
     .summary = "per-tile light lists",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012",
     .needs = {.light_grid = true},
-    .settings = {"cull-test", "depth-bounds", "tile", "grid-lists", "kernel-shape", "portable"},
+    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "grid-lists", "kernel-shape", "portable"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -47,6 +47,16 @@ TEST(Brdf, RoughDielectricLitAtSixtyDegrees) {
   expect_near(brdf({}, {0, 0, 1}, to_light), dvec3(0.9733057089 / pi), 1e-10);
 }
 
+TEST(Brdf, BlinnPhongByHand) {
+  // Roughness 0.5: alpha 1/4, n = 2 * 16 - 2 = 30. From straight above: 32 / (8 pi) = 4 / pi, as GGX.
+  const Surface gold{.base_color = {1, 0.5, 0}, .metallic = 1, .roughness = 0.5};
+  expect_near(brdf(gold, {0, 0, 1}, {0, 0, 1}, Brdf::blinn), dvec3(4 / pi, 2 / pi, 0), 1e-14);
+  // A white metal lit at sixty degrees: H at 30 degrees, F = 1: 4 / pi * cos^30(30 degrees) = 4 / pi * 0.75^15.
+  const dvec3 to_light(std::sqrt(0.75), 0, 0.5);
+  expect_near(brdf({.metallic = 1, .roughness = 0.5}, {0, 0, 1}, to_light, Brdf::blinn), dvec3(4 / pi * std::pow(0.75, 15)),
+              1e-14);
+}
+
 TEST(Brdf, SeenFromBehindTheHalfVectorCountsAsLyingInTheSurface) {
   // V + L = (1.4, 0, -0.2), of length sqrt 2: N.H < 0 counts as 0, |N x H|^2 = 0.98. Alpha 1, white metal: F
   // = 1, D = 1 / (0.98^2 pi), N.V = 1e-4, N.L = 0.6: V = 0.5 / (0.6 + 1e-4).
@@ -189,7 +199,7 @@ TEST(ShadePixels, EqualsShadingOnePixelAtATime) {
     auto surface_at = [](uint32_t pixel) { return Surface{.roughness = 1 / (1.0 + pixel)}; };
     const std::vector<uint32_t> pixels = covered_pixels(depth);
     for (bool window : {false, true}) {
-      const ShadeSettings settings{dvec3(0.1), window};
+      const ShadeSettings settings{.ambient = dvec3(0.1), .window = window};
       const auto radiance = shade_pixels(view, depth, surface_at, lights, settings, pixels);
       ASSERT_EQ(radiance.size(), pixels.size());
       for (size_t i = 0; i < pixels.size(); ++i) {

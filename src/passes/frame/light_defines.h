@@ -15,6 +15,7 @@ inline void bind_lights(Frame& f, const GridTextures* grid) {
 
 inline std::vector<std::string> light_defines(const Frame& f, uint32_t features, const GridTextures* grid) {
   std::vector<std::string> defines = defines_of(features);
+  if (f.plan.settings.brdf == Brdf::blinn) defines.emplace_back("BLINN");
   if (f.plan.local_lights) defines.emplace_back("LIGHTS");
   if (f.plan.spots) defines.emplace_back("SPOTS");
   if (f.plan.directional) defines.emplace_back("DIRECTIONAL");

@@ -1,0 +1,61 @@
+// The BRDF of this program: Lambert, and a specular lobe of one of two models, under Schlick's Fresnel.
+//   BLINN: Blinn-Phong in place of GGX.
+#pragma once
+
+#include "shared/shading_point.h"
+#ifdef BLINN
+#include "shared/brdf_blinn.h"
+#else
+#include "shared/brdf_ggx.h"
+#endif
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+namespace lightgrid {
+#endif
+
+// to_viewer and normal are unit vectors; roughness is perceptual.
+SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color, real metallic,
+                                           real roughness) {
+  ShadingPoint p;
+  p.position = position;
+  p.normal = normal;
+  p.to_viewer = to_viewer;
+  p.diffuse = scale3(base_color, (1.0f - metallic) * (1.0f / SHADING_PI));
+  real dielectric = 0.04f * (1.0f - metallic);
+  p.f0 = real3(dielectric + base_color.x * metallic, dielectric + base_color.y * metallic,
+               dielectric + base_color.z * metallic);
+  real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));
+  p.alpha = perceptual * perceptual;
+  p.alpha_squared = p.alpha * p.alpha;
+  p.n_dot_v = max_real(dot3(normal, to_viewer), REAL(1e-4f));
+  p.lobe = lobe_of(p);
+  return p;
+}
+
+SHARED_FUNCTION real reflected_channel(real diffuse, real f0, real grazing5, real specular) {
+  real fresnel = f0 + (1.0f - f0) * grazing5;
+  return diffuse + fresnel * (specular - diffuse);
+}
+
+// BRDF times the cosine at the surface. to_light is a unit vector.
+SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
+  real n_dot_l = min_real(max_real(dot3(p.normal, to_light), REAL(0.0f)), REAL(1.0f));
+  // The half vector is left unnormalised: |h|^2 goes into the formulas instead. It vanishes only where viewer and
+  // light face each other through the surface, and n_dot_l is 0.
+  Real3 h = add3(to_light, p.to_viewer);
+  real h_squared = max_real(dot3(h, h), REAL(1e-8f));
+  // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
+  Real3 across = cross3(p.normal, h);
+  real specular = specular_lobe(p, n_dot_l, h_squared, max_real(dot3(p.normal, h), REAL(0.0f)), dot3(across, across));
+  // v.h = |h| / 2 for unit vectors.
+  real grazing = max_real(1.0f - 0.5f * sqrt_real(h_squared), REAL(0.0f));
+  real grazing2 = grazing * grazing;
+  real grazing5 = grazing2 * grazing2 * grazing;
+  return scale3(real3(reflected_channel(p.diffuse.x, p.f0.x, grazing5, specular),
+                      reflected_channel(p.diffuse.y, p.f0.y, grazing5, specular),
+                      reflected_channel(p.diffuse.z, p.f0.z, grazing5, specular)), n_dot_l);
+}
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
+#endif

@@ -1,0 +1,27 @@
+// GGX (Walter et al. 2007) with height-correlated Smith masking (Heitz 2014): the lobe of glTF 2.0.
+#pragma once
+
+#include "shared/shading_point.h"
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+namespace lightgrid {
+#endif
+
+// Smith's term of the viewer: sqrt(n_dot_v^2 (1 - alpha^2) + alpha^2).
+SHARED_FUNCTION real lobe_of(ShadingPoint p) {
+  return sqrt_real(p.n_dot_v * p.n_dot_v * (1.0f - p.alpha_squared) + p.alpha_squared);
+}
+
+// D V, 1 / sr. h is the unnormalised half vector: |h|^2, its cosine and sine^2 with the normal times |h| and |h|^2.
+SHARED_FUNCTION real specular_lobe(ShadingPoint p, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
+  // At least |h|^2 alpha^2 where a light shines; the floor is below that, and keeps a vanished h from 0/0.
+  real width = max_real(across_squared + n_dot_h * n_dot_h * p.alpha_squared, REAL(1e-14f));
+  // D = (alpha |h|^2 / width)^2 / pi, times V = 0.5 / (...), in one division.
+  real peak = p.alpha * h_squared;
+  real smith = n_dot_l * p.lobe + p.n_dot_v * sqrt_real(n_dot_l * n_dot_l * (1.0f - p.alpha_squared) + p.alpha_squared);
+  return peak * peak * (0.5f / SHADING_PI) / (width * width * smith);
+}
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
+#endif

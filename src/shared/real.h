@@ -1,0 +1,71 @@
+// The number type of shading code that GLSL, OpenCL C and C++ all compile: `real` is one float in GLSL and C++, and LANES
+// of them, a pixel each, in OpenCL C (kernels/common/lanes.h).
+#pragma once
+
+#include "shared/language.h"
+
+#if defined(__OPENCL_VERSION__)
+#include "kernels/common/lanes.h"
+#define SHARED_STRUCT(name) typedef struct name name; struct name
+#define EXACTLY
+#define REAL(x) ((real)(x))
+typedef struct Real3 {
+  real x, y, z;
+} Real3;
+typedef float4 Float4;
+static inline Real3 real3(real x, real y, real z) {
+  const Real3 v = {x, y, z};
+  return v;
+}
+static inline real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline Real3 add3(Real3 a, Real3 b) { return real3(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline Real3 scale3(Real3 v, real s) { return real3(v.x * s, v.y * s, v.z * s); }
+static inline Real3 cross3(Real3 a, Real3 b) {
+  return real3(a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y);
+}
+#define max_real lane_max
+#define min_real lane_min
+#define sqrt_real sqrt
+#define inverse_sqrt_real(x) (1.0f / sqrt(x))
+#define exp_real exp
+#define log_real log
+#else
+#define SHARED_STRUCT(name) struct name
+#define REAL(x) real(x)
+#if defined(LIGHTGRID_GLSL)
+#define EXACTLY precise  // no compiler may rearrange what this is computed from
+#define real float
+#define Real3 vec3
+#define Float4 vec4
+#define real3 vec3
+#define dot3 dot
+#define cross3 cross
+#define max_real max
+#define min_real min
+#define sqrt_real sqrt
+#define inverse_sqrt_real inversesqrt
+#define exp_real exp
+#define log_real log
+#else
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#define EXACTLY
+namespace lightgrid {
+using real = float;
+using Real3 = glm::vec3;
+using Float4 = glm::vec4;
+inline Real3 real3(real x, real y, real z) { return {x, y, z}; }
+inline real dot3(const Real3& a, const Real3& b) { return glm::dot(a, b); }
+inline Real3 cross3(const Real3& a, const Real3& b) { return glm::cross(a, b); }
+inline real max_real(real a, real b) { return std::max(a, b); }
+inline real min_real(real a, real b) { return std::min(a, b); }
+inline real sqrt_real(real x) { return std::sqrt(x); }
+inline real inverse_sqrt_real(real x) { return 1 / std::sqrt(x); }
+inline real exp_real(real x) { return std::exp(x); }
+inline real log_real(real x) { return std::log(x); }
+}  // namespace lightgrid
+#endif
+#define add3(a, b) ((a) + (b))
+#define scale3(v, s) ((v) * (s))
+#endif
