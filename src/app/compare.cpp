@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
+#include "base/log.h"
 #include "base/write_file.h"
 #include "study/compare.h"
 #include "study/report.h"
@@ -41,6 +42,21 @@ std::vector<Contestant> contestants_of(const std::vector<std::string>& items, co
   return contestants;
 }
 
+// On stderr: what was refused, which is no failure, and which gates failed. Returns whether any did.
+bool tell_failures(const CompareReport& report) {
+  const std::vector<std::string> names = row_names(report);
+  bool failed = false;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const RunResult& row = report.rows[i];
+    if (!row.refused.empty()) log_warning("{}: refused: {}", names[i], row.refused);
+    if (!row.refused.empty() || passes_gates(row)) continue;
+    failed = true;
+    fmt::print(stderr, "lightgrid: {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", names[i], row.pairs->lost,
+               row.pairs->wrong, row.nan_pixels);
+  }
+  return failed;
+}
+
 int compare(const CompareCommand& o) {
   const Settings common = chosen_settings(o.scene);
   const std::vector<Contestant> contestants = contestants_of(o.techniques, common);
@@ -59,15 +75,7 @@ int compare(const CompareCommand& o) {
     fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
     for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
   }
-  bool passed = true;
-  for (const RunResult& row : report.rows) {
-    if (row.pairs->lost || row.pairs->wrong || row.nan_pixels) {
-      passed = false;
-      fmt::print(stderr, "lightgrid: {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", row.technique,
-                 row.pairs->lost, row.pairs->wrong, row.nan_pixels);
-    }
-  }
-  return passed ? 0 : 1;
+  return tell_failures(report) ? 1 : 0;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -74,22 +73,12 @@ std::vector<uint8_t> save_picture(const fs::path& folder, const std::string& nam
 
 }  // namespace
 
-std::vector<std::string> row_names(const CompareReport& report) {
-  std::map<std::string, int> seen;
-  std::vector<std::string> names;
-  for (const auto& row : report.rows) {
-    const int number = ++seen[row.technique];
-    names.push_back(number == 1 ? row.technique : fmt::format("{}-{}", row.technique, number));
-  }
-  return names;
-}
-
 std::string json_text(const CompareReport& report) { return json_text(to_json(report)); }
 
 void write_report(const fs::path& folder, const CompareReport& report) {
   make_folder(folder);
   const Image& reference = reference_image(report);
-  const auto names = row_names(report);
+  const auto names = row_names(report), stems = file_stems(names);
 
   ReportPictures pictures;
   pictures.heat_top = heat_top(report);
@@ -99,16 +88,16 @@ void write_report(const fs::path& folder, const CompareReport& report) {
     row.name = names[i];
     if (has_image(report, i)) {
       const auto& image = report.images[i];
-      row.image = save_picture(folder, row.name, image);
+      row.image = save_picture(folder, stems[i], image);
       if (!reference.pixels.empty()) {
         const auto difference = difference_image(image, reference);
         row.difference = encode_png(image.width, image.height, 3, srgb_bytes_as_is(difference));
-        write_file(folder / (row.name + ".difference.png"), row.difference);
+        write_file(folder / (stems[i] + ".difference.png"), row.difference);
       }
     }
     if (has_counts(report, i)) {
       row.listed = make_heat_map(report, report.listed[i], pictures.heat_top);
-      write_file(folder / (row.name + ".heat.png"), row.listed->png);
+      write_file(folder / (stems[i] + ".heat.png"), row.listed->png);
     }
   });
   if (&reference == &report.reference_image && !reference.pixels.empty()) {

@@ -7,24 +7,35 @@
 
 namespace lightgrid {
 
-// Into `folder`, made if needed: TECHNIQUE.png and .exr, TECHNIQUE.difference.png (log scale, against the
-// reference row), TECHNIQUE.heat.png (lights listed per pixel), lit.heat.png (lights lit, where an oracle
-// counted them), results.json and a self-contained index.html. The second row of a technique is named
-// TECHNIQUE-2. A reference that is not a row has its picture there too. All heat maps share one scale. A row
-// without an image or without counts goes without those files.
+// Into `folder`, made if needed: ROW.png and .exr, ROW.difference.png (log scale, against the reference row),
+// ROW.heat.png (lights listed per pixel), lit.heat.png (lights lit, where an oracle counted them), results.json and a
+// self-contained index.html. ROW is the row's name as a file_stem. A reference that is not a row has its picture there
+// too. All heat maps share one scale. A row without an image or without counts goes without those files.
 void write_report(const std::filesystem::path& folder, const CompareReport& report);
 
 nlohmann::json to_json(const CompareReport& report);
 std::string json_text(const CompareReport& report);  // what results.json holds
 
-// A distinct name for each row: TECHNIQUE, and TECHNIQUE-2 and so on for its later rows.
+// A distinct name for each row: its technique, and where there are several rows of it, the settings in which they
+// differ: "forward_plus:tile=32". Rows that differ in none are NAME, NAME-2 and so on.
 std::vector<std::string> row_names(const CompareReport& report);
+
+// A name as part of a file's name: what some file system or shell would trip over is "-".
+std::string file_stem(const std::string& name);
+std::vector<std::string> file_stems(const std::vector<std::string>& names);  // distinct
 
 // The three most telling figures, one line each, for the terminal: time, image, lights per pixel. Fewer where
 // a report lacks what a line needs.
 std::vector<std::string> telling_figures(const CompareReport& report);
 
-// One sentence: which technique is fastest without failing a gate (lost pairs, wrong pairs, NaN), and why.
+// Of the reference's brightest channel: an image within it counts as exact. Float sums in another order stay below.
+inline constexpr double exact_max_rel = 1e-5;
+
+bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN; and it ran
+bool is_exact(const RunResult& row);      // and its image is exact, or none was compared
+
+// Which technique is the fastest exact one, and why; then which are faster, and what they pay for it: a lossy image or a
+// failed gate.
 std::string verdict(const CompareReport& report);
 
 }  // namespace lightgrid

@@ -18,7 +18,7 @@ struct HeatMap {
 
 // As PNG files; empty where there is none.
 struct RowPictures {
-  std::string name;  // distinct: the row's file stem
+  std::string name;  // distinct
   std::vector<uint8_t> image, difference;
   std::optional<HeatMap> listed;
 };

@@ -49,6 +49,21 @@ json to_json(const PairCounts& pairs) {
   return {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
 }
 
+json to_json(const Spread& times) {
+  const bool timed = times.runs > 0;
+  return {{"min", timed ? finite_or_null(times.min) : json()},
+          {"median", timed ? finite_or_null(times.median) : json()},
+          {"max", timed ? finite_or_null(times.max) : json()},
+          {"runs", times.runs}};
+}
+
+json memory_json(const RunResult& result) {
+  const auto bytes = [&](size_t count) { return result.refused.empty() ? json(count) : json(); };
+  return {{"total", bytes(result.memory_total)},
+          {"light_grid", bytes(result.memory_light_grid)},
+          {"gbuffer", bytes(result.memory_gbuffer)}};
+}
+
 json to_json(const PassResult& pass) {
   return {{"name", pass.name},
           {"on", pass.on},
@@ -69,24 +84,19 @@ json to_json(const RunResult& result) {
   json passes = json::array(), skipped = json::array();
   for (const auto& pass : result.passes) passes.push_back(to_json(pass));
   for (const auto& skip : result.skipped) skipped.push_back({{"effect", skip.effect}, {"why", skip.why}});
-  return {{"technique", result.technique},
-          {"settings", settings_json(result.settings)},
-          {"lights", {{"total", result.lights_total}, {"in_view", result.lights_in_view}}},
-          {"frame_ms",
-           {{"min", finite_or_null(result.frame_ms.min)},
-            {"median", finite_or_null(result.frame_ms.median)},
-            {"max", finite_or_null(result.frame_ms.max)},
-            {"runs", result.frame_ms.runs}}},
-          {"passes", passes},
-          {"memory_bytes",
-           {{"total", result.memory_total},
-            {"light_grid", result.memory_light_grid},
-            {"gbuffer", result.memory_gbuffer}}},
-          {"pairs", result.pairs ? to_json(*result.pairs) : json()},
-          {"error", result.error ? to_json(*result.error) : json()},
-          {"nan_pixels", result.nan_pixels},
-          {"overflow", result.overflow},
-          {"skipped", skipped}};
+  json out = {{"technique", result.technique},
+              {"settings", settings_json(result.settings)},
+              {"lights", {{"total", result.lights_total}, {"in_view", result.lights_in_view}}},
+              {"frame_ms", to_json(result.frame_ms)},
+              {"passes", passes},
+              {"memory_bytes", memory_json(result)},
+              {"pairs", result.pairs ? to_json(*result.pairs) : json()},
+              {"error", result.error ? to_json(*result.error) : json()},
+              {"nan_pixels", result.nan_pixels},
+              {"overflow", result.overflow},
+              {"skipped", skipped}};
+  if (!result.refused.empty()) out["refused"] = result.refused;
+  return out;
 }
 
 json to_json(const CompareReport& report) {

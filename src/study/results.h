@@ -42,6 +42,7 @@ struct SkippedEffect {
 
 struct RunResult {
   std::string technique;
+  std::string refused;  // why the machine or the technique cannot do this; empty where it ran
   std::map<std::string, std::string> settings;
   int lights_total = 0, lights_in_view = 0;
   Spread frame_ms;

@@ -27,10 +27,6 @@ std::string lights_number(double value) {
   return value >= 100 ? short_number(value) : fmt::format("{:.1f}", value);
 }
 
-bool passes_gates(const RunResult& row) {
-  return row.nan_pixels == 0 && (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
-}
-
 std::string failed_gates(const RunResult& row) {
   std::vector<std::string> failures;
   if (row.pairs && row.pairs->lost) failures.push_back(with_commas(row.pairs->lost) + " lost pairs");
@@ -50,7 +46,11 @@ const RunResult* fastest(const CompareReport& report, const Counts& counts) {
   return best;
 }
 
-const RunResult* fastest_that_passes(const CompareReport& report) { return fastest(report, passes_gates); }
+const RunResult* fastest_exact(const CompareReport& report) { return fastest(report, is_exact); }
+
+const RunResult* fastest_lossy(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
+}
 
 const RunResult* fastest_of_all(const CompareReport& report) {
   return fastest(report, [](const RunResult&) { return true; });
@@ -139,10 +139,14 @@ std::string why_faster(const CompareReport& report, const RunResult& row, const 
                      short_number(costliest->median_ms));
 }
 
+std::string error_in_words(const RunResult& row) {
+  return fmt::format("differs by at most {:.1e} of the brightest channel", row.error->max_rel);
+}
+
 std::string image_clause(const RunResult& row) {
   if (!row.error) return "";
   if (row.error->bit_identical) return "; its image is the same to the last bit";
-  return fmt::format("; its image differs by at most {:.1e} of the brightest channel", row.error->max_rel);
+  return "; its image " + error_in_words(row);
 }
 
 std::string fastest_clause(const CompareReport& report, const RunResult& row) {
@@ -152,7 +156,7 @@ std::string fastest_clause(const CompareReport& report, const RunResult& row) {
 
 std::string unbeaten_clause(const CompareReport& report, const RunResult& reference) {
   const auto* next =
-      fastest(report, [&](const RunResult& row) { return &row != &reference && passes_gates(row); });
+      fastest(report, [&](const RunResult& row) { return &row != &reference && is_exact(row); });
   if (!next) return fastest_clause(report, reference);
   return fmt::format("Nothing beats {}: {} ms a frame; {} comes next at {} ms", reference.technique,
                      short_number(reference.frame_ms.median), name_of(report, *next),
@@ -167,11 +171,34 @@ std::string winner_clause(const CompareReport& report, const RunResult& row, con
                      why.empty() ? "" : ", ", why, image_clause(row));
 }
 
+// The fastest of those that fail a gate.
+std::string failing_clause(const CompareReport& report, const RunResult& row) {
+  const bool visible = row.error && row.error->max_rel > exact_max_rel;
+  return fmt::format(". {} is quicker still ({} ms) but has {}{}", name_of(report, row), short_number(row.frame_ms.median),
+                     failed_gates(row), visible ? ", and its image " + error_in_words(row) : "");
+}
+
+std::string lossy_clause(const CompareReport& report, const RunResult& row) {
+  return fmt::format(". {} is quicker ({} ms) but lossy: its image {}", name_of(report, row),
+                     short_number(row.frame_ms.median), error_in_words(row));
+}
+
+bool quicker(const RunResult* row, const RunResult& than) { return row && row->frame_ms.median < than.frame_ms.median; }
+
 }  // namespace
 
+bool passes_gates(const RunResult& row) {
+  return row.refused.empty() && row.nan_pixels == 0 && (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
+}
+
+bool is_exact(const RunResult& row) {
+  return passes_gates(row) && (!row.error || row.error->max_rel <= exact_max_rel);
+}
+
 std::vector<std::string> telling_figures(const CompareReport& report) {
-  const auto* passing = fastest_that_passes(report);
-  const auto* row = passing ? passing : fastest_of_all(report);
+  const auto* row = fastest_exact(report);
+  if (!row) row = fastest_lossy(report);
+  if (!row) row = fastest_of_all(report);
   if (!row) return {};
   const auto* reference = reference_row(report);
   std::vector<std::string> lines = {time_figure(report, *row, reference)};
@@ -181,21 +208,23 @@ std::vector<std::string> telling_figures(const CompareReport& report) {
 }
 
 std::string verdict(const CompareReport& report) {
-  const auto* row = fastest_that_passes(report);
-  const auto* quickest = fastest_of_all(report);
+  const auto *quickest = fastest_of_all(report), *lossy = fastest_lossy(report), *row = fastest_exact(report);
+  const auto* failing = fastest(report, [](const RunResult& r) { return !passes_gates(r); });
   if (!quickest) return "Nothing was timed.";
-  if (!row)
-    return fmt::format("No technique passes: {} has {}.", name_of(report, *quickest),
-                       failed_gates(*quickest));
-
+  if (!row && !lossy) {
+    return fmt::format("No technique passes: {} has {}.", name_of(report, *quickest), failed_gates(*quickest));
+  }
+  if (!row) {
+    const auto text = fmt::format("No technique is exact: {} is the fastest that fails no gate, {} ms a frame, but its image {}",
+                                  name_of(report, *lossy), short_number(lossy->frame_ms.median), error_in_words(*lossy));
+    return text + (quicker(failing, *lossy) ? failing_clause(report, *failing) : "") + ".";
+  }
   const auto* reference = reference_row(report);
   auto text = !reference || reference->frame_ms.runs == 0 ? fastest_clause(report, *row)
               : reference == row                          ? unbeaten_clause(report, *row)
                                                           : winner_clause(report, *row, *reference);
-  if (quickest != row) {
-    text += fmt::format(". {} is quicker still ({} ms) but has {}", name_of(report, *quickest),
-                        short_number(quickest->frame_ms.median), failed_gates(*quickest));
-  }
+  if (quicker(lossy, *row)) text += lossy_clause(report, *lossy);
+  if (quicker(failing, *row)) text += failing_clause(report, *failing);
   return text + ".";
 }
 

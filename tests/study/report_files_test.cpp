@@ -30,8 +30,8 @@ TEST(WriteReport, MakesTheFolderAndTheDocumentedFiles) {
   const TempFolder folder;
   write_report(folder.path / "new" / "report", synthetic_report(17, 9));
   std::set<std::string> expected = {"index.html", "results.json", "lit.heat.png"};
-  for (const std::string row :
-       {"forward", "forward_plus", "clustered", "deferred_tiled", "lidr", "forward_plus-2"}) {
+  for (const std::string row : {"forward", "forward_plus-cull-test=planes+aabb", "clustered", "deferred_tiled", "lidr",
+                                "forward_plus-cull-test=exact"}) {
     for (const char* end : {".png", ".exr", ".difference.png", ".heat.png"}) expected.insert(row + end);
   }
   EXPECT_EQ(names_in(folder.path / "new" / "report"), expected);
@@ -65,7 +65,7 @@ TEST(WriteReport, TakesARunThatFailedHalfway) {
   report.rows[1].pairs.reset();
   const TempFolder folder;
   write_report(folder.path, report);
-  EXPECT_TRUE(fs::exists(folder.path / "forward_plus.difference.png"));
+  EXPECT_TRUE(fs::exists(folder.path / "forward_plus-cull-test=planes+aabb.difference.png"));
   EXPECT_FALSE(fs::exists(folder.path / "clustered.png"));
   EXPECT_FALSE(fs::exists(folder.path / "lit.heat.png"));
   EXPECT_EQ(nlohmann::json::parse(text_of(folder.path / "results.json")), to_json(report));

@@ -2,7 +2,7 @@
 addEventListener("load", () => {
   const get = (id) => document.getElementById(id);
   const column = (n) =>
-    [...document.querySelectorAll("tbody tr")].map((line) => line.cells[n].firstChild.textContent.trim());
+    [...document.querySelectorAll("tbody tr")].map((line) => line.cells[n]?.firstChild.textContent.trim() ?? "");
   const click = (n) => document.querySelectorAll("thead button")[n].click();
   const slide = (value) => {
     get("cut").value = value;

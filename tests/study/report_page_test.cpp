@@ -70,6 +70,8 @@ json seen_in_browser(const fs::path& folder, const char* window_size) {
 
 std::vector<std::string> strings(const json& list) { return list.get<std::vector<std::string>>(); }
 
+const std::string both_tests = "forward_plus:cull-test=planes+aabb", exact_test = "forward_plus:cull-test=exact";
+
 class ReportPage : public testing::Test {
  protected:
   void SetUp() override {
@@ -96,7 +98,7 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   EXPECT_EQ(seen["title"], "hall.glb \u2013 lightgrid compare");
 
   EXPECT_EQ(seen["left"], "forward");
-  EXPECT_EQ(seen["right"], "forward_plus-2");
+  EXPECT_EQ(seen["right"], exact_test);
   EXPECT_THAT(strings(seen["clips"]), ElementsAre("inset(0px 50% 0px 0px)", "inset(0px 87.5% 0px 0px)",
                                                   "inset(0px 100% 0px 0px)", "inset(0px 0% 0px 0px)"));
   EXPECT_EQ(seen["focused"], "cut");
@@ -105,23 +107,25 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   EXPECT_EQ(seen["brokenImages"], 0);
   EXPECT_EQ(seen["zoomed"], true);
 
-  EXPECT_THAT(strings(seen["byTime"][0]), ElementsAre("lidr", "forward_plus-2", "forward_plus", "clustered",
-                                                      "deferred_tiled", "forward"));
-  EXPECT_THAT(strings(seen["byTime"][1]), ElementsAre("183", "205", "214", "232", "262", "2,420"));
-  EXPECT_THAT(strings(seen["byTimeDescending"]), ElementsAre("forward", "deferred_tiled", "clustered",
-                                                             "forward_plus", "forward_plus-2", "lidr"));
-  EXPECT_THAT(strings(seen["byName"]), ElementsAre("clustered", "deferred_tiled", "forward", "forward_plus",
-                                                   "forward_plus-2", "lidr"));
-  EXPECT_THAT(strings(seen["bySpeedUp"]), ElementsAre("lidr", "forward_plus-2", "forward_plus", "clustered",
-                                                      "deferred_tiled", "forward"));
-  EXPECT_THAT(strings(seen["lost"]), ElementsAre("812", "0", "0", "0", "0", "0"));
+  const std::string refused = "refused: blending rounds <0.5 of a step> here";
+  EXPECT_THAT(strings(seen["byTime"][0]), ElementsAre("lidr", exact_test, both_tests, "clustered", "deferred_tiled",
+                                                      "forward", "light_prepass"));
+  EXPECT_THAT(strings(seen["byTime"][1]), ElementsAre("183", "205", "214", "232", "262", "2,420", refused));
+  EXPECT_THAT(strings(seen["byTimeDescending"]), ElementsAre("forward", "deferred_tiled", "clustered", both_tests,
+                                                             exact_test, "lidr", "light_prepass"));
+  EXPECT_THAT(strings(seen["byName"]), ElementsAre("clustered", "deferred_tiled", "forward", exact_test, both_tests,
+                                                   "lidr", "light_prepass"));
+  EXPECT_THAT(strings(seen["bySpeedUp"]), ElementsAre("lidr", exact_test, both_tests, "clustered", "deferred_tiled",
+                                                      "forward", "light_prepass"));
+  EXPECT_THAT(strings(seen["lost"]), ElementsAre("812", "0", "0", "0", "0", "0", ""));
   EXPECT_EQ(seen["sorted"], 2);
 
   EXPECT_THAT(seen["barWidths"].get<std::vector<double>>(), Each(testing::DoubleNear(100, 1e-6)));
   EXPECT_THAT(strings(seen["captions"]), testing::Contains("Lights listed per pixel: mean 60.0, max 60"));
-  EXPECT_THAT(strings(seen["skipped"]), ElementsAre("shadows: no light casts one",
-                                                    "transparency: no blended surface is in view (forward, "
-                                                    "forward_plus, clustered, deferred_tiled, lidr)"));
+  EXPECT_THAT(strings(seen["skipped"]),
+              ElementsAre("light_prepass " + refused, "shadows: no light casts one",
+                          "transparency: no blended surface is in view (forward, " + both_tests +
+                              ", clustered, deferred_tiled, lidr)"));
 }
 
 TEST_F(ReportPage, FitsAPhone) {

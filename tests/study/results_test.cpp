@@ -85,7 +85,7 @@ TEST(Results, OfAReportHoldTheDocumentedKeys) {
   EXPECT_EQ(keys_of(value["devices"]), (std::set<std::string>{"cl", "gl"}));
   EXPECT_EQ(keys_of(value["reference_errors"]),
             (std::set<std::string>{"model", "precision", "pixels_left_out"}));
-  EXPECT_EQ(value["rows"].size(), 6u);
+  EXPECT_EQ(value["rows"].size(), 7u);
 }
 
 TEST(Results, WithoutAnOracleHaveNoReferenceErrors) {

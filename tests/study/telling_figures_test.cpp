@@ -41,10 +41,10 @@ TEST(TellingFigures, AreTimeImageAndLights) {
 
 TEST(TellingFigures, CountThePixelsThatDiffer) {
   auto report = two_rows();
-  report.rows[1].error = ImageError{0.1, 3.14e-5, 2.2e-7, 0, {}, false};
+  report.rows[1].error = ImageError{0.1, 3.14e-6, 2.2e-7, 0, {}, false};
   for (int x = 0; x < 7; ++x) report.images[1].at(x, 3).g = 0.1f;
   EXPECT_EQ(telling_figures(report)[1],
-            "images differ: 7 of 100 pixels differ, by at most 3.1e-05 of the brightest channel; absolute "
+            "images differ: 7 of 100 pixels differ, by at most 3.1e-06 of the brightest channel; absolute "
             "RMSE 2.2e-07");
 }
 
@@ -78,6 +78,46 @@ TEST(TellingFigures, NeverPraiseARowThatLosesLightsOverOneThatDoesNot) {
   EXPECT_THAT(telling_figures(report)[0], HasSubstr("forward_plus is 11.3 times"));
   EXPECT_THAT(verdict(report),
               HasSubstr("forward_plus-2 is quicker still (100 ms) but has 1,812 lost pairs."));
+}
+
+// A third row of `error`, faster than both.
+CompareReport with_faster_row(double max_rel) {
+  auto report = two_rows();
+  report.rows.push_back(report.rows[1]);
+  report.rows[2].technique = "deferred";
+  report.rows[2].frame_ms.median = 100;
+  report.rows[2].error = ImageError{max_rel, max_rel, max_rel, 0, {}, false};
+  report.images.emplace_back(10, 10);
+  return report;
+}
+
+TEST(Verdict, ToldApartAreTheFastestExactAndAFasterLossyTechnique) {
+  EXPECT_THAT(verdict(with_faster_row(2e-3)), testing::StartsWith("forward_plus wins: 214 ms"));
+  EXPECT_THAT(verdict(with_faster_row(2e-3)),
+              HasSubstr(". deferred is quicker (100 ms) but lossy: its image differs by at most 2.0e-03 of the "
+                        "brightest channel."));
+  EXPECT_THAT(verdict(with_faster_row(9e-6)), testing::StartsWith("deferred wins: 100 ms"));
+  EXPECT_THAT(telling_figures(with_faster_row(2e-3))[0], HasSubstr("forward_plus is 11.3 times"));
+}
+
+TEST(Verdict, SaysWhatAFailedGateDoesToTheImage) {
+  auto report = with_faster_row(0.2);
+  report.rows[2].pairs->wrong = 7;
+  EXPECT_THAT(verdict(report), HasSubstr("deferred is quicker still (100 ms) but has 7 wrong pairs, and its image "
+                                         "differs by at most 2.0e-01 of the brightest channel."));
+}
+
+TEST(Verdict, WithoutAnExactTechniqueNamesTheFastestThatFailsNoGate) {
+  auto report = with_faster_row(2e-3);
+  report.rows.erase(report.rows.begin(), report.rows.begin() + 2);
+  EXPECT_THAT(verdict(report), HasSubstr("No technique is exact: deferred is the fastest that fails no gate, 100 ms"));
+}
+
+TEST(Verdict, LeavesOutWhatWasRefused) {
+  auto report = two_rows();
+  report.rows.emplace_back().technique = "lidr";
+  report.rows.back().refused = "blending is not exact";
+  EXPECT_EQ(verdict(report), verdict(two_rows()));
 }
 
 TEST(Verdict, NamesTheWinnerAndWhy) {

@@ -5,18 +5,12 @@ const page = JSON.parse(byId("page").textContent);
 
 const pictureUrl = (number) => page.pictures[number];
 const nameOf = (row) => page.rows[results.rows.indexOf(row)].name;
-const referenceRow = results.rows.find((row) => row.technique === results.reference);
+const referenceRow = results.rows.find((row) => row.technique === results.reference && !row.refused);
 const speedUp = (row) =>
-  referenceRow && row.frame_ms.median > 0 ? referenceRow.frame_ms.median / row.frame_ms.median : null;
+  referenceRow && row.frame_ms.median ? referenceRow.frame_ms.median / row.frame_ms.median : null;
 const passesGates = (row) => row.nan_pixels === 0 && !row.pairs?.lost && !row.pairs?.wrong;
-
-// What tells a row from the others: "reference", or the settings in which rows of one technique differ.
-function tagOf(row) {
-  if (row === referenceRow) return "reference";
-  const twins = results.rows.filter((other) => other.technique === row.technique);
-  const differing = Object.keys(row.settings).filter((key) => twins.some((twin) => twin.settings[key] !== row.settings[key]));
-  return differing.map((key) => `${key} = ${row.settings[key]}`).join(", ");
-}
+const tagOf = (row) => (row === referenceRow ? "reference" : "");
+const ranRows = results.rows.filter((row) => !row.refused);
 
 function showHeader() {
   const scene = results.scene.split(/[/\\]/).pop();
@@ -49,7 +43,7 @@ function startSlider() {
     { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },
     { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote()), ...lit] },
   ].filter((group) => group.choices.length > 0);
-  const others = results.rows.filter((row) => row !== referenceRow);
+  const others = ranRows.filter((row) => row !== referenceRow);
   const fastest = others.sort((a, b) => passesGates(b) - passesGates(a) || a.frame_ms.median - b.frame_ms.median)[0];
   showSlider(groups, results.reference, fastest ? nameOf(fastest) : "");
 }
@@ -76,7 +70,7 @@ function showErrors() {
   const unknown = "not measured in this run";
   add("Model", `A light's range ends; in nature it does not. With the range window against without, both in double precision: ${shared ? errorInWords(shared.model) : unknown}.`);
   add("Precision", `Every light, in float against double: ${shared ? errorInWords(shared.precision) : unknown}.`);
-  const measured = results.rows.filter((row) => row.error && row !== referenceRow);
+  const measured = ranRows.filter((row) => row.error && row !== referenceRow);
   add("Technique", `This picture against ${results.reference}, which shades every light in float:`,
     ...measured.map((row) => `${nameOf(row)}: ${errorInWords(row.error)}.`),
     ...(measured.length === 0 ? [unknown + "."] : []));
@@ -139,21 +133,24 @@ function techniqueCard(row) {
 // One line per effect and reason, with the techniques it holds for.
 function showSkipped() {
   const users = new Map();
-  for (const row of results.rows) {
+  for (const row of ranRows) {
     for (const { effect, why } of row.skipped) {
       const line = `${effect}: ${why}`;
       users.set(line, [...(users.get(line) ?? []), nameOf(row)]);
     }
   }
   const lines = [...users].map(([line, names]) =>
-    make("li", {}, line, names.length < results.rows.length ? ` (${names.join(", ")})` : ""));
-  byId("skipped").replaceChildren(...(lines.length > 0 ? lines : [make("li", {}, "Nothing was left out.")]));
+    make("li", {}, line, names.length < ranRows.length ? ` (${names.join(", ")})` : ""));
+  const refused = results.rows.filter((row) => row.refused)
+    .map((row) => make("li", {}, make("strong", {}, nameOf(row)), ` refused: ${row.refused}`));
+  const all = [...refused, ...lines];
+  byId("skipped").replaceChildren(...(all.length > 0 ? all : [make("li", {}, "Nothing was left out.")]));
 }
 
 showHeader();
 startSlider();
 showTable(byId("figures-table"), COLUMNS, results.rows, tagOf);
-showTimeBars(results.rows, results.rows.map(nameOf));
+showTimeBars(ranRows, ranRows.map(nameOf));
 showErrors();
-byId("techniques").replaceChildren(...results.rows.map(techniqueCard));
+byId("techniques").replaceChildren(...ranRows.map(techniqueCard));
 showSkipped();

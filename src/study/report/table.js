@@ -12,8 +12,12 @@ function showTable(table, columns, rows, tagOf) {
     if (column.gate && value !== null) data.className = value === 0 ? "good" : "bad";
     return data;
   };
+  const cellsOf = (row) => {
+    if (!row.refused) return columns.map((column) => cell(column, row));
+    return [cell(columns[0], row), make("td", { class: "refused", colspan: columns.length - 1 }, `refused: ${row.refused}`)];
+  };
   const lines = rows.map((row) => {
-    const line = make("tr", {}, ...columns.map((column) => cell(column, row)));
+    const line = make("tr", {}, ...cellsOf(row));
     const tag = tagOf(row);
     if (tag) line.firstChild.append(" ", make("span", { class: "tag" }, tag));
     return { row, line };

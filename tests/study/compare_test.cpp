@@ -1,0 +1,56 @@
+#include "study/compare.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "study/report.h"
+#include "support/render.h"
+#include "support/small_scene.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+ShadedImage refuse(Frame&) { throw machine_error("8 bits of blending are not exact here"); }
+const Technique refuses{
+    .name = "refuses", .summary = "refuses", .source = "none", .needs = {}, .settings = {}, .render = refuse};
+
+CompareReport compared(const std::vector<Contestant>& contestants) {
+  const Scene scene = small_scene().scene;
+  const View view = small_view(17, 9);
+  CompareOptions options{.frames = 2, .warmup = 1, .shaded_samples = 10};
+  return compare_techniques(software_devices(), scene, view, contestants, options);
+}
+
+TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
+  const CompareReport report = compared({{&refuses, {}}, {&find_technique("forward_plus"), {}}});
+  ASSERT_EQ(report.rows.size(), 2u);
+  EXPECT_EQ(report.rows[0].refused, "8 bits of blending are not exact here");
+  EXPECT_EQ(report.rows[0].lights_total, 6);
+  EXPECT_EQ(report.rows[1].frame_ms.runs, 2);
+  EXPECT_EQ(report.rows[1].pairs->lost, 0u);
+
+  const auto row = to_json(report.rows[0]);
+  EXPECT_EQ(row["refused"], report.rows[0].refused);
+  EXPECT_TRUE(row["frame_ms"]["median"].is_null());
+  EXPECT_EQ(row["frame_ms"]["runs"], 0);
+  EXPECT_TRUE(row["memory_bytes"]["total"].is_null());
+  EXPECT_TRUE(row["pairs"].is_null());
+  EXPECT_FALSE(to_json(report.rows[1]).contains("refused"));
+}
+
+TEST(CompareTechniques, ThrowsTheReasonWhereNoneIsLeft) {
+  try {
+    compared({{&refuses, {}}, {&refuses, {}}});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_THAT(error.what(), HasSubstr("not exact here"));
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
