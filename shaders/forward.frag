@@ -18,9 +18,7 @@
 #include "shaders/lights/all.glsl"
 #endif
 #endif
-#ifdef DIRECTIONAL
-#include "shaders/lights/directional.glsl"
-#endif
+#include "shaders/common/own_light.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -35,13 +33,7 @@ void main() {
 #endif
     vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
     ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
-    vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
-    // Precise: a compiler that fuses multiplications with additions would round by what else the program holds.
-    precise vec3 own = s.emissive + ambient * (p.diffuse * SHADING_PI + p.f0) * s.occlusion;
-    color = own;
-#ifdef DIRECTIONAL
-    color += directional_light_sum(p);
-#endif
+    color = own_light(s, p);
 #ifdef LIGHTS
     color += light_sum(p);
 #endif

@@ -47,12 +47,8 @@ std::vector<uint32_t> cells_at_depths(Frame& f, const std::vector<float>& depths
   defines.emplace_back("GIVEN_DEPTH");
   return cells_drawn(f, [&] {
     glDisable(GL_DEPTH_TEST);
-    const GlVertexArray nothing = make_vertex_array();
-    glBindVertexArray(nothing.name());
     glBindTextureUnit(0, texture.name());
-    glUseProgram(f.program("shaders/screen.vert", "shaders/cells.frag", defines).name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindVertexArray(0);
+    draw_screen(f.program("shaders/screen.vert", "shaders/cells.frag", defines));
   });
 }
 

@@ -1,6 +1,7 @@
 #include "passes/surfaces.h"
 
 #include "passes/frame/draw.h"
+#include "passes/gbuffer.h"
 
 namespace lightgrid {
 namespace {
@@ -12,40 +13,63 @@ Image read_image(int attachment, int width, int height) {
   return image;
 }
 
+// Three images over the frame's depth, cleared and bound.
+struct SurfaceTargets {
+  explicit SurfaceTargets(Frame& f)
+      : width(f.view.width),
+        height(f.view.height),
+        textures{make_texture_2d(GL_RGBA32F, width, height), make_texture_2d(GL_RGBA32F, width, height),
+                 make_texture_2d(GL_RGBA32F, width, height)},
+        framebuffer(make_framebuffer({textures[0].name(), textures[1].name(), textures[2].name()}, f.targets.depth())) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glViewport(0, 0, width, height);
+    for (int i = 0; i < 3; ++i) clear(i);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_BLEND);
+  }
+  void clear(int i) {
+    const float nothing[4] = {0, 0, 0, 0};
+    glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, i, nothing);
+  }
+  Image read(int i) { return read_image(i, width, height); }
+
+  int width, height;
+  GlTexture textures[3];
+  GlFramebuffer framebuffer;
+};
+
 }  // namespace
 
 SurfaceImages read_surfaces(Frame& f) {
-  const int width = f.view.width, height = f.view.height;
-  const GlTexture targets[3] = {make_texture_2d(GL_RGBA32F, width, height),
-                                make_texture_2d(GL_RGBA32F, width, height),
-                                make_texture_2d(GL_RGBA32F, width, height)};
-  const GlFramebuffer framebuffer =
-      make_framebuffer({targets[0].name(), targets[1].name(), targets[2].name()}, f.targets.depth());
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  glViewport(0, 0, width, height);
-  const float clear[4] = {0, 0, 0, 0};
-  for (int i = 0; i < 3; ++i) glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, i, clear);
+  SurfaceTargets targets(f);
   glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
-  glDisable(GL_BLEND);
   const auto program_of = [&](uint32_t features) -> const GlProgram& {
     return f.program("shaders/scene.vert", "shaders/surfaces.frag", defines_of(features));
   };
   glDepthFunc(GL_EQUAL);
   draw_instances(f, f.plan.opaque, DrawStreams::all, program_of);
-  SurfaceImages surfaces{
-      read_image(0, width, height), read_image(1, width, height), read_image(2, width, height), {}};
+  SurfaceImages surfaces{targets.read(0), targets.read(1), targets.read(2), {}};
   // Where blended surfaces are: everything they cover differs from a cleared target.
-  surfaces.blended.assign(size_t(width) * height, false);
+  surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
   if (!f.plan.blended.empty()) {
-    glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, clear);
+    targets.clear(0);
     glDepthFunc(GL_GEQUAL);
     draw_instances(f, f.plan.blended, DrawStreams::all, program_of);
-    const Image normals = read_image(0, width, height);
+    const Image normals = targets.read(0);
     for (size_t i = 0; i < normals.pixels.size(); ++i)
       surfaces.blended[i] = glm::vec3(normals.pixels[i]) != glm::vec3(0);
   }
   return surfaces;
+}
+
+SurfaceImages read_gbuffer_surfaces(Frame& f) {
+  SurfaceTargets targets(f);
+  const GBuffer gbuffer = gbuffer_of(f);
+  f.bind_lights();
+  bind_gbuffer(gbuffer);
+  glDisable(GL_DEPTH_TEST);
+  draw_screen(f.program("shaders/screen.vert", "shaders/gbuffer_surfaces.frag", gbuffer_defines(gbuffer)));
+  return {targets.read(0), targets.read(1), targets.read(2), {}};
 }
 
 }  // namespace lightgrid

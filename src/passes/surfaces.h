@@ -15,4 +15,7 @@ struct SurfaceImages {
 // Draws and reads them. Uses the depth image of the last frame.
 SurfaceImages read_surfaces(Frame& f);
 
+// Of the last frame, as light passes find them in its geometry buffer; without emission, and nothing of blended ones.
+SurfaceImages read_gbuffer_surfaces(Frame& f);
+
 }  // namespace lightgrid

@@ -19,6 +19,7 @@ struct Settings {
   int slices = 24;  // depth slices of techniques that have some: 1, 2, 4, 8, 16, 24, 32 or 64
   SliceSpacing slice_spacing = SliceSpacing::exponential;
   GridLists grid_lists = GridLists::lists;
+  int buffer_bits = 32;  // a channel of geometry buffers: 8, 16 or 32
   KernelShape kernel_shape = KernelShape::automatic;
   bool portable = false;       // kernels without the builtins of one kind of CPU
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against

@@ -62,4 +62,13 @@ void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams str
   }
 }
 
+void draw_screen(const GlProgram& program) {
+  const GlVertexArray nothing = make_vertex_array();
+  glBindVertexArray(nothing.name());
+  glDisable(GL_CULL_FACE);
+  glUseProgram(program.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
 }  // namespace lightgrid

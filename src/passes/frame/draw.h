@@ -14,4 +14,7 @@ void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams str
                     const std::function<const GlProgram&(uint32_t features)>& program_of,
                     const TileDistances* distances = nullptr);
 
+// A triangle over the whole image (shaders/screen.vert).
+void draw_screen(const GlProgram& program);
+
 }  // namespace lightgrid

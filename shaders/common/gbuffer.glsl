@@ -1,0 +1,64 @@
+// The geometry buffer: two images of four channels, the position left to depth (src/passes/gbuffer.h).
+//   GBUFFER_8, GBUFFER_16: channels of 0 to 1 in that many bits; else 32-bit float
+//   first   octahedral normal (2), perceptual roughness, metallic
+//   second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
+
+// Steps of a normal's channel to either side of 0, which is a step itself: a wall along an axis keeps its normal.
+#if defined(GBUFFER_8)
+#define NORMAL_STEPS 127.0
+#elif defined(GBUFFER_16)
+#define NORMAL_STEPS 32767.0
+#endif
+
+struct GBufferTexels {
+  vec4 normal_roughness_metallic, base_color_lit;
+};
+
+// What light passes know of a surface.
+struct LitSurface {
+  vec3 normal;  // view space, unit
+  vec3 base_color;
+  float metallic, roughness;
+  bool lit;
+};
+
+vec2 signs(vec2 v) { return vec2(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0); }
+
+// The octahedron |x| + |y| + |z| = 1, its lower half folded over: Cigolle et al., "A Survey of Efficient
+// Representations for Independent Unit Vectors", JCGT 2014.
+vec2 octahedral(vec3 n) {
+  vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+  return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;
+}
+
+vec3 normal_of_octahedral(vec2 p) {
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * signs(n.xy);
+  return normalize(n);
+}
+
+GBufferTexels gbuffer_texels(LitSurface s) {
+  vec2 normal = octahedral(s.normal);
+  vec3 color = s.base_color;
+#ifdef NORMAL_STEPS
+  // Rounded here: drivers convert to fixed point in ways of their own.
+  normal = floor(normal * NORMAL_STEPS + (NORMAL_STEPS + 1.5)) / (2.0 * NORMAL_STEPS + 1.0);
+#endif
+#ifdef GBUFFER_8
+  color = sqrt(color);  // spends the 256 steps as an eye would
+#endif
+  return GBufferTexels(vec4(normal, s.roughness, s.metallic), vec4(color, s.lit ? 1.0 : 0.0));
+}
+
+LitSurface lit_surface(GBufferTexels t) {
+  vec2 normal = t.normal_roughness_metallic.xy;
+  vec3 color = t.base_color_lit.rgb;
+#ifdef NORMAL_STEPS
+  normal = (normal * (2.0 * NORMAL_STEPS + 1.0) - (NORMAL_STEPS + 1.0)) / NORMAL_STEPS;
+#endif
+#ifdef GBUFFER_8
+  color *= color;
+#endif
+  return LitSurface(normal_of_octahedral(normal), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
+                    t.base_color_lit.a > 0.5);
+}

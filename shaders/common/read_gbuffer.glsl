@@ -1,0 +1,16 @@
+// The surface of a pixel out of the geometry buffer and the depth image.
+#include "shaders/common/gbuffer.glsl"
+#include "shaders/common/position.glsl"
+
+layout(binding = 0) uniform sampler2D gbuffer_normal_roughness_metallic;
+layout(binding = 1) uniform sampler2D gbuffer_base_color_lit;
+layout(binding = 2) uniform sampler2D depth_image;
+
+LitSurface surface_of_pixel(ivec2 pixel) {
+  return lit_surface(GBufferTexels(texelFetch(gbuffer_normal_roughness_metallic, pixel, 0),
+                                   texelFetch(gbuffer_base_color_lit, pixel, 0)));
+}
+
+vec3 position_here() {
+  return position_of_pixel(gl_FragCoord.xy, texelFetch(depth_image, ivec2(gl_FragCoord.xy), 0).r);
+}

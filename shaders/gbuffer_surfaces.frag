@@ -1,0 +1,14 @@
+// Surfaces as light passes find them in the geometry buffer, in 32-bit float: what surfaces.frag is compared with.
+//   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
+#include "shaders/common/read_gbuffer.glsl"
+
+layout(location = 0) out vec4 normal_roughness;
+layout(location = 1) out vec4 base_color_metallic;
+layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit; emissive is in the image, not here
+
+void main() {
+  LitSurface s = surface_of_pixel(ivec2(gl_FragCoord.xy));
+  normal_roughness = vec4(s.normal, s.roughness);
+  base_color_metallic = vec4(s.base_color, s.metallic);
+  emissive_occlusion = vec4(vec3(0.0), s.lit ? 1.0 : -1.0);
+}

@@ -1,0 +1,67 @@
+// The geometry buffer: what deferred light passes know of each pixel's surface. A pixel's position is not in
+// it: it follows from depth (shaders/common/position.glsl).
+#pragma once
+
+#include <array>
+
+#include "passes/passes.h"
+
+namespace lightgrid {
+
+// Four channels, in OpenGL's memory as glReadPixels(GL_RGBA, type) gives them: a plain copy.
+struct GBufferImage {
+  const char* name;  // of the target (Targets), counted as memory_bytes.gbuffer
+  GLenum format, type;
+  size_t bytes;  // a pixel
+};
+
+// Channels, in both orders of bits (shaders/common/gbuffer.glsl):
+//   [0]  octahedral normal u, v in view space; perceptual roughness; metallic
+//   [1]  base color red, green, blue, as their square roots in 8 bits; 1 where lights reach, else 0
+// As float, u and v are -1 to 1. In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
+// integer; all other channels are n / 255 or n / 65535.
+struct GBufferLayout {
+  int bits;
+  const char* define;  // of shaders; null for 32 bits
+  std::array<GBufferImage, 2> images;
+  size_t bytes() const { return images[0].bytes + images[1].bytes; }  // a pixel
+};
+
+inline constexpr GBufferLayout gbuffer_layouts[] = {
+    {8,
+     "GBUFFER_8",
+     {{{"gbuffer_normal_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4},
+       {"gbuffer_color_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4}}}},
+    {16,
+     "GBUFFER_16",
+     {{{"gbuffer_normal_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8},
+       {"gbuffer_color_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8}}}},
+    {32,
+     nullptr,
+     {{{"gbuffer_normal_32", GL_RGBA32F, GL_FLOAT, 16}, {"gbuffer_color_32", GL_RGBA32F, GL_FLOAT, 16}}}},
+};
+
+struct GBuffer {
+  const GBufferLayout* layout = nullptr;
+  GLuint framebuffer = 0;  // the image, then the layout's images, over depth
+  std::array<GLuint, 2> textures{};
+  GLuint depth = 0;
+  DepthImage depth_image;
+  ShadedImage image;  // holds what surfaces show without point and spot lights, for light passes to add to
+};
+
+// The view's geometry buffer as the setting buffer-bits lays it out, drawn or not.
+GBuffer gbuffer_of(Frame& f);
+
+// Opaque surfaces with their depth, in one pass over the geometry.
+GBuffer fill_gbuffer(Frame& f);
+
+// The same at the depth that a prepass left. What `distances` shows to be hidden is not drawn.
+GBuffer fill_gbuffer(Frame& f, const TileDistances& distances);
+
+// The defines of shaders that read the geometry buffer, which bind_gbuffer makes it ready for
+// (shaders/common/read_gbuffer.glsl).
+std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer);
+void bind_gbuffer(const GBuffer& gbuffer);
+
+}  // namespace lightgrid

@@ -1,0 +1,173 @@
+// What the geometry buffer gives back of the surfaces that were put into it.
+#include "passes/gbuffer.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "passes/surfaces.h"
+#include "support/small_scene.h"
+
+namespace lightgrid {
+namespace {
+
+Devices& test_devices() {
+  static Devices devices = open_devices("", GlBackend::automatic);
+  return devices;
+}
+
+// A wall of small squares, each with a normal of its own: all directions evenly, also those that no
+// rasterised surface turns towards the eye. It fills a view of 90 degrees.
+Scene wall_of_all_normals(int columns) {
+  Mesh mesh;
+  const float step = 4.0f / float(columns);
+  for (int i = 0; i < columns * columns; ++i) {
+    shapes::add_quad(mesh, {-2 + step * float(i % columns), -2 + step * float(i / columns), -2}, {step, 0, 0},
+                     {0, step, 0});
+    // A spiral of equal areas (Vogel, "A Better Way to Construct the Sunflower Head", 1979).
+    const double z = 1 - (2 * i + 1.0) / (columns * columns), turn = 2.399963229728653 * i,
+                 r = std::sqrt(1 - z * z);
+    const glm::vec3 normal(glm::dvec3(r * std::cos(turn), r * std::sin(turn), z));
+    std::fill(mesh.normals.end() - 4, mesh.normals.end(), normal);
+  }
+  Scene scene;
+  const int material = add_material(scene, "colors", {0.25f, 0.5f, 0.75f}, 0.6f, 0.4f);
+  add_instance(scene, "wall", add_mesh(scene, shapes::finished(std::move(mesh), "wall", material)));
+  return scene;
+}
+
+View wide_view(int width, int height) {
+  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+  camera.fov_y_rad = glm::radians(90.0);
+  return make_view(camera, width, height);
+}
+
+struct Surfaces {
+  SurfaceImages drawn, kept;
+  size_t gbuffer_bytes;
+};
+
+Surfaces surfaces_of(const Scene& scene, const View& view, int bits, bool after_prepass = false) {
+  Frame f(test_devices(), scene, view, plan_frame(scene, view, {.buffer_bits = bits}, {}));
+  if (after_prepass) {
+    const DepthImage depth = depth_prepass(f);
+    fill_gbuffer(f, tile_distances(f, depth_bounds(f, depth)));
+  } else {
+    fill_gbuffer(f);
+  }
+  return {read_surfaces(f), read_gbuffer_surfaces(f), f.targets.bytes(TargetUse::gbuffer)};
+}
+
+double angle_deg(const glm::vec4& a, const glm::vec4& b) {
+  const glm::dvec3 u(a), v(b);
+  return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
+// Cigolle et al. (2014) give 0.95 degrees for 16 bits in all and 0.0037 for 32. Float: 2^-24 is 3.4e-6
+// degrees, and there are some six roundings on the way.
+TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
+  const Scene scene = wall_of_all_normals(200);
+  for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, 2e-5)}) {
+    const Surfaces s = surfaces_of(scene, wide_view(400, 400), bits);
+    double largest = 0;
+    for (size_t i = 0; i < s.drawn.normal_roughness.pixels.size(); ++i) {
+      largest =
+          std::max(largest, angle_deg(s.kept.normal_roughness.pixels[i], s.drawn.normal_roughness.pixels[i]));
+    }
+    EXPECT_LT(largest, bound_deg) << bits;
+    EXPECT_GT(largest, 0.5 * bound_deg) << bits << ": the bound is the encoding's own";
+    RecordProperty("largest_deg_" + std::to_string(bits), std::to_string(largest));
+  }
+}
+
+TEST(FillGbuffer, KeepsNormalsAlongAxesAsTheyAre) {
+  SmallScene s = small_scene();
+  s.scene.instances.pop_back();  // the wall alone
+  for (const int bits : {8, 16, 32}) {
+    const Surfaces surfaces = surfaces_of(s.scene, wide_view(33, 17), bits);
+    const auto &drawn = surfaces.drawn.normal_roughness.pixels, &kept = surfaces.kept.normal_roughness.pixels;
+    for (size_t i = 0; i < drawn.size(); ++i) {
+      if (glm::vec3(drawn[i]) != glm::vec3(0)) {
+        ASSERT_EQ(glm::vec3(kept[i]), glm::vec3(0, 0, 1)) << bits;
+      }
+    }
+  }
+}
+
+// Half a step of what is stored, in 8 bits of a square root, whose slope is at most 2; and float's rounding
+// of texture coordinates, times the texture's slope, where the two programs compute them otherwise.
+TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
+  SmallScene s = small_scene();
+  for (const Effect& effect : effects()) {
+    if (effect.name != "blend" && effect.name != "mask") effect.add(s);
+  }
+  for (const auto& [bits, color_bound, bound] :
+       {std::tuple(8, 1.01f / 255, 0.51f / 255), std::tuple(16, 0.51f / 65535, 0.51f / 65535),
+        std::tuple(32, 1e-6f, 1e-6f)}) {
+    const Surfaces surfaces = surfaces_of(s.scene, wide_view(127, 73), bits);
+    int lit = 0, unlit = 0;
+    for (size_t i = 0; i < surfaces.drawn.normal_roughness.pixels.size(); ++i) {
+      const glm::vec4 drawn = surfaces.drawn.base_color_metallic.pixels[i],
+                      kept = surfaces.kept.base_color_metallic.pixels[i];
+      for (int c = 0; c < 3; ++c)
+        ASSERT_LE(std::abs(kept[c] - drawn[c]), color_bound) << bits << " bits, pixel " << i;
+      ASSERT_LE(std::abs(kept.a - drawn.a), bound);
+      ASSERT_LE(
+          std::abs(surfaces.kept.normal_roughness.pixels[i].a - surfaces.drawn.normal_roughness.pixels[i].a),
+          bound);
+      // Where nothing is, no light reaches: as if unlit.
+      const bool nothing = glm::vec3(surfaces.drawn.normal_roughness.pixels[i]) == glm::vec3(0);
+      const bool is_unlit = surfaces.drawn.emissive_occlusion.pixels[i].a < 0;
+      ASSERT_EQ(surfaces.kept.emissive_occlusion.pixels[i].a < 0, nothing || is_unlit);
+      ++(is_unlit ? unlit : lit);
+    }
+    EXPECT_GT(lit, 100);
+    EXPECT_GT(unlit, 100);
+  }
+}
+
+TEST(FillGbuffer, IsTheSameAfterADepthPrepass) {
+  SmallScene s = small_scene();
+  for (const Effect& effect : effects()) effect.add(s);
+  const Surfaces alone = surfaces_of(s.scene, wide_view(127, 73), 32);
+  const Surfaces after = surfaces_of(s.scene, wide_view(127, 73), 32, true);
+  EXPECT_EQ(alone.kept.normal_roughness.pixels, after.kept.normal_roughness.pixels);
+  EXPECT_EQ(alone.kept.base_color_metallic.pixels, after.kept.base_color_metallic.pixels);
+  EXPECT_EQ(alone.kept.emissive_occlusion.pixels, after.kept.emissive_occlusion.pixels);
+}
+
+TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
+  const Scene scene = small_scene().scene;
+  for (const auto& [bits, bytes] : {std::pair(8, 8), std::pair(16, 16), std::pair(32, 32)}) {
+    EXPECT_EQ(surfaces_of(scene, wide_view(17, 9), bits).gbuffer_bytes, size_t(17 * 9 * bytes));
+    for (const GBufferLayout& layout : gbuffer_layouts) {
+      if (layout.bits == bits) {
+        EXPECT_EQ(layout.bytes(), size_t(bytes));
+      }
+    }
+  }
+}
+
+// What OpenCL reads: the stored integers, as the table of gbuffer.h explains them.
+TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
+  const Scene scene = wall_of_all_normals(16);
+  const View view = wide_view(32, 32);
+  Frame f(test_devices(), scene, view, plan_frame(scene, view, {.buffer_bits = 16}, {}));
+  const GBuffer g = fill_gbuffer(f);
+  std::vector<glm::u16vec4> stored(32 * 32);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, g.framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadPixels(0, 0, 32, 32, GL_RGBA, g.layout->images[0].type, stored.data());
+  const SurfaceImages kept = read_gbuffer_surfaces(f);
+  for (size_t i = 0; i < stored.size(); ++i) {
+    const glm::dvec2 uv = (glm::dvec2(stored[i]) - 32768.0) / 32767.0;
+    glm::dvec3 n(uv, 1 - std::abs(uv.x) - std::abs(uv.y));
+    if (n.z < 0) n = {std::copysign(1 - std::abs(uv.y), uv.x), std::copysign(1 - std::abs(uv.x), uv.y), n.z};
+    ASSERT_LT(angle_deg(glm::vec4(glm::normalize(n), 0), kept.normal_roughness.pixels[i]), 2e-5) << i;
+    ASSERT_EQ(stored[i].b, std::lround(0.4f * 65535)) << "roughness";
+    ASSERT_EQ(stored[i].a, std::lround(0.6f * 65535)) << "metallic";
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
