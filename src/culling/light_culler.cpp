@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "cl/avx512.h"
 #include "cl/launch.h"
 #include "culling/cull_pipeline.h"
 #include "shared/light_grid.h"
@@ -77,16 +78,6 @@ UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin)
                        : grown > 0                ? std::nextafter(grown, std::numeric_limits<float>::infinity())
                                                   : 0.0f;
   return {glm::vec3(place), radius};
-}
-
-bool builds_avx512(ClDevice& device, ProgramCache& programs) {
-  if (!device.info().cpu) return false;
-  try {
-    programs.kernel("probe_avx512", "");
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
 }
 
 }  // namespace

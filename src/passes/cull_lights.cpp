@@ -4,31 +4,41 @@
 namespace lightgrid {
 namespace {
 
-GridTextures cull(Frame& f, const char* name, const TileBounds& bounds, SharedGridStorage& storage, bool blend) {
-  auto pass = f.timer.pass(name, "cl");
+LightGrid cull(Frame& f, const TileBounds& bounds, SharedGridStorage& storage, bool blend, PassTimer::Scope& pass) {
   const LightGrid grid = f.culler().cull(bounds, storage);
-  const bool masks = f.plan.settings.grid_lists == GridLists::masks;
-  if (masks) {
-    storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
-  } else {
-    storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
-    storage.indices_.buffer->hand_to_gl(grid.index_bytes);
-  }
   f.note_grid(grid, blend);
   pass.moves(f.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8,
              grid.cell_bytes + grid.index_bytes + grid.mask_bytes);
-  if (masks) return {grid, 0, 0, storage.masks_.texture.name()};
+  return grid;
+}
+
+GridTextures to_gl(const LightGrid& grid, SharedGridStorage& storage) {
+  if (grid.mask_bytes) {
+    storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
+    return {grid, 0, 0, storage.masks_.texture.name()};
+  }
+  storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
+  storage.indices_.buffer->hand_to_gl(grid.index_bytes);
   return {grid, storage.cells_.texture.name(), storage.indices_.texture.name(), 0};
 }
 
 }  // namespace
 
 GridTextures cull_lights(Frame& f, const DepthBounds& bounds) {
-  return cull(f, "cull_lights", bounds.opaque, f.opaque_grid(), false);
+  auto pass = f.timer.pass("cull_lights", "cl");
+  return to_gl(cull(f, bounds.opaque, f.opaque_grid(), false, pass), f.opaque_grid());
 }
 
+LightGrid cull_lights_for_cl(Frame& f, const DepthBounds& bounds) {
+  auto pass = f.timer.pass("cull_lights", "cl");
+  return cull(f, bounds.opaque, f.opaque_grid(), false, pass);
+}
+
+GridTextures grid_to_gl(Frame& f, const LightGrid& grid) { return to_gl(grid, f.opaque_grid()); }
+
 GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds) {
-  return cull(f, "cull_lights_for_blended", bounds.blend, f.blend_grid(), true);
+  auto pass = f.timer.pass("cull_lights_for_blended", "cl");
+  return to_gl(cull(f, bounds.blend, f.blend_grid(), true, pass), f.blend_grid());
 }
 
 }  // namespace lightgrid

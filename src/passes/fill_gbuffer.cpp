@@ -59,7 +59,7 @@ GBuffer fill_gbuffer(Frame& f) {
   auto pass = f.timer.pass("fill_gbuffer", "gl");
   const GBuffer gbuffer = gbuffer_of(f);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glDepthFunc(GL_GREATER);
+  glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as where others shade at equal depth
   glDepthMask(GL_TRUE);
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);

@@ -20,7 +20,8 @@ struct GridTextures {
 };
 
 struct ShadedImage {
-  GLuint framebuffer = 0;  // linear RGBA, 32-bit float
+  GLuint framebuffer = 0;           // linear RGBA, 32-bit float
+  SharedBuffer* in_cl = nullptr;    // where OpenCL finished it, row 0 at the bottom, and the framebuffer has it not
 };
 
 DepthImage depth_prepass(Frame& f);
@@ -36,6 +37,10 @@ TileDistances tile_distances(Frame& f, const DepthBounds& bounds);
 // The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane.
 GridTextures cull_lights(Frame& f, const DepthBounds& bounds);
 GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds);
+
+// The grid of opaque surfaces for light code in OpenCL: in f.opaque_grid(), and OpenGL does not see it unless handed it.
+LightGrid cull_lights_for_cl(Frame& f, const DepthBounds& bounds);
+GridTextures grid_to_gl(Frame& f, const LightGrid& grid);
 
 // Shades opaque surfaces, at the depth that the prepass left, from the grid's lists, or, without a grid, from every light.
 // What `distances` shows to be hidden is not drawn.

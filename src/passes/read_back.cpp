@@ -6,9 +6,14 @@ void read_back(Frame& f, const ShadedImage& shaded, Image& image) {
   auto pass = f.timer.pass("read_back", "gl");
   if (image.width != f.view.width || image.height != f.view.height)
     image = Image(f.view.width, f.view.height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_FLOAT, image.pixels.data());
+  if (shaded.in_cl) {
+    f.devices.cl->queue().enqueueReadBuffer(shaded.in_cl->cl_buffer(), CL_TRUE, 0, image.pixels.size() * 16,
+                                            image.pixels.data());
+  } else {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_FLOAT, image.pixels.data());
+  }
   pass.moves(image.pixels.size() * 16, image.pixels.size() * 16);
 }
 

@@ -164,6 +164,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   FramePlan plan;
   plan.settings = settings;
   plan.stencil = needs.stencil;
+  if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   plan_surfaces(scene, view, plan);
   plan_lights(scene, view, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;

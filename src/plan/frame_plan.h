@@ -42,6 +42,7 @@ struct TechniqueNeeds {
   bool light_grid = false;
   bool slices = false;   // whose tiles are cut into depth slices
   bool stencil = false;  // beside the depth buffer
+  bool lists = false;    // whose light code reads lists alone, not masks
 };
 
 struct FramePlan {

@@ -16,22 +16,38 @@ SHARED_STRUCT(PunctualLight) {
 #endif
 };
 
-SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {
-  Real3 to_light = real3(light.place.x - p.position.x, light.place.y - p.position.y, light.place.z - p.position.z);
+// What of a light arrives at a point.
+SHARED_STRUCT(Arrival) {
+  Real3 to_light;  // unit
+  real attenuation;
+};
+
+SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
+  Real3 to_light = real3(light.place.x - position.x, light.place.y - position.y, light.place.z - position.z);
   real distance_squared = dot3(to_light, to_light);
   real ratio = distance_squared * light.place.w;
   real inverse_distance = inverse_sqrt_real(max_real(distance_squared, REAL(1e-12f)));
-  to_light = scale3(to_light, inverse_distance);
+  Arrival arrival;
+  arrival.to_light = scale3(to_light, inverse_distance);
   // No branch on the range: what is past it is multiplied by an exact zero.
-  real attenuation = max_real(1.0f - ratio * ratio, REAL(0.0f)) * min_real(inverse_distance * inverse_distance, REAL(1e4f));
+  real window = max_real(1.0f - ratio * ratio, REAL(0.0f));
+  arrival.attenuation = window * min_real(inverse_distance * inverse_distance, REAL(1e4f));
 #ifdef SPOTS
-  real along = light.cone.x * to_light.x + light.cone.y * to_light.y + light.cone.z * to_light.z;
+  real along = light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y + light.cone.z * arrival.to_light.z;
   real angular = min_real(max_real(light.cone.w - along, REAL(0.0f)), REAL(1.0f));
-  attenuation = attenuation * (angular * angular);
+  arrival.attenuation = arrival.attenuation * (angular * angular);
 #endif
-  Real3 back = reflected(p, to_light);
-  return real3(back.x * (light.color.x * attenuation), back.y * (light.color.y * attenuation),
-               back.z * (light.color.z * attenuation));
+  return arrival;
+}
+
+SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight light) {
+  Real3 back = reflected(p, arrival.to_light);
+  return real3(back.x * (light.color.x * arrival.attenuation), back.y * (light.color.y * arrival.attenuation),
+               back.z * (light.color.z * arrival.attenuation));
+}
+
+SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {
+  return radiance_of(p, arrival_at(p.position, light), light);
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

@@ -3,10 +3,10 @@
 
 namespace lightgrid {
 
-extern const Technique forward, forward_plus, clustered;
+extern const Technique forward, forward_plus, clustered, forward_plus_compute, deferred_tiled;
 
 const std::vector<const Technique*>& techniques() {
-  static const std::vector<const Technique*> all = {&forward, &forward_plus, &clustered};
+  static const std::vector<const Technique*> all = {&forward, &forward_plus, &clustered, &forward_plus_compute, &deferred_tiled};
   return all;
 }
 

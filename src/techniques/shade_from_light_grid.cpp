@@ -14,13 +14,14 @@ ShadedImage shade_from_light_grid(Frame& f) {
   }
   const GridTextures grid = cull_lights(f, bounds);
   const ShadedImage image = shade_forward(f, distances, &grid);
-  if (f.plan.blend_grid) {
-    const GridTextures blend_grid = cull_lights_for_blended(f, bounds);
-    shade_blended(f, image, &blend_grid);
-  } else {
-    shade_blended(f, image, &grid);
-  }
+  shade_blended_from_grid(f, image, bounds, grid.grid);
   return image;
+}
+
+void shade_blended_from_grid(Frame& f, const ShadedImage& image, const DepthBounds& bounds, const LightGrid& grid) {
+  if (!f.plan.blend) return;
+  const GridTextures lists = f.plan.blend_grid ? cull_lights_for_blended(f, bounds) : grid_to_gl(f, grid);
+  shade_blended(f, image, &lists);
 }
 
 }  // namespace lightgrid

@@ -24,6 +24,9 @@ struct Technique {
 // The recipe of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended surfaces.
 ShadedImage shade_from_light_grid(Frame& f);
 
+// Blended surfaces from a grid of their own or, where there are no depth bounds, from that of opaque ones.
+void shade_blended_from_grid(Frame& f, const ShadedImage& image, const DepthBounds& bounds, const LightGrid& grid);
+
 const std::vector<const Technique*>& techniques();
 
 // Throws Error(input) that lists the names there are.

@@ -3,37 +3,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "passes/frame/light_texels.h"
 
 namespace lightgrid {
 namespace {
-
-// What the shaders read of a light: see shaders/lights/punctual.glsl.
-struct LightTexels {
-  std::vector<glm::vec4> positions, colors, cones, directional;
-};
-
-LightTexels texels_of(const std::vector<ViewLight>& lights, const FramePlan& plan) {
-  LightTexels texels;
-  for (int i : plan.local) {
-    const ViewLight& light = lights[i];
-    const double inverse_radius_squared = std::min(1.0 / (light.radius_m * light.radius_m), 3e38);
-    texels.positions.emplace_back(glm::vec3(light.position), float(inverse_radius_squared));
-    // A light without extent lights nothing, also not the point it is at.
-    texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
-    if (!plan.spots) continue;
-    // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product
-    // and a sum.
-    const double scale = 1.0 / (light.cos_inner - light.cos_outer);
-    texels.cones.push_back(light.type == LightType::spot ? glm::vec4(glm::vec3(light.direction * scale),
-                                                                     float(-light.cos_outer * scale))
-                                                         : glm::vec4(0, 0, 0, 1));
-  }
-  for (int i : plan.directional_lights) {
-    texels.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
-    texels.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
-  }
-  return texels;
-}
 
 cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
@@ -128,8 +101,8 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
       targets(view.width, view.height, plan.stencil) {
   view_block_ = make_buffer(sizeof params, &params);
   if (plan.light_grid && plan.slices > 1) slice_block_ = slice_block_of(cull_view(view, plan));
-  const LightTexels texels = texels_of(lights_in_view(scene, view), plan);
-  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones,
+  const LightTexels texels = light_texels(scene, view, plan);
+  const std::vector<glm::vec4>* arrays[4] = {&texels.places, &texels.colors, &texels.cones,
                                              &texels.directional};
   const bool needed[4] = {plan.local_lights, plan.local_lights, plan.spots, plan.directional};
   for (int i = 0; i < 4; ++i) {
@@ -157,7 +130,7 @@ GLuint Frame::color_framebuffer() {
 }
 
 SharedBuffer& Frame::depth_copy() {
-  if (!depth_copy_) depth_copy_.emplace(*devices.cl, devices.bridge, size_t(view.width) * view.height * 4);
+  if (!depth_copy_) depth_copy_.emplace(*devices.cl, devices.bridge, (size_t(view.width) * view.height + spare_pixels) * 4);
   return *depth_copy_;
 }
 

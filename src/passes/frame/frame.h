@@ -78,9 +78,10 @@ struct Frame {
   Targets targets;
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
   GLuint color_framebuffer();  // linear RGBA, 32-bit float, over the depth image
+  static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end
   SharedBuffer& depth_copy();  // where OpenCL reads depth
 
-  // Point and spot lights as the shaders read them (shaders/lights/punctual.glsl), and directional ones.
+  // Point and spot lights as the shaders read them (shared/punctual_light.h), and directional ones.
   void bind_lights() const;
 
   // The one T of this frame: T(Frame&) at first use.

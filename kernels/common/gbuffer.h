@@ -1,0 +1,66 @@
+// The surface of LANES pixels out of the geometry buffer (src/passes/gbuffer.h).
+//
+// -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
+#pragma once
+
+#include "shared/brdf.h"
+#include "shared/octahedral.h"
+
+#ifndef BUFFER_BITS
+#define BUFFER_BITS 32
+#endif
+
+#if BUFFER_BITS == 32
+typedef float channel_t;
+#elif BUFFER_BITS == 16
+typedef ushort channel_t;
+#else
+typedef uchar channel_t;
+#endif
+
+// Four channels of LANES pixels.
+typedef struct Texels {
+  real x, y, z, w;
+} Texels;
+
+#if LANES == 16
+#if BUFFER_BITS == 32
+#define CHANNELS16(p) vload16(0, p)
+#else
+#define CHANNELS16(p) convert_float16(vload16(0, p))
+#endif
+
+// 8 pixels from each of two places.
+static inline Texels load_texels(global const channel_t* first, global const channel_t* second) {
+  const float16 a = CHANNELS16(first), b = CHANNELS16(first + 16), c = CHANNELS16(second), d = CHANNELS16(second + 16);
+  const Texels t = {(float16)(a.s048c, b.s048c, c.s048c, d.s048c), (float16)(a.s159d, b.s159d, c.s159d, d.s159d),
+                    (float16)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf)};
+  return t;
+}
+#else
+static inline Texels load_texel(global const channel_t* at) {
+  const Texels t = {(float)at[0], (float)at[1], (float)at[2], (float)at[3]};
+  return t;
+}
+#endif
+
+// As lit_surface of shaders/common/gbuffer.glsl, from stored integers in place of normalised ones.
+#if BUFFER_BITS == 32
+#define OF_ONE(x) (x)
+#define OF_NORMAL(x) (x)
+#elif BUFFER_BITS == 16
+#define OF_ONE(x) ((x) / 65535.0f)
+#define OF_NORMAL(x) (((x) - 32768.0f) / 32767.0f)
+#else
+#define OF_ONE(x) ((x) / 255.0f)
+#define OF_NORMAL(x) (((x) - 128.0f) / 127.0f)
+#endif
+
+static inline ShadingPoint point_of_texels(Real3 position, Real3 to_viewer, Texels first, Texels second) {
+  const Real3 normal = normal_of_octahedral(OF_NORMAL(first.x), OF_NORMAL(first.y));
+  Real3 color = real3(OF_ONE(second.x), OF_ONE(second.y), OF_ONE(second.z));
+#if BUFFER_BITS == 8
+  color = real3(color.x * color.x, color.y * color.y, color.z * color.z);
+#endif
+  return shading_point(position, to_viewer, normal, color, OF_ONE(first.w), OF_ONE(first.z));
+}

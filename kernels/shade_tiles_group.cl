@@ -1,0 +1,23 @@
+// Point and spot lights added to the image of every tile from its light list, for GPUs: a work-item a pixel. As
+// shade_tiles_lanes.cl, with the same arguments.
+#define LANES 1
+#include "kernels/common/shade_pixels.h"
+#include "shared/light_grid.h"
+
+kernel void shade_tiles_group(global const channel_t* first, global const channel_t* second, global const float* depth,
+                              global const float4* places, global const float4* colors, global const float4* cones,
+                              global const uint2* cells, global const index_t* indices, global float* image,
+                              constant ViewParams* view) {
+  const uint x = get_global_id(0), y = get_global_id(1);
+  if (x >= view->width || y >= view->height) return;
+  const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
+  const size_t at = (size_t)y * view->width + x;
+  const Texels a = load_texel(first + 4 * at), b = load_texel(second + 4 * at);
+  if (range.y == 0 || !(depth[at] > 0.0f) || !(b.w > 0.0f)) return;
+  const Lights lights = {places, colors, cones};
+  const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
+  const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), a, b);
+  const Real3 sum = light_sum(&p, indices + range.x, range.y, &lights);
+  global float* pixel = image + 4 * at;
+  pixel[0] += sum.x, pixel[1] += sum.y, pixel[2] += sum.z;
+}

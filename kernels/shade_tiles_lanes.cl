@@ -1,0 +1,73 @@
+// Point and spot lights added to the image of every tile from its light list, for CPUs: a work-item takes a tile, 16 pixels
+// at once. The light pass of Lauritzen, "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
+//
+// first, second  geometry buffer, and depth: row 0 at the bottom (kernels/common/gbuffer.h)
+// places, colors, cones  of lights (shared/punctual_light.h)
+// cells, indices  light grid (shared/light_grid.h)
+// image           RGBA a pixel: what surfaces show without these lights; they are added to it
+// -DTILE          pixels a side, a multiple of 8 (default 16)
+// -DBUFFER_BITS, -DINDEX_32, -DSPOTS, -DBLINN, -DORTHOGRAPHIC  as the headers say
+//
+// Buffers may be read 16 pixels past their end.
+#define LANES 16
+#include "kernels/common/pack.h"
+#include "kernels/common/shade_pixels.h"
+
+#ifndef TILE
+#define TILE 16
+#endif
+
+// 16 pixels are two runs of 8: beside each other, or in tiles of 8 x 8 above each other.
+#if TILE == 8
+#define RUN_DX 0u
+#define RUN_DY 1u
+#else
+#define RUN_DX 8u
+#define RUN_DY 0u
+#endif
+
+static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f); }
+
+// Adds to the first `count` of 8 pixels.
+static inline void add_run(global float* image, float8 r, float8 g, float8 b, uint count) {
+  if (count >= 8) {
+    const float16 low = (float16)(r.s0, g.s0, b.s0, 0, r.s1, g.s1, b.s1, 0, r.s2, g.s2, b.s2, 0, r.s3, g.s3, b.s3, 0);
+    const float16 high = (float16)(r.s4, g.s4, b.s4, 0, r.s5, g.s5, b.s5, 0, r.s6, g.s6, b.s6, 0, r.s7, g.s7, b.s7, 0);
+    vstore16(vload16(0, image) + low, 0, image);
+    vstore16(vload16(1, image) + high, 1, image);
+    return;
+  }
+  float red[8], green[8], blue[8];
+  vstore8(r, 0, red), vstore8(g, 0, green), vstore8(b, 0, blue);
+  for (uint i = 0; i < count; ++i) image[4 * i] += red[i], image[4 * i + 1] += green[i], image[4 * i + 2] += blue[i];
+}
+
+kernel void shade_tiles_lanes(global const channel_t* first, global const channel_t* second, global const float* depth,
+                              global const float4* places, global const float4* colors, global const float4* cones,
+                              global const uint2* cells, global const index_t* indices, global float* image,
+                              constant ViewParams* view) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
+  const uint2 range = cells[tile_y * view->tiles_x + tile_x];
+  if (range.y == 0) return;
+  const Lights lights = {places, colors, cones};
+  const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
+  for (uint y = tile_y * TILE; y < y_end; y += 1 + RUN_DY) {
+    for (uint x = tile_x * TILE; x < x_end; x += 8 + RUN_DX) {
+      const uint x2 = min(x + RUN_DX, view->width - 1), y2 = min(y + RUN_DY, view->height - 1);
+      const size_t at = (size_t)y * view->width + x, at2 = (size_t)y2 * view->width + x2;
+      const real depths = (real)(vload8(0, depth + at), vload8(0, depth + at2));
+      const Texels a = load_texels(first + 4 * at, first + 4 * at2), b = load_texels(second + 4 * at, second + 4 * at2);
+      const mask_t lit = (depths > REAL(0.0f)) & (b.w > REAL(0.0f));
+      if (!any_lane(lit)) continue;
+      const real px = (real)((float)x + pixel_offsets(), (float)x2 + pixel_offsets());
+      const real py = (real)((float8)((float)y + 0.5f), (float8)((float)y2 + 0.5f));
+      const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
+      const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), a, b);
+      const Real3 sum = light_sum(&p, indices + range.x, range.y, &lights);
+      const real r = lit ? sum.x : REAL(0.0f), g = lit ? sum.y : REAL(0.0f), blue = lit ? sum.z : REAL(0.0f);
+      add_run(image + 4 * at, r.lo, g.lo, blue.lo, x_end - x);
+      if (RUN_DX && x + RUN_DX < x_end) add_run(image + 4 * at2, r.hi, g.hi, blue.hi, x_end - x2);
+      if (RUN_DY && y + RUN_DY < y_end) add_run(image + 4 * at2, r.hi, g.hi, blue.hi, x_end - x2);
+    }
+  }
+}

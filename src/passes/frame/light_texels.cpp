@@ -1,0 +1,31 @@
+#include "passes/frame/light_texels.h"
+
+#include <algorithm>
+
+namespace lightgrid {
+
+LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& plan) {
+  const std::vector<ViewLight> lights = lights_in_view(scene, view);
+  LightTexels texels;
+  for (int i : plan.local) {
+    const ViewLight& light = lights[i];
+    const double inverse_radius_squared = std::min(1.0 / (light.radius_m * light.radius_m), 3e38);
+    texels.places.emplace_back(glm::vec3(light.position), float(inverse_radius_squared));
+    // A light without extent lights nothing, also not the point it is at.
+    texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
+    if (!plan.spots) continue;
+    // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product
+    // and a sum.
+    const double scale = 1.0 / (light.cos_inner - light.cos_outer);
+    texels.cones.push_back(light.type == LightType::spot ? glm::vec4(glm::vec3(light.direction * scale),
+                                                                     float(-light.cos_outer * scale))
+                                                         : glm::vec4(0, 0, 0, 1));
+  }
+  for (int i : plan.directional_lights) {
+    texels.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
+    texels.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
+  }
+  return texels;
+}
+
+}  // namespace lightgrid

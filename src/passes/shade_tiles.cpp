@@ -1,0 +1,126 @@
+#include "passes/shade_tiles.h"
+
+#include "cl/avx512.h"
+#include "cl/launch.h"
+#include "passes/frame/light_texels.h"
+
+namespace lightgrid {
+namespace {
+
+template <typename T>
+cl::Buffer buffer_of(ClDevice& device, const std::vector<T>& values) {
+  const std::vector<T>& some = values.empty() ? std::vector<T>(1) : values;  // OpenCL makes no empty buffer
+  try {
+    return cl::Buffer(device.context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, some.size() * sizeof(T),
+                      const_cast<T*>(some.data()));
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, fmt::format("a buffer of {} bytes", some.size() * sizeof(T)));
+  }
+}
+
+// The geometry buffer and the image as OpenCL reads them, the lights, and the kernel.
+class TileShading : public Kept {
+ public:
+  explicit TileShading(Frame& f)
+      : lanes(takes_lanes(f)),
+        surfaces{image_buffer(f, layout(f).images[0].bytes), image_buffer(f, layout(f).images[1].bytes)},
+        image(image_buffer(f, 16)),
+        kernel(f.devices.programs->kernel(lanes ? "shade_tiles_lanes" : "shade_tiles_group", defines(f))) {
+    const LightTexels texels = light_texels(f.scene, f.view, f.plan);
+    ClDevice& device = *f.devices.cl;
+    places = buffer_of(device, texels.places), colors = buffer_of(device, texels.colors);
+    cones = buffer_of(device, texels.cones), view = buffer_of(device, std::vector<ViewParams>{f.params});
+    light_bytes_ = (texels.places.size() + texels.colors.size() + texels.cones.size()) * sizeof(glm::vec4);
+  }
+
+  size_t memory_bytes() const override {
+    return surfaces[0].size() + surfaces[1].size() + image.size() + light_bytes_ + sizeof(ViewParams);
+  }
+
+  const bool lanes;
+  SharedBuffer surfaces[2], image;
+  cl::Buffer places, colors, cones, view;
+  cl::Kernel kernel;
+
+ private:
+  static bool takes_lanes(const Frame& f) {
+    const KernelShape shape = f.plan.settings.kernel_shape;
+    return shape == KernelShape::lanes || (shape == KernelShape::automatic && f.devices.cl->info().cpu);
+  }
+
+  static const GBufferLayout& layout(Frame& f) { return *gbuffer_of(f).layout; }
+
+  static SharedBuffer image_buffer(Frame& f, size_t pixel_bytes) {
+    return {*f.devices.cl, f.devices.bridge, (size_t(f.view.width) * f.view.height + Frame::spare_pixels) * pixel_bytes};
+  }
+
+  std::string defines(Frame& f) const {
+    std::string defines = fmt::format("-DBUFFER_BITS={}", layout(f).bits);
+    if (lanes) defines += fmt::format(" -DTILE={}", f.plan.settings.tile);
+    if (lanes && !f.plan.settings.portable && builds_avx512(*f.devices.cl, *f.devices.programs)) defines += " -DAVX512";
+    if (f.plan.index_bits == 32) defines += " -DINDEX_32";
+    if (f.plan.spots) defines += " -DSPOTS";
+    if (f.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
+    if (f.view.orthographic) defines += " -DORTHOGRAPHIC";
+    return defines;
+  }
+
+  size_t light_bytes_ = 0;
+};
+
+void copy_attachment(Frame& f, int attachment, GLenum type, SharedBuffer& to) {
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(attachment));
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, to.gl_buffer());
+  glReadPixels(0, 0, f.view.width, f.view.height, GL_RGBA, type, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
+void gbuffer_to_cl(Frame& f, const GBuffer& gbuffer, TileShading& shading) {
+  const size_t pixels = size_t(f.view.width) * f.view.height;
+  auto pass = f.timer.pass("gbuffer_to_cl", "gl");
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
+  copy_attachment(f, 0, GL_FLOAT, shading.image);
+  for (int i = 0; i < 2; ++i) copy_attachment(f, i + 1, gbuffer.layout->images[i].type, shading.surfaces[i]);
+  for (int i = 0; i < 2; ++i) shading.surfaces[i].hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
+  shading.image.hand_to_cl(pixels * 16);
+  const size_t bytes = pixels * (gbuffer.layout->bytes() + 16);
+  pass.moves(bytes, bytes);
+}
+
+void image_to_gl(Frame& f, SharedBuffer& image) {
+  const size_t bytes = size_t(f.view.width) * f.view.height * 16;
+  auto pass = f.timer.pass("image_to_gl", "gl");
+  image.hand_to_gl(bytes);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, image.gl_buffer());
+  glTextureSubImage2D(f.targets.texture("color", GL_RGBA32F), 0, 0, 0, f.view.width, f.view.height, GL_RGBA, GL_FLOAT,
+                      nullptr);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  pass.moves(bytes, bytes);
+}
+
+void add_light(Frame& f, TileShading& s, const LightGrid& grid, const GBufferLayout& layout) {
+  auto pass = f.timer.pass("shade_tiles", "cl");
+  constexpr size_t side = 16;  // of the pixels that a group takes
+  const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
+  const cl::NDRange items = s.lanes ? cl::NDRange(f.params.tiles_x, f.params.tiles_y)
+                                    : cl::NDRange(whole(f.view.width), whole(f.view.height));
+  launch(*f.devices.cl, "shade_tiles", s.kernel, items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+         s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(), f.depth_copy().cl_buffer(), s.places, s.colors, s.cones,
+         f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), s.image.cl_buffer(), s.view);
+  const size_t pixels = size_t(f.view.width) * f.view.height;
+  pass.moves(pixels * (layout.bytes() + 4 + 16) + grid.cell_bytes + grid.index_bytes, pixels * 16);
+}
+
+}  // namespace
+
+ShadedImage shade_tiles(Frame& f, const GBuffer& gbuffer, const LightGrid& grid) {
+  TileShading& shading = f.kept<TileShading>();
+  gbuffer_to_cl(f, gbuffer, shading);
+  if (f.plan.settings.depth_bounds == DepthBoundsMode::none) depth_to_cl(f, gbuffer.depth_image);  // no bounds read it
+  add_light(f, shading, grid, *gbuffer.layout);
+  if (!f.plan.blend) return {gbuffer.image.framebuffer, &shading.image};
+  image_to_gl(f, shading.image);
+  return gbuffer.image;
+}
+
+}  // namespace lightgrid

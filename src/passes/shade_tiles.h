@@ -1,0 +1,12 @@
+// The light pass of tiled deferred shading, in OpenCL.
+#pragma once
+
+#include "passes/gbuffer.h"
+
+namespace lightgrid {
+
+// Adds the lights of the grid's lists to what the geometry buffer's image shows. Where blended surfaces follow, OpenGL gets
+// the image back; else it stays where OpenCL left it.
+ShadedImage shade_tiles(Frame& f, const GBuffer& gbuffer, const LightGrid& grid);
+
+}  // namespace lightgrid

@@ -1,0 +1,12 @@
+// What deferred_tiled and forward_plus_compute share: they differ in how the geometry buffer is filled.
+#pragma once
+
+#include "passes/gbuffer.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+// Culls lights, adds those of each tile's list to the geometry buffer's image, and lays blended surfaces over it.
+ShadedImage add_tiled_light(Frame& f, const GBuffer& gbuffer, const DepthBounds& bounds);
+
+}  // namespace lightgrid

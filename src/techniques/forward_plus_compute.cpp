@@ -1,0 +1,21 @@
+// Forward+ whose light loop runs in OpenCL, 16 pixels at once on a CPU: a depth prepass, culling, then the visible surfaces
+// alone go through memory to the loop.
+#include "techniques/add_tiled_light.h"
+
+namespace lightgrid {
+
+static ShadedImage render(Frame& f) {
+  const DepthImage depth = depth_prepass(f);
+  const DepthBounds bounds = depth_bounds(f, depth);
+  return add_tiled_light(f, fill_gbuffer(f, tile_distances(f, bounds)), bounds);
+}
+
+extern const Technique forward_plus_compute{
+    .name = "forward_plus_compute",
+    .summary = "per-tile light lists, gone through in OpenCL",
+    .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
+    .needs = {.light_grid = true, .lists = true},
+    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "kernel-shape", "portable"},
+    .render = render};
+
+}  // namespace lightgrid

@@ -1,0 +1,84 @@
+// deferred_tiled and forward_plus_compute: the light loop in OpenCL against forward's in OpenGL.
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double exact_enough = 1e-5;  // of the brightest channel
+constexpr const char* both[] = {"forward_plus_compute", "deferred_tiled"};
+
+// Runs the technique and checks gates; returns the largest error, of the reference's brightest channel.
+double error_of(const char* technique, const Scene& scene, const View& view, const Image& forward, const Settings& settings = {}) {
+  TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
+  run.run_frame();
+  EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run.frame()));
+  EXPECT_EQ(pairs.lost, 0u);
+  EXPECT_EQ(pairs.wrong, 0u);
+  EXPECT_GE(pairs.listed, pairs.lit);
+  return compare_images(run.image(), forward).max_rel;
+}
+
+TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const Scene scene = builtin.make();
+    const View view = default_view(scene, 95, 53);
+    const Image forward = render(scene, view, "forward");
+    for (const char* technique : both) EXPECT_LT(error_of(technique, scene, view, forward), exact_enough) << builtin.name << ' ' << technique;
+  }
+}
+
+TEST(TiledLight, InEverySizeAndTile) {
+  const Scene scene = find_builtin_scene("spheres")->make();
+  for (const auto& [width, height] : {std::pair(1, 1), {17, 9}, {7, 31}}) {
+    const View view = default_view(scene, width, height);
+    const Image forward = render(scene, view, "forward");
+    for (int tile : {8, 16, 64}) {
+      EXPECT_LT(error_of("deferred_tiled", scene, view, forward, {.tile = tile}), exact_enough) << width << ' ' << tile;
+    }
+  }
+}
+
+TEST(TiledLight, OfBothKernelShapesAndEveryLoop) {
+  const Scene scene = find_builtin_scene("hall")->make();
+  const View view = default_view(scene, 79, 45);
+  for (const Settings& settings : {Settings{.kernel_shape = KernelShape::group}, Settings{.portable = true},
+                                   Settings{.brdf = Brdf::blinn}, Settings{.depth_bounds = DepthBoundsMode::none}}) {
+    const Image forward = render(scene, view, "forward", {.brdf = settings.brdf});
+    EXPECT_LT(error_of("deferred_tiled", scene, view, forward, settings), exact_enough);
+  }
+}
+
+// What fewer bits cost is measured here, and shown by compare: no one hides it.
+TEST(TiledLight, LosesLittleIn16BitsAndMoreIn8) {
+  const Scene scene = find_builtin_scene("hall")->make();
+  const View view = default_view(scene, 95, 53);
+  const Image forward = render(scene, view, "forward");
+  const double in_16 = error_of("deferred_tiled", scene, view, forward, {.buffer_bits = 16});
+  const double in_8 = error_of("deferred_tiled", scene, view, forward, {.buffer_bits = 8});
+  EXPECT_GT(in_16, 0);
+  EXPECT_LT(in_16, 0.01);
+  EXPECT_GT(in_8, in_16);
+  EXPECT_LT(in_8, 0.5);
+}
+
+TEST(TiledLight, IsNoneWhereThereAreNoLights) {
+  Scene scene = find_builtin_scene("hall")->make();
+  scene.lights.clear();
+  const View view = default_view(scene, 79, 45);
+  const Image forward = render(scene, view, "forward");
+  for (const char* technique : both) EXPECT_TRUE(identical(render(scene, view, technique), forward)) << technique;
+}
+
+TEST(TiledLight, OfMoreLightsThan16BitsIndex) {
+  Scene scene = find_builtin_scene("spheres")->make();
+  const Light light = scene.lights.front();
+  scene.lights.resize(65'537, light);
+  for (size_t i = 1; i < scene.lights.size(); ++i) scene.lights[i].radius_m = 1e-3f;
+  const View view = default_view(scene, 16, 9);
+  EXPECT_LT(error_of("deferred_tiled", scene, view, render(scene, view, "forward")), exact_enough);
+}
+
+}  // namespace
+}  // namespace lightgrid
