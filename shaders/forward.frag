@@ -9,6 +9,7 @@
 #include "shaders/lights/punctual.glsl"
 #if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS)
 #include "shaders/lights/cell.glsl"
+#include "shaders/lights/z_bins.glsl"
 #endif
 #if defined(LIGHTS_GRID)
 #include "shaders/lights/grid.glsl"

@@ -1,9 +1,7 @@
 // The pixel's cell of the light grid.
 //   SLICES: tiles are cut into depth slices.
 #include "shared/light_grid.h"
-#ifdef SLICES
 #include "shared/slices.h"
-#endif
 
 uint cell_at(uvec2 pixel, float depth) {
   uint cell = cell_of_pixel(pixel.x, pixel.y, view.tile_size, view.tiles_x);

@@ -13,6 +13,27 @@ constexpr int most_tiles = 32000;  // a side; tile coordinates are kept in 15 bi
 
 float rest(double value, float taken) { return float(value - double(taken)); }
 
+template <size_t most>
+std::array<float, most> keys_of(const CullView& view, const std::vector<float>& edges) {
+  const glm::dmat4& clip = view.clip_from_view;
+  std::array<float, most> keys;
+  keys.fill(std::numeric_limits<float>::infinity());
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const double d = edges[i], depth = clip[3][2] - clip[2][2] * d;
+    keys[i] = depth_key(view, float(is_orthographic(view) ? depth : depth / d));
+  }
+  return keys;
+}
+
+void check_edges(const CullView& view, const std::vector<float>& edges, const char* name, size_t most) {
+  if (edges.size() >= most) throw input_error("view: {} {} are more than {}", edges.size(), name, most - 1);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const float edge = edges[i], before = i ? edges[i - 1] : -INFINITY;
+    if (!std::isfinite(edge) || !(edge >= before)) throw input_error("view: {}[{}] is {} after {}", name, i, edge, before);
+    if (!(edge > 0) && !is_orthographic(view)) throw input_error("view: {}[{}] is {}, not in front of the eye", name, i, edge);
+  }
+}
+
 }  // namespace
 
 std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m) {
@@ -29,16 +50,8 @@ std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, 
   return edges;
 }
 
-std::array<float, MOST_SLICES> slice_keys(const CullView& view) {
-  const glm::dmat4& clip = view.clip_from_view;
-  std::array<float, MOST_SLICES> keys;
-  keys.fill(std::numeric_limits<float>::infinity());
-  for (size_t i = 0; i < view.slice_edges.size(); ++i) {
-    const double d = view.slice_edges[i], depth = clip[3][2] - clip[2][2] * d;
-    keys[i] = depth_key(view, float(is_orthographic(view) ? depth : depth / d));
-  }
-  return keys;
-}
+std::array<float, MOST_SLICES> slice_keys(const CullView& view) { return keys_of<MOST_SLICES>(view, view.slice_edges); }
+std::array<float, MOST_Z_BINS> z_bin_keys(const CullView& view) { return keys_of<MOST_Z_BINS>(view, view.z_bin_edges); }
 
 float depth_key(const CullView& view, float depth) { return has_standard_depth(view) ? depth : -depth; }
 
@@ -75,14 +88,8 @@ void check_view(const CullView& view, int tile) {
                              clip[3][2], orthographic ? 1 / clip[2][2] : 0.0, near_distance(view)}) {
     if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
   }
-  if (view.slice_edges.size() >= MOST_SLICES) {
-    throw input_error("view: {} slices are more than {}", view.slice_edges.size() + 1, MOST_SLICES);
-  }
-  for (size_t i = 0; i < view.slice_edges.size(); ++i) {
-    const float edge = view.slice_edges[i], before = i ? view.slice_edges[i - 1] : -INFINITY;
-    if (!std::isfinite(edge) || !(edge >= before)) throw input_error("view: slice_edges[{}] is {} after {}", i, edge, before);
-    if (!(edge > 0) && !is_orthographic(view)) throw input_error("view: slice_edges[{}] is {}, not in front of the eye", i, edge);
-  }
+  check_edges(view, view.slice_edges, "slice_edges", MOST_SLICES);
+  check_edges(view, view.z_bin_edges, "z_bin_edges", MOST_Z_BINS);
   const glm::dmat3 rotation(view.view_from_world);
   const glm::dmat3 error = rotation * glm::transpose(rotation) - glm::dmat3(1);
   for (int c = 0; c < 3; ++c) {

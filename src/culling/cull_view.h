@@ -23,6 +23,7 @@ struct CullView {
   glm::dvec3 eye{0};               // world, metres
   std::vector<float> slice_edges;  // inner edges of the depth slices, metres, ascending; empty: one slice. The first
                                    // slice begins at the eye, the last has no end.
+  std::vector<float> z_bin_edges{};  // likewise of z-bins, by which shading passes over lights; empty: none
 };
 
 // The slices - 1 inner edges, ascending, of `slices` slices between two distances near_m < far_m, both finite; near and
@@ -34,11 +35,12 @@ std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, 
 // What shading compares a pixel's depth key with (shared/slices.h): the view's edges as depth keys, ascending, then
 // infinity. Each differs from its edge by one rounding of a depth, for which the kernels' slices are wide enough.
 std::array<float, MOST_SLICES> slice_keys(const CullView& view);
+std::array<float, MOST_Z_BINS> z_bin_keys(const CullView& view);
 float depth_key(const CullView& view, float depth);
 
 // Throws Error(input) where they make no view: a size below 1 or past 32,000 tiles a side, a
-// matrix that is not finite, no projection of the two kinds, or not rigid; or slice edges that do not ascend, are not
-// finite, not in front of a perspective view's eye, or more than MOST_SLICES - 1.
+// matrix that is not finite, no projection of the two kinds, or not rigid; or edges of slices or z-bins that do not ascend,
+// are not finite, not in front of a perspective view's eye, or more than MOST_SLICES - 1 or MOST_Z_BINS - 1.
 void check_view(const CullView& view, int tile);
 
 // The view in the numbers of shaders (lights and ambient are left 0) and of kernels, for tiles of `tile` x `tile`

@@ -18,7 +18,7 @@ namespace {
 constexpr float far_away = 1e18f;   // as kernels/common/project.h
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
 constexpr int world_arrays = 8;     // as kernels/common/light_arrays.h
-constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16, mask_group = 64;
+constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
 constexpr uint most_regions = 64, many_lights = 16384;
 constexpr double half_ulp = 0x1p-24;
 
@@ -78,6 +78,20 @@ UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin)
                        : grown > 0                ? std::nextafter(grown, std::numeric_limits<float>::infinity())
                                                   : 0.0f;
   return {glm::vec3(place), radius};
+}
+
+// Near and far of each range between two edges, metres, widened by what a distance may round.
+std::vector<cl_float2> widened_ranges(const std::vector<float>& edges, const CullParams& p) {
+  const float margin = p.orthographic ? widen * std::abs(p.depth_b * p.depth_a) : 0.0f;
+  std::vector<cl_float2> ranges;
+  float near = p.orthographic ? -far_away : 0.0f;
+  for (float edge : edges) {
+    const float slack = widen * std::abs(edge) + margin;
+    ranges.push_back({{near, edge + slack}});
+    near = edge - slack;
+  }
+  ranges.push_back({{near, far_away}});
+  return ranges;
 }
 
 }  // namespace
@@ -140,19 +154,14 @@ void LightCuller::set_view(const CullView& view) {
   // 32-bit floats near 1 are 2^-24 apart; near 0, where reversed depth has the distance, closer than slack.
   if (options_.depth_format == DepthFormat::d32f && params_.standard_depth) params_.depth_step = float(half_ulp);
   eye_ = view.eye;
-  const float margin = params_.orthographic ? widen * std::abs(params_.depth_b * params_.depth_a) : 0.0f;
-  std::vector<cl_float2> slices;
-  float near = params_.orthographic ? -far_away : 0.0f;
-  for (float edge : view.slice_edges) {
-    const float slack = widen * std::abs(edge) + margin;
-    slices.push_back({{near, edge + slack}});
-    near = edge - slack;
-  }
-  slices.push_back({{near, far_away}});
-  if (slices.size() > 1) {
-    slices_ = device_buffer(device_, slices.size() * sizeof slices[0]);
-    device_.queue().enqueueWriteBuffer(slices_, CL_TRUE, 0, slices.size() * sizeof slices[0], slices.data());
-  }
+  const auto upload = [&](cl::Buffer& buffer, const std::vector<cl_float2>& ranges) {
+    if (ranges.size() == 1) return;
+    buffer = device_buffer(device_, ranges.size() * sizeof ranges[0]);
+    device_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, ranges.size() * sizeof ranges[0], ranges.data());
+  };
+  upload(slices_, widened_ranges(view.slice_edges, params_));
+  upload(z_bins_, widened_ranges(view.z_bin_edges, params_));
+  z_bin_count_ = uint(view.z_bin_edges.size() + 1);
   const glm::uvec2 tiles(params_.tiles_x, params_.tiles_y);
   if (tiles != bounds_tiles_ || room.orthographic != params_.orthographic) {
     bounds_tiles_ = tiles;
@@ -303,6 +312,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
     device_.queue().enqueueFillBuffer(cells, cl_uint(0), 0, grid.cell_bytes);
     storage.indices(0);
     if (options_.lists == GridLists::masks) storage.masks(0);
+    if (z_bin_count_ > 1) storage.z_bins(0);
     device_.queue().finish();
     return grid;
   }
@@ -316,6 +326,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
   for (;;) {
     cl::Buffer indices = storage.indices(index_capacity_ * index_bytes);
     upload_params();
+    if (z_bin_count_ > 1) enqueue_z_bins(grid, storage);
     kernels.prepare(params_);
     kernels.enqueue({params_, params_buffer_, lights_->get(), bounds.values, slices_, counters_, cells, indices});
     cl_uint counters[8];
@@ -345,6 +356,14 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
       return grid;
     }
   }
+}
+
+void LightCuller::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
+  grid.z_bin_bytes = light_count_ * sizeof(cl_uint);
+  if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("light_z_bins", "");
+  launch(device_, "light_z_bins", z_bins_kernel_, cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group),
+         cl::NDRange(z_bin_group), lights_->get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
+         params_buffer_);
 }
 
 void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {
@@ -377,7 +396,9 @@ size_t LightCuller::memory_bytes() const {
 }
 
 HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage) {
-  HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}, {}};
+  HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}, {}, {}};
+  host.z_bins.resize(grid.z_bin_bytes / sizeof(cl_uint));
+  if (grid.z_bin_bytes) device.queue().enqueueReadBuffer(storage.z_bins(grid.z_bin_bytes), CL_TRUE, 0, grid.z_bin_bytes, host.z_bins.data());
   host.masks.resize(grid.mask_bytes / sizeof(cl_uint));
   if (grid.mask_bytes) device.queue().enqueueReadBuffer(storage.masks(grid.mask_bytes), CL_TRUE, 0, grid.mask_bytes, host.masks.data());
   host.cells.resize(grid.cell_bytes / sizeof(glm::uvec2));

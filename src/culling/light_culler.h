@@ -72,6 +72,7 @@ class GridStorage {
   virtual cl::Buffer& cells(size_t bytes) = 0;
   virtual cl::Buffer& indices(size_t bytes) = 0;
   virtual cl::Buffer& masks(size_t bytes) = 0;  // asked for only where CullerOptions wants masks
+  virtual cl::Buffer& z_bins(size_t bytes) = 0;  // only where the view has z-bins
 };
 
 class ClGridStorage : public GridStorage {
@@ -80,18 +81,21 @@ class ClGridStorage : public GridStorage {
   cl::Buffer& cells(size_t bytes) override { return grown(cells_, cells_bytes_, bytes); }
   cl::Buffer& indices(size_t bytes) override { return grown(indices_, indices_bytes_, bytes); }
   cl::Buffer& masks(size_t bytes) override { return grown(masks_, masks_bytes_, bytes); }
+  cl::Buffer& z_bins(size_t bytes) override { return grown(z_bins_, z_bins_bytes_, bytes); }
 
  private:
   cl::Buffer& grown(cl::Buffer& buffer, size_t& size, size_t bytes);
   ClDevice& device_;
-  cl::Buffer cells_, indices_, masks_;
-  size_t cells_bytes_ = 0, indices_bytes_ = 0, masks_bytes_ = 0;
+  cl::Buffer cells_, indices_, masks_, z_bins_;
+  size_t cells_bytes_ = 0, indices_bytes_ = 0, masks_bytes_ = 0, z_bins_bytes_ = 0;
 };
 
 // The finished grid in its storage. Cells: uint2(first, count) into the indices, x fastest, then y from the bottom,
 // then slice from the near plane; cell_of_pixel (shared/light_grid.h) finds a pixel's first one. Indices: of
 // set_lights' lights, each cell's sorted and without repetition. Masks, where they were asked for: mask_words 32-bit words a
-// cell, in the cells' order, in which light i is bit i % 32 of word i / 32; they say what the lists say. Same bytes on every device, in every kernel shape, for
+// cell, in the cells' order, in which light i is bit i % 32 of word i / 32; they say what the lists say. Z-bins, where the view
+// has some: a word a light, of which bins_hold (shared/slices.h) tells a pixel in z-bin z_bin_of_key whether the light may
+// reach it; shading passes over listed lights that it holds not for. Same bytes on every device, in every kernel shape, for
 // any number of threads.
 struct LightGrid {
   int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
@@ -99,6 +103,7 @@ struct LightGrid {
   int index_bits = 16;                       // 16 or 32 each
   size_t cell_bytes = 0, index_bytes = 0;    // in use; the storage's buffers may be larger
   size_t mask_words = 0, mask_bytes = 0;     // 0 where there are no masks
+  size_t z_bin_bytes = 0;                    // 0 where there are no z-bins
 };
 
 // A grid on the host, in the same order; indices are widened to 32 bits.
@@ -107,6 +112,7 @@ struct HostGrid {
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;
   std::vector<uint32_t> masks;    // empty where there are none
+  std::vector<uint32_t> z_bins;   // likewise; else a word a light
   bool operator==(const HostGrid&) const = default;
 };
 // Waits.
@@ -183,6 +189,7 @@ class LightCuller {
  private:
   CullPipeline& pipeline(DepthBoundsMode mode);
   void make_masks(LightGrid& grid, GridStorage& storage);
+  void enqueue_z_bins(LightGrid& grid, GridStorage& storage);
   cl::Buffer empty_bounds(int planes, float near, float far);
   void choose_regions();
   void upload_params();
@@ -197,9 +204,10 @@ class LightCuller {
   uint light_count_ = 0, light_stride_ = 0;
   size_t index_capacity_ = 0, params_uploads_ = 0;
   CullParams uploaded_{};
-  cl::Kernel bounds_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
+  cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
-  cl::Buffer params_buffer_, slices_, opaque_, blend_, counters_;
+  cl::Buffer params_buffer_, slices_, z_bins_, opaque_, blend_, counters_;
+  uint z_bin_count_ = 1;
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
   std::unique_ptr<GrowingBuffer> lights_;

@@ -8,18 +8,20 @@ LightGrid cull(Frame& f, const TileBounds& bounds, SharedGridStorage& storage, b
   const LightGrid grid = f.culler().cull(bounds, storage);
   f.note_grid(grid, blend);
   pass.moves(f.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8,
-             grid.cell_bytes + grid.index_bytes + grid.mask_bytes);
+             grid.cell_bytes + grid.index_bytes + grid.mask_bytes + grid.z_bin_bytes);
   return grid;
 }
 
 GridTextures to_gl(const LightGrid& grid, SharedGridStorage& storage) {
+  if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
+  const GLuint z_bins = storage.z_bins_.texture.name();
   if (grid.mask_bytes) {
     storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
-    return {grid, 0, 0, storage.masks_.texture.name()};
+    return {grid, 0, 0, storage.masks_.texture.name(), z_bins};
   }
   storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
   storage.indices_.buffer->hand_to_gl(grid.index_bytes);
-  return {grid, storage.cells_.texture.name(), storage.indices_.texture.name(), 0};
+  return {grid, storage.cells_.texture.name(), storage.indices_.texture.name(), 0, z_bins};
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct GridTextures {
   LightGrid grid;
   GLuint cells = 0, indices = 0;  // buffer textures
   GLuint masks = 0;
+  GLuint z_bins = 0;  // of each light, where the plan has some
 };
 
 struct ShadedImage {

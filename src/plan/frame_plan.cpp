@@ -134,11 +134,16 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
   far_m = std::min(far_m, view.far_m);
   plan.slice_near_m = view.near_m;
   plan.slice_far_m = far_m > view.near_m ? far_m : view.near_m + 1;
+  plan.z_bins = needs.z_bins && plan.light_grid ? plan.settings.z_bins : 1;
   const bool needed = plan.light_grid && plan.slices > 1;
   plan.decisions.push_back({"depth slices", needed,
                             needed ? fmt::format("{} from {:.3g} m to {:.3g} m", plan.slices, plan.slice_near_m, plan.slice_far_m)
                             : !needs.slices ? "the technique cuts tiles into none"
                             : plan.light_grid ? "slices=1" : "no light grid"});
+  plan.decisions.push_back({"z-bins", plan.z_bins > 1,
+                            plan.z_bins > 1      ? fmt::format("{} between the same distances", plan.z_bins)
+                            : !needs.z_bins      ? "the technique's shading reads none"
+                            : plan.light_grid ? "z-bins=off" : "no light grid"});
 }
 
 void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {

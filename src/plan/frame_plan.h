@@ -43,6 +43,7 @@ struct TechniqueNeeds {
   bool slices = false;   // whose tiles are cut into depth slices
   bool stencil = false;  // beside the depth buffer
   bool lists = false;    // whose light code reads lists alone, not masks
+  bool z_bins = false;   // whose shading passes over lights by z-bins, where the setting says so
 };
 
 struct FramePlan {
@@ -61,6 +62,7 @@ struct FramePlan {
   bool mask = false;
   bool stencil = false;        // 8 bits beside depth
   int index_bits = 16;
+  int z_bins = 1;              // 1: none
   int slices = 1;              // cells a tile,
   double slice_near_m = 0, slice_far_m = 0;  // between these distances
   uint32_t features = 0;       // union over the instances seen: which vertex streams and textures exist

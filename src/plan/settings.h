@@ -18,6 +18,7 @@ struct Settings {
   int tile = 16;  // pixels a side: 8, 16, 32 or 64
   int slices = 24;  // depth slices of techniques that have some: 1, 2, 4, 8, 16, 24, 32 or 64
   SliceSpacing slice_spacing = SliceSpacing::exponential;
+  int z_bins = 1;  // 1 (off), 16, 64 or 256
   GridLists grid_lists = GridLists::lists;
   int buffer_bits = 32;  // a channel of geometry buffers: 8, 16 or 32
   KernelShape kernel_shape = KernelShape::automatic;

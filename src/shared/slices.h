@@ -1,5 +1,5 @@
-// How a pixel finds its depth slice: comparisons with a table of edges, the same code for shaders, kernels and C++. No
-// logarithm, of which two devices may disagree.
+// How a pixel finds its depth slice and its z-bin: comparisons with a table of edges, the same code for shaders, kernels
+// and C++. No logarithm, of which two devices may disagree.
 //
 // What is compared is a depth key: a depth value as it was stored, negated where depth is reversed, so that it grows with
 // distance. Nothing is rounded between the depth buffer and the slice.
@@ -8,29 +8,47 @@
 #include "shared/language.h"
 
 #define MOST_SLICES 64u
+#define MOST_Z_BINS 256u
 
 // Inner edges, ascending, then infinity.
 #ifdef LIGHTGRID_GLSL
+#ifdef SLICES
 layout(std140, binding = 2) uniform SliceEdgesBlock { float keys[MOST_SLICES]; } slice_edges;
+#endif
+#ifdef Z_BINS
+layout(std140, binding = 3) uniform ZBinEdgesBlock { float keys[MOST_Z_BINS]; } z_bin_edges;
+#endif
 #define SLICE_EDGE(i) slice_edges.keys[i]
-#define SLICE_EDGES
-#elif defined(__OPENCL_VERSION__)
-#define SLICE_EDGE(i) edges[i]
-#define SLICE_EDGES , constant float* edges
+#define Z_BIN_EDGE(i) z_bin_edges.keys[i]
+#define EDGES
 #else
 #define SLICE_EDGE(i) edges[i]
-#define SLICE_EDGES , const float* edges
+#define Z_BIN_EDGE(i) edges[i]
+#ifdef __OPENCL_VERSION__
+#define EDGES , constant float* edges
+#else
+#define EDGES , const float* edges
 namespace lightgrid {
 #endif
+#endif
 
-// The number of edges that the key has reached: 0 before the first and where the key is NaN.
-SHARED_FUNCTION uint slice_of_key(float key SLICE_EDGES) {
-  uint slice = 0u;
-  for (uint step = MOST_SLICES / 2u; step > 0u; step /= 2u) {
-    if (key >= SLICE_EDGE(slice + step - 1u)) slice += step;
-  }
-  return slice;
-}
+// The number of edges that the key has reached, of a power of two less one: 0 before the first and where the key is NaN.
+#define RETURN_REACHED(most, EDGE)                             \
+  uint reached = 0u;                                           \
+  for (uint ahead = most / 2u; ahead > 0u; ahead /= 2u) {      \
+    if (key >= EDGE(reached + ahead - 1u)) reached += ahead;   \
+  }                                                            \
+  return reached;
+
+#if !defined(LIGHTGRID_GLSL) || defined(SLICES)
+SHARED_FUNCTION uint slice_of_key(float key EDGES) { RETURN_REACHED(MOST_SLICES, SLICE_EDGE) }
+#endif
+#if !defined(LIGHTGRID_GLSL) || defined(Z_BINS)
+SHARED_FUNCTION uint z_bin_of_key(float key EDGES) { RETURN_REACHED(MOST_Z_BINS, Z_BIN_EDGE) }
+
+// A light's z-bins: the first in the low half of a word, the one after the last in the high half.
+SHARED_FUNCTION bool bins_hold(uint bins, uint bin) { return bin >= (bins & 0xffffu) && bin < bins >> 16; }
+#endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 }  // namespace lightgrid

@@ -7,6 +7,7 @@
 #include "reference/shading.h"
 #include "shared/light_grid.h"
 #include "study/metrics.h"
+#include "study/z_bin_lists.h"
 
 namespace lightgrid {
 namespace {
@@ -98,6 +99,15 @@ std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& 
   return cells;
 }
 
+std::vector<uint32_t> z_bins_of_pixels(const Frame& f, const std::vector<float>& depth) {
+  const CullView view = cull_view(f.view, f.plan);
+  const auto edges = z_bin_keys(view);
+  std::vector<uint32_t> bins;
+  bins.reserve(depth.size());
+  for (const float value : depth) bins.push_back(z_bin_of_key(depth_key(view, value), edges.data()));
+  return bins;
+}
+
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   Frame& f = run.frame();
   if (run.technique().listed) return run.technique().listed(f);
@@ -110,7 +120,9 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   } else {
     add_lists(f.opaque_grid(), grid, lists);
   }
-  return lists;
+  if (grid.z_bin_bytes == 0) return lists;
+  const GLuint buffer = f.opaque_grid().z_bins_.buffer->gl_buffer();
+  return in_z_bins(lists, z_bins_of_pixels(f, depth), read_buffer<uint32_t>(buffer, grid.z_bin_bytes / 4));
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {

@@ -13,8 +13,12 @@ std::vector<float> read_depth(Frame& f);
 // The cell of the light grid that shading reads at each pixel, from the depth image of the frame.
 std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& depth);
 
+// And its z-bin: 0 where there are none.
+std::vector<uint32_t> z_bins_of_pixels(const Frame& f, const std::vector<float>& depth);
+
 // What the last frame of a run shaded opaque surfaces with: as the technique tells it, from the light grid, or every
-// point and spot light at every pixel. A pixel's slice follows from its depth.
+// point and spot light at every pixel. A pixel's slice and z-bin follow from its depth; lights that its
+// z-bin passes over are not listed for it.
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 
 // Those against the lights that truly reach each pixel.

@@ -8,9 +8,9 @@ extern const Technique clustered{
     .name = "clustered",
     .summary = "light lists of tiles cut into depth slices",
     .source = "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
-    .needs = {.light_grid = true, .slices = true},
-    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "grid-lists", "kernel-shape",
-                 "portable"},
+    .needs = {.light_grid = true, .slices = true, .z_bins = true},
+    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins", "grid-lists",
+                 "kernel-shape", "portable"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

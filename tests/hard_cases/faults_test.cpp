@@ -56,6 +56,8 @@ std::vector<Caught> faults() {
       {"last_slice_closed", Fault::last_slice_closed, {"camera/beyond_the_last_slice"}},
       {"first_slice_from_near", Fault::first_slice_from_near, {"camera/before_the_first_slice"}},
       {"world_direction", Fault::world_direction, {"camera/turned"}},
+      {"z_bin_of_centre", Fault::z_bin_of_centre, {"agreement/z_bins_of_lights"}},
+      {"last_z_bin_closed", Fault::last_z_bin_closed, {"agreement/z_bins_of_lights"}},
   };
 }
 

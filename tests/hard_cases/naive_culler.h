@@ -44,6 +44,8 @@ enum class Fault {
   last_slice_closed,
   first_slice_from_near,      // from half its edge
   world_direction,            // cone axes not turned into view space
+  z_bin_of_centre,            // a light in the z-bin of its centre alone
+  last_z_bin_closed,
 };
 
 class NaiveCuller : public CullEngine {
@@ -237,6 +239,20 @@ class NaiveCuller : public CullEngine {
     return l.cos_outer <= -1 || cone_touches_cell(c, l.position, l.axis, l.cos_outer, l.radius) != Touch::no;
   }
 
+  std::vector<uint32_t> z_bins(const CullView& view, const std::vector<TrueLight>& lights) const {
+    const std::vector<float>& edges = view.z_bin_edges;
+    std::vector<uint32_t> words;
+    for (const TrueLight& l : lights) {
+      const double d = -l.position.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
+      const double reach = fault_ == Fault::z_bin_of_centre ? 0 : l.radius + 1e-6 * (glm::length(l.position) + l.radius + ends);
+      const auto reached = [&](double to) { return uint32_t(std::upper_bound(edges.begin(), edges.end(), to) - edges.begin()); };
+      uint32_t end = reached(d + reach) + 1;
+      if (fault_ == Fault::last_z_bin_closed && d - reach > 2 * edges.back()) end = 0;
+      words.push_back(l.lists_nothing ? 0 : reached(d - reach) | end << 16);
+    }
+    return words;
+  }
+
   HostGrid cull_masked(const CullerOptions& o, const CullView& view, std::span<const CullLight> lights,
                        std::span<const DepthInterval> bounds, const std::vector<Mask>& masks) {
     const std::vector<TrueLight> all = view_lights(view, lights);
@@ -268,6 +284,7 @@ class NaiveCuller : public CullEngine {
       grid.cells.emplace_back(grid.indices.size(), list.size());
       grid.indices.insert(grid.indices.end(), list.begin(), list.end());
     }
+    if (!view.z_bin_edges.empty()) grid.z_bins = z_bins(view, all);
     return grid;
   }
 

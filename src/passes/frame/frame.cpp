@@ -24,12 +24,11 @@ cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum 
   return shared.buffer->cl_buffer();
 }
 
-// The uniform block of shared/slices.h: std140 gives each float a vec4's room.
-GlBuffer slice_block_of(const CullView& view) {
-  glm::vec4 block[MOST_SLICES];
-  const std::array<float, MOST_SLICES> keys = slice_keys(view);
-  for (size_t i = 0; i < MOST_SLICES; ++i) block[i] = glm::vec4(keys[i], 0, 0, 0);
-  return make_buffer(sizeof block, block);
+// A uniform block of shared/slices.h: std140 gives each float a vec4's room.
+GlBuffer block_of_keys(std::span<const float> keys) {
+  std::vector<glm::vec4> block;
+  for (const float key : keys) block.emplace_back(key, 0, 0, 0);
+  return make_buffer(block.size() * sizeof block[0], block.data());
 }
 
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
@@ -42,12 +41,13 @@ ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& a
 }  // namespace
 
 CullView cull_view(const View& view) {
-  return {view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}};
+  return {view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}, {}};
 }
 
 CullView cull_view(const View& view, const FramePlan& plan) {
   CullView culled = cull_view(view);
   culled.slice_edges = slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+  culled.z_bin_edges = slice_edges(plan.settings.slice_spacing, plan.z_bins, plan.slice_near_m, plan.slice_far_m);
   return culled;
 }
 
@@ -78,9 +78,11 @@ cl::Buffer& SharedGridStorage::indices(size_t bytes) {
 
 cl::Buffer& SharedGridStorage::masks(size_t bytes) { return grown(devices_, masks_, bytes, GL_R32UI); }
 
+cl::Buffer& SharedGridStorage::z_bins(size_t bytes) { return grown(devices_, z_bins_, bytes, GL_R32UI); }
+
 size_t SharedGridStorage::allocated_bytes() const {
   size_t bytes = 0;
-  for (const SharedTexture* shared : {&cells_, &indices_, &masks_}) bytes += shared->buffer ? shared->buffer->size() : 0;
+  for (const SharedTexture* shared : {&cells_, &indices_, &masks_, &z_bins_}) bytes += shared->buffer ? shared->buffer->size() : 0;
   return bytes;
 }
 
@@ -100,7 +102,9 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
       }),
       targets(view.width, view.height, plan.stencil) {
   view_block_ = make_buffer(sizeof params, &params);
-  if (plan.light_grid && plan.slices > 1) slice_block_ = slice_block_of(cull_view(view, plan));
+  const CullView culled = cull_view(view, plan);
+  if (plan.light_grid && plan.slices > 1) slice_block_ = block_of_keys(slice_keys(culled));
+  if (plan.z_bins > 1) z_bin_block_ = block_of_keys(z_bin_keys(culled));
   const LightTexels texels = light_texels(scene, view, plan);
   const std::vector<glm::vec4>* arrays[4] = {&texels.places, &texels.colors, &texels.cones,
                                              &texels.directional};
@@ -137,6 +141,7 @@ SharedBuffer& Frame::depth_copy() {
 void Frame::bind_lights() const {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_block_.name());
   if (slice_block_) glBindBufferBase(GL_UNIFORM_BUFFER, 2, slice_block_.name());
+  if (z_bin_block_) glBindBufferBase(GL_UNIFORM_BUFFER, 3, z_bin_block_.name());
   for (int i = 0; i < 4; ++i) {
     if (light_textures_[i]) glBindTextureUnit(8 + i, light_textures_[i].name());
   }
@@ -174,7 +179,9 @@ SharedGridStorage& Frame::blend_grid() {
 
 size_t Frame::light_grid_bytes() const {
   size_t bytes = 0;
-  for (const LightGrid* grid : {&opaque_grid_last, &blend_grid_last}) bytes += grid->cell_bytes + grid->index_bytes + grid->mask_bytes;
+  for (const LightGrid* grid : {&opaque_grid_last, &blend_grid_last}) {
+    bytes += grid->cell_bytes + grid->index_bytes + grid->mask_bytes + grid->z_bin_bytes;
+  }
   return bytes;
 }
 

@@ -46,8 +46,9 @@ class SharedGridStorage : public GridStorage {
   cl::Buffer& cells(size_t bytes) override;
   cl::Buffer& indices(size_t bytes) override;
   cl::Buffer& masks(size_t bytes) override;
+  cl::Buffer& z_bins(size_t bytes) override;
   size_t allocated_bytes() const;
-  SharedTexture cells_, indices_, masks_;
+  SharedTexture cells_, indices_, masks_, z_bins_;
 
  private:
   Devices& devices_;
@@ -102,7 +103,7 @@ struct Frame {
   LightGrid opaque_grid_last, blend_grid_last;
 
  private:
-  GlBuffer view_block_, slice_block_;
+  GlBuffer view_block_, slice_block_, z_bin_block_;
   GlBuffer light_buffers_[4];
   GlTexture light_textures_[4];
   std::map<std::string, GlProgram> programs_;

@@ -11,6 +11,7 @@ inline void bind_lights(Frame& f, const GridTextures* grid) {
   if (!grid) return;
   glBindTextureUnit(12, grid->masks ? grid->masks : grid->cells);
   glBindTextureUnit(13, grid->indices);
+  if (grid->z_bins) glBindTextureUnit(14, grid->z_bins);
 }
 
 inline std::vector<std::string> light_defines(const Frame& f, uint32_t features, const GridTextures* grid) {
@@ -21,6 +22,7 @@ inline std::vector<std::string> light_defines(const Frame& f, uint32_t features,
   if (f.plan.directional) defines.emplace_back("DIRECTIONAL");
   if (grid) defines.emplace_back(grid->masks ? "LIGHTS_MASKS" : "LIGHTS_GRID");
   if (grid && f.plan.slices > 1) defines.emplace_back("SLICES");
+  if (grid && f.plan.z_bins > 1) defines.emplace_back("Z_BINS");
   return defines;
 }
 

@@ -4,6 +4,7 @@
 
 #include "reference/position.h"
 #include "shared/light_grid.h"
+#include "shared/slices.h"
 #include "study/verify/check.h"
 #include "study/verify/tangent_lights.h"
 
@@ -139,24 +140,81 @@ CullView sliced(CullView view, int slices) {
   return view;
 }
 
-// Surfaces exactly on the slices' edges, and one ulp to either side: a pixel's slice lists the light at its place.
-void on_slice_edges(Check& c) {
+// 32 slices in a box, and before an eye.
+std::vector<CullView> sliced_views() {
   CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 64, 48);
   for (int i = 1; i < 32; ++i) box.slice_edges.push_back(float(4 * i));
-  const CullView views[] = {box, sliced(field_of_view(60, 64, 48), 32)};
-  for (const CullView& view : views) {
-    const View v = oracle_view(view);
-    DepthImage depth;
-    std::vector<CullLight> lights;
-    for (int i = 0; i < 64 * 48; ++i) {
-      const float edge = view.slice_edges[size_t(i) % 31];
-      float value = float(depth_at(view, edge));
-      if (i % 3) value = std::nextafter(value, i % 3 == 1 ? 0.0f : 1.0f);
-      depth.values.push_back(value);
-      const glm::dvec3 p = position_from_depth(v, i % 64, i / 64, value);
-      lights.push_back(point(p, 1e-6 * std::max(1.0, -p.z)));
+  return {box, sliced(field_of_view(60, 64, 48), 32)};
+}
+
+// Surfaces exactly on the edges, and one ulp to either side, each with a light of almost no size at its place.
+struct OnEdges {
+  DepthImage depth;
+  std::vector<CullLight> lights;
+};
+OnEdges on_edges(const CullView& view, const std::vector<float>& edges) {
+  const View v = oracle_view(view);
+  OnEdges on;
+  for (int i = 0; i < view.width * view.height; ++i) {
+    float value = float(depth_at(view, edges[size_t(i) % edges.size()]));
+    if (i % 3) value = std::nextafter(value, i % 3 == 1 ? 0.0f : 1.0f);
+    on.depth.values.push_back(value);
+    const glm::dvec3 p = position_from_depth(v, i % view.width, i / view.width, value);
+    on.lights.push_back(point(p, 1e-6 * std::max(1.0, -p.z)));
+  }
+  return on;
+}
+
+void on_slice_edges(Check& c) {
+  for (const CullView& view : sliced_views()) {
+    const OnEdges on = on_edges(view, view.slice_edges);
+    c.pixels(view, on.lights, on.depth, c.every_test());
+  }
+}
+
+CullView with_z_bins(CullView view) {
+  view.z_bin_edges = std::move(view.slice_edges);
+  view.slice_edges.clear();
+  return view;
+}
+
+void on_z_bin_edges(Check& c) {
+  for (const CullView& sliced_view : sliced_views()) {
+    const CullView view = with_z_bins(sliced_view);
+    const OnEdges on = on_edges(view, view.z_bin_edges);
+    c.pixels(view, on.lights, on.depth, {CullerOptions{}});
+  }
+}
+
+// No bin holds a light that reaches none of its distances. A step of `more` is given to roundings.
+void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLight>& lights, const HostGrid& grid) {
+  const std::vector<TrueLight> truth = true_lights(view, lights);
+  const std::vector<float>& edges = view.z_bin_edges;
+  if (!c.that(grid.z_bins.size() == lights.size(), "{} words of z-bins", grid.z_bins.size())) return;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const glm::dvec3& p = truth[i].position;
+    const double r = truth[i].radius, d = -p.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
+    for (size_t bin = 0; bin <= edges.size(); ++bin) {
+      if (!bins_hold(grid.z_bins[i], uint(bin))) continue;
+      const double near = bin > 0 ? edges[bin - 1] : -no_end, far = bin < edges.size() ? edges[bin] : no_end;
+      const double more = 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * truth[i].place_error;
+      c.that(!truth[i].lists_nothing && d + r >= near - more && d - r <= far + more,
+             "bin {} from {} to {} holds a light from {} to {}", bin, near, far, d - r, d + r);
     }
-    c.pixels(view, lights, depth, c.every_test());
+  }
+}
+
+// Lights across the near plane, behind the eye, around it, past the last edge, in every bin, without end and of no size.
+void z_bins_of_lights(Check& c) {
+  Random random(59);
+  for (NamedView named : hard_views(64, 48)) {
+    CullView& view = named.view;
+    view.z_bin_edges = {0.3f, 0.5f, 1, 1, 2, 3, 5, 7, 10, 20};
+    auto lights = scattered_lights(view, 300, true, random);
+    for (const double d : {-3.0, -0.5, 0.0, 0.05, 0.1, 0.3, 1.0, 6.0, 99.0, 100.0, 1000.0})
+      for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0}) lights.push_back(point({0, 0, -d}, r));
+    move_to_world(view, lights);
+    expect_tight_bins(c, view, lights, c.pixels(view, lights, scattered_depth(view, random), {CullerOptions{}}));
   }
 }
 
@@ -195,6 +253,11 @@ std::vector<HardCase> agreement_cases() {
        "the cell that shading finds lists it", pixel_finds_its_tile},
       {g, "on_slice_edges", "surfaces on slice edges and an ulp beside", "a second log() in the shader: 0.7 to 85 in a million differ",
        "the slice that shading finds lists the light there", on_slice_edges},
+      {g, "on_z_bin_edges", "surfaces on the edges of z-bins and an ulp beside, a tiny light at each",
+       "bins of lights and of pixels round otherwise", "the pixel's bin holds the light", on_z_bin_edges},
+      {g, "z_bins_of_lights", "lights across near, behind, past the last edge, endless, of no size, in every view",
+       "a light in the bin of its centre alone; a last bin that ends", "every lit pixel's bin holds the light, no bin one that is out of it",
+       z_bins_of_lights},
       {g, "slices_make_the_whole", "2 to 64 slices against one", "gaps between slices", "nothing lost; no slice lists more than the whole",
        slices_make_the_whole},
       {g, "slices_and_bounds", "slices cut by depth bounds", "the slice's end wins over the surface's", "nothing lost", slices_and_bounds},

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "reference/position.h"
 #include "shared/light_grid.h"
+#include "shared/slices.h"
 #include "study/verify/float_twin.h"
 
 namespace lightgrid::verify {
@@ -248,6 +249,7 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
   struct Lit {
     uint32_t x, y, light;
     double distance;
+    float depth;
   };
   std::vector<std::vector<Lit>> rows(view.height);
   parallel_for(view.height, [&](int y) {
@@ -257,7 +259,7 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
         if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) continue;
         const glm::dvec3 position = position_from_depth(v, x, y, value);
         for (uint32_t light = 0; light < truth.size(); ++light) {
-          if (lights_it(truth[light], position)) rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z});
+          if (lights_it(truth[light], position)) rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
         }
       }
     }
@@ -272,8 +274,15 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
       if (shaped.shape == KernelShape::lanes) lanes = std::move(grid);
       else that(lanes == grid, "{}: lanes and group differ", to_string(options));
     }
+    that(lanes.z_bins.empty() || lanes.z_bins.size() == lights.size(), "{} words of z-bins", lanes.z_bins.size());
+    const auto keys = z_bin_keys(view);
+    const auto passed_over = [&](const Lit& pair) {
+      return !lanes.z_bins.empty() && !bins_hold(lanes.z_bins[pair.light], z_bin_of_key(depth_key(view, pair.depth), keys.data()));
+    };
     for (const auto& lit : rows) {
       for (const Lit& pair : lit) {
+        if (passed_over(pair))
+          lost("z-bins: pixel {} {} at {:.9g} m passes over light {}", pair.x, pair.y, pair.distance, pair.light);
         size_t cell = cell_of_pixel(pair.x, pair.y, uint(options.tile), uint(lanes.cells_x));
         size_t slice = 0;
         while (slice < view.slice_edges.size() && pair.distance >= view.slice_edges[slice]) ++slice;

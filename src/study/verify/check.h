@@ -37,7 +37,8 @@ class Check {
   std::vector<DepthInterval> bounds(const CullView& view, const DepthImage& depth, const CullerOptions& options,
                                  bool tight = true);
 
-  // From depth to lists: every light that lights a pixel's centre is listed for it. Returns the first setting's grid.
+  // From depth to lists: every light that lights a pixel's centre is listed for it, and held by its z-bin where the view
+  // has some. Returns the first setting's grid.
   HostGrid pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                   const std::vector<CullerOptions>& settings);
 

@@ -1,0 +1,15 @@
+// Which lights of its list a pixel may pass over, since none of their z-bins is its own. They would add an exact zero.
+//   Z_BINS: there are z-bins.
+#include "shared/slices.h"
+
+#ifdef Z_BINS
+layout(binding = 14) uniform usamplerBuffer light_z_bins;
+
+uint z_bin_here() { return z_bin_of_key(-gl_FragCoord.z); }
+
+bool reaches_bin(uint light, uint bin) { return bins_hold(texelFetch(light_z_bins, int(light)).r, bin); }
+#else
+uint z_bin_here() { return 0u; }
+
+bool reaches_bin(uint light, uint bin) { return true; }
+#endif
