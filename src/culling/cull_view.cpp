@@ -4,14 +4,13 @@
 #include <limits>
 
 #include "base/error.h"
+#include "culling/two_floats.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr int most_tiles = 32000;  // a side; tile coordinates are kept in 15 bits
-
-float rest(double value, float taken) { return float(value - double(taken)); }
 
 template <size_t most>
 std::array<float, most> keys_of(const CullView& view, const std::vector<float>& edges) {
@@ -136,7 +135,7 @@ CullParams cull_params(const CullView& view, int tile) {
   p.tile_x_scale = float(clip[0][0] * view.width / 2 / tile), p.tile_x_offset = float((1 + ndc_x_offset) * view.width / 2 / tile);
   p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile), p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
   p.depth_a = v.depth_a, p.depth_b = v.depth_b;
-  p.depth_a_rest = v.orthographic ? 0 : rest(clip[2][2], v.depth_a);
+  p.depth_a_rest = v.orthographic ? 0 : two_floats(clip[2][2]).rest;
   p.near_distance = v.near_distance;
   p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);
   p.width = v.width, p.height = v.height;

@@ -10,6 +10,7 @@
 #include "cl/avx512.h"
 #include "cl/launch.h"
 #include "culling/cull_pipeline.h"
+#include "culling/two_floats.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
@@ -195,10 +196,9 @@ void LightCuller::upload_params() {
   choose_regions();
   params_.light_count = light_count_, params_.light_stride = light_stride_;
   params_.index_capacity = uint(index_capacity_);
-  const glm::dvec3 eye = eye_ - origin_;
-  params_.eye_x = float(eye.x), params_.eye_y = float(eye.y), params_.eye_z = float(eye.z);
-  params_.eye_rest_x = float(eye.x - double(params_.eye_x)), params_.eye_rest_y = float(eye.y - double(params_.eye_y));
-  params_.eye_rest_z = float(eye.z - double(params_.eye_z));
+  const TwoFloats x = two_floats(eye_.x - origin_.x), y = two_floats(eye_.y - origin_.y), z = two_floats(eye_.z - origin_.z);
+  params_.eye_x = x.value, params_.eye_y = y.value, params_.eye_z = z.value;
+  params_.eye_rest_x = x.rest, params_.eye_rest_y = y.rest, params_.eye_rest_z = z.rest;
   if (params_uploads_ && std::memcmp(&uploaded_, &params_, sizeof params_) == 0) return;
   uploaded_ = params_, ++params_uploads_;
   device_.queue().enqueueWriteBuffer(params_buffer_, CL_FALSE, 0, sizeof uploaded_, &uploaded_);

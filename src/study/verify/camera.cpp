@@ -183,6 +183,17 @@ void world_at_1e6(Check& c) { far_from_the_origin(c, 1e6); }
 void world_at_1e7(Check& c) { far_from_the_origin(c, 1e7); }
 void world_at_1e8(Check& c) { far_from_the_origin(c, 1e8); }
 
+// Most lights are in one place, from which others are counted. There the eye is half a float's step off, nine times the
+// slack of lights at arm's length, just past a power of two: what their radii grow by for their own places is least.
+void between_two_floats(Check& c) {
+  Random random(61);
+  const DepthInterval near{0.1f, 0.11f};
+  const std::vector<DepthInterval> bounds(tile_count(sixty(), 16), near);
+  auto lights = tangent_lights(sixty(), bounds, 16, 1000, Contact::any, 2, random);
+  lights.insert(lights.end(), 1100, point({0, 0, -16.0000009}, 1e-3));
+  c.grid(sixty(), lights, bounds);
+}
+
 void turned(Check& c) {
   for (const double yaw : {0.3, 1.5707963267948966, 3.1})
     lights_of_all_kinds(c, placed(sixty(), {3, 2, 1}, yaw, -yaw / 3));
@@ -227,6 +238,8 @@ std::vector<HardCase> camera_cases() {
       {g, "world_at_1e6", "camera and lights moved by 10⁶ m", "a float's step is 0.06 m", "the same bytes", world_at_1e6},
       {g, "world_at_1e7", "by 10⁷ m", "a step of 1 m", "the same bytes", world_at_1e7},
       {g, "world_at_1e8", "by 10⁸ m", "a step of 8 m", "the same bytes", world_at_1e8},
+      {g, "between_two_floats", "lights at arm's length, while most are 16 m off; the eye is half a float's step from a float",
+       "what float leaves of the eye's place is lost (GCC 12.2 makes it 0 in y and z)", "nothing lost", between_two_floats},
       {g, "turned", "a turned and placed camera", "directions left in world space", "nothing lost", turned},
   };
 }
