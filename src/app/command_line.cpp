@@ -27,6 +27,8 @@ void Subcommand::flag(const std::string& names, bool& value, const std::string& 
 
 void Subcommand::list(const std::string& names, std::vector<std::string>& values, const std::string& help, char separator) {
   CLI::Option* option = app_.add_option(names, values, help);
+  // An option takes one word each time: what follows it may be a place in the line.
+  if (names[0] == '-') option->allow_extra_args(false);
   if (separator) option->delimiter(separator);
   if (!values.empty()) option->capture_default_str();
 }

@@ -1,11 +1,13 @@
-// lightgrid compare SCENE -t A,B,… -o DIR: images, results.json and index.html.
+// lightgrid compare SCENE… -t A,B,… -o DIR: images, results.json and index.html.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "app/commands.h"
+#include "app/contestants.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
@@ -13,17 +15,29 @@
 #include "base/write_file.h"
 #include "study/compare.h"
 #include "study/report.h"
+#include "study/words.h"
 
 namespace lightgrid {
 namespace {
 
 struct CompareCommand {
-  SceneOptions scene;
+  SceneOptions scene;  // what all views share
+  std::vector<std::string> scenes = {"hall"}, sizes = {"1280x720"}, lights;
   DeviceOptions devices;
   TimingOptions timing;
   std::string output = "out/compare", json;
-  std::vector<std::string> techniques = {"forward", "forward_plus"};
+  std::vector<std::string> techniques = {"forward", "forward_plus"}, compare;
+  int page_mb = 30;
 };
+
+void apply_own_setting(Contestant& contestant, const std::string& assignment) {
+  apply_setting(contestant.settings, assignment);
+  const std::string key = assignment.substr(0, assignment.find('='));
+  if (!reads_setting(*contestant.technique, key)) {
+    throw input_error("-t {}:{}: {} does not read {}; it reads {}", contestant.technique->name, assignment,
+                      contestant.technique->name, key, fmt::join(contestant.technique->settings, ", "));
+  }
+}
 
 // The names and settings of -t, as split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". What has
 // a "=" but no name before a colon is one more setting of the name before it.
@@ -33,49 +47,172 @@ std::vector<Contestant> contestants_of(const std::vector<std::string>& items, co
     const size_t colon = item.find(':');
     const bool setting_only = colon == std::string::npos && item.find('=') != std::string::npos;
     if (setting_only && !contestants.empty()) {
-      apply_setting(contestants.back().settings, item);
+      apply_own_setting(contestants.back(), item);
       continue;
     }
     contestants.push_back({&find_technique(item.substr(0, colon)), common});
-    if (colon != std::string::npos) apply_setting(contestants.back().settings, item.substr(colon + 1));
+    if (colon != std::string::npos) apply_own_setting(contestants.back(), item.substr(colon + 1));
   }
   return contestants;
 }
 
+// --compare: each contestant with each of the values of the settings that it reads.
+std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
+  std::vector<Contestant> all;
+  for (const Contestant& contestant : contestants) {
+    std::vector<std::string> own;
+    for (const std::string& comparison : comparisons) {
+      if (reads_setting(*contestant.technique, comparison.substr(0, comparison.find('=')))) own.push_back(comparison);
+    }
+    for (const BenchContestant& c : contestants_of(contestant.settings, own, 64)) {
+      all.push_back({contestant.technique, c.settings});
+    }
+  }
+  return all;
+}
+
+std::vector<Contestant> chosen_contestants(const CompareCommand& o) {
+  const Settings common = chosen_settings(o.scene);
+  contestants_of(common, o.compare, 64);  // what is wrong with a comparison that no technique reads
+  return swept(contestants_of(o.techniques, common), o.compare);
+}
+
+int parse_lights(const std::string& text) {
+  int count = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (failure != std::errc() || end != text.data() + text.size() || count < 0 || count > most_lights) {
+    throw input_error("--lights {}: not a number from 0 to {}", text, most_lights);
+  }
+  return count;
+}
+
+// Every scene at every size with every number of lights.
+std::vector<SceneOptions> chosen_views(const CompareCommand& o) {
+  std::vector<int> counts;
+  for (const std::string& text : o.lights) counts.push_back(parse_lights(text));
+  if (counts.empty()) counts.push_back(-1);
+  std::vector<SceneOptions> views;
+  for (const std::string& scene : o.scenes) {
+    for (const std::string& size : o.sizes) {
+      parse_size(size);
+      for (const int lights : counts) {
+        SceneOptions& view = views.emplace_back(o.scene);
+        view.scene = scene, view.size = size, view.lights = lights;
+      }
+    }
+  }
+  return views;
+}
+
+// A view and its lights, over a scene that several views share.
+struct LoadedView {
+  std::shared_ptr<Scene> scene;
+  View view;
+  std::vector<Light> lights;
+  glm::vec3 ambient;
+};
+
+// All of them, so that what is wrong with one is told before the first is run.
+std::vector<LoadedView> load_views(const std::vector<SceneOptions>& choices) {
+  std::vector<LoadedView> views;
+  std::string loaded;
+  Scene own;  // the lights that the scene comes with
+  std::shared_ptr<Scene> scene;
+  for (const SceneOptions& choice : choices) {
+    if (!scene || choice.scene != loaded) {
+      scene = std::make_shared<Scene>(load_scene(choice.scene));
+      loaded = choice.scene;
+      own.lights = scene->lights, own.ambient = scene->ambient;
+    }
+    scene->lights = own.lights, scene->ambient = own.ambient;
+    const View view = choose_view(*scene, choice);
+    views.push_back({scene, view, scene->lights, scene->ambient});
+  }
+  return views;
+}
+
+// What a view takes beside the others, roughly: pixels, and for techniques without lists pixels times lights.
+double cost_of(const LoadedView& view) {
+  return double(view.view.width) * view.view.height * double(64 + view.lights.size());
+}
+
+// Runs the views in turn, with one progress bar over all; found() is given each report.
+template <typename Found>
+void run_views(Devices& devices, const std::vector<LoadedView>& views, const std::vector<Contestant>& contestants,
+               const CompareCommand& o, const Found& found) {
+  double total = 0, before = 0;
+  for (const LoadedView& view : views) total += cost_of(view);
+  const auto bar = progress_bar();
+  for (size_t i = 0; i < views.size(); ++i) {
+    const LoadedView& view = views[i];
+    CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup, .all_may_refuse = views.size() > 1};
+    const double cost = cost_of(view);
+    options.progress = [&](double done, const std::string& step) {
+      if (!bar) return;
+      const std::string which = views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
+      bar((before + done * cost) / total, which + step);
+    };
+    view.scene->lights = view.lights, view.scene->ambient = view.ambient;
+    found(compare_techniques(devices, *view.scene, view.view, contestants, options));
+    before += cost;
+  }
+}
+
 // On stderr: what was refused, which is no failure, and which gates failed. Returns whether any did.
-bool tell_failures(const CompareReport& report) {
+bool tell_failures(const CompareReport& report, const std::string& view) {
   const std::vector<std::string> names = row_names(report);
   bool failed = false;
   for (size_t i = 0; i < names.size(); ++i) {
     const RunResult& row = report.rows[i];
-    if (!row.refused.empty()) log_warning("{}: refused: {}", names[i], row.refused);
+    if (!row.refused.empty()) log_warning("{}{}: refused: {}", view, names[i], row.refused);
     if (!row.refused.empty() || passes_gates(row)) continue;
     failed = true;
-    fmt::print(stderr, "lightgrid: {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", names[i], row.pairs->lost,
-               row.pairs->wrong, row.nan_pixels);
+    fmt::print(stderr, "lightgrid: {}{}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", view, names[i],
+               row.pairs->lost, row.pairs->wrong, row.nan_pixels);
   }
   return failed;
 }
 
+std::string page_path(const CompareCommand& o) { return (std::filesystem::path(o.output) / "index.html").string(); }
+
+int compare_one(const CompareCommand& o, Devices& devices, const std::vector<LoadedView>& views,
+                const std::vector<Contestant>& contestants) {
+  CompareReport report;
+  run_views(devices, views, contestants, o, [&](CompareReport found) { report = std::move(found); });
+  write_report(o.output, report);
+  if (!o.json.empty()) write_json(o.json, json_text(report));
+  if (o.json != "-") {
+    fmt::print("{}\n", page_path(o));
+    for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
+  }
+  return tell_failures(report, "") ? 1 : 0;
+}
+
+int compare_several(const CompareCommand& o, Devices& devices, const std::vector<LoadedView>& views,
+                    const std::vector<Contestant>& contestants) {
+  ViewsReport report(o.output, views.size(), size_t(o.page_mb) << 20);
+  bool failed = false;
+  run_views(devices, views, contestants, o, [&](CompareReport found) {
+    const ReportView& view = report.add(std::move(found));
+    failed |= tell_failures(view.report, view_in_words(view.report) + ": ");
+  });
+  report.write();
+  if (!o.json.empty()) write_json(o.json, report.json_text());
+  if (o.json != "-") {
+    fmt::print("{}\n", page_path(o));
+    for (const std::string& sentence : report.sentences()) fmt::print("  {}\n", sentence);
+  }
+  return failed ? 1 : 0;
+}
+
 int compare(const CompareCommand& o) {
-  const Settings common = chosen_settings(o.scene);
-  const std::vector<Contestant> contestants = contestants_of(o.techniques, common);
+  const std::vector<Contestant> contestants = chosen_contestants(o);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
-  const ChosenScene chosen = load_chosen_scene(o.scene);
+  const std::vector<LoadedView> views = load_views(chosen_views(o));
   if (!o.json.empty()) check_output_file("--json", o.json);
   make_folder(o.output);
   Devices devices = open_devices(o.devices.device, backend);
-  CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup};
-  options.progress = progress_bar();
-  const CompareReport report = compare_techniques(devices, chosen.scene, chosen.view, contestants, options);
-  write_report(o.output, report);
-
-  if (!o.json.empty()) write_json(o.json, json_text(report));
-  if (o.json != "-") {
-    fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
-    for (const std::string& figure : telling_figures(report)) fmt::print("  {}\n", figure);
-  }
-  return tell_failures(report) ? 1 : 0;
+  return views.size() == 1 ? compare_one(o, devices, views, contestants) : compare_several(o, devices, views, contestants);
 }
 
 }  // namespace
@@ -83,11 +220,16 @@ int compare(const CompareCommand& o) {
 void add_compare(CommandLine& line) {
   auto o = std::make_shared<CompareCommand>();
   Subcommand command = line.add("compare", "techniques side by side, as a report to look at", [o] { return compare(*o); });
-  add_scene_options(command, o->scene);
+  command.list("scene", o->scenes, "one or more: .gltf or .glb files, or built-in scenes");
+  command.list("--size", o->sizes, "image size, WxH, or several with commas between", ',');
+  command.list("--lights", o->lights, "scatter N lights; with --lights-file, its first N; or several with commas between", ',');
+  add_view_options(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
-  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between", ',');
+  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between; names are " + technique_names(), ',');
+  command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads it with each; may be repeated");
   command.option("-o,--output", o->output, "folder of the report");
+  command.option("--page-mb", o->page_mb, "of several views: most MiB of pictures in the page", 1, 1000);
   command.option("--json", o->json, "results.json once more, into a file, - for stdout");
 }
 

@@ -32,6 +32,34 @@ bool parse_pair(const std::string& text, char separator, T& a, T& b) {
   return second.ec == std::errc() && second.ptr == end;
 }
 
+void check_light_radius(const SceneOptions& o) {
+  if (!o.light_radius.empty() && (o.lights < 0 || !o.lights_file.empty())) {
+    throw input_error("--light-radius {}: only lights that --lights scatters take it", o.light_radius);
+  }
+}
+
+void scatter_over(Scene& scene, const SceneOptions& o) {
+  ScatterSettings scatter;
+  scatter.count = o.lights;
+  scatter.seed = o.seed;
+  float &low = scatter.min_radius_m, &high = scatter.max_radius_m;
+  if (!o.light_radius.empty() && (!parse_pair(o.light_radius, ',', low, high) || !(low > 0) || !(high >= low) || std::isinf(high))) {
+    throw input_error("--light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", o.light_radius);
+  }
+  scene.lights = scatter_lights(scene, scatter);
+}
+
+void load_lights(Scene& scene, const SceneOptions& o) {
+  scene.lights = load_lights_file(o.lights_file);
+  if (o.lights < 0) return;
+  if (size_t(o.lights) > scene.lights.size()) {
+    throw input_error("--lights {}: {} holds only {}", o.lights, o.lights_file, scene.lights.size());
+  }
+  scene.lights.resize(o.lights);
+}
+
+}  // namespace
+
 Scene load_scene(const std::string& name) {
   if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
   std::error_code unreadable;  // a name too long, or a folder closed to us, is no file either
@@ -43,13 +71,15 @@ Scene load_scene(const std::string& name) {
   return load_gltf(name);
 }
 
-}  // namespace
-
 void add_scene_options(Subcommand& command, SceneOptions& o) {
   command.option("scene", o.scene, "a .gltf or .glb file, or a built-in scene");
   command.option("--size", o.size, "image size, WxH");
+  command.option("--lights", o.lights, "scatter N lights; with --lights-file, its first N", 0, most_lights);
+  add_view_options(command, o);
+}
+
+void add_view_options(Subcommand& command, SceneOptions& o) {
   command.option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
-  command.option("--lights", o.lights, "scatter N lights; with --lights-file, its first N", 0, 10'000'000);
   command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.option("--seed", o.seed, "of the scatter");
@@ -67,43 +97,40 @@ void add_timing_options(Subcommand& command, TimingOptions& o) {
   command.option("--warmup", o.warmup, "frames before those", 0, 10000);
 }
 
-ChosenScene load_chosen_scene(const SceneOptions& o) {
-  int width = 0, height = 0;
-  if (!parse_pair(o.size, 'x', width, height) || width < 1 || height < 1 || width > max_image_side || height > max_image_side) {
-    throw input_error("--size {}: not WxH with sides from 1 to {}", o.size, max_image_side);
+ImageSize parse_size(const std::string& text) {
+  ImageSize size;
+  if (!parse_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1 || size.width > max_image_side ||
+      size.height > max_image_side) {
+    throw input_error("--size {}: not WxH with sides from 1 to {}", text, max_image_side);
   }
-  if (!o.light_radius.empty() && (o.lights < 0 || !o.lights_file.empty())) {
-    throw input_error("--light-radius {}: only lights that --lights scatters take it", o.light_radius);
-  }
-  ChosenScene chosen{load_scene(o.scene), {}};
-  Scene& scene = chosen.scene;
+  return size;
+}
+
+View choose_view(Scene& scene, const SceneOptions& o) {
+  const ImageSize size = parse_size(o.size);
+  check_light_radius(o);
   std::string camera = o.camera;
   if (!o.lights_file.empty()) {
-    scene.lights = load_lights_file(o.lights_file);
-    if (o.lights >= 0) {
-      if (size_t(o.lights) > scene.lights.size()) {
-        throw input_error("--lights {}: {} holds only {}", o.lights, o.lights_file, scene.lights.size());
-      }
-      scene.lights.resize(o.lights);
-    }
+    load_lights(scene, o);
     if (camera.empty()) camera = camera_of_lights_file(o.lights_file);
   } else if (o.lights >= 0) {
-    ScatterSettings scatter;
-    scatter.count = o.lights;
-    scatter.seed = o.seed;
-    float &low = scatter.min_radius_m, &high = scatter.max_radius_m;
-    if (!o.light_radius.empty() && (!parse_pair(o.light_radius, ',', low, high) || !(low > 0) || !(high >= low) || std::isinf(high))) {
-      throw input_error("--light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", o.light_radius);
-    }
-    scene.lights = scatter_lights(scene, scatter);
+    scatter_over(scene, o);
   }
-  chosen.view = make_view(choose_camera(scene, camera), width, height);
+  const View view = make_view(choose_camera(scene, camera), size.width, size.height);
   if (scene.lights.empty() && o.lights < 0 && o.lights_file.empty()) {
     log_info("{}: no lights; adding a key and a fill light from beside the camera (--lights 0 for none)", o.scene);
-    DefaultLights added = default_lights(chosen.view);
+    DefaultLights added = default_lights(view);
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;
   }
+  return view;
+}
+
+ChosenScene load_chosen_scene(const SceneOptions& o) {
+  parse_size(o.size);  // what is wrong with these is told before the scene is loaded
+  check_light_radius(o);
+  ChosenScene chosen{load_scene(o.scene), {}};
+  chosen.view = choose_view(chosen.scene, o);
   return chosen;
 }
 

@@ -36,11 +36,21 @@ struct TimingOptions {
   int warmup = 1;
 };
 
+inline constexpr int most_lights = 10'000'000;
+
 void add_scene_options(Subcommand& command, SceneOptions& options);
+void add_view_options(Subcommand& command, SceneOptions& options);  // of those, all but scene, size and lights
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
 
 // What the options name. Throw Error(input) that names the option and the value.
+struct ImageSize {
+  int width = 0, height = 0;
+};
+ImageSize parse_size(const std::string& text);
+Scene load_scene(const std::string& name);
+// The view of a loaded scene, whose lights become those that the options ask for.
+View choose_view(Scene& scene, const SceneOptions& options);
 struct ChosenScene {
   Scene scene;
   View view;

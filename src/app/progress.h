@@ -6,7 +6,7 @@
 
 namespace lightgrid {
 
-// Draws the bar on stderr; clears it when `done` reaches 1. Null where stderr is no terminal.
+// Draws the bar on stderr, with an estimate of the time left; clears it when `done` reaches 1. Null where stderr is no terminal.
 std::function<void(double done, const std::string& step)> progress_bar();
 
 }  // namespace lightgrid

@@ -46,7 +46,7 @@ void add_render(CommandLine& line) {
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
-  command.option("-t,--technique", o->technique, "see `lightgrid techniques`");
+  command.option("-t,--technique", o->technique, technique_names());
   command.option("-o,--output", o->output, "image file, .png or .exr");
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
 }

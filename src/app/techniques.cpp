@@ -1,25 +1,72 @@
 // lightgrid techniques: each with its summary, source and settings.
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/options.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
 namespace {
 
-int list_techniques() {
-  for (const Technique* t : techniques()) fmt::print("{:<14} {} ({})\n", t->name, t->summary, t->source);
-  fmt::print("\nSettings, --set KEY=VALUE; the first value is the default:\n");
-  for (const SettingHelp& s : setting_help()) fmt::print("{:<14} {}: {}\n", s.key, fmt::join(s.values, " "), s.meaning);
+// "tile=16 slices=24": with their defaults.
+std::string with_defaults(const std::vector<const char*>& keys) {
+  std::vector<std::string> words;
+  for (const char* key : keys) {
+    for (const SettingHelp& s : setting_help()) {
+      if (s.key == key) words.push_back(s.key + "=" + s.values.front());
+    }
+  }
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+void print_techniques() {
+  constexpr int column = 22;
+  for (const Technique* t : techniques()) {
+    fmt::print("{:<{}}{}\n", t->name, column, t->summary);
+    fmt::print("{:<{}}source: {}\n", "", column, t->source);
+    if (!t->settings.empty()) fmt::print("{:<{}}settings: {}\n", "", column, with_defaults(t->settings));
+  }
+  fmt::print("{:<{}}settings: {}\n", "(all of them)", column, with_defaults(common_settings()));
+  fmt::print("\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
+  for (const SettingHelp& s : setting_help()) {
+    fmt::print("{:<{}}{}: {}\n", s.key, column, fmt::join(s.values, " "), s.meaning);
+  }
+}
+
+nlohmann::ordered_json to_json() {
+  nlohmann::ordered_json json = {{"techniques", nlohmann::ordered_json::array()},
+                                 {"common_settings", common_settings()},
+                                 {"settings", nlohmann::ordered_json::array()}};
+  for (const Technique* t : techniques()) {
+    json["techniques"].push_back(
+        {{"name", t->name}, {"summary", t->summary}, {"source", t->source}, {"settings", t->settings}});
+  }
+  for (const SettingHelp& s : setting_help()) {
+    json["settings"].push_back({{"key", s.key}, {"values", s.values}, {"meaning", s.meaning}});
+  }
+  return json;
+}
+
+int list_techniques(const std::string& json) {
+  if (json.empty()) {
+    print_techniques();
+  } else {
+    write_json(json, to_json().dump(1));
+  }
   return 0;
 }
 
 }  // namespace
 
 void add_techniques(CommandLine& line) {
-  line.add("techniques", "the techniques and settings there are", list_techniques);
+  auto json = std::make_shared<std::string>();
+  Subcommand command =
+      line.add("techniques", "the techniques and settings there are", [json] { return list_techniques(*json); });
+  command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 
 }  // namespace lightgrid

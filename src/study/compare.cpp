@@ -71,7 +71,7 @@ RunResult refused_row(const Entry& entry, const RunResult& reference) {
   RunResult row;
   row.technique = entry.contestant->technique->name;
   row.refused = entry.refusal->what();
-  row.settings = to_strings(entry.contestant->settings);
+  row.settings = settings_of(*entry.contestant->technique, entry.contestant->settings);
   row.lights_total = reference.lights_total, row.lights_in_view = reference.lights_in_view;
   return row;
 }
@@ -100,7 +100,7 @@ CompareReport compare_techniques(Devices& devices, const Scene& scene, const Vie
 
   std::vector<Entry> entries = make_entries(devices, scene, view, contestants);
   time_interleaved(entries, options);
-  require_one(entries);
+  if (!options.all_may_refuse) require_one(entries);
 
   std::unique_ptr<TechniqueRun> extra;
   TechniqueRun* reference = nullptr;
@@ -108,7 +108,8 @@ CompareReport compare_techniques(Devices& devices, const Scene& scene, const Vie
     if (!reference && entry.run && entry.run->technique().name == report.reference) reference = entry.run.get();
   }
   if (!reference) {
-    extra = std::make_unique<TechniqueRun>(devices, scene, view, Settings{}, find_technique(report.reference));
+    const Settings common = contestants.empty() ? Settings{} : contestants.front().settings;  // the same BRDF above all
+    extra = std::make_unique<TechniqueRun>(devices, scene, view, common, find_technique(report.reference));
     extra->run_frame();
     reference = extra.get();
   }

@@ -16,6 +16,7 @@ struct Contestant {
 struct CompareOptions {
   int frames = 5, warmup = 1;
   size_t shaded_samples = 20000;  // pixels at which the oracle shades, for the model and precision errors
+  bool all_may_refuse = false;    // a report of refusals alone, instead of the first reason thrown
   // Told of each finished step: how far (0 to 1) and what comes next.
   std::function<void(double done, const std::string& step)> progress;
 };
@@ -23,7 +24,7 @@ struct CompareOptions {
 // Runs the contestants interleaved, frame by frame. The reference is `forward`, run in addition where it is not
 // among them. Error is against its image; pairs are counted on opaque surfaces, by reference/lit_set.h. A contestant
 // that throws Error, or that memory does not hold, becomes a row that is `refused`; the first reason is thrown where
-// none is left.
+// none is left, unless all_may_refuse.
 CompareReport compare_techniques(Devices& devices, const Scene& scene, const View& view,
                                  const std::vector<Contestant>& contestants, const CompareOptions& options);
 

@@ -2,113 +2,72 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
-#include "base/parallel.h"
 #include "base/write_file.h"
-#include "study/metrics.h"
+#include "study/overview.h"
 #include "study/report_page.h"
+#include "study/results_csv.h"
+#include "study/words.h"
 
 namespace lightgrid {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool has_image(const CompareReport& report, size_t row) {
-  return row < report.images.size() && !report.images[row].pixels.empty();
+// "hall-1280x720-237": the scene without folders and extension, the size, the number of lights.
+std::string view_stem(const CompareReport& report) {
+  const int lights = report.rows.empty() ? 0 : report.rows.front().lights_total;
+  return file_stem(fmt::format("{}-{}x{}-{}", short_scene(report), report.width, report.height, lights));
 }
 
-bool has_counts(const CompareReport& report, size_t row) {
-  return row < report.listed.size() && !report.listed[row].empty();
-}
-
-uint32_t p99_of(std::vector<uint32_t> counts) {
-  const size_t index = (counts.size() * 99 + 99) / 100 - 1;
-  std::nth_element(counts.begin(), counts.begin() + index, counts.end());
-  return counts[index];
-}
-
-// One scale for all heat maps, so that they compare: the largest of their 99th percentiles. A technique that lists
-// the same count wherever anything is (every light, say) is left out, since its scale would flatten all others.
-uint32_t heat_top(const CompareReport& report) {
-  uint32_t top = 0, flat_top = 1;
-  const auto consider = [&](const std::vector<uint32_t>& counts) {
-    uint32_t low = ~0u, high = 0;
-    for (uint32_t count : counts) {
-      if (count) low = std::min(low, count), high = std::max(high, count);
-    }
-    if (low >= high) flat_top = std::max(flat_top, high);
-    if (low < high) top = std::max({top, p99_of(counts), 1u});
-  };
-  for (size_t i = 0; i < report.rows.size(); ++i) {
-    if (has_counts(report, i)) consider(report.listed[i]);
-  }
-  consider(report.lit);
-  return top ? top : flat_top;
-}
-
-HeatMap make_heat_map(const CompareReport& report, const std::vector<uint32_t>& counts, uint32_t top) {
-  const auto picture = heat_map(report.width, report.height, counts, top);
-  return {encode_png(report.width, report.height, 3, srgb_bytes_as_is(picture)),
-          std::accumulate(counts.begin(), counts.end(), 0.0) / counts.size(),
-          *std::max_element(counts.begin(), counts.end())};
-}
-
-const Image& reference_image(const CompareReport& report) {
-  for (size_t i = 0; i < report.rows.size(); ++i) {
-    if (report.rows[i].technique == report.reference && has_image(report, i)) return report.images[i];
-  }
-  return report.reference_image;
-}
-
-// Writes NAME.png and NAME.exr; the PNG file is given back.
-std::vector<uint8_t> save_picture(const fs::path& folder, const std::string& name, const Image& image) {
-  const auto png = encode_png(image.width, image.height, 3, srgb_bytes(image));
-  write_file(folder / (name + ".png"), png);
-  save_exr(folder / (name + ".exr"), image);
-  return png;
+ReportView finished_view(const fs::path& folder, CompareReport report, bool exr, size_t most_bytes) {
+  ReportView view;
+  view.verdict = verdict(report);
+  view.figures = telling_figures(report);
+  view.pictures = save_pictures(folder, report, exr, most_bytes);
+  report.images.clear(), report.listed.clear(), report.lit.clear();
+  report.reference_image = {};
+  view.report = std::move(report);
+  return view;
 }
 
 }  // namespace
 
 std::string json_text(const CompareReport& report) { return json_text(to_json(report)); }
 
-void write_report(const fs::path& folder, const CompareReport& report) {
-  make_folder(folder);
-  const Image& reference = reference_image(report);
-  const auto names = row_names(report), stems = file_stems(names);
+nlohmann::json to_json(const std::vector<ReportView>& views) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ReportView& view : views) list.push_back(to_json(view.report));
+  return {{"views", list}};
+}
 
-  ReportPictures pictures;
-  pictures.heat_top = heat_top(report);
-  pictures.rows.resize(report.rows.size());
-  parallel_for(static_cast<int>(report.rows.size()), [&](int i) {
-    auto& row = pictures.rows[i];
-    row.name = names[i];
-    if (has_image(report, i)) {
-      const auto& image = report.images[i];
-      row.image = save_picture(folder, stems[i], image);
-      if (!reference.pixels.empty()) {
-        const auto difference = difference_image(image, reference);
-        row.difference = encode_png(image.width, image.height, 3, srgb_bytes_as_is(difference));
-        write_file(folder / (stems[i] + ".difference.png"), row.difference);
-      }
-    }
-    if (has_counts(report, i)) {
-      row.listed = make_heat_map(report, report.listed[i], pictures.heat_top);
-      write_file(folder / (stems[i] + ".heat.png"), row.listed->png);
-    }
-  });
-  if (&reference == &report.reference_image && !reference.pixels.empty()) {
-    pictures.reference = save_picture(folder, report.reference, reference);
-  }
-  if (!report.lit.empty()) {
-    pictures.lit = make_heat_map(report, report.lit, pictures.heat_top);
-    write_file(folder / "lit.heat.png", pictures.lit->png);
-  }
-  write_file(folder / "results.json", json_text(to_json(report)));
-  write_file(folder / "index.html", report_page(report, pictures));
+void write_report(const fs::path& folder, const CompareReport& report) {
+  const std::string json = json_text(report);
+  std::vector<ReportView> views;
+  views.push_back(finished_view(folder, report, true, 0));
+  write_file(folder / "results.json", json);
+  write_file(folder / "index.html", report_page(views));
+}
+
+const ReportView& ViewsReport::add(CompareReport report) {
+  const std::string stem = view_stem(report);
+  std::string name = stem;
+  for (int i = 2; names_.count(name); ++i) name = fmt::format("{}-{}", stem, i);
+  names_.insert(name);
+  views_.push_back(finished_view(folder_ / name, std::move(report), false, page_bytes_ / expected_));
+  views_.back().folder = name;
+  return views_.back();
+}
+
+std::vector<std::string> ViewsReport::sentences() const { return overview_sentences(views_); }
+
+std::string ViewsReport::json_text() const { return lightgrid::json_text(to_json(views_)); }
+
+void ViewsReport::write() const {
+  write_file(folder_ / "results.json", json_text());
+  write_file(folder_ / "results.csv", results_csv(views_));
+  write_file(folder_ / "index.html", report_page(views_));
 }
 
 }  // namespace lightgrid

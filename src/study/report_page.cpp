@@ -6,8 +6,10 @@
 
 #include "base/embedded.h"
 #include "base/image.h"
+#include "study/charts.h"
 #include "study/metrics.h"
-#include "study/report.h"
+#include "study/overview.h"
+#include "study/words.h"
 
 namespace lightgrid {
 namespace {
@@ -58,22 +60,69 @@ json heat_entry(PictureStore& store, const std::optional<HeatMap>& heat) {
   return {{"picture", store.number_of(heat->png)}, {"mean", heat->mean}, {"max", heat->max}};
 }
 
-// What the page shows beside results.json.
-json page_data(const CompareReport& report, const ReportPictures& pictures) {
-  PictureStore store;
-  json rows = json::array();
-  for (const auto& row : pictures.rows) {
-    rows.push_back({{"name", row.name},
-                    {"image", store.number_of(row.image)},
-                    {"difference", store.number_of(row.difference)},
-                    {"listed", heat_entry(store, row.listed)}});
+// "exact", "lossy", "failed" or "refused".
+const char* standing_of(const RunResult& row) {
+  if (!row.refused.empty()) return "refused";
+  if (!passes_gates(row)) return "failed";
+  return is_exact(row) ? "exact" : "lossy";
+}
+
+json to_json(const Curve& curve) {
+  json points = json::array();
+  for (const CurvePoint& p : curve.points) {
+    points.push_back({{"x", p.x}, {"ms", p.ms}, {"exact", p.exact}, {"view", p.view}, {"row", p.row}});
   }
-  json data = {{"verdict", verdict(report)},
-               {"figures", telling_figures(report)},
-               {"rows", rows},
-               {"reference", store.number_of(pictures.reference)},
-               {"lit", heat_entry(store, pictures.lit)},
-               {"heat_top", pictures.heat_top},
+  return {{"name", curve.name}, {"flat", curve.flat}, {"points", points}};
+}
+
+json to_json(const std::vector<Chart>& charts) {
+  json list = json::array();
+  for (const Chart& chart : charts) {
+    json ticks = json::array(), curves = json::array(), crossings = json::array();
+    for (const Tick& t : chart.ticks) ticks.push_back({{"x", t.x}, {"label", t.label}});
+    for (const Curve& c : chart.curves) curves.push_back(to_json(c));
+    for (const Crossing& c : chart.crossings) {
+      crossings.push_back({{"below", c.below}, {"above", c.above}, {"x", c.x}, {"ms", c.ms}, {"lead", c.lead}});
+    }
+    list.push_back({{"title", chart.title}, {"axis", chart.axis}, {"ticks", ticks}, {"curves", curves},
+                    {"crossings", crossings}, {"sentences", chart.sentences}});
+  }
+  return list;
+}
+
+json view_data(PictureStore& store, const std::vector<ReportView>& views, size_t v) {
+  const ReportView& view = views[v];
+  const RunResult* winner = fastest_exact(view.report);
+  json rows = json::array();
+  for (size_t i = 0; i < view.report.rows.size(); ++i) {
+    const RunResult& row = view.report.rows[i];
+    const RowPictures& pictures = view.pictures.rows[i];
+    rows.push_back({{"name", pictures.name},
+                    {"standing", standing_of(row)},
+                    {"winner", &row == winner},
+                    {"image", store.number_of(pictures.image)},
+                    {"difference", store.number_of(pictures.difference)},
+                    {"listed", heat_entry(store, pictures.listed)}});
+  }
+  return {{"title", view_in_words(view.report)},
+          {"folder", view.folder},
+          {"reduced", view.pictures.reduced},
+          {"verdict", view.verdict},
+          {"figures", view.figures},
+          {"rows", rows},
+          {"reference", store.number_of(view.pictures.reference)},
+          {"lit", heat_entry(store, view.pictures.lit)},
+          {"heat_top", view.pictures.heat_top},
+          {"charts", to_json(charts_over_settings(views, v))}};
+}
+
+// What the page shows beside results.json.
+json page_data(const std::vector<ReportView>& views) {
+  PictureStore store;
+  json list = json::array();
+  for (size_t v = 0; v < views.size(); ++v) list.push_back(view_data(store, views, v));
+  json data = {{"views", list},
+               {"overview", {{"sentences", overview_sentences(views)}, {"charts", to_json(charts_over_views(views))}}},
                {"difference_legend", store.number_of(legend_png(difference_ramp()))},
                {"heat_legend", store.number_of(legend_png(viridis_ramp()))}};
   data["pictures"] = store.urls();
@@ -108,16 +157,16 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
 
 }  // namespace
 
-std::string report_page(const CompareReport& report, const ReportPictures& pictures) {
+std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
-  for (const char* name : {"elements.js", "slider.js", "time_bars.js", "table.js", "report.js"}) {
+  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("study/report/") + name);
   }
-  return filled(embedded_file("study/report/index.html"),
-                {{"style", embedded_file("study/report/style.css")},
-                 {"script", scripts},
-                 {"results", script_json(json_text(to_json(report)))},
-                 {"page", script_json(json_text(page_data(report, pictures)))}});
+  const json results = views.size() == 1 ? lightgrid::to_json(views.front().report) : lightgrid::to_json(views);
+  return filled(embedded_file("study/report/index.html"), {{"style", embedded_file("study/report/style.css")},
+                                                           {"script", scripts},
+                                                           {"results", script_json(json_text(results))},
+                                                           {"page", script_json(json_text(page_data(views)))}});
 }
 
 }  // namespace lightgrid

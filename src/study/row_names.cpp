@@ -5,25 +5,21 @@
 #include <map>
 
 #include "study/report.h"
+#include "study/words.h"
 
 namespace lightgrid {
 namespace {
 
-// As the command line spells it: "lidr_overlap" is "lidr-overlap".
-std::string spelled(std::string key) {
-  std::replace(key.begin(), key.end(), '_', '-');
-  return key;
-}
-
 // The settings of `row` that another row of its technique has otherwise: "tile=32,cull-test=aabb".
-std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row) {
+std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row, const std::string& ignored) {
   std::vector<std::string> differing;
   for (const auto& [key, value] : row.settings) {
+    if (key == ignored) continue;
     const bool differs = std::any_of(rows.begin(), rows.end(), [&](const RunResult& other) {
       const auto found = other.settings.find(key);
       return other.technique == row.technique && (found == other.settings.end() || found->second != value);
     });
-    if (differs) differing.push_back(spelled(key) + "=" + value);
+    if (differs) differing.push_back(spelled_setting(key) + "=" + value);
   }
   return fmt::format("{}", fmt::join(differing, ","));
 }
@@ -40,14 +36,16 @@ std::vector<std::string> made_distinct(std::vector<std::string> names) {
 
 }  // namespace
 
-std::vector<std::string> row_names(const CompareReport& report) {
+std::vector<std::string> row_names_without(const CompareReport& report, const std::string& key) {
   std::vector<std::string> names;
   for (const RunResult& row : report.rows) {
-    const std::string settings = differing_settings(report.rows, row);
+    const std::string settings = differing_settings(report.rows, row, key);
     names.push_back(settings.empty() ? row.technique : row.technique + ":" + settings);
   }
-  return made_distinct(std::move(names));
+  return names;
 }
+
+std::vector<std::string> row_names(const CompareReport& report) { return made_distinct(row_names_without(report, "")); }
 
 std::string file_stem(const std::string& name) {
   std::string stem = name;

@@ -26,7 +26,7 @@ void TechniqueRun::run_profiled_frames() {
 RunResult TechniqueRun::result() const {
   RunResult result;
   result.technique = technique_.name;
-  result.settings = to_strings(frame_.plan.settings);
+  result.settings = settings_of(technique_, frame_.plan.settings);
   result.lights_total = int(frame_.scene.lights.size());
   result.lights_in_view = frame_.plan.lights_in_view;
   result.frame_ms = spread_of(frame_ms_);

@@ -6,22 +6,10 @@
 #include <numeric>
 
 #include "study/report.h"
+#include "study/words.h"
 
 namespace lightgrid {
 namespace {
-
-// 2420 -> "2,420"
-std::string with_commas(uint64_t value) {
-  auto text = std::to_string(value);
-  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(text.begin() + at, ',');
-  return text;
-}
-
-// Three digits that count: "2,420", "214", "11.3", "0.59".
-std::string short_number(double value) {
-  if (value >= 100) return with_commas(std::llround(value));
-  return value >= 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
-}
 
 std::string lights_number(double value) {
   return value >= 100 ? short_number(value) : fmt::format("{:.1f}", value);
@@ -44,12 +32,6 @@ const RunResult* fastest(const CompareReport& report, const Counts& counts) {
     if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
   }
   return best;
-}
-
-const RunResult* fastest_exact(const CompareReport& report) { return fastest(report, is_exact); }
-
-const RunResult* fastest_lossy(const CompareReport& report) {
-  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
 }
 
 const RunResult* fastest_of_all(const CompareReport& report) {
@@ -193,6 +175,12 @@ bool passes_gates(const RunResult& row) {
 
 bool is_exact(const RunResult& row) {
   return passes_gates(row) && (!row.error || row.error->max_rel <= exact_max_rel);
+}
+
+const RunResult* fastest_exact(const CompareReport& report) { return fastest(report, is_exact); }
+
+const RunResult* fastest_lossy(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
 }
 
 std::vector<std::string> telling_figures(const CompareReport& report) {

@@ -10,13 +10,17 @@ const std::vector<const Technique*>& techniques() {
   return all;
 }
 
-const Technique& find_technique(const std::string& name) {
+std::string technique_names() {
   std::string names;
+  for (const Technique* technique : techniques()) names += (names.empty() ? "" : ", ") + std::string(technique->name);
+  return names;
+}
+
+const Technique& find_technique(const std::string& name) {
   for (const Technique* technique : techniques()) {
     if (technique->name == name) return *technique;
-    names += (names.empty() ? "" : ", ") + std::string(technique->name);
   }
-  throw input_error("technique \"{}\": there is none of that name; there are {}", name, names);
+  throw input_error("technique \"{}\": there is none of that name; there are {}", name, technique_names());
 }
 
 }  // namespace lightgrid

@@ -1,6 +1,7 @@
 // A technique: a name, and a recipe over passes.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ ShadedImage shade_from_light_grid(Frame& f);
 void shade_blended_from_grid(Frame& f, const ShadedImage& image, const DepthBounds& bounds, const LightGrid& grid);
 
 const std::vector<const Technique*>& techniques();
+
+// Keys of the settings that every technique reads.
+const std::vector<const char*>& common_settings();
+bool reads_setting(const Technique& technique, const std::string& key);
+
+// Those of `settings` that the technique reads, as to_strings has them.
+std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings);
+
+std::string technique_names();  // "forward, forward_plus, …"
 
 // Throws Error(input) that lists the names there are.
 const Technique& find_technique(const std::string& name);

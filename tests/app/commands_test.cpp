@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 #include "support/run_program.h"
@@ -146,6 +147,45 @@ TEST(CompareCommand, WritesAPageImagesAndResults) {
   }
 }
 
+TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {
+  const TempFolder folder;
+  const auto report = folder.path / "report";
+  const ProgramRun run = run_program({"compare", "-t", "forward,forward_plus:tile=32,grid-lists=masks", "terrain", "spheres", "--size",
+                                      "17x9,32x18", "--lights", "3,40", "--frames", "1", "--warmup", "0", "-o", report, "--json",
+                                      folder.path / "again.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith((report / "index.html").string() + "\n"));
+  for (const char* name : {"index.html", "results.csv", "terrain-17x9-3/forward.png", "spheres-32x18-40/forward_plus.heat.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(report / name)) << name;
+  }
+  EXPECT_EQ(file_bytes(report / "results.json"), file_bytes(folder.path / "again.json"));
+  const auto views = nlohmann::json::parse(file_bytes(report / "results.json"))["views"];
+  ASSERT_EQ(views.size(), 8u);
+  EXPECT_EQ(views[1]["scene"], "terrain");
+  EXPECT_EQ(views[1]["size"], nlohmann::json({17, 9}));
+  EXPECT_EQ(views[1]["rows"][0]["lights"]["total"], 40);
+  EXPECT_EQ(views[7]["scene"], "spheres");
+  EXPECT_EQ(views[7]["rows"][1]["settings"]["grid_lists"], "masks");
+  for (const auto& view : views) {
+    for (const auto& row : view["rows"]) expect_row(row);
+  }
+  const std::string csv = file_bytes(report / "results.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 8 * 2);
+}
+
+TEST(CompareCommand, SweepsASettingOverTheTechniquesThatReadIt) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"compare", "terrain", "--size", "17x9", "--frames", "1", "--warmup", "0", "-t",
+                                      "forward,clustered", "--compare", "slices=4,8", "--json", "-", "-o", folder.path / "r"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto rows = nlohmann::json::parse(run.out)["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_FALSE(rows[0]["settings"].contains("slices")) << "forward does not read it";
+  EXPECT_EQ(rows[1]["settings"]["slices"], 4);
+  EXPECT_EQ(rows[2]["settings"]["slices"], 8);
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "r" / "clustered-slices=8.png"));
+}
+
 TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
   const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
   const ProgramRun text = run_program({"plan", "hall", "--size", "64x36"}, no_device);
@@ -158,12 +198,6 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
     EXPECT_NE(decision["why"], "");
     EXPECT_THAT(text.out, HasSubstr(decision["why"].get<std::string>()));
   }
-}
-
-TEST(TechniquesCommand, ListsTechniquesAndSettings) {
-  const ProgramRun run = run_program({"techniques"});
-  EXPECT_EQ(run.status, 0);
-  for (const char* name : {"forward ", "forward_plus ", "cull-test", "depth-bounds", "tile"}) EXPECT_THAT(run.out, HasSubstr(name));
 }
 
 TEST(ScenesCommand, ListsTheBuiltInScenes) {

@@ -71,6 +71,35 @@ TEST(WriteReport, TakesARunThatFailedHalfway) {
   EXPECT_EQ(nlohmann::json::parse(text_of(folder.path / "results.json")), to_json(report));
 }
 
+TEST(ViewsReport, MakesAFolderAViewAndOnePageForAll) {
+  const TempFolder folder;
+  ViewsReport report(folder.path, 3, 1 << 20);
+  for (int lights : {15, 60, 60}) report.add(synthetic_view("scenes/my hall.glb", 17, 9, lights));
+  report.write();
+  EXPECT_EQ(names_in(folder.path), (std::set<std::string>{"index.html", "results.json", "results.csv", "my-hall-17x9-15",
+                                                          "my-hall-17x9-60", "my-hall-17x9-60-2"}));
+  const auto pictures = names_in(folder.path / "my-hall-17x9-15");
+  EXPECT_TRUE(pictures.count("forward.png") && pictures.count("lidr.difference.png") && pictures.count("lit.heat.png"));
+  const auto json = nlohmann::json::parse(text_of(folder.path / "results.json"));
+  ASSERT_EQ(json["views"].size(), 3u);
+  EXPECT_EQ(json["views"][1], to_json(synthetic_view("scenes/my hall.glb", 17, 9, 60)));
+}
+
+TEST(ViewsReport, ShowsPicturesSmallerSoThatThePageStaysWithinItsBound) {
+  const size_t most = 100 << 10;
+  const TempFolder folder;
+  ViewsReport report(folder.path, 2, most);
+  for (const char* scene : {"a", "b"}) report.add(synthetic_view(scene, 320, 180, 60));
+  report.write();
+  size_t bytes = 0;
+  for (const ReportView& view : report.views()) {
+    EXPECT_GT(view.pictures.reduced, 1);
+    bytes += bytes_in_page(view.pictures);
+  }
+  EXPECT_LE(bytes, most);
+  EXPECT_GT(fs::file_size(folder.path / "a-320x180-60" / "forward.png"), most / 10) << "whole in its folder";
+}
+
 TEST(WriteReport, RefusesAFileWhereTheFolderShouldBe) {
   const TempFolder folder;
   std::ofstream(folder.path / "taken") << "x";

@@ -1,9 +1,53 @@
+// The controls of several views: the matrix, the curves, the chooser.
+function tryViews(get, column) {
+  const several = { sentences: [...get("overview-sentences").children].map((item) => item.textContent) };
+  several.matrix = [...document.querySelectorAll(".matrix tbody tr")].map((line) =>
+    [...line.cells].map((cell) => cell.firstChild.textContent));
+  several.winners = document.querySelectorAll(".matrix .winner").length;
+  several.notes = [...document.querySelectorAll(".matrix .note")].map((note) => note.textContent);
+  several.charts = [...document.querySelectorAll("#curves .chart")].map((chart) => ({
+    curves: [...chart.querySelectorAll(".curve")].map((curve) => ({
+      name: curve.dataset.name,
+      points: [...curve.querySelectorAll("circle")].map((dot) => ({
+        view: Number(dot.dataset.view), row: Number(dot.dataset.row), x: Number(dot.getAttribute("cx")), y: Number(dot.getAttribute("cy")),
+      })),
+    })),
+    rings: chart.querySelectorAll(".crossing").length,
+  }));
+  const name = document.querySelector(".curve-names button");
+  name.click();
+  several.hidden = [...document.querySelectorAll("#curves .chart .curve")].filter((curve) => curve.style.display === "none").length;
+  name.click();
+  const shown = () => ({ title: get("view-title").textContent, verdict: get("verdict").textContent, times: column(1),
+    picture: get("left-image").src, choice: get("view-choice").selectedOptions[0].textContent });
+  several.first = shown();
+  get("view-choice").selectedIndex = 1;
+  get("view-choice").dispatchEvent(new Event("change"));
+  several.second = shown();
+  document.querySelectorAll(".matrix thead button")[2].click();
+  several.third = shown();
+  return several;
+}
+
+// The page as a sheet of paper has it: print rules for all, at the width that @page leaves of A4. Returns what is cut.
+function tryPrint() {
+  for (const sheet of document.styleSheets) {
+    for (const rule of sheet.cssRules) if (rule.media?.mediaText === "print") rule.media.mediaText = "all";
+  }
+  document.body.style.width = "1031px";  // 297 mm less two margins of 12 mm, at 96 dots an inch
+  dispatchEvent(new Event("resize"));
+  const right = document.body.getBoundingClientRect().right;
+  return [...document.querySelectorAll("main *:not(option):not(optgroup)")]
+    .filter((element) => element.offsetParent !== null && element.getBoundingClientRect().right > right + 1 && !element.closest("#slider"))
+    .map((element) => `${element.tagName} ${element.id} ${element.className} ${element.textContent.slice(0, 40)}`);
+}
+
 // Works the controls of the report page and writes what it saw into <pre id="outcome">.
 addEventListener("load", () => {
   const get = (id) => document.getElementById(id);
   const column = (n) =>
-    [...document.querySelectorAll("tbody tr")].map((line) => line.cells[n]?.firstChild.textContent.trim() ?? "");
-  const click = (n) => document.querySelectorAll("thead button")[n].click();
+    [...document.querySelectorAll("#figures-table tbody tr")].map((line) => line.cells[n]?.firstChild.textContent.trim() ?? "");
+  const click = (n) => document.querySelectorAll("#figures-table thead button")[n].click();
   const slide = (value) => {
     get("cut").value = value;
     get("cut").dispatchEvent(new Event("input"));
@@ -30,7 +74,7 @@ addEventListener("load", () => {
   click(2);
   seen.bySpeedUp = column(0);
   seen.lost = column(4);
-  seen.sorted = [...document.querySelectorAll("thead th")].findIndex((th) => th.getAttribute("aria-sort"));
+  seen.sorted = [...document.querySelectorAll("#figures-table thead th")].findIndex((th) => th.getAttribute("aria-sort"));
 
   get("own-scale").click();
   const widthOf = (rect) => parseFloat(rect.getAttribute("width"));
@@ -38,10 +82,16 @@ addEventListener("load", () => {
     [...svg.querySelectorAll("rect:not(.track)")].reduce((sum, rect) => sum + widthOf(rect), 0));
   seen.captions = [...document.querySelectorAll("figcaption")].map((caption) => caption.textContent);
   seen.brokenImages = [...document.querySelectorAll("figure img, .legend img")].filter((image) => image.naturalWidth === 0).length;
+  seen.overviewHidden = get("overview").hidden && get("view-part").hidden;
+  seen.memory = [...document.querySelectorAll("#memory-bars .bar p span")].map((span) => span.textContent);
+  seen.settingsCharts = get("settings-part").hidden ? 0 : document.querySelectorAll("#settings-charts .chart").length;
+  if (views.length > 1) seen.several = tryViews(get, column);
   seen.skipped = [...get("skipped").children].map((item) => item.textContent);
   seen.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
   document.querySelector("figure button")?.click();
   seen.zoomed = get("zoom").open;
+  get("zoom").close();
+  seen.cutInPrint = tryPrint();
   seen.faults = faults;
   seen.results = results;
 

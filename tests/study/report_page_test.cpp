@@ -1,6 +1,7 @@
 // The page in a real browser: a script appended to a copy of it works the controls and writes what it saw.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -39,7 +40,7 @@ std::string browser() {
 }
 
 std::string unescaped(std::string text) {
-  for (const auto& [entity, character] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}}) {
+  for (const auto& [entity, character] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&nbsp;", "\u00a0"}, {"&amp;", "&"}}) {
     text = std::regex_replace(text, std::regex(entity), character);
   }
   return text;
@@ -119,6 +120,11 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
                                                       "forward", "light_prepass"));
   EXPECT_THAT(strings(seen["lost"]), ElementsAre("812", "0", "0", "0", "0", "0", ""));
   EXPECT_EQ(seen["sorted"], 2);
+  EXPECT_EQ(seen["overviewHidden"], true);
+  EXPECT_EQ(seen["settingsCharts"], 0);
+  EXPECT_THAT(strings(seen["cutInPrint"]), IsEmpty());
+  EXPECT_THAT(strings(seen["memory"]), testing::SizeIs(6));
+  EXPECT_THAT(strings(seen["memory"]), Each(Eq("48.0 MiB")));
 
   EXPECT_THAT(seen["barWidths"].get<std::vector<double>>(), Each(testing::DoubleNear(100, 1e-6)));
   EXPECT_THAT(strings(seen["captions"]), testing::Contains("Lights listed per pixel: mean 60.0, max 60"));
@@ -126,6 +132,89 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
               ElementsAre("light_prepass " + refused, "shadows: no light casts one",
                           "transparency: no blended surface is in view (forward, " + both_tests +
                               ", clustered, deferred_tiled, lidr)"));
+}
+
+// Where the dot of a time stands, from the two dots of the outermost times: axes are logarithmic.
+double expected_y(double ms, double low_ms, double low_y, double high_ms, double high_y) {
+  return low_y + std::log(ms / low_ms) / std::log(high_ms / low_ms) * (high_y - low_y);
+}
+
+TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
+  ViewsReport views(folder.path, 3, 1 << 20);
+  for (int lights : {15, 60, 240}) views.add(synthetic_view("scenes/hall.glb", 34, 18, lights));
+  views.write();
+  const auto seen = seen_in_browser(folder.path, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  EXPECT_EQ(seen["overviewHidden"], false);
+  EXPECT_EQ(seen["brokenImages"], 0);
+  const json results = json::parse(text_of(folder.path / "results.json"));
+  EXPECT_EQ(seen["results"], results);
+  const json& several = seen["several"];
+  EXPECT_EQ(strings(several["sentences"]), views.sentences());
+
+  // A technique a line: its name, then its time in each view; the fastest exact one of each has the star.
+  ASSERT_EQ(several["matrix"].size(), 7u);
+  EXPECT_THAT(strings(several["matrix"][0]), ElementsAre("forward", "\u2605\u00a075.6 ms", "303 ms", "1,210 ms"));
+  EXPECT_THAT(strings(several["matrix"][5]), ElementsAre(exact_test, "145 ms", "\u2605\u00a0205 ms", "\u2605\u00a0290 ms"));
+  EXPECT_THAT(strings(several["matrix"][6]), ElementsAre("light_prepass", "refused", "refused", "refused"));
+  EXPECT_EQ(several["winners"], 3);
+  EXPECT_THAT(strings(several["notes"]), testing::Contains("812 lost").Times(3));
+
+  ASSERT_EQ(several["charts"].size(), 1u);
+  const json& chart = several["charts"][0];
+  ASSERT_EQ(chart["curves"].size(), 6u);
+  EXPECT_EQ(chart["rings"], 1);
+  const auto ms_of = [&](const json& dot) {
+    return results["views"][dot["view"].get<size_t>()]["rows"][dot["row"].get<size_t>()]["frame_ms"]["median"].get<double>();
+  };
+  const json low = chart["curves"][0]["points"][0], high = chart["curves"][0]["points"][2];  // forward
+  for (const json& curve : chart["curves"]) {
+    ASSERT_EQ(curve["points"].size(), 3u) << curve;
+    for (const json& dot : curve["points"]) {
+      EXPECT_NEAR(dot["y"].get<double>(), expected_y(ms_of(dot), ms_of(low), low["y"], ms_of(high), high["y"]), 0.2) << curve;
+      EXPECT_NEAR(dot["x"].get<double>(), curve["points"][0]["x"].get<double>() * (2 - dot["view"].get<double>()) / 2 +
+                                              curve["points"][2]["x"].get<double>() * dot["view"].get<double>() / 2, 0.2);
+    }
+  }
+  EXPECT_EQ(several["hidden"], 1);
+
+  const auto& all = views.views();
+  EXPECT_EQ(several["first"]["title"], "hall, 34 × 18, 15 lights");
+  EXPECT_EQ(several["first"]["verdict"], all[0].verdict);
+  EXPECT_EQ(several["second"]["title"], "hall, 34 × 18, 60 lights");
+  EXPECT_EQ(several["second"]["verdict"], all[1].verdict);
+  EXPECT_EQ(several["second"]["times"][0], "183");
+  EXPECT_NE(several["second"]["picture"], several["first"]["picture"]);
+  EXPECT_EQ(several["third"]["choice"], "hall, 34 × 18, 240 lights");
+  EXPECT_EQ(several["third"]["verdict"], all[2].verdict);
+}
+
+TEST_F(ReportPage, DrawsACurveOverASettingThatOneViewSweeps) {
+  CompareReport swept = synthetic_report(34, 18);
+  for (size_t i : {1, 5}) swept.rows[i].settings["cull-test"] = "aabb", swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
+  write_report(folder.path, swept);
+  const auto seen = seen_in_browser(folder.path, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  EXPECT_EQ(seen["settingsCharts"], 1);
+}
+
+TEST_F(ReportPage, OfSeveralViewsFitsAPhoneAndASheetOfPaper) {
+  ViewsReport views(folder.path, 8, 1 << 20);
+  for (const char* scene : {"a", "b"}) {
+    for (int lights : {1, 15, 60, 240}) {
+      CompareReport report = synthetic_view(scene, 34, 18, lights);
+      report.rows[5].settings["radius-cutoff"] = "0.0001";  // a long name
+      views.add(std::move(report));
+    }
+  }
+  views.write();
+  const auto seen = seen_in_browser(folder.path, "500,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_EQ(seen["overflow"], 0);
+  EXPECT_THAT(strings(seen["cutInPrint"]), IsEmpty());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
 }
 
 TEST_F(ReportPage, FitsAPhone) {

@@ -4,7 +4,7 @@ const byId = (id) => document.getElementById(id);
 
 // make("p", { class: "quiet" }, "text", node, ...)
 function make(tag, attributes, ...children) {
-  const svg = ["svg", "rect", "text", "title"].includes(tag);
+  const svg = ["svg", "g", "rect", "line", "polyline", "circle", "text", "title"].includes(tag);
   const element = svg ? document.createElementNS("http://www.w3.org/2000/svg", tag) : document.createElement(tag);
   for (const [name, value] of Object.entries(attributes ?? {})) element.setAttribute(name, value);
   element.append(...children);
@@ -19,6 +19,13 @@ function shortNumber(value) {
 
 const wholeNumber = (value) => value.toLocaleString("en-US");
 const lightsNumber = (value) => (value >= 100 ? shortNumber(value) : value.toFixed(1));
+// 3.69 M: pairs run into the hundreds of millions.
+function shortCount(value) {
+  if (value < 10000) return wholeNumber(value);
+  const [divisor, unit] = value < 1e6 ? [1e3, "k"] : value < 1e9 ? [1e6, "M"] : [1e9, "G"];
+  return `${shortNumber(value / divisor)} ${unit}`;
+}
+
 const milliseconds = (value) => `${shortNumber(value)} ms`;
 const errorNumber = (value) => (value === 0 ? "0" : value.toExponential(1));
 
@@ -36,3 +43,8 @@ function errorInWords(error) {
   if (error.max_rel === null) return "not finite: a NaN, or a black reference";
   return `at most ${errorNumber(error.max_abs)}, which is ${errorNumber(error.max_rel)} of the brightest channel; RMSE ${errorNumber(error.rmse)}`;
 }
+
+// Twenty colors that keep apart on light and dark paper; the first ten more than the rest.
+const COLORS = ["#3b6fb6", "#d9822b", "#3f9b58", "#b5475d", "#7d5bb0", "#2a9aa0", "#a5762c", "#c25aa0", "#6b8e23", "#4e5fa8",
+  "#8c564b", "#17a2d4", "#c7a008", "#e2664f", "#5aa17f", "#9467bd", "#7f8f2e", "#d66fa8", "#5b7f95", "#b07d62"];
+const colorNumber = (number) => COLORS[number % COLORS.length];

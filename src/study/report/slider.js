@@ -1,33 +1,32 @@
 // The before/after slider: any two pictures, cut where the range input says.
 
+let sliderChoices = [];
+
+function showSliderSide(side) {
+  const chosen = (s) => sliderChoices[byId(`${s}-picture`).value];
+  byId(`${side}-image`).src = chosen(side).url;
+  byId(`${side}-image`).alt = chosen(side).label;
+  const notes = ["left", "right"].map((s) => chosen(s)?.note).filter(Boolean);
+  byId("slider-legend").textContent = [...new Set(notes)].join(" ");
+}
+
 // groups: [{ label, choices: [{ label, url, note }] }]; left and right: the labels shown first.
 function showSlider(groups, left, right) {
-  const choices = groups.flatMap((group) => group.choices);
-  if (choices.length === 0) {
-    byId("slider").closest("section").hidden = true;
-    return;
-  }
-
-  const show = (side) => {
-    const choice = choices[byId(`${side}-picture`).value];
-    byId(`${side}-image`).src = choice.url;
-    byId(`${side}-image`).alt = choice.label;
-    const notes = ["left", "right"].map((s) => choices[byId(`${s}-picture`).value]?.note).filter(Boolean);
-    byId("slider-legend").textContent = [...new Set(notes)].join(" ");
-  };
-
+  sliderChoices = groups.flatMap((group) => group.choices);
+  byId("slider").closest("section").hidden = sliderChoices.length === 0;
+  if (sliderChoices.length === 0) return;
   for (const [side, first] of [["left", left], ["right", right]]) {
     const select = byId(`${side}-picture`);
-    for (const group of groups) {
-      const options = group.choices.map((c) => make("option", { value: choices.indexOf(c) }, c.label));
-      select.append(make("optgroup", { label: group.label }, ...options));
-    }
-    select.value = Math.max(0, choices.findIndex((choice) => choice.label === first));
-    select.addEventListener("change", () => show(side));
+    select.replaceChildren(...groups.map((group) => make("optgroup", { label: group.label },
+      ...group.choices.map((c) => make("option", { value: sliderChoices.indexOf(c) }, c.label)))));
+    select.value = Math.max(0, sliderChoices.findIndex((choice) => choice.label === first));
   }
-  show("left");
-  show("right");
+  showSliderSide("left");
+  showSliderSide("right");
+}
 
+function startSlider() {
+  for (const side of ["left", "right"]) byId(`${side}-picture`).addEventListener("change", () => showSliderSide(side));
   const cut = byId("cut");
   const move = () => byId("slider").style.setProperty("--cut", `${cut.value}%`);
   cut.addEventListener("input", move);

@@ -1,0 +1,155 @@
+// The part of the page that shows one view: view = { results, page }.
+
+const pictureUrl = (number) => page.pictures[number];
+const nameOf = (view, row) => view.page.rows[view.results.rows.indexOf(row)].name;
+const referenceOf = (view) => view.results.rows.find((row) => row.technique === view.results.reference && !row.refused);
+const ranRows = (view) => view.results.rows.filter((row) => !row.refused);
+
+function speedUp(view, row) {
+  const reference = referenceOf(view);
+  return reference && row.frame_ms.median ? reference.frame_ms.median / row.frame_ms.median : null;
+}
+
+const DIFFERENCE_NOTE = "Difference: black is equal, blue 1e-7 to red 1 of the reference's brightest channel, white NaN.";
+const heatNote = (view) => `Lights: black is none, violet few, yellow ${wholeNumber(view.page.heat_top)} and more.`;
+
+function showPictures(view) {
+  const { rows, lit, reference, reduced, folder } = view.page;
+  const choicesOf = (pick, suffix, note) =>
+    rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note }));
+  const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view) }] : [];
+  const name = view.results.reference;
+  const groups = [
+    { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference) }]), ...choicesOf((row) => row.image, "")] },
+    { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },
+    { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote(view)), ...litChoices] },
+  ].filter((group) => group.choices.length > 0);
+  const fastest = rows.find((row) => row.winner && row.name !== name) ?? rows.find((row) => row.name !== name && row.image !== null);
+  showSlider(groups, name, fastest?.name ?? "");
+  byId("reduced").textContent = reduced <= 1 ? "" :
+    `So that this page stays small, its pictures are shown at 1/${reduced} of their width and height; those in the folder ${folder} are whole. ` +
+    "A pixel stands for the mean of its block in a picture, its worst in a difference, its largest count in a heat map.";
+}
+
+const columnsOf = (view) => [
+  { title: "Technique", value: (row) => nameOf(view, row) },
+  { title: "Frame, ms", value: (row) => row.frame_ms.median, text: shortNumber },
+  { title: "Speed-up", value: (row) => speedUp(view, row), text: (ratio) => `${shortNumber(ratio)}\u00d7`, best: "high" },
+  { title: "Listed / lit", value: (row) => (row.pairs?.lit ? row.pairs.listed / row.pairs.lit : null), text: shortNumber },
+  { title: "Lost pairs", value: (row) => row.pairs?.lost ?? null, text: wholeNumber, gate: true },
+  { title: "Wrong pairs", value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true },
+  { title: "NaN pixels", value: (row) => row.nan_pixels, text: wholeNumber, gate: true },
+  { title: "Max error, of brightest", value: (row) => row.error?.max_rel ?? null, text: errorNumber },
+  { title: "RMSE", value: (row) => row.error?.rmse ?? null, text: errorNumber },
+  { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
+  { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },
+  { title: "Light grid", value: (row) => row.memory_bytes.light_grid, text: byteNumber },
+  { title: "G-buffer", value: (row) => row.memory_bytes.gbuffer, text: byteNumber },
+  { title: "Memory, all", value: (row) => row.memory_bytes.total, text: byteNumber },
+];
+
+function showErrors(view) {
+  const list = byId("errors");
+  list.replaceChildren();
+  const add = (title, ...lines) =>
+    list.append(make("dt", {}, title), make("dd", {}, ...lines.map((line) => make("div", {}, line))));
+  const shared = view.results.reference_errors;
+  const unknown = "not measured in this run";
+  add("Model", `A light's range ends; in nature it does not. With the range window against without, both in double precision: ${shared ? errorInWords(shared.model) : unknown}.`);
+  add("Precision", `Every light, in float against double: ${shared ? errorInWords(shared.precision) : unknown}.`);
+  const measured = ranRows(view).filter((row) => row.error && row !== referenceOf(view));
+  add("Technique", `This picture against ${view.results.reference}, which shades every light in float:`,
+    ...measured.map((row) => `${nameOf(view, row)}: ${errorInWords(row.error)}.`),
+    ...(measured.length === 0 ? [unknown + "."] : []));
+  if (shared?.pixels_left_out > 0) {
+    add("Left out", `${wholeNumber(shared.pixels_left_out)} pixels that blended surfaces cover: the oracle does not shade those.`);
+  }
+}
+
+// Marks stand at even steps; the first and last are pulled in to the ends.
+function legend(pictureNumber, marks) {
+  const placed = marks.map((mark, i) => {
+    const share = (100 * i) / (marks.length - 1);
+    return make("span", { style: `left:${share}%;translate:-${share}%` }, mark);
+  });
+  return make("div", { class: "legend" }, make("img", { src: pictureUrl(pictureNumber), alt: "" }), make("div", {}, ...placed));
+}
+
+function figure(pictureNumber, caption, ...below) {
+  const image = make("img", { src: pictureUrl(pictureNumber), alt: caption });
+  const button = make("button", { type: "button", "aria-label": `Enlarge: ${caption}` }, image);
+  button.addEventListener("click", () => {
+    byId("zoom").querySelector("img").src = image.src;
+    byId("zoom").showModal();
+  });
+  return make("figure", {}, button, make("figcaption", {}, caption), ...below);
+}
+
+function heatFigure(view, heat, what) {
+  const top = view.page.heat_top;
+  const marks = [0, 0.25, 0.5, 0.75].map((share) => lightsNumber(share * top).replace(/\.0$/, ""));
+  return figure(heat.picture, `Lights ${what} per pixel: mean ${lightsNumber(heat.mean)}, max ${wholeNumber(heat.max)}`,
+    legend(page.heat_legend, [...marks, `${wholeNumber(top)} and more`]));
+}
+
+function techniqueCard(view, row) {
+  const pictures = view.page.rows[view.results.rows.indexOf(row)], reference = view.results.reference;
+  const isReference = row === referenceOf(view), ratio = speedUp(view, row);
+  const summary = [
+    milliseconds(row.frame_ms.median ?? 0) + " a frame",
+    !isReference && ratio !== null && `${shortNumber(ratio)} times the speed of ${reference}`,
+    isReference ? "the reference" : row.error && errorInWords(row.error),
+    row.overflow > 0 && `${wholeNumber(row.overflow)} list entries did not fit`,
+  ];
+  const figures = [];
+  if (pictures.image !== null) figures.push(figure(pictures.image, "Picture"));
+  if (pictures.difference !== null && !isReference) {
+    figures.push(figure(pictures.difference, `Difference from ${reference}: black is equal, white is NaN`,
+      legend(page.difference_legend, ["1e-7", "1e-6", "1e-5", "1e-4", "1e-3", "0.01", "0.1", "1"])));
+  }
+  if (pictures.listed) figures.push(heatFigure(view, pictures.listed, "listed"));
+  if (pictures.listed && view.page.lit) figures.push(heatFigure(view, view.page.lit, "truly lit"));
+  const settings = Object.entries(row.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)));
+  return make("article", { class: "technique" },
+    make("h3", {}, nameOf(view, row), ...(isReference ? [" ", make("span", { class: "tag" }, "reference")] : [])),
+    make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
+    make("div", { class: "pictures" }, ...figures),
+    ...(settings.length > 0 ? [make("details", {}, make("summary", {}, "Settings"), ...settings)] : []));
+}
+
+// One line per refusal, and one per effect and reason with the techniques it holds for.
+function showSkipped(view) {
+  const users = new Map();
+  for (const row of ranRows(view)) {
+    for (const { effect, why } of row.skipped) {
+      const line = `${effect}: ${why}`;
+      users.set(line, [...(users.get(line) ?? []), nameOf(view, row)]);
+    }
+  }
+  const refused = view.results.rows.filter((row) => row.refused)
+    .map((row) => make("li", {}, make("strong", {}, nameOf(view, row)), ` refused: ${row.refused}`));
+  const lines = [...users].map(([line, names]) =>
+    make("li", {}, line, names.length < ranRows(view).length ? ` (${names.join(", ")})` : ""));
+  const all = [...refused, ...lines];
+  byId("skipped").replaceChildren(...(all.length > 0 ? all : [make("li", {}, "Nothing was left out.")]));
+}
+
+// Returns what draws anew where the width matters.
+function showView(view) {
+  byId("view-title").textContent = view.page.title;
+  byId("verdict").textContent = view.page.verdict;
+  byId("figures").replaceChildren(...view.page.figures.map((line) => make("li", {}, line)));
+  for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference;
+  showPictures(view);
+  showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : ""));
+  showErrors(view);
+  byId("techniques").replaceChildren(...ranRows(view).map((row) => techniqueCard(view, row)));
+  showSkipped(view);
+  byId("settings-part").hidden = view.page.charts.length === 0;
+  const rows = ranRows(view);
+  return [
+    showBars(byId("time-bars"), byId("pass-legend"), rows.map((row) => timeBar(nameOf(view, row), row)), "the rest of the frame", milliseconds, byId("own-scale")),
+    showBars(byId("memory-bars"), byId("memory-legend"), rows.map((row) => memoryBar(nameOf(view, row), row)), "scene, images, lights", byteNumber, null),
+    showCharts(byId("settings-charts"), view.page.charts),
+  ];
+}

@@ -1,0 +1,33 @@
+#include <algorithm>
+
+#include "techniques/technique.h"
+
+namespace lightgrid {
+namespace {
+
+bool holds(const std::vector<const char*>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+}  // namespace
+
+const std::vector<const char*>& common_settings() {
+  static const std::vector<const char*> keys = {"everything-on"};
+  return keys;
+}
+
+bool reads_setting(const Technique& technique, const std::string& key) {
+  return holds(common_settings(), key) || holds(technique.settings, key);
+}
+
+std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {
+  std::map<std::string, std::string> all = to_strings(settings), own;
+  for (const SettingHelp& help : setting_help()) {
+    std::string key = help.key;
+    std::replace(key.begin(), key.end(), '-', '_');
+    if (reads_setting(technique, help.key)) own[key] = all.at(key);
+  }
+  return own;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,128 @@
+// The registry, the pages under docs/techniques, docs/command_line.md and what the program says of itself, held to one
+// another.
+#include <gmock/gmock.h>
+
+#include <cctype>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "support/run_program.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const fs::path docs = fs::path(LIGHTGRID_SOURCE_DIR) / "docs";
+
+std::string page_of(const std::string& technique) { return text_of(docs / "techniques" / (technique + ".md")); }
+
+std::set<std::string> registered() {
+  std::set<std::string> names;
+  for (const Technique* t : techniques()) names.insert(t->name);
+  return names;
+}
+
+// What a source cannot be told without: names, title and year. Words of three letters at least, and numbers.
+std::vector<std::string> telling_words(const std::string& source) {
+  std::vector<std::string> words = {""};
+  for (const char c : source) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80)) {
+      words.back() += c;
+    } else {
+      words.emplace_back();
+    }
+  }
+  std::erase_if(words, [](const std::string& word) { return word.size() < 3; });
+  return words;
+}
+
+TEST(Techniques, HaveAPageEachAndEachPageHasATechnique) {
+  std::set<std::string> pages;
+  for (const auto& entry : fs::directory_iterator(docs / "techniques")) pages.insert(entry.path().stem().string());
+  EXPECT_EQ(pages, registered());
+}
+
+TEST(Techniques, ArePagesThatNameTheirSource) {
+  for (const Technique* t : techniques()) {
+    for (const std::string& word : telling_words(t->source)) EXPECT_THAT(page_of(t->name), HasSubstr(word)) << t->name;
+  }
+}
+
+TEST(Techniques, ArePagesThatNameEverySettingOfTheirs) {
+  for (const Technique* t : techniques()) {
+    for (const char* key : t->settings) {
+      EXPECT_THAT(page_of(t->name), HasSubstr("`" + std::string(key) + "`")) << t->name;
+    }
+  }
+}
+
+TEST(Techniques, ReadSettingsThatThereAreAndEverySettingIsRead) {
+  std::set<std::string> read(common_settings().begin(), common_settings().end()), known;
+  for (const Technique* t : techniques()) {
+    for (const char* key : t->settings) {
+      read.insert(key);
+      EXPECT_FALSE(std::count(common_settings().begin(), common_settings().end(), std::string(key)))
+          << t->name << ": " << key << " is common to all";
+    }
+  }
+  for (const SettingHelp& s : setting_help()) known.insert(s.key);
+  EXPECT_EQ(read, known);
+}
+
+TEST(Techniques, AreListedWithSettingsDefaultsAndSource) {
+  const ProgramRun run = run_program({"techniques", "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["techniques"].size(), techniques().size());
+  for (size_t i = 0; i < techniques().size(); ++i) {
+    EXPECT_EQ(json["techniques"][i]["name"], techniques()[i]->name);
+    EXPECT_EQ(json["techniques"][i]["source"], techniques()[i]->source);
+    EXPECT_EQ(json["techniques"][i]["settings"].size(), techniques()[i]->settings.size());
+  }
+  const ProgramRun text = run_program({"techniques"});
+  EXPECT_EQ(text.status, 0);
+  for (const Technique* t : techniques()) {
+    EXPECT_THAT(text.out, HasSubstr(t->name));
+    EXPECT_THAT(text.out, HasSubstr(t->source));
+  }
+  EXPECT_THAT(text.out, HasSubstr("settings: brdf=ggx cull-test=planes+aabb depth-bounds=minmax tile=16 slices=24"));
+}
+
+TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {
+  for (const char* command : {"render", "compare", "plan"}) {
+    const ProgramRun run = run_program({command, "--help"});
+    std::string words = run.out;  // the help breaks lines where it likes
+    std::erase_if(words, [](char c) { return std::isspace(static_cast<unsigned char>(c)); });
+    for (const std::string& name : registered()) EXPECT_THAT(words, HasSubstr(name)) << command;
+  }
+}
+
+TEST(Settings, StandInTheCommandLinesTableWithTheirValuesTheDefaultFirst) {
+  const std::string page = text_of(docs / "command_line.md");
+  for (const SettingHelp& s : setting_help()) {
+    std::string line = "| `" + s.key + "` |";
+    for (const std::string& value : s.values) line += " `" + value + "`";
+    EXPECT_THAT(page, HasSubstr(line + " |"));
+  }
+}
+
+TEST(Settings, StartWithTheDefault) {
+  const auto defaults = to_strings(Settings{});
+  for (const SettingHelp& s : setting_help()) {
+    std::string key = s.key;
+    std::replace(key.begin(), key.end(), '-', '_');
+    EXPECT_EQ(defaults.at(key), s.values.front()) << s.key;
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
