@@ -145,6 +145,16 @@ std::string unbeaten_clause(const CompareReport& report, const RunResult& refere
                      short_number(next->frame_ms.median));
 }
 
+// Other exact techniques of which some run was as fast: the order of these is not to be trusted.
+std::string close_clause(const CompareReport& report, const RunResult& winner) {
+  std::vector<std::string> close;
+  for (const RunResult& row : report.rows) {
+    if (&row == &winner || !is_exact(row) || row.frame_ms.runs == 0 || row.frame_ms.min > winner.frame_ms.median) continue;
+    close.push_back(fmt::format("{} ({} ms)", name_of(report, row), short_number(row.frame_ms.median)));
+  }
+  return close.empty() ? "" : fmt::format(". Within the spread of the runs is {}", fmt::join(close, ", "));
+}
+
 std::string winner_clause(const CompareReport& report, const RunResult& row, const RunResult& reference) {
   const auto why = why_faster(report, row, reference);
   const double ratio = reference.frame_ms.median / std::max(row.frame_ms.median, 1e-9);
@@ -211,6 +221,7 @@ std::string verdict(const CompareReport& report) {
   auto text = !reference || reference->frame_ms.runs == 0 ? fastest_clause(report, *row)
               : reference == row                          ? unbeaten_clause(report, *row)
                                                           : winner_clause(report, *row, *reference);
+  if (row != reference) text += close_clause(report, *row);
   if (quicker(lossy, *row)) text += lossy_clause(report, *lossy);
   if (quicker(failing, *row)) text += failing_clause(report, *failing);
   return text + ".";

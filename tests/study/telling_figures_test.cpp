@@ -127,6 +127,16 @@ TEST(Verdict, NamesTheWinnerAndWhy) {
             "pixel where forward goes through 10.0; its image is the same to the last bit.");
 }
 
+TEST(Verdict, SaysWhoIsNotClearlySlower) {
+  auto report = two_rows();
+  report.rows.push_back(report.rows[1]);
+  report.rows[2].technique = "clustered";
+  report.rows[2].frame_ms = {210, 240, 250, 260, 5};
+  EXPECT_THAT(verdict(report), testing::EndsWith("the last bit. Within the spread of the runs is clustered (240 ms)."));
+  report.rows[2].frame_ms.min = 215;
+  EXPECT_EQ(verdict(report), verdict(two_rows()));
+}
+
 TEST(Verdict, SaysWhenNothingBeatsTheReference) {
   auto report = two_rows();
   report.rows[1].frame_ms.median = 3000;

@@ -11,6 +11,12 @@ function make(tag, attributes, ...children) {
   return element;
 }
 
+// A row's name, to be broken after a colon or comma and nowhere else.
+function nameElement(name) {
+  const parts = name.split(/(?<=[:,])/);
+  return make("span", {}, ...parts.flatMap((part, i) => (i ? [make("wbr"), part] : [part])));
+}
+
 // Three digits that count: 2,420  214  11.3  0.59
 function shortNumber(value) {
   const digits = value >= 100 ? 0 : value >= 10 ? 1 : 2;

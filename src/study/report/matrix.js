@@ -29,7 +29,7 @@ function showMatrix(container, views, choose) {
       button.addEventListener("click", () => choose(first + i));
       return make("th", { scope: "col" }, button);
     });
-    const lines = names.map((name) => make("tr", {}, make("th", { scope: "row" }, name), ...shown.map((view) => {
+    const lines = names.map((name) => make("tr", {}, make("th", { scope: "row" }, nameElement(name)), ...shown.map((view) => {
       const at = view.page.rows.findIndex((row) => row.name === name);
       return matrixCell(view.results.rows[at], view.page.rows[at]);
     })));

@@ -32,7 +32,7 @@ function showPictures(view) {
 }
 
 const columnsOf = (view) => [
-  { title: "Technique", value: (row) => nameOf(view, row) },
+  { title: "Technique", value: (row) => nameOf(view, row), text: nameElement },
   { title: "Frame, ms", value: (row) => row.frame_ms.median, text: shortNumber },
   { title: "Speed-up", value: (row) => speedUp(view, row), text: (ratio) => `${shortNumber(ratio)}\u00d7`, best: "high" },
   { title: "Listed / lit", value: (row) => (row.pairs?.lit ? row.pairs.listed / row.pairs.lit : null), text: shortNumber },
@@ -87,7 +87,7 @@ function figure(pictureNumber, caption, ...below) {
 
 function heatFigure(view, heat, what) {
   const top = view.page.heat_top;
-  const marks = [0, 0.25, 0.5, 0.75].map((share) => lightsNumber(share * top).replace(/\.0$/, ""));
+  const marks = [0, 1 / 3, 2 / 3].map((share) => lightsNumber(share * top).replace(/\.0$/, ""));
   return figure(heat.picture, `Lights ${what} per pixel: mean ${lightsNumber(heat.mean)}, max ${wholeNumber(heat.max)}`,
     legend(page.heat_legend, [...marks, `${wholeNumber(top)} and more`]));
 }
