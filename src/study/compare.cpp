@@ -112,6 +112,7 @@ CompareReport compare_techniques(Devices& devices, const Scene& scene, const Vie
     extra = std::make_unique<TechniqueRun>(devices, scene, view, common, find_technique(report.reference));
     extra->run_frame();
     reference = extra.get();
+    report.reference_image = extra->image();
   }
 
   const std::vector<float> depth = read_depth(reference->frame());

@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// A heading, then a line a row and view (docs/results_json.md#results-csv), with fields quoted as RFC 4180 has it. What
+// A heading, then a line a row and view (docs/results_json.md, results.csv), with fields quoted as RFC 4180 has it. What
 // was not measured is empty.
 std::string results_csv(const std::vector<ReportView>& views);
 

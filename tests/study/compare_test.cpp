@@ -42,6 +42,13 @@ TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
   EXPECT_FALSE(to_json(report.rows[1]).contains("refused"));
 }
 
+TEST(CompareTechniques, KeepTheReferencesPictureWhereItIsNoRow) {
+  const CompareReport report = compared({{&find_technique("forward_plus"), {}}});
+  ASSERT_EQ(report.reference_image.width, 17);
+  EXPECT_EQ(report.reference_image.pixels, report.images[0].pixels);
+  EXPECT_TRUE(compared({{&find_technique("forward"), {}}}).reference_image.pixels.empty());
+}
+
 TEST(CompareTechniques, ThrowsTheReasonWhereNoneIsLeft) {
   try {
     compared({{&refuses, {}}, {&refuses, {}}});
