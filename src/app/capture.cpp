@@ -16,18 +16,19 @@ namespace {
 struct CaptureOptions {
   SceneOptions scene;
   DeviceOptions devices;
-  std::string output = "out/capture", json;
+  std::string technique = "forward_plus", output = "out/capture", json;
 };
 
 int capture(const CaptureOptions& o) {
   const Settings settings = chosen_settings(o.scene);
+  const TechniqueNeeds needs = grid_needs(o.technique, o.scene.set);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   make_folder(o.output);
   Devices devices = open_devices(o.devices.device, backend);
   const CapturedFrame frame = capture_frame(devices, chosen.scene, chosen.view, settings);
-  FrameCuller culler(*devices.cl, *devices.programs, frame, settings);
+  FrameCuller culler(*devices.cl, *devices.programs, frame, settings, needs);
   culler.run();
   const FrameGrid grid = culler.grid();
   write_frame(o.output, frame);
@@ -45,6 +46,7 @@ void add_capture(CommandLine& line) {
       line.add("capture", "depth, lights, view and light grid as files", [o] { return capture(*o); });
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
+  command.option("-t,--technique", o->technique, "whose light grid: with slices for one that has some");
   command.option("-o,--output", o->output, "folder of the frame");
   command.option("--json", o->json, "summary as JSON into a file, - for stdout");
 }

@@ -14,7 +14,7 @@ namespace lightgrid {
 namespace {
 
 struct CullOptions {
-  std::string frame, device, output = "out/cull", json;
+  std::string frame, device, technique = "forward_plus", output = "out/cull", json;
   std::vector<std::string> set;
   TimingOptions timing;
 };
@@ -24,13 +24,14 @@ int cull(const CullOptions& o) {
     throw input_error(
         "cull: FRAME is missing; it is a folder that `lightgrid capture` or another engine wrote");
   frame_settings({}, o.set);  // a wrong setting is told first
+  const TechniqueNeeds needs = grid_needs(o.technique, o.set);
   if (!o.json.empty()) check_output_file("--json", o.json);
   const CapturedFrame frame = read_frame(o.frame);
   const Settings settings = frame_settings(frame, o.set);
   make_folder(o.output);
   ClDevice device(o.device);
   ProgramCache programs(device);
-  FrameCuller culler(device, programs, frame, settings);
+  FrameCuller culler(device, programs, frame, settings, needs);
   for (int i = 0; i < o.timing.warmup; ++i) culler.run();
   std::vector<double> ms;
   for (int i = 0; i < o.timing.frames; ++i) {
@@ -53,6 +54,7 @@ void add_cull(CommandLine& line) {
   Subcommand command =
       line.add("cull", "light grid of a captured frame, by OpenCL alone", [o] { return cull(*o); });
   command.option("frame", o->frame, "folder with view.json, lights.json and depth.f32");
+  command.option("-t,--technique", o->technique, "whose light grid: with slices for one that has some");
   command.option("-o,--output", o->output, "folder of the grid");
   command.list("--set", o->set, "a setting, KEY=VALUE; may be repeated");
   command.option("--device", o->device, "OpenCL device, by a part of its name");

@@ -23,7 +23,7 @@ namespace {
 struct InspectOptions {
   SceneOptions scene;
   DeviceOptions devices;
-  std::string pixel, output, json;
+  std::string pixel, technique = "forward_plus", output, json;
   std::vector<std::string> compare;
   int dropped = 10;
   bool all = false;
@@ -57,6 +57,7 @@ struct Subject {
   std::optional<ChosenScene> scene;
   CapturedFrame frame;
   Settings settings;
+  TechniqueNeeds needs{};
   const View& view() const { return scene ? scene->view : frame.view; }
 };
 
@@ -130,10 +131,12 @@ int compare_settings(const InspectOptions& o, const Subject& subject, Devices& d
   std::vector<AccuracyRow> rows;
   uint64_t lost = 0;
   for (const BenchContestant& c : contestants_of(subject.settings, o.compare, 1000)) {
-    FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings);
+    FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings, subject.needs);
     culler.run();
     const FrameGrid grid = culler.grid();
-    if (grid.lists.slices != 1) throw input_error("inspect: --compare takes grids of one slice, not {}", grid.lists.slices);
+    if (grid.lists.slices != 1 || !grid.z_bin_edges.empty()) {
+      throw input_error("inspect: --compare takes grids of one slice and no z-bins, not {} slices", grid.lists.slices);
+    }
     rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(grid))});
     lost += rows.back().accuracy.lost;
     if (o.json != "-") std::fputs(accuracy_line(rows.back()).c_str(), stdout);
@@ -150,14 +153,18 @@ int inspect(const InspectOptions& o) {
   }
   if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
   chosen_settings(o.scene);  // a wrong setting is told before the scene is loaded
+  std::vector<std::string> set = o.scene.set;
+  set.insert(set.end(), o.compare.begin(), o.compare.end());
+  const TechniqueNeeds needs = grid_needs(o.technique, set);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   Subject subject = load_subject(o.scene);
+  subject.needs = needs;
   if (place) check_place(*place, subject.view());
   if (!o.output.empty()) make_folder(o.output);
   Devices devices = open_devices_for(subject, o.devices.device, backend);
   if (!one_grid) return compare_settings(o, subject, devices);
-  FrameCuller culler(*devices.cl, *devices.programs, subject.frame, subject.settings);
+  FrameCuller culler(*devices.cl, *devices.programs, subject.frame, subject.settings, subject.needs);
   culler.run();
   const FrameGrid grid = culler.grid();
   int status = 0;
@@ -174,6 +181,7 @@ void add_inspect(CommandLine& line) {
                                 [o] { return inspect(*o); });
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
+  command.option("-t,--technique", o->technique, "whose light grid: with slices for one that has some");
   command.option("--pixel", o->pixel, "X,Y from the lower left");
   command.option("--dropped", o->dropped, "how many dropped lights to show, the nearest first", 0,
                  100'000'000);

@@ -8,7 +8,7 @@ CapturedFrame capture_frame(Devices& devices, const Scene& scene, const View& vi
                             const Settings& settings) {
   Frame frame(devices, scene, view, plan_frame(scene, view, settings, find_technique("forward_plus").needs));
   depth_prepass(frame);
-  return {scene.name, view, settings.tile, scene.lights, read_depth(frame)};
+  return {scene.name, view, settings.tile, frame.plan.slice_far_m, scene.lights, read_depth(frame)};
 }
 
 }  // namespace lightgrid

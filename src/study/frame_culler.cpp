@@ -2,9 +2,29 @@
 
 #include <numeric>
 
+#include "base/error.h"
 #include "passes/frame/frame.h"
+#include "reference/position.h"
+#include "study/frame_lists.h"
+#include "techniques/technique.h"
 
 namespace lightgrid {
+namespace {
+
+double far_of_surfaces(const CapturedFrame& frame) {
+  double far_m = frame.surfaces_far_m;
+  for (int y = 0; y < frame.view.height && frame.surfaces_far_m == 0; ++y) {
+    for (int x = 0; x < frame.view.width; ++x) {
+      const float depth = frame.depth[size_t(y) * frame.view.width + x];
+      if (!is_covered(frame, x, y) || !(depth >= 0 && depth <= 1)) continue;
+      const double distance = -position_from_depth(frame.view, x, y, depth).z;
+      if (distance < 1e12) far_m = std::max(far_m, distance);
+    }
+  }
+  return far_m > frame.view.near_m ? far_m : frame.view.near_m + 1;
+}
+
+}  // namespace
 
 Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set) {
   Settings settings;
@@ -20,7 +40,17 @@ CullerOptions culler_options(const Settings& settings) {
   options.shape = settings.kernel_shape;
   options.tile = settings.tile;
   options.portable = settings.portable;
+  options.lists = settings.grid_lists;
   return options;
+}
+
+TechniqueNeeds grid_needs(const std::string& technique, const std::vector<std::string>& set) {
+  TechniqueNeeds needs = find_technique(technique).needs;
+  if (!needs.light_grid) throw input_error("technique {}: shades from no light grid", technique);
+  for (const std::string& assignment : set) {
+    needs.slices |= assignment.starts_with("slices="), needs.z_bins |= assignment.starts_with("z-bins=");
+  }
+  return needs;
 }
 
 std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
@@ -32,13 +62,21 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
 }
 
 FrameCuller::FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
-                         const Settings& settings)
+                         const Settings& settings, const TechniqueNeeds& needs)
     : device_(device),
       settings_(settings),
+      view_(cull_view(frame.view)),
       culler_(device, programs, culler_options(settings)),
       storage_(device) {
+  if (!needs.slices) settings_.slices = 1;
+  if (!needs.z_bins) settings_.z_bins = 1;
+  if (settings_.slices > 1 || settings_.z_bins > 1) {
+    const double far_m = far_of_surfaces(frame);
+    view_.slice_edges = slice_edges(settings_.slice_spacing, settings_.slices, frame.view.near_m, far_m);
+    view_.z_bin_edges = slice_edges(settings_.slice_spacing, settings_.z_bins, frame.view.near_m, far_m);
+  }
   culler_.set_lights(cull_lights_of(frame));
-  culler_.set_view(cull_view(frame.view));
+  culler_.set_view(view_);
   const size_t bytes = frame.depth.size() * sizeof(float);
   depth_.values = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes);
   device.queue().enqueueWriteBuffer(depth_.values, CL_TRUE, 0, bytes, frame.depth.data());
@@ -53,6 +91,7 @@ FrameGrid FrameCuller::grid() {
   FrameGrid grid;
   grid.lists = read_grid(device_, grid_, storage_);
   grid.tile = settings_.tile;
+  grid.slice_edges = view_.slice_edges, grid.z_bin_edges = view_.z_bin_edges;
   grid.settings = to_strings(settings_);
   return grid;
 }

@@ -4,7 +4,7 @@
 #include "cl/device.h"
 #include "cl/program_cache.h"
 #include "culling/light_culler.h"
-#include "plan/settings.h"
+#include "plan/frame_plan.h"
 #include "study/frame_file.h"
 
 namespace lightgrid {
@@ -14,13 +14,19 @@ Settings frame_settings(const CapturedFrame& frame, const std::vector<std::strin
 
 CullerOptions culler_options(const Settings& settings);
 
+// What the grid of a technique has: slices and z-bins where its plan has them or `set` names their number. Throws
+// Error(input) where it shades from no grid.
+TechniqueNeeds grid_needs(const std::string& technique, const std::vector<std::string>& set);
+
 // Of the point and spot lights.
 std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
 
 class FrameCuller {
  public:
-  // settings.tile decides, not the frame's own. Uploads depth and lights; the frame may go then.
-  FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings);
+  // settings.tile decides, not the frame's own. Slices and z-bins reach from the near plane to frame.surfaces_far_m or,
+  // where nobody knows it, to the farthest surface. Uploads depth and lights; the frame may go then.
+  FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings,
+              const TechniqueNeeds& needs = {});
 
   // Depth bounds and cull, to the finished grid.
   void run();
@@ -33,6 +39,7 @@ class FrameCuller {
  private:
   ClDevice& device_;
   Settings settings_;
+  CullView view_;
   LightCuller culler_;
   ClGridStorage storage_;
   DepthInput depth_;

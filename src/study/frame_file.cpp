@@ -8,6 +8,7 @@
 
 #include "base/write_file.h"
 #include "scene/lights_file.h"
+#include "shared/slices.h"
 #include "study/frame_view.h"
 #include "study/json_file.h"
 #include "study/results.h"
@@ -63,6 +64,18 @@ size_t local_count(const CapturedFrame& frame) {
                               [](const Light& l) { return l.type != LightType::directional; }));
 }
 
+// None where the file does not name them.
+std::vector<float> read_edges(const JsonFile& file, const char* field, size_t most) {
+  std::vector<float> edges;
+  if (!file.has(field)) return edges;
+  for (const double edge : file.numbers(field, -1, -1e12, 1e12)) {
+    if (!edges.empty() && !(float(edge) >= edges.back())) throw file.error(field, "is not ascending");
+    edges.push_back(float(edge));
+  }
+  if (edges.size() >= most) throw file.error(field, fmt::format("holds more than {}", most - 1));
+  return edges;
+}
+
 // What grid.json says, each value within what the frame allows.
 FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
   FrameGrid grid;
@@ -75,13 +88,8 @@ FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
                                           frame.view.width, frame.view.height));
   }
   grid.lists.cells_x = cells[0], grid.lists.cells_y = cells[1], grid.lists.slices = cells[2];
-  if (file.has("slice_edges")) {
-    for (const double edge : file.numbers("slice_edges", -1, -1e12, 1e12)) {
-      if (!grid.slice_edges.empty() && !(float(edge) > grid.slice_edges.back()))
-        throw file.error("slice_edges", "is not ascending");
-      grid.slice_edges.push_back(float(edge));
-    }
-  }
+  grid.slice_edges = read_edges(file, "slice_edges", MOST_SLICES);
+  grid.z_bin_edges = read_edges(file, "z_bin_edges", MOST_Z_BINS);
   if (grid.slice_edges.size() + 1 != size_t(cells[2])) {
     throw input_error("{}: slice_edges has {} inner edges, not one fewer than the {} slices", file.path(),
                       grid.slice_edges.size(), cells[2]);
@@ -93,6 +101,21 @@ FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
     grid.settings[key] = value.is_string() ? value.get<std::string>() : value.dump();
   }
   return grid;
+}
+
+// A file of as many words as `expected` says; `of` says what they are.
+std::vector<uint32_t> read_words(const fs::path& path, uintmax_t expected, const char* of) {
+  const uintmax_t found = size_of(path);
+  if (found != expected * 4) throw input_error("{}: {} bytes are not the {} of {}", path.string(), found, expected * 4, of);
+  return read_values<uint32_t>(path, size_t(expected));
+}
+
+void read_masks(const fs::path& path, HostGrid& lists, size_t lights) {
+  const size_t words = (lights + 31) / 32;
+  lists.masks = read_words(path, uintmax_t(lists.cells.size()) * words, "a bit a light, in words, for each cell");
+  for (size_t i = words; lights % 32 != 0 && i <= lists.masks.size(); i += words) {
+    if (lists.masks[i - 1] >> lights % 32) throw input_error("{}: word {} has bits past the {} lights", path.string(), i - 1, lights);
+  }
 }
 
 void read_lists(const fs::path& folder, HostGrid& lists, size_t lights) {
@@ -133,7 +156,7 @@ CapturedFrame read_frame(const fs::path& folder) {
   CapturedFrame frame;
   frame.name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   const FrameView view = read_view_file(folder / "view.json");
-  frame.view = view.view, frame.tile = view.tile;
+  frame.view = view.view, frame.tile = view.tile, frame.surfaces_far_m = view.surfaces_far_m;
   frame.depth = read_depth_file(folder / "depth.f32", frame.view);
   frame.lights = load_lights_file(folder / "lights.json");
   return frame;
@@ -143,13 +166,17 @@ std::optional<FrameGrid> read_frame_grid(const fs::path& folder, const CapturedF
   std::error_code failure;
   if (!fs::exists(folder / "grid.json", failure)) return {};
   FrameGrid grid = read_grid_header(JsonFile(folder / "grid.json"), frame);
-  read_lists(folder, grid.lists, local_count(frame));
+  const size_t lights = local_count(frame);
+  read_lists(folder, grid.lists, lights);
+  const auto kind = grid.settings.find("grid_lists");
+  if (kind != grid.settings.end() && kind->second == "masks") read_masks(folder / "masks.u32", grid.lists, lights);
+  if (!grid.z_bin_edges.empty()) grid.lists.z_bins = read_words(folder / "z_bins.u32", lights, "a word a light");
   return grid;
 }
 
 void write_frame(const fs::path& folder, const CapturedFrame& frame) {
   make_folder(folder);
-  write_file(folder / "view.json", view_file_text({frame.view, frame.tile}));
+  write_file(folder / "view.json", view_file_text({frame.view, frame.tile, frame.surfaces_far_m}));
   save_lights_file(folder / "lights.json", frame.lights);
   write_file(folder / "depth.f32", bytes_of(frame.depth));
 }
@@ -161,9 +188,12 @@ void write_frame_grid(const fs::path& folder, const FrameGrid& grid) {
   header["cells"] = {lists.cells_x, lists.cells_y, lists.slices};
   header["tile"] = grid.tile;
   header["slice_edges"] = grid.slice_edges;
+  if (!grid.z_bin_edges.empty()) header["z_bin_edges"] = grid.z_bin_edges;
   header["settings"] = settings_json(grid.settings);
   write_file(folder / "grid.u32", bytes_of(lists.cells));
   write_file(folder / "indices.u32", bytes_of(lists.indices));
+  if (!lists.masks.empty()) write_file(folder / "masks.u32", bytes_of(lists.masks));
+  if (!grid.z_bin_edges.empty()) write_file(folder / "z_bins.u32", bytes_of(lists.z_bins));
   write_file(folder / "grid.json", text_by_fields(header));
 }
 

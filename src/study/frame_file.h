@@ -20,6 +20,7 @@ struct CapturedFrame {
   // clip_from_view as the frame has it: depth reversed or standard. near_m and far_m are told, not used.
   View view;
   int tile = 16;
+  double surfaces_far_m = 0;  // no surface in view can be farther; 0: nobody knows
   std::vector<Light> lights;
   std::vector<float> depth;  // z/w of clip_from_view, row 0 at the bottom; any float may stand here
 };
@@ -29,6 +30,7 @@ struct FrameGrid {
   HostGrid lists;
   int tile = 16;
   std::vector<float> slice_edges;               // inner edges, metres; empty for one slice
+  std::vector<float> z_bin_edges;               // likewise; empty for no z-bins
   std::map<std::string, std::string> settings;  // as to_strings gives them
 };
 
@@ -41,7 +43,7 @@ std::optional<FrameGrid> read_frame_grid(const std::filesystem::path& folder, co
 // view.json, lights.json and depth.f32, into a folder made where it is missing.
 void write_frame(const std::filesystem::path& folder, const CapturedFrame& frame);
 
-// grid.json, grid.u32 and indices.u32, likewise.
+// grid.json, grid.u32 and indices.u32, likewise; masks.u32 and z_bins.u32 where the grid has such.
 void write_frame_grid(const std::filesystem::path& folder, const FrameGrid& grid);
 
 // The point and spot lights as the view sees them, in the order that indices count them.

@@ -146,6 +146,12 @@ FrameView read_view_file(const std::filesystem::path& path) {
   read_projection(file, frame.view);
   check_depth(file, frame.view);
   read_far(file, frame.view);
+  if (file.has("surfaces_far")) {
+    frame.surfaces_far_m = file.number("surfaces_far", -largest, largest);
+    if (!(frame.surfaces_far_m > frame.view.near_m)) {
+      throw file.error("surfaces_far", fmt::format("is not beyond near {:g}", frame.view.near_m));
+    }
+  }
   read_pose(file, frame.view);
   return frame;
 }
@@ -157,6 +163,7 @@ std::string view_file_text(const FrameView& frame) {
   out["tile"] = frame.tile;
   out["near"] = view.near_m;
   out["far"] = std::isfinite(view.far_m) ? json(view.far_m) : json();
+  if (frame.surfaces_far_m != 0) out["surfaces_far"] = frame.surfaces_far_m;
   out["clip_from_view"] = rows_of(view.clip_from_view);
   out["view_from_world"] = rows_of(view.view_from_world);
   out["eye"] = {view.eye.x, view.eye.y, view.eye.z};

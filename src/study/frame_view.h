@@ -13,6 +13,7 @@ inline constexpr int max_frame_side = 16384;  // pixels
 struct FrameView {
   View view;
   int tile = 16;
+  double surfaces_far_m = 0;  // CapturedFrame's
 };
 
 // Throws Error(input) for what is no perspective or orthographic view along -z with depth from zero to one.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "reference/attenuation.h"
 #include "reference/cone_cell.h"
@@ -153,10 +152,11 @@ bool touches_cell(const Cell& cell, const ViewLight& light) {
 // Surfaces of the cell's pixels, in view space.
 std::vector<glm::dvec3> surfaces_of(const CapturedFrame& frame, const FrameGrid& grid,
                                     const PixelInspection& pixel) {
+  const PixelCells cells(frame, grid);
   std::vector<glm::dvec3> surfaces;
   for (int y = pixel.y0; y < pixel.y1; ++y) {
     for (int x = pixel.x0; x < pixel.x1; ++x) {
-      if (!is_covered(frame, x, y) || slice_of_pixel(frame, grid, x, y) != pixel.slice) continue;
+      if (!is_covered(frame, x, y) || cells.slice(x, y) != pixel.slice) continue;
       surfaces.push_back(
           position_from_depth(frame.view, x, y, frame.depth[size_t(y) * frame.view.width + x]));
     }
@@ -173,7 +173,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
   pixel.covered = is_covered(frame, x, y);
   pixel.distance_m = pixel.covered ? -position_from_depth(view, x, y, pixel.depth).z : endless;
   pixel.cell_x = x / grid.tile, pixel.cell_y = y / grid.tile;
-  pixel.slice = slice_of_pixel(frame, grid, x, y);
+  pixel.slice = PixelCells(frame, grid).slice(x, y);
   pixel.x0 = pixel.cell_x * grid.tile, pixel.x1 = std::min(pixel.x0 + grid.tile, view.width);
   pixel.y0 = pixel.cell_y * grid.tile, pixel.y1 = std::min(pixel.y0 + grid.tile, view.height);
   const DepthInterval interval = intervals[size_t(pixel.cell_y) * grid.lists.cells_x + pixel.cell_x];
@@ -195,10 +195,18 @@ std::vector<int> local_numbers(const CapturedFrame& frame) {
   return numbers;
 }
 
-std::span<const uint32_t> list_of(const HostGrid& lists, const PixelInspection& pixel) {
-  const glm::uvec2 cell =
-      lists.cells[(size_t(pixel.slice) * lists.cells_y + pixel.cell_y) * lists.cells_x + pixel.cell_x];
-  return {lists.indices.data() + cell.x, cell.y};
+bool stands_in_cell(const HostGrid& lists, size_t cell, uint32_t light) {
+  const size_t words = lists.masks.size() / lists.cells.size();
+  if (words > 0) return lists.masks[cell * words + light / 32] >> light % 32 & 1;
+  const uint32_t* first = lists.indices.data() + lists.cells[cell].x;
+  return std::binary_search(first, first + lists.cells[cell].y, light);
+}
+
+// How far the light reaches into the z-bin's range of distances.
+double z_bin_margin(const FrameGrid& grid, uint32_t bin, const ViewLight& light) {
+  const auto& edges = grid.z_bin_edges;
+  const double near = bin > 0 ? edges[bin - 1] : -endless, far = bin < edges.size() ? edges[bin] : endless;
+  return light.radius_m + std::min(-light.position.z - near, far + light.position.z);
 }
 
 Cell cell_of(const View& view, const PixelInspection& pixel) {
@@ -241,7 +249,8 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   const std::vector<ViewLight> lights = local_lights(frame);
   const std::vector<int> number = local_numbers(frame);
   const std::vector<uint32_t> near = lights_within_reach(lights, surfaces);
-  const std::span<const uint32_t> list = list_of(grid.lists, pixel);
+  const PixelCells cells(frame, grid);
+  const uint32_t at = cells.cell(x, y), bin = cells.z_bin(x, y);
   const bool empty = !(pixel.near_m <= pixel.far_m);
   const Cell cell = cell_of(frame.view, pixel);
   const std::vector<DepthInterval> pieces = pieces_of(cell, surfaces, settings.depth_bounds);
@@ -249,7 +258,7 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   for (uint32_t i = 0; i < lights.size(); ++i) {
     LightVerdict& v = pixel.lights.emplace_back();
     v.index = i, v.light = number[i];
-    v.listed = std::binary_search(list.begin(), list.end(), i);
+    v.listed = stands_in_cell(grid.lists, at, i);
     v.distance_m = pixel.covered ? glm::length(lights[i].position - here) : endless;
     v.lit = pixel.covered && is_lit(lights[i], here);
     if (std::binary_search(near.begin(), near.end(), i)) v.lit_pixels = count_lit(lights[i], surfaces);
@@ -262,6 +271,9 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
     const NamedMargin decided = deciding(margins_in_use(v.margins, settings.cull_test), v.listed);
     v.test = decided.test, v.margin_m = decided.margin_m;
     v.touches = touches_cell(cell, lights[i]);
+    if (v.listed && !grid.z_bin_edges.empty() && !bins_hold(grid.lists.z_bins[i], bin)) {
+      v.listed = false, v.test = "z-bins", v.margin_m = z_bin_margin(grid, bin, lights[i]);
+    }
   }
   std::stable_sort(pixel.lights.begin(), pixel.lights.end(),
                    [](const LightVerdict& a, const LightVerdict& b) {

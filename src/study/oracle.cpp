@@ -1,13 +1,11 @@
 #include "study/oracle.h"
 
-#include <bit>
-
 #include "passes/surfaces.h"
 #include "reference/position.h"
 #include "reference/shading.h"
 #include "shared/light_grid.h"
 #include "study/metrics.h"
-#include "study/z_bin_lists.h"
+#include "study/grid_lists.h"
 
 namespace lightgrid {
 namespace {
@@ -39,20 +37,6 @@ void add_lists(SharedGridStorage& storage, const LightGrid& grid, ListedLights& 
     lists.indices.assign(narrow.begin(), narrow.end());
   } else {
     lists.indices = read_buffer<uint32_t>(indices, grid.index_count);
-  }
-}
-
-void add_masks(SharedGridStorage& storage, const LightGrid& grid, ListedLights& lists) {
-  const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  const auto words = read_buffer<uint32_t>(storage.masks_.buffer->gl_buffer(), count * grid.mask_words);
-  for (size_t cell = 0; cell < count; ++cell) {
-    lists.first.push_back(uint32_t(lists.indices.size()));
-    for (size_t w = 0; w < grid.mask_words; ++w) {
-      for (uint32_t bits = words[cell * grid.mask_words + w]; bits; bits &= bits - 1) {
-        lists.indices.push_back(uint32_t(w * 32 + std::countr_zero(bits)));
-      }
-    }
-    lists.count.push_back(uint32_t(lists.indices.size()) - lists.first.back());
   }
 }
 
@@ -116,7 +100,9 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   ListedLights lists;
   lists.cell_of_pixel = cells_of_pixels(f, depth);
   if (f.plan.settings.grid_lists == GridLists::masks) {
-    add_masks(f.opaque_grid(), grid, lists);
+    const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
+    const GLuint masks = f.opaque_grid().masks_.buffer->gl_buffer();
+    add_masks(read_buffer<uint32_t>(masks, cells * grid.mask_words), cells, lists);
   } else {
     add_lists(f.opaque_grid(), grid, lists);
   }

@@ -90,6 +90,36 @@ TEST_F(Frames, CaptureWritesAFrameAndCullMakesItsGridAgain) {
   EXPECT_GT(std::filesystem::file_size(culled / "indices.u32"), 0u);
 }
 
+TEST_F(Frames, OfClusteredHaveItsSlicesAndItsMasks) {
+  const auto frame = folder_.path / "sliced", culled = folder_.path / "culled";
+  const std::vector<std::string> options = {"-t", "clustered", "--set", "slices=8", "--set", "z-bins=16", "--set", "grid-lists=masks"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun program = run_program(arguments);
+    EXPECT_EQ(program.status, 0) << program.err;
+    return program.out;
+  };
+  EXPECT_THAT(run({"capture", "street", "--size", "93x61", "-o", frame}), HasSubstr("6x4x8 cells"));
+  run({"cull", frame, "-o", culled});
+  EXPECT_THAT(names_in(culled), ElementsAre("grid.json", "grid.u32", "indices.u32", "masks.u32", "z_bins.u32"));
+  for (const std::string& name : names_in(culled)) EXPECT_TRUE(file_bytes(culled / name) == file_bytes(frame / name)) << name;
+  const auto grid = nlohmann::json::parse(file_bytes(culled / "grid.json"));
+  EXPECT_EQ(grid["cells"], nlohmann::json({6, 4, 8}));
+  EXPECT_EQ(grid["slice_edges"].size(), 7u);
+  EXPECT_EQ(grid["z_bin_edges"].size(), 15u);
+  EXPECT_EQ(grid["settings"]["slices"], 8);
+  EXPECT_THAT(run({"inspect", frame, "-o", folder_.path / "maps"}), HasSubstr("0 (pixel, light) pairs lost, 0 wrong"));
+}
+
+TEST_F(Frames, HaveSlicesWhereTheSettingSaysSoAndNoneFromATechniqueWithoutAGrid) {
+  const auto frame = capture();
+  const ProgramRun run = run_program({"cull", frame, "-o", folder_.path / "culled", "--set", "slices=4"});
+  EXPECT_THAT(run.out, HasSubstr("6x4x4 cells")) << run.err;
+  const ProgramRun none = run_program({"cull", frame, "-t", "forward", "-o", folder_.path / "none"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("forward"));
+}
+
 TEST_F(Frames, CullSaysAsJsonWhatItMade) {
   const auto frame = capture(), culled = folder_.path / "culled";
   const ProgramRun run =

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "reference/position.h"
+#include "base/error.h"
 #include "study/capture.h"
 #include "study/captured_frame.h"
 #include "study/frame_lists.h"
@@ -16,8 +17,8 @@
 namespace lightgrid {
 namespace {
 
-FrameGrid cull(const CapturedFrame& frame, const Settings& settings = {}) {
-  FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, settings);
+FrameGrid cull(const CapturedFrame& frame, const Settings& settings = {}, const TechniqueNeeds& needs = {}) {
+  FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, settings, needs);
   culler.run();
   return culler.grid();
 }
@@ -178,7 +179,49 @@ TEST(FrameCuller, SettingsAreTheFramesTileThenWhatIsGiven) {
   EXPECT_EQ(cull(frame, frame_settings(frame, {})).lists.cells_x, 2);
 }
 
-TEST(Capture, HasTheGridThatTheRendererShadesFrom) {
+// With slices and z-bins, between depths that a frame tells or that its surfaces have; masks say what lists say.
+TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
+  for (CapturedFrame frame : {small_frame(133, 71), with_standard_depth(small_frame(133, 71), 60)}) {
+    for (const double far_m : {0.0, 40.0}) {
+      frame.surfaces_far_m = far_m;
+      uint64_t listed[2];
+      for (const GridLists lists : {GridLists::lists, GridLists::masks}) {
+        const FrameGrid grid = cull(frame, {.slices = 8, .z_bins = 64, .grid_lists = lists}, {.slices = true, .z_bins = true});
+        EXPECT_EQ(grid.lists.slices, 8);
+        EXPECT_EQ(grid.slice_edges.size(), 7u);
+        EXPECT_EQ(grid.z_bin_edges.size(), 63u);
+        EXPECT_NEAR(grid.slice_edges.back(), 0.25 * std::pow((far_m > 0 ? far_m : 12.0) / 0.25, 7.0 / 8), 1e-4);
+        const InspectionMaps maps = inspection_maps(frame, grid);
+        EXPECT_EQ(maps.pairs.lost, 0u);
+        EXPECT_EQ(maps.pairs.wrong, 0u);
+        EXPECT_GT(maps.pairs.lit, 500u);
+        listed[int(lists)] = maps.pairs.listed;
+      }
+      EXPECT_EQ(listed[0], listed[1]);
+      EXPECT_LT(listed[0], inspection_maps(frame, cull(frame)).pairs.listed);
+    }
+  }
+}
+
+TEST(FrameCuller, GridsHaveWhatTheTechniqueAndTheSettingsAskFor) {
+  EXPECT_FALSE(grid_needs("forward_plus", {"tile=8"}).slices);
+  EXPECT_TRUE(grid_needs("forward_plus", {"slices=8"}).slices);
+  EXPECT_TRUE(grid_needs("clustered", {}).slices);
+  EXPECT_THROW(grid_needs("forward", {}), Error);
+  const FrameGrid grid = cull(small_frame(), {.slices = 8, .z_bins = 16});
+  EXPECT_EQ(grid.lists.slices, 1);
+  EXPECT_EQ(grid.settings.at("slices"), "1");
+  EXPECT_EQ(grid.settings.at("z_bins"), "off");
+}
+
+std::vector<uint32_t> list_at(const ListedLights& lists, size_t pixel) {
+  const uint32_t cell = lists.cell_of_pixel[pixel], first = lists.first[cell];
+  return {lists.indices.begin() + first, lists.indices.begin() + first + lists.count[cell]};
+}
+
+struct CaptureOf : testing::TestWithParam<std::pair<const char*, Settings>> {};
+
+TEST_P(CaptureOf, HasTheGridThatTheRendererShadesFrom) {
   SmallScene small = small_scene();
   Light spot = small.scene.lights[0];
   spot.type = LightType::spot, spot.position = {0, 1, -2}, spot.radius_m = 4;
@@ -187,19 +230,28 @@ TEST(Capture, HasTheGridThatTheRendererShadesFrom) {
   spot.type = LightType::directional;
   small.scene.lights.insert(small.scene.lights.begin() + 1, spot);
   const View view = small_view(93, 61);
-  const Settings settings;
+  const auto& [technique, settings] = GetParam();
   const CapturedFrame frame = capture_frame(software_devices(), small.scene, view, settings);
-  const FrameGrid grid = cull(frame, settings);
-  TechniqueRun run(software_devices(), small.scene, view, settings, find_technique("forward_plus"));
+  const FrameGrid grid = cull(frame, settings, grid_needs(technique, {}));
+  TechniqueRun run(software_devices(), small.scene, view, settings, find_technique(technique));
   run.run_frame();
   const ListedLights shaded = listed_lights(run, frame.depth);
   const ListedLights captured = listed_lights(frame, grid);
-  EXPECT_EQ(captured.first, shaded.first);
-  EXPECT_EQ(captured.count, shaded.count);
-  EXPECT_EQ(captured.indices, shaded.indices);
-  EXPECT_EQ(captured.cell_of_pixel, shaded.cell_of_pixel);
+  ASSERT_EQ(captured.cell_of_pixel.size(), shaded.cell_of_pixel.size());
+  for (size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
+    if (frame.depth[pixel] > 0) {
+      ASSERT_EQ(list_at(captured, pixel), list_at(shaded, pixel)) << pixel;
+    }
+  }
   EXPECT_EQ(frame.depth, read_depth(run.frame()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Techniques, CaptureOf,
+                         testing::Values(std::pair("forward_plus", Settings{}), std::pair("clustered", Settings{}),
+                                         std::pair("forward_plus", Settings{.z_bins = 64}),
+                                         std::pair("clustered", Settings{.slices = 8, .slice_spacing = SliceSpacing::linear,
+                                                                         .z_bins = 16, .grid_lists = GridLists::masks})),
+                         [](const auto& info) { return std::to_string(info.index) + info.param.first; });
 
 }  // namespace
 }  // namespace lightgrid

@@ -105,6 +105,49 @@ TEST(FrameFile, AGridIsReadAsItWasWritten) {
   EXPECT_EQ(file_bytes(folder.path / "grid.u32").size(), 12u * 8);
 }
 
+// 21 of the frame's lights are listable: a word a cell, of which 21 bits are used.
+FrameGrid grid_with_masks() {
+  FrameGrid grid = small_grid();
+  grid.settings["grid_lists"] = "masks";
+  for (uint32_t cell = 0; cell < 12; ++cell) grid.lists.masks.push_back(cell << 12 | 1);
+  grid.z_bin_edges = {1, 2, 2, 9.5f};
+  for (uint32_t light = 0; light < 21; ++light) grid.lists.z_bins.push_back(light % 4 | 5 << 16);
+  return grid;
+}
+
+TEST(FrameFile, MasksAndZBinsAreReadAsTheyWereWritten) {
+  const TempFolder folder;
+  CapturedFrame frame = small_frame();
+  frame.surfaces_far_m = 12.000000001;
+  const FrameGrid grid = grid_with_masks();
+  write_frame(folder.path, frame);
+  write_frame_grid(folder.path, grid);
+  EXPECT_EQ(read_frame(folder.path).surfaces_far_m, frame.surfaces_far_m);
+  const auto read = read_frame_grid(folder.path, frame);
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->lists == grid.lists);
+  EXPECT_EQ(read->z_bin_edges, grid.z_bin_edges);
+}
+
+TEST(FrameFile, WrongMasksAndZBinsAreTold) {
+  const TempFolder folder;
+  write_frame(folder.path, small_frame());
+  FrameGrid grid = grid_with_masks();
+  grid.lists.masks[7] |= 1u << 21;
+  write_frame_grid(folder.path, grid);
+  EXPECT_THAT(fault_of(folder.path), testing::AllOf(testing::HasSubstr("masks.u32: word 7"), testing::HasSubstr("21 lights")));
+  write_frame_grid(folder.path, grid_with_masks());
+  EXPECT_EQ(fault_of(folder.path), "");
+  write_bytes(folder.path / "z_bins.u32", "1234");
+  EXPECT_THAT(fault_of(folder.path), testing::HasSubstr("z_bins.u32: 4 bytes are not the 84"));
+  write_bytes(folder.path / "masks.u32", "1234");
+  EXPECT_THAT(fault_of(folder.path), testing::HasSubstr("masks.u32: 4 bytes are not the 48"));
+  CapturedFrame frame = small_frame();
+  frame.surfaces_far_m = 0.1;
+  write_frame(folder.path, frame);
+  EXPECT_THAT(fault_of(folder.path), testing::HasSubstr("surfaces_far"));
+}
+
 TEST(FrameFile, AFileAtItsLeastIsTaken) {
   const TempFolder folder;
   write_bytes(folder.path / "view.json",

@@ -1,10 +1,23 @@
-#include "study/z_bin_lists.h"
+#include "study/grid_lists.h"
 
+#include <bit>
 #include <map>
 
 #include "shared/slices.h"
 
 namespace lightgrid {
+
+void add_masks(std::span<const uint32_t> masks, size_t cells, ListedLights& lists) {
+  const size_t words = masks.size() / cells;
+  for (size_t cell = 0; cell < cells; ++cell) {
+    lists.first.push_back(uint32_t(lists.indices.size()));
+    for (size_t w = 0; w < words; ++w) {
+      for (uint32_t bits = masks[cell * words + w]; bits; bits &= bits - 1)
+        lists.indices.push_back(uint32_t(w * 32 + std::countr_zero(bits)));
+    }
+    lists.count.push_back(uint32_t(lists.indices.size()) - lists.first.back());
+  }
+}
 
 ListedLights in_z_bins(const ListedLights& lists, std::span<const uint32_t> bin_of_pixel, std::span<const uint32_t> z_bins) {
   ListedLights out;
