@@ -1,5 +1,5 @@
 // Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS for its
-// masks, else every light.
+// masks, LIGHTS_LIDR for light index images, else every light.
 // BLEND: output is multiplied by coverage and laid over what is there.
 
 #include "shaders/common/surface.glsl"
@@ -15,6 +15,8 @@
 #include "shaders/lights/grid.glsl"
 #elif defined(LIGHTS_MASKS)
 #include "shaders/lights/masks.glsl"
+#elif defined(LIGHTS_LIDR)
+#include "shaders/lights/lidr.glsl"
 #else
 #include "shaders/lights/all.glsl"
 #endif

@@ -76,7 +76,7 @@ GlVertexArray make_vertex_array() {
   return GlVertexArray(name);
 }
 
-GlFramebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
+GlFramebuffer make_framebuffer(const std::vector<GLuint>& colors, GLuint depth) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   GlFramebuffer framebuffer(name);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include "gl/gl.h"
 
@@ -49,6 +49,6 @@ GlSampler make_sampler();
 GlVertexArray make_vertex_array();
 
 // A framebuffer of colour attachments and a depth texture, perhaps with stencil (0: none), checked for completeness.
-GlFramebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+GlFramebuffer make_framebuffer(const std::vector<GLuint>& colors, GLuint depth);
 
 }  // namespace lightgrid

@@ -4,6 +4,7 @@
 
 #include "base/image.h"
 #include "passes/frame/visible_clusters.h"
+#include "scene/listed_lights.h"
 
 namespace lightgrid {
 
@@ -18,6 +19,13 @@ struct GridTextures {
   GLuint cells = 0, indices = 0;  // buffer textures
   GLuint masks = 0;
   GLuint z_bins = 0;  // of each light, where the plan has some
+};
+
+// For each pixel the indices of its lights, packed, and what shaders/lights/lidr.glsl must know to read them.
+struct LightIndexImages {
+  std::vector<GLuint> images;
+  std::vector<std::string> defines;
+  size_t bytes = 0;
 };
 
 struct ShadedImage {
@@ -43,12 +51,20 @@ GridTextures cull_lights_for_blended(Frame& f, const DepthBounds& bounds);
 LightGrid cull_lights_for_cl(Frame& f, const DepthBounds& bounds);
 GridTextures grid_to_gl(Frame& f, const LightGrid& grid);
 
+// Draws light volumes into light index images, at the depth that the prepass left. Throws Error(input) where no images hold
+// what the settings ask for, and Error(machine) where this machine's blending would change an index.
+LightIndexImages light_index(Frame& f);
+// Those of the last frame, for the oracle.
+ListedLights read_light_index(Frame& f);
+
 // Shades opaque surfaces, at the depth that the prepass left, from the grid's lists, or, without a grid, from every light.
 // What `distances` shows to be hidden is not drawn.
 ShadedImage shade_forward(Frame& f, const TileDistances& distances, const GridTextures* grid);
+ShadedImage shade_forward(Frame& f, const TileDistances& distances, const LightIndexImages& index);
 
 // Lays blended surfaces over the image, back to front. Without a grid: from every light.
 void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid);
+void shade_blended(Frame& f, const ShadedImage& image, const LightIndexImages& index);
 
 // Into `image`, which keeps its memory from frame to frame.
 void read_back(Frame& f, const ShadedImage& shaded, Image& image);

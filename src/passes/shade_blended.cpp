@@ -5,8 +5,10 @@
 #include "passes/passes.h"
 
 namespace lightgrid {
+namespace {
 
-void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid) {
+template <typename Lights>
+void shade(Frame& f, const ShadedImage& image, const Lights& lights) {
   if (!f.plan.blend) return;
   auto pass = f.timer.pass("shade_blended", "gl");
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
@@ -16,9 +18,9 @@ void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid)
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours come multiplied by coverage
-  bind_lights(f, grid);
+  bind_lights(f, lights);
   draw_instances(f, f.plan.blended, DrawStreams::all, [&](uint32_t features) -> const GlProgram& {
-    auto defines = light_defines(f, features, grid);
+    auto defines = light_defines(f, features, lights);
     defines.emplace_back("BLEND");
     return f.program("shaders/scene.vert", "shaders/forward.frag", defines);
   });
@@ -26,5 +28,11 @@ void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid)
   const size_t pixels = size_t(f.view.width) * f.view.height;
   pass.moves(f.gpu.geometry_bytes() + pixels * 20, pixels * 16);
 }
+
+}  // namespace
+
+void shade_blended(Frame& f, const ShadedImage& image, const GridTextures* grid) { shade(f, image, grid); }
+
+void shade_blended(Frame& f, const ShadedImage& image, const LightIndexImages& index) { shade(f, image, index); }
 
 }  // namespace lightgrid

@@ -11,6 +11,15 @@ namespace lightgrid {
 
 enum class Brdf { ggx, blinn };  // the specular lobe: shared/brdf.h
 
+// Light-indexed deferred rendering (docs/techniques/lidr.md): how several light indices share a pixel, what of a light's
+// volume is drawn, and in which order lights are.
+enum class LidrPacking { bitshift, maxblend, sort };
+enum class LidrVolumes { stencil, front_faces };
+enum class LidrUnpack { integers, floats };
+enum class LidrOrder { priority, scene };
+
+enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a light's ball: docs/light_volumes.md
+
 struct Settings {
   Brdf brdf = Brdf::ggx;
   CullTest cull_test = CullTest::planes_aabb;
@@ -22,6 +31,13 @@ struct Settings {
   GridLists grid_lists = GridLists::lists;
   int buffer_bits = 32;  // a channel of geometry buffers: 8, 16 or 32
   KernelShape kernel_shape = KernelShape::automatic;
+  LidrPacking lidr_packing = LidrPacking::bitshift;
+  int lidr_overlap = 0;  // lights a pixel may have: 1, 2, 4, 8, 16, or 0: the most there is room for
+  int lidr_lights = 0;   // lights there may be: 15, 255, 65535, or 0: the least that holds the scene's
+  LidrVolumes lidr_volumes = LidrVolumes::stencil;
+  LidrUnpack lidr_unpack = LidrUnpack::integers;
+  LidrOrder lidr_order = LidrOrder::priority;
+  VolumeMeshes volume_mesh = VolumeMeshes::automatic;
   bool portable = false;       // kernels without the builtins of one kind of CPU
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against
 };

@@ -3,10 +3,10 @@
 
 namespace lightgrid {
 
-extern const Technique forward, forward_plus, clustered, forward_plus_compute, deferred_tiled;
+extern const Technique forward, forward_plus, clustered, forward_plus_compute, deferred_tiled, lidr;
 
 const std::vector<const Technique*>& techniques() {
-  static const std::vector<const Technique*> all = {&forward, &forward_plus, &clustered, &forward_plus_compute, &deferred_tiled};
+  static const std::vector<const Technique*> all = {&forward, &forward_plus, &clustered, &forward_plus_compute, &deferred_tiled, &lidr};
   return all;
 }
 

@@ -136,8 +136,8 @@ TEST(LightVolumes, AreThereWhereALightReachesAPixel) {
     ASSERT_EQ(volumes.size(), 1u) << "trial " << trial;
     const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.width, view.height);
     for (int k = 0; k < 2; ++k) {
-      ASSERT_LE(volumes[0].first[k], pixel[k]) << "trial " << trial;
-      ASSERT_GE(volumes[0].end[k], pixel[k]) << "trial " << trial;
+      ASSERT_LE(volumes[0].low_px[k], pixel[k]) << "trial " << trial;
+      ASSERT_GE(volumes[0].high_px[k], pixel[k]) << "trial " << trial;
     }
   }
   EXPECT_GT(seen, 5'000u);

@@ -178,7 +178,7 @@ SharedGridStorage& Frame::blend_grid() {
 }
 
 size_t Frame::light_grid_bytes() const {
-  size_t bytes = 0;
+  size_t bytes = targets.bytes(TargetUse::light_index);
   for (const LightGrid* grid : {&opaque_grid_last, &blend_grid_last}) {
     bytes += grid->cell_bytes + grid->index_bytes + grid->mask_bytes + grid->z_bin_bytes;
   }

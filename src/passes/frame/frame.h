@@ -98,7 +98,7 @@ struct Frame {
   SharedGridStorage& blend_grid();
 
   size_t memory_bytes() const;        // of this frame's targets, buffers and the scene's
-  size_t light_grid_bytes() const;    // of the grids as last built, without room to grow
+  size_t light_grid_bytes() const;    // of the grids as last built, without room to grow, and of light index images
   void note_grid(const LightGrid& grid, bool blend) { (blend ? blend_grid_last : opaque_grid_last) = grid; }
   LightGrid opaque_grid_last, blend_grid_last;
 

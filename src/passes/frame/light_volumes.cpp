@@ -13,7 +13,7 @@ namespace {
 constexpr double u = 0x1p-24;
 constexpr double pi = std::numbers::pi;
 
-// As shaders/light_volume.vert reads it.
+// As shaders/common/light_volume.glsl reads it.
 struct VolumeInstance {
   glm::mat4 clip_from_mesh;
   uint32_t light;
@@ -28,7 +28,7 @@ constexpr int cones = 6;  // 40, 50 ... 90 degrees
 constexpr double farthest_corner = 1.74;
 
 // Pixels of radius from which faces are cut once, and twice: below, corners cost more than the pixels they would spare.
-constexpr double cut_once_px = 16, cut_twice_px = 120;
+constexpr double cut_once_px = 32, cut_twice_px = 250;
 
 double pixel_size(const View& view, double distance) {
   const double x = 2 / (view.clip_from_view[0][0] * view.width), y = 2 / (view.clip_from_view[1][1] * view.height);
@@ -109,18 +109,19 @@ void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes,
   volume.view_from_mesh = placed(light.position - light.direction * (back * *given), axes);
 }
 
+// From the corners' places in clip space.
+void find_pixels(const View& view, const glm::dvec2& low, const glm::dvec2& high, LightVolume& volume) {
+  const glm::dvec2 size(view.width, view.height);
+  volume.low_px = glm::clamp((low * 0.5 + 0.5) * size, glm::dvec2(0), size);
+  volume.high_px = glm::clamp((high * 0.5 + 0.5) * size, glm::dvec2(0), size);
+  volume.first = glm::ivec2(glm::floor(volume.low_px)), volume.end = glm::ivec2(glm::ceil(volume.high_px));
+}
+
 void cover_screen(const View& view, LightVolume& volume) {
   volume.clip_from_mesh = glm::mat4(1);
   volume.center = {0, 0, 0}, volume.radius = std::numeric_limits<double>::infinity();
   volume.crosses_near = true;
-  volume.first = {0, 0}, volume.end = {view.width, view.height};
-}
-
-// Pixels from the corners' places on screen, one more on each side.
-void find_pixels(const View& view, const glm::dvec2& low, const glm::dvec2& high, LightVolume& volume) {
-  const glm::dvec2 size(view.width, view.height);
-  volume.first = glm::ivec2(glm::clamp(glm::floor((low * 0.5 + 0.5) * size) - 1.0, glm::dvec2(0), size));
-  volume.end = glm::ivec2(glm::clamp(glm::ceil((high * 0.5 + 0.5) * size) + 1.0, glm::dvec2(0), size));
+  find_pixels(view, glm::dvec2(-1), glm::dvec2(1), volume);
 }
 
 // What follows from mesh and matrix. False: all corners are on the far side of one of the view's planes.
@@ -149,8 +150,8 @@ bool place_volume(const View& view, const Frustum& frustum, LightVolume& volume)
   volume.clip_from_mesh = glm::mat4(view.clip_from_view * volume.view_from_mesh);
   // Rounding: a part in 10^5 of the distance, as for clusters.
   volume.crosses_near = nearest < view.near_m + 1e-5 * (std::abs(view.near_m) + volume.radius);
-  volume.first = {0, 0}, volume.end = {view.width, view.height};
-  if (!volume.crosses_near) find_pixels(view, screen_low, screen_high, volume);
+  if (volume.crosses_near) screen_low = glm::dvec2(-1), screen_high = glm::dvec2(1);
+  find_pixels(view, screen_low, screen_high, volume);
   return true;
 }
 

@@ -13,13 +13,6 @@
 
 namespace lightgrid {
 
-// Which meshes stand for balls; cones have their own either way, except under `box`.
-enum class VolumeMeshes {
-  automatic,   // more faces where a light is larger on the screen
-  icosahedron,
-  box,
-};
-
 struct LightVolume {
   static constexpr uint32_t everything = 0;  // a mesh drawn in clip space, for what no ball or cone can hold
 
@@ -30,7 +23,8 @@ struct LightVolume {
   glm::dvec3 center;          // a ball around the mesh, view space; `everything`: of infinite radius
   double radius;
   bool crosses_near;          // a part is nearer than the near plane: its front faces have a hole there
-  glm::ivec2 first, end;      // pixels that it may touch: first <= p < end
+  glm::dvec2 low_px, high_px; // on screen: no pixel has its centre in it outside these
+  glm::ivec2 first, end;      // the pixels of that: first <= p < end
 };
 
 // Every mesh that a volume may have.
@@ -38,10 +32,11 @@ const std::vector<LightMesh>& light_meshes();
 
 // In the lights' order. A light that cannot reach anything in view has none: it is off the screen, or its radius is not
 // above 0.
+// `meshes`: those of balls; under `box` also those of cones.
 std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLight> lights, VolumeMeshes meshes,
                                        int subpixel_bits);
 
-// Draws volumes through shaders/light_volume.vert. One vertex buffer for all meshes; matrix and light are attributes of
+// Draws volumes through shaders/common/light_volume.glsl. One vertex buffer for all meshes; matrix and light are attributes of
 // an instance.
 class LightVolumes : public Kept {
  public:

@@ -29,8 +29,8 @@ GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
 
 GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
 
-GLuint Targets::framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
-  std::vector<GLuint> key(colors);
+GLuint Targets::framebuffer(const std::vector<GLuint>& colors, GLuint depth) {
+  std::vector<GLuint> key = colors;
   key.push_back(depth);
   const auto found = framebuffers_.find(key);
   if (found != framebuffers_.end()) return found->second.name();

@@ -1,7 +1,6 @@
 // The images that passes draw into: of the view's size, made at first use, kept under their names from frame to frame.
 #pragma once
 
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@
 namespace lightgrid {
 
 // What an image's memory is counted as.
-enum class TargetUse { image, gbuffer };
+enum class TargetUse { image, gbuffer, light_index };
 
 class Targets {
  public:
@@ -23,7 +22,7 @@ class Targets {
   GLuint depth();  // reversed 32-bit float
 
   // Over images of this frame; depth 0: none.
-  GLuint framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+  GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth);
 
   size_t bytes() const;               // of all images
   size_t bytes(TargetUse use) const;  // of some

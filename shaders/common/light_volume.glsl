@@ -1,0 +1,11 @@
+// The corners of a light's volume (src/passes/frame/light_volumes.h), one light an instance. Near and far do not clip
+// (GL_DEPTH_CLAMP); what is nearer than the near plane is cut off by a plane of our own, since depth would be of no use
+// there: in a stencil count of faces behind a surface such parts count for nothing.
+layout(location = 0) in vec3 position;
+layout(location = 1) in mat4 clip_from_mesh;  // and 2, 3, 4
+layout(location = 5) in uint light_of_volume;
+
+void place_corner() {
+  gl_Position = clip_from_mesh * vec4(position, 1.0);
+  gl_ClipDistance[0] = gl_Position.w - gl_Position.z;
+}

@@ -1,0 +1,10 @@
+// An index of its own at each pixel, to see what this machine's blending makes of it.
+#include "shaders/common/light_index.glsl"
+
+layout(binding = 12) uniform usampler2D indices;
+layout(location = 0) out vec4 images[LIDR_TARGETS];
+
+void main() {
+  uint index = texelFetch(indices, ivec2(gl_FragCoord.xy), 0).r;
+  for (uint target = 0u; target < uint(LIDR_TARGETS); ++target) images[target] = channels_of(index, target);
+}

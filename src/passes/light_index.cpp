@@ -1,0 +1,262 @@
+// Light volumes into images of light indices, for shading to look lights up by (docs/techniques/lidr.md).
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "passes/frame/light_groups.h"
+#include "passes/frame/light_index_probe.h"
+#include "passes/frame/light_index_state.h"
+#include "passes/frame/light_volumes.h"
+#include "passes/passes.h"
+
+namespace lightgrid {
+namespace {
+
+// The stencil's lowest bit is clear where the surface is inside the volume in hand; the bits above count down what room is
+// left. Taking one from an even number does both: it sets the lowest bit and takes one from the count.
+constexpr GLuint not_inside = 1;
+constexpr GLuint has_room = 128;  // the count has not come below half of all
+
+// Volumes that are drawn together.
+struct Batch {
+  size_t first, count;
+  uint32_t group;  // sort: whose channels
+};
+
+struct Order {
+  std::vector<LightVolume> volumes;
+  std::vector<Batch> batches;
+};
+
+class LightIndexState : public Kept {
+ public:
+  explicit LightIndexState(Frame& f)
+      : layout(light_index_layout(f.plan.settings, f.plan.local.size())), group_of_light(f.plan.local.size(), no_group) {
+    require_exact_blending(f, layout);
+    const std::vector<ViewLight> lights = lights_in_view(f.scene, f.view);
+    for (int i : f.plan.local) {
+      const glm::dvec3& i_rgb = lights[i].radiant_intensity;
+      // The integral of intensity / distance^2 over the ball, but for a factor.
+      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
+    }
+  }
+
+  LightIndexLayout layout;
+  std::vector<double> influence;          // of each light
+  std::vector<uint32_t> group_of_light;   // where no camera changes it
+  bool grouped = false;
+  Order order;
+};
+
+// Most influence first, where the setting asks; else as in the scene.
+void put_in_order(const Frame& f, const LightIndexState& state, std::vector<LightVolume>& volumes) {
+  if (f.plan.settings.lidr_order == LidrOrder::scene) return;
+  std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) {
+    return state.influence[a.light] > state.influence[b.light];
+  });
+}
+
+LightExtent extent_in_space(const LightVolume& v) { return {v.center - v.radius, v.center + v.radius, v.center, v.radius}; }
+LightExtent extent_on_screen(const LightVolume& v) { return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)}; }
+
+// Sort: what finds no group is left out. Inside volumes, lights apart in space are apart in the image, and that stays so for
+// whatever camera; behind front faces, those apart on the screen.
+void put_in_groups(const Frame& f, LightIndexState& state, std::vector<LightVolume>& volumes) {
+  const bool on_screen = f.plan.settings.lidr_volumes == LidrVolumes::front_faces;
+  if (on_screen || !state.grouped) {
+    std::vector<LightExtent> extents;
+    for (const LightVolume& v : volumes) extents.push_back(on_screen ? extent_on_screen(v) : extent_in_space(v));
+    const std::vector<uint32_t> groups = group_lights(extents, state.layout.groups);
+    for (size_t i = 0; i < groups.size(); ++i) state.group_of_light[volumes[i].light] = groups[i];
+    state.grouped = true;
+  }
+  const auto group = [&](const LightVolume& v) { return state.group_of_light[v.light]; };
+  std::erase_if(volumes, [&](const LightVolume& v) { return group(v) == no_group; });
+  std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) { return group(a) < group(b); });
+}
+
+// Rounds in which no two volumes share a pixel, so that the stencil holds one at a time; or, where nothing is marked and each
+// draw knows its channels, all in one.
+std::vector<uint32_t> rounds_of(const Frame& f, const LightIndexLayout& layout, const std::vector<LightVolume>& volumes) {
+  const bool sorted = layout.packing == LidrPacking::sort, marked = f.plan.settings.lidr_volumes == LidrVolumes::stencil;
+  if (!marked && (sorted || layout.groups == 1)) return std::vector<uint32_t>(volumes.size(), 0);
+  std::vector<LightExtent> extents;
+  for (const LightVolume& v : volumes) extents.push_back(extent_on_screen(v));
+  return draw_rounds(extents);
+}
+
+Order order_of(const Frame& f, LightIndexState& state, std::vector<LightVolume> volumes) {
+  const bool sorted = state.layout.packing == LidrPacking::sort;
+  put_in_order(f, state, volumes);
+  if (sorted) put_in_groups(f, state, volumes);
+  const std::vector<uint32_t> rounds = rounds_of(f, state.layout, volumes);
+  // Within a round of a group any order is as good: one that takes few calls. Where all is one round, the order tells who
+  // stays where there is no room.
+  const auto batch_of = [&](uint32_t i) {
+    return std::tuple(sorted ? state.group_of_light[volumes[i].light] : 0, rounds[i], volumes[i].crosses_near, volumes[i].mesh);
+  };
+  std::vector<uint32_t> order(volumes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const bool any_order = sorted || f.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
+  if (any_order) std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
+  Order out;
+  for (size_t i = 0; i < order.size(); ++i) {
+    const auto [group, round, crosses, mesh] = batch_of(order[i]);
+    const auto [last_group, last_round, last_crosses, last_mesh] = batch_of(order[i ? i - 1 : 0]);
+    if (i == 0 || group != last_group || round != last_round || crosses != last_crosses) out.batches.push_back({i, 0, group});
+    ++out.batches.back().count;
+    out.volumes.push_back(volumes[order[i]]);
+  }
+  return out;
+}
+
+class Drawing {
+ public:
+  Drawing(const Frame& f, const LightIndexLayout& layout, const LightVolumes& volumes)
+      : layout_(layout), volumes_(volumes), inside_(f.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
+
+  void draw(const Batch& batch) const {
+    const bool counted = layout_.packing != LidrPacking::sort;
+    if (inside_) mark_inside(batch);
+    // Later groups first: what takes the last place of one group would otherwise find the first of the next.
+    for (uint32_t group = counted ? layout_.groups : 1; group-- > 0;) {
+      write_group(layout_, counted ? group : batch.group);
+      if (counted) ask_for_room(group); else ask_for_none();
+      if (inside_) write_marked(batch); else write_behind_front_faces(batch);
+    }
+  }
+
+  // The count of room that the stencil starts from.
+  GLint cleared_stencil() const {
+    if (layout_.packing == LidrPacking::sort) return 255;
+    return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside : has_room - 1 + layout_.overlap);
+  }
+
+ private:
+  // Surfaces behind a front face; write_marked then asks for a back face behind them. Where the near plane cuts holes into
+  // front faces, each face behind a surface turns the bit over: an odd number of them is the inside of any closed mesh.
+  void mark_inside(const Batch& batch) const {
+    write_group(layout_, no_channels);
+    const bool count = crosses_near(batch);
+    count ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    glDepthFunc(GL_GEQUAL);
+    glStencilMask(not_inside);
+    glStencilFunc(GL_ALWAYS, 0, 0);
+    count ? glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP) : glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
+    volumes_.draw(batch.first, batch.count);
+  }
+
+  // A place in this group, perhaps of a surface marked. What is marked and has a back face before it is not inside after all.
+  void ask_for_room(uint32_t group) const {
+    const GLuint step = inside_ ? 2 : 1;  // what a place takes from the stencil
+    const GLuint of_group = layout_.groups > 1 ? step * layout_.slots : 0;
+    glStencilMask(255);
+    glStencilFunc(GL_EQUAL, GLint(has_room | (group == 0 ? of_group : 0)), has_room | of_group | (inside_ ? not_inside : 0));
+    glStencilOp(GL_KEEP, inside_ ? GL_INCR : GL_KEEP, GL_DECR);
+  }
+
+  void ask_for_none() const {
+    inside_ ? glStencilFunc(GL_EQUAL, 0, not_inside) : glStencilFunc(GL_ALWAYS, 0, 0);
+    inside_ ? glStencilOp(GL_KEEP, GL_INVERT, GL_INVERT) : glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  }
+
+  void write_marked(const Batch& batch) const {
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    glDepthFunc(crosses_near(batch) ? GL_ALWAYS : GL_LEQUAL);
+    volumes_.draw(batch.first, batch.count);
+  }
+
+  // Whatever is behind a front face, or, where the near plane cuts holes into these, wherever a back face is.
+  void write_behind_front_faces(const Batch& batch) const {
+    glEnable(GL_CULL_FACE);
+    glCullFace(crosses_near(batch) ? GL_FRONT : GL_BACK);
+    glDepthFunc(crosses_near(batch) ? GL_ALWAYS : GL_GEQUAL);
+    volumes_.draw(batch.first, batch.count);
+  }
+
+  bool crosses_near(const Batch& batch) const { return volumes_.volumes()[batch.first].crosses_near; }
+
+  const LightIndexLayout& layout_;
+  const LightVolumes& volumes_;
+  bool inside_;
+};
+
+std::vector<GLuint> index_images(Frame& f, const LightIndexLayout& layout) {
+  std::vector<GLuint> images;
+  for (uint32_t i = 0; i < layout.targets(); ++i) {
+    images.push_back(f.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
+  }
+  return images;
+}
+
+void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
+  const float none[4] = {};
+  for (uint32_t i = 0; i < layout.targets(); ++i) glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), none);
+  glStencilMask(255);
+  glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
+}
+
+void draw_volumes(Frame& f, const LightIndexState& state, const LightVolumes& volumes, const Order& order, GLuint framebuffer) {
+  const LightIndexLayout& layout = state.layout;
+  const Drawing drawing(f, layout, volumes);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, f.view.width, f.view.height);
+  clear(layout, framebuffer, drawing.cleared_stencil());
+  glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
+  glUseProgram(f.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines()).name());
+  begin_light_indices(layout);
+  volumes.begin();
+  for (const Batch& batch : order.batches) drawing.draw(batch);
+  volumes.end();
+  end_light_indices();
+  glStencilMask(255);
+  glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
+}
+
+bool may_repeat(const Frame& f) { return f.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
+
+}  // namespace
+
+LightIndexImages light_index(Frame& f) {
+  LightIndexState& state = f.kept<LightIndexState>();
+  LightVolumes& volumes = f.kept<LightVolumes>();
+  const std::vector<GLuint> images = index_images(f, state.layout);
+  const GLuint framebuffer = f.targets.framebuffer(images, f.targets.depth());
+  {
+    auto pass = f.timer.pass("light_volumes", "gl");
+    Order order = order_of(f, state, volumes.update(f, f.plan.settings.volume_mesh));
+    volumes.upload(order.volumes);
+    state.order = std::move(order);
+  }
+  auto pass = f.timer.pass("light_index", "gl");
+  draw_volumes(f, state, volumes, state.order, framebuffer);
+  const size_t pixels = size_t(f.view.width) * f.view.height;
+  pass.moves(pixels * 5 + volumes.memory_bytes(), pixels * (state.layout.pixel_bytes() + 1));
+
+  std::vector<std::string> defines = state.layout.defines();
+  defines.emplace_back("LIGHTS_LIDR");
+  if (f.plan.settings.lidr_unpack == LidrUnpack::floats) defines.emplace_back("LIDR_FLOAT");
+  if (may_repeat(f)) defines.emplace_back("LIDR_REPEATS");
+  return {images, std::move(defines), pixels * state.layout.pixel_bytes()};
+}
+
+ListedLights read_light_index(Frame& f) {
+  const LightIndexLayout& layout = f.kept<LightIndexState>().layout;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, f.targets.framebuffer(index_images(f, layout), f.targets.depth()));
+  const std::vector<uint16_t> channels = read_channels(layout, f.view.width, f.view.height);
+  const size_t stride = layout.targets() * 4;
+  ListedLights lists;
+  lists.cell_of_pixel.resize(channels.size() / stride);
+  std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
+  std::vector<uint32_t> lights;
+  for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {
+    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(f), lights);
+    lists.first.push_back(uint32_t(lists.indices.size())), lists.count.push_back(uint32_t(lights.size()));
+    lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
+  }
+  return lists;
+}
+
+}  // namespace lightgrid
