@@ -68,9 +68,9 @@ static inline uint append_ids(global index_t* to, global const float* ids, uint 
 }
 
 static inline int16 tiles_in_bin(TileRect rect, int x, int y, int16* count) {
-  const int16 x0 = max((rect.first & 0xffff) - x, 0), x1 = min((rect.last & 0xffff) - x, 7);
-  const int16 y0 = max((rect.first >> 16) - y, 0), y1 = min((rect.last >> 16) - y, 7);
-  const int16 one = 1;
+  const int16 zero = 0, one = 1, seven = 7;  // vectors: with a number beside one, Oclgrind 21.10 reads past it
+  const int16 x0 = max((rect.first & 0xffff) - x, zero), x1 = min((rect.last & 0xffff) - x, seven);
+  const int16 y0 = max((rect.first >> 16) - y, zero), y1 = min((rect.last >> 16) - y, seven);
   *count = (x1 - x0 + 1) * (y1 - y0 + 1);
   return ((one << (x1 + 1)) - (one << x0)) | ((one << (y1 + 1)) - (one << y0)) << 8;
 }

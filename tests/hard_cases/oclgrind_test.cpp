@@ -21,19 +21,23 @@ TEST(GridDigest, IsTheSameWithAnyNumberOfThreads) {
 }
 
 // Without --uninitialized: Oclgrind 21.10 takes vectors made of compared lanes for uninitialized, and stops at `freeze`.
-// The group shape only: for the lanes shape's vectors Oclgrind computes other numbers than PoCL.
-TEST(GridDigest, OfTheGroupShapeIsThatOfOclgrindWhichFindsNoFault) {
+struct ShapeDigest : testing::TestWithParam<const char*> {};
+
+TEST_P(ShapeDigest, IsThatOfOclgrindWhichFindsNoFault) {
   if (run_command("command -v oclgrind").status != 0) GTEST_SKIP() << "no oclgrind here (Debian package oclgrind)";
   const CommandOutcome watched =
-      digest("LIGHTGRID_CL_CACHE=off oclgrind --build-options -cl-opt-disable --data-races", "group");
+      digest("LIGHTGRID_CL_CACHE=off oclgrind --build-options -cl-opt-disable --data-races", GetParam());
   EXPECT_EQ(watched.status, 0);
   // What it finds it prints before the program's line. A build that is only tried, for one kind of CPU, fails aloud.
   std::string found;
   std::istringstream lines(watched.output);
   for (std::string line; std::getline(lines, line);)
     if (!line.ends_with("errors generated.")) found += line + "\n";
-  EXPECT_EQ(found, digest("", "group").output);
+  EXPECT_EQ(found, digest("", GetParam()).output);
 }
+
+INSTANTIATE_TEST_SUITE_P(Oclgrind, ShapeDigest, testing::Values("lanes", "group"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace lightgrid
