@@ -23,7 +23,7 @@ void shade(Frame& f, const ShadedImage& image, const Lights& lights) {
     auto defines = light_defines(f, features, lights);
     defines.emplace_back("BLEND");
     return f.program("shaders/scene.vert", "shaders/forward.frag", defines);
-  });
+  }, nullptr, DrawOrder::as_given);
   glDisable(GL_BLEND);
   const size_t pixels = size_t(f.view.width) * f.view.height;
   pass.moves(f.gpu.geometry_bytes() + pixels * 20, pixels * 16);

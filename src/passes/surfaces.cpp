@@ -54,7 +54,7 @@ SurfaceImages read_surfaces(Frame& f) {
   if (!f.plan.blended.empty()) {
     targets.clear(0);
     glDepthFunc(GL_GEQUAL);
-    draw_instances(f, f.plan.blended, DrawStreams::all, program_of);
+    draw_instances(f, f.plan.blended, DrawStreams::all, program_of, nullptr, DrawOrder::as_given);
     const Image normals = targets.read(0);
     for (size_t i = 0; i < normals.pixels.size(); ++i)
       surfaces.blended[i] = glm::vec3(normals.pixels[i]) != glm::vec3(0);

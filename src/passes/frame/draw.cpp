@@ -1,5 +1,6 @@
 #include "passes/frame/draw.h"
 
+#include <iterator>
 #include <numeric>
 
 #include <glm/gtc/matrix_inverse.hpp>
@@ -11,22 +12,44 @@ namespace lightgrid {
 // work while the vertices of the next part are shaded.
 static constexpr GLsizei indices_per_flush = 3 * 25'000;
 
+namespace {
+
+// What is drawn of an instance at once.
+struct Part {
+  int instance;
+  glm::dmat4 view_from_object;
+  IndexRanges ranges;
+};
+
+std::vector<Part> visible_parts(Frame& f, const std::vector<int>& instances, DrawOrder order, const TileDistances* distances) {
+  const Frustum frustum = frustum_of(f.view);
+  std::array<std::vector<Part>, distance_layers> parts;
+  for (int index : instances) {
+    const glm::dmat4 exact = view_from_object(f.view, f.scene.instances[index].world_from_object);
+    auto layers = visible_clusters(f, frustum, distances, index, exact);
+    for (int layer = 0; layer < distance_layers; ++layer) {
+      if (layers[layer].counts.empty()) continue;
+      parts[order == DrawOrder::front_to_back ? layer : 0].push_back({index, exact, std::move(layers[layer])});
+    }
+  }
+  for (int layer = 1; layer < distance_layers; ++layer) {
+    std::move(parts[layer].begin(), parts[layer].end(), std::back_inserter(parts[0]));
+  }
+  return std::move(parts[0]);
+}
+
+}  // namespace
+
 void draw_instances(Frame& f, const std::vector<int>& instances, DrawStreams streams,
                     const std::function<const GlProgram&(uint32_t features)>& program_of,
-                    const TileDistances* distances) {
-  const Frustum frustum = frustum_of(f.view);
+                    const TileDistances* distances, DrawOrder order) {
   const GlProgram* bound_program = nullptr;
   int bound_material = -1;
   GLsizei unflushed_indices = 0;
-  for (int index : instances) {
-    const Instance& instance = f.scene.instances[index];
-    const Mesh& mesh = f.scene.meshes[instance.mesh];
+  for (const auto& [index, exact, ranges] : visible_parts(f, instances, order, distances)) {
+    const Mesh& mesh = f.scene.meshes[f.scene.instances[index].mesh];
     const Material& material = f.scene.materials[mesh.material];
     const uint32_t features = f.plan.features_of_instance[index];
-    const glm::dmat4 exact = view_from_object(f.view, instance.world_from_object);
-    const IndexRanges ranges = visible_clusters(f, frustum, distances, index, exact);
-    if (ranges.counts.empty()) continue;
-
     const GlProgram& program = program_of(features);
     const bool positions_only =
         streams == DrawStreams::positions_where_possible && !(features & feature_mask);

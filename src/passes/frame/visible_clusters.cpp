@@ -45,32 +45,44 @@ bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParam
   return true;
 }
 
+// Each layer ends at twice the distance of the one before it; the last holds all beyond.
+int layer_of(const Frame& f, const Aabb& box, const glm::dmat4& view_from_object) {
+  const glm::dvec3 middle = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
+  const double distance = -(view_from_object * glm::dvec4(middle, 1)).z;
+  int layer = distance_layers - 1;
+  for (double end = f.plan.slice_far_m / 2; layer > 0 && distance < end; end /= 2) --layer;
+  return layer;
+}
+
+void append(IndexRanges& ranges, const GpuMesh& mesh, const TriangleCluster& cluster) {
+  const void* offset = reinterpret_cast<const void*>(size_t(cluster.first_index) * sizeof(uint32_t));
+  if (ranges.end_index == cluster.first_index) {
+    ranges.counts.back() += GLsizei(cluster.index_count);
+  } else {
+    ranges.counts.push_back(GLsizei(cluster.index_count));
+    ranges.offsets.push_back(offset);
+    ranges.base_vertices.push_back(mesh.base_vertex);
+  }
+  ranges.end_index = cluster.first_index + cluster.index_count;
+}
+
 }  // namespace
 
-IndexRanges visible_clusters(const Frame& f, const Frustum& frustum, const TileDistances* distances,
-                             int instance, const glm::dmat4& view_from_object) {
+std::array<IndexRanges, distance_layers> visible_clusters(const Frame& f, const Frustum& frustum,
+                                                          const TileDistances* distances, int instance,
+                                                          const glm::dmat4& view_from_object) {
   const GpuMesh& mesh = f.gpu.mesh(f.scene.instances[instance].mesh);
   const Mesh& source = f.scene.meshes[f.scene.instances[instance].mesh];
   const bool one_sided = !f.scene.materials[source.material].double_sided && !f.view.orthographic;
   const glm::dvec3 eye = one_sided ? glm::dvec3(glm::inverse(view_from_object)[3]) : glm::dvec3(0);
-  IndexRanges ranges;
-  uint32_t end = ~0u;
+  std::array<IndexRanges, distance_layers> layers;
   for (const TriangleCluster& cluster : mesh.clusters) {
     if (one_sided && faces_away(cluster, eye)) continue;
     if (!may_see_box(frustum, view_from_object, cluster.bounds)) continue;
-    if (distances && !distances->intervals.empty() &&
-        hidden(cluster.bounds, view_from_object, f.params, *distances))
-      continue;
-    if (cluster.first_index == end) {
-      ranges.counts.back() += GLsizei(cluster.index_count);
-    } else {
-      ranges.counts.push_back(GLsizei(cluster.index_count));
-      ranges.offsets.push_back(reinterpret_cast<const void*>(size_t(cluster.first_index) * sizeof(uint32_t)));
-      ranges.base_vertices.push_back(mesh.base_vertex);
-    }
-    end = cluster.first_index + cluster.index_count;
+    if (distances && !distances->intervals.empty() && hidden(cluster.bounds, view_from_object, f.params, *distances)) continue;
+    append(layers[layer_of(f, cluster.bounds, view_from_object)], mesh, cluster);
   }
-  return ranges;
+  return layers;
 }
 
 }  // namespace lightgrid
