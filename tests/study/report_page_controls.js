@@ -93,6 +93,7 @@ addEventListener("load", () => {
   get("zoom").close();
   seen.cutInPrint = tryPrint();
   seen.faults = faults;
+  seen.loaded = performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !name.startsWith("data:"));
   seen.results = results;
 
   const outcome = document.createElement("pre");

@@ -106,6 +106,7 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   EXPECT_EQ(seen["pictureChanged"], true);
   EXPECT_EQ(seen["imageSize"], json::parse("[34, 18]"));
   EXPECT_EQ(seen["brokenImages"], 0);
+  EXPECT_THAT(strings(seen["loaded"]), IsEmpty()) << "the page is one file";
   EXPECT_EQ(seen["zoomed"], true);
 
   const std::string refused = "refused: blending rounds <0.5 of a step> here";
@@ -148,6 +149,7 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
   EXPECT_EQ(seen["overviewHidden"], false);
   EXPECT_EQ(seen["brokenImages"], 0);
+  EXPECT_THAT(strings(seen["loaded"]), IsEmpty()) << "the page is one file";
   const json results = json::parse(text_of(folder.path / "results.json"));
   EXPECT_EQ(seen["results"], results);
   const json& several = seen["several"];
@@ -239,10 +241,7 @@ TEST_F(ReportPage, TakesAReportOfOneRowAndNoOracle) {
   EXPECT_THAT(strings(seen["lost"]), ElementsAre("\u2013"));
 }
 
-TEST(ReportPageText, NamesNoOtherPlace) {
-  const TempFolder folder;
-  write_report(folder.path, synthetic_report(17, 9));
-  const auto page = text_of(folder.path / "index.html");
+void expect_no_other_place(const std::string& page) {
   const std::regex elsewhere(
       R"re((src|href)=["'](?!data:)[^"']|url\((?!data:)|@import|fetch\(|XMLHttpRequest|<iframe)re");
   std::smatch found;
@@ -252,6 +251,20 @@ TEST(ReportPageText, NamesNoOtherPlace) {
   const std::string svg = "http://www.w3.org/2000/svg";
   EXPECT_EQ(page.find("http://"), page.find(svg));
   EXPECT_EQ(page.rfind("http://"), page.find(svg));
+}
+
+TEST(ReportPageText, NamesNoOtherPlace) {
+  const TempFolder folder;
+  write_report(folder.path, synthetic_report(17, 9));
+  expect_no_other_place(text_of(folder.path / "index.html"));
+}
+
+TEST(ReportPageText, OfSeveralViewsNamesNoOtherPlace) {
+  const TempFolder folder;
+  ViewsReport views(folder.path, 2, 1 << 20);
+  for (int lights : {15, 60}) views.add(synthetic_view("hall", 17, 9, lights));
+  views.write();
+  expect_no_other_place(text_of(folder.path / "index.html"));
 }
 
 }  // namespace

@@ -80,9 +80,11 @@ function crossingTable(chart) {
     make("div", { class: "scrolls" }, make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows))));
 }
 
-// A click on a name hides its curve, or shows it again.
+// From the uppermost curve down, as they end on the right. A click on a name hides its curve, or shows it again.
 function chartLegend(chart, plot) {
-  return make("ul", { class: "curve-names" }, ...chart.curves.map((curve) => {
+  const lastMs = (curve) => curve.points[curve.points.length - 1].ms;
+  const fromTheTop = [...chart.curves].sort((a, b) => lastMs(b) - lastMs(a));
+  return make("ul", { class: "curve-names" }, ...fromTheTop.map((curve) => {
     const button = make("button", { type: "button", "aria-pressed": "true" },
       make("i", { style: `background:${curveColor(curve.name)}` }), curve.name);
     button.addEventListener("click", () => {
