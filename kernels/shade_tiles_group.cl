@@ -7,17 +7,24 @@
 kernel void shade_tiles_group(global const channel_t* first, global const channel_t* second, global const float* depth,
                               global const float4* places, global const float4* colors, global const float4* cones,
                               global const uint2* cells, global const index_t* indices, global float* image,
-                              constant ViewParams* view) {
+                              float4 background, constant ViewParams* view) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
   const size_t at = (size_t)y * view->width + x;
-  const Texels a = load_texel(first + 4 * at), b = load_texel(second + 4 * at);
-  if (range.y == 0 || !(depth[at] > 0.0f) || !(b.w > 0.0f)) return;
-  const Lights lights = {places, colors, cones};
-  const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
-  const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), a, b);
-  const Real3 sum = light_sum(&p, indices + range.x, range.y, &lights);
-  global float* pixel = image + 4 * at;
-  pixel[0] += sum.x, pixel[1] += sum.y, pixel[2] += sum.z;
+  const Texels normal = load_texel(first + 4 * at), color = load_texel(second + 4 * at);
+  const bool lit = depth[at] > 0.0f && color.w > 0.0f;
+  Real3 sum = real3(background.x, background.y, background.z);
+  if (lit) {
+    const Lights lights = {places, colors, cones};
+    const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
+    const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+    sum = light_sum(&p, indices + range.x, range.y, &lights, view);
+  }
+#ifdef OWN_LIGHT
+  const float4 under = vload4(at, image);
+#else
+  const float4 under = (float4)(0.0f, 0.0f, 0.0f, 1.0f);
+#endif
+  vstore4(under + (float4)(sum.x, sum.y, sum.z, 0.0f), at, image);
 }

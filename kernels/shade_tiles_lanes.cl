@@ -4,7 +4,8 @@
 // first, second  geometry buffer, and depth: row 0 at the bottom (kernels/common/gbuffer.h)
 // places, colors, cones  of lights (shared/punctual_light.h)
 // cells, indices  light grid (shared/light_grid.h)
-// image           RGBA a pixel: what surfaces show without these lights; they are added to it
+// image           RGBA a pixel. With -DOWN_LIGHT it holds what surfaces show without these lights, which are added
+// background      of pixels without a surface; without -DOWN_LIGHT alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
 // -DBUFFER_BITS, -DINDEX_32, -DSPOTS, -DBLINN, -DORTHOGRAPHIC  as the headers say
 //
@@ -28,27 +29,40 @@
 
 static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f); }
 
-// Adds to the first `count` of 8 pixels.
-static inline void add_run(global float* image, float8 r, float8 g, float8 b, uint count) {
+#ifdef OWN_LIGHT
+#define UNDER(i) vload16(i, image)
+#define COVERAGE 0.0f  // is there already
+#else
+#define UNDER(i) 0.0f
+#define COVERAGE 1.0f
+#endif
+
+// The first `count` of 8 pixels.
+static inline void put_run(global float* image, float8 r, float8 g, float8 b, uint count) {
+  const float a = COVERAGE;
+  const float16 low = (float16)(r.s0, g.s0, b.s0, a, r.s1, g.s1, b.s1, a, r.s2, g.s2, b.s2, a, r.s3, g.s3, b.s3, a);
+  const float16 high = (float16)(r.s4, g.s4, b.s4, a, r.s5, g.s5, b.s5, a, r.s6, g.s6, b.s6, a, r.s7, g.s7, b.s7, a);
   if (count >= 8) {
-    const float16 low = (float16)(r.s0, g.s0, b.s0, 0, r.s1, g.s1, b.s1, 0, r.s2, g.s2, b.s2, 0, r.s3, g.s3, b.s3, 0);
-    const float16 high = (float16)(r.s4, g.s4, b.s4, 0, r.s5, g.s5, b.s5, 0, r.s6, g.s6, b.s6, 0, r.s7, g.s7, b.s7, 0);
-    vstore16(vload16(0, image) + low, 0, image);
-    vstore16(vload16(1, image) + high, 1, image);
+    vstore16(UNDER(0) + low, 0, image), vstore16(UNDER(1) + high, 1, image);
     return;
   }
-  float red[8], green[8], blue[8];
-  vstore8(r, 0, red), vstore8(g, 0, green), vstore8(b, 0, blue);
-  for (uint i = 0; i < count; ++i) image[4 * i] += red[i], image[4 * i + 1] += green[i], image[4 * i + 2] += blue[i];
+  float light[32];
+  vstore16(low, 0, light), vstore16(high, 1, light);
+#ifdef OWN_LIGHT
+  for (uint i = 0; i < 4 * count; ++i) light[i] += image[i];
+#endif
+  for (uint i = 0; i < 4 * count; ++i) image[i] = light[i];
 }
 
 kernel void shade_tiles_lanes(global const channel_t* first, global const channel_t* second, global const float* depth,
                               global const float4* places, global const float4* colors, global const float4* cones,
                               global const uint2* cells, global const index_t* indices, global float* image,
-                              constant ViewParams* view) {
+                              float4 background, constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
+#ifdef OWN_LIGHT
   if (range.y == 0) return;
+#endif
   const Lights lights = {places, colors, cones};
   const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
   for (uint y = tile_y * TILE; y < y_end; y += 1 + RUN_DY) {
@@ -56,18 +70,22 @@ kernel void shade_tiles_lanes(global const channel_t* first, global const channe
       const uint x2 = min(x + RUN_DX, view->width - 1), y2 = min(y + RUN_DY, view->height - 1);
       const size_t at = (size_t)y * view->width + x, at2 = (size_t)y2 * view->width + x2;
       const real depths = (real)(vload8(0, depth + at), vload8(0, depth + at2));
-      const Texels a = load_texels(first + 4 * at, first + 4 * at2), b = load_texels(second + 4 * at, second + 4 * at2);
-      const mask_t lit = (depths > REAL(0.0f)) & (b.w > REAL(0.0f));
+      const Texels normal = load_texels(first + 4 * at, first + 4 * at2);
+      const Texels color = load_texels(second + 4 * at, second + 4 * at2);
+      const mask_t lit = (depths > REAL(0.0f)) & (color.w > REAL(0.0f));
+#ifdef OWN_LIGHT
       if (!any_lane(lit)) continue;
+#endif
       const real px = (real)((float)x + pixel_offsets(), (float)x2 + pixel_offsets());
       const real py = (real)((float8)((float)y + 0.5f), (float8)((float)y2 + 0.5f));
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
-      const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), a, b);
-      const Real3 sum = light_sum(&p, indices + range.x, range.y, &lights);
-      const real r = lit ? sum.x : REAL(0.0f), g = lit ? sum.y : REAL(0.0f), blue = lit ? sum.z : REAL(0.0f);
-      add_run(image + 4 * at, r.lo, g.lo, blue.lo, x_end - x);
-      if (RUN_DX && x + RUN_DX < x_end) add_run(image + 4 * at2, r.hi, g.hi, blue.hi, x_end - x2);
-      if (RUN_DY && y + RUN_DY < y_end) add_run(image + 4 * at2, r.hi, g.hi, blue.hi, x_end - x2);
+      const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+      const Real3 sum = light_sum(&p, indices + range.x, range.y, &lights, view);
+      const real r = lit ? sum.x : REAL(background.x), g = lit ? sum.y : REAL(background.y);
+      const real b = lit ? sum.z : REAL(background.z);
+      put_run(image + 4 * at, r.lo, g.lo, b.lo, x_end - x);
+      if (RUN_DX && x + RUN_DX < x_end) put_run(image + 4 * at2, r.hi, g.hi, b.hi, x_end - x2);
+      if (RUN_DY && y + RUN_DY < y_end) put_run(image + 4 * at2, r.hi, g.hi, b.hi, x_end - x2);
     }
   }
 }

@@ -1,6 +1,7 @@
 // The light pass in OpenCL: LANES pixels of one cell and the lights of its list.
 //
 // -DINDEX_32  indices are 32 bits, not 16
+// -DOWN_LIGHT the image holds ambient light and more already; else ambient light is added here
 // -DSPOTS     some light has a cone
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 #pragma once
@@ -31,8 +32,13 @@ static inline PunctualLight light_at(const Lights* lights, uint index) {
 }
 
 // In the order of the list: the sum of the GL loop. A light that reaches none of the pixels would add exact zeros.
-static inline Real3 light_sum(const ShadingPoint* p, global const index_t* list, uint count, const Lights* lights) {
+static inline Real3 light_sum(const ShadingPoint* p, global const index_t* list, uint count, const Lights* lights,
+                              constant ViewParams* view) {
+#ifdef OWN_LIGHT
   Real3 sum = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#else
+  Real3 sum = reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+#endif
   for (uint i = 0; i < count; ++i) {
     const PunctualLight light = light_at(lights, list[i]);
     const Arrival arrival = arrival_at(p->position, light);

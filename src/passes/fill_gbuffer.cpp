@@ -14,11 +14,16 @@ const GBufferLayout& layout_of(const Settings& settings) {
                        [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
 }
 
+// A pixel, beside depth.
+size_t written_bytes(const GBuffer& gbuffer) {
+  return gbuffer.layout->bytes() + (gbuffer.own_light == OwnLight::in_image ? 16 : 0);
+}
+
 void clear(Frame& f, const GBuffer& gbuffer) {
   const float background[4] = {f.scene.background.r, f.scene.background.g, f.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
-  glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, 0, background);
-  for (int i = 1; i <= 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
+  glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
+  for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
 }
 
 void draw_surfaces(Frame& f, const GBuffer& gbuffer, const TileDistances* distances) {
@@ -33,6 +38,7 @@ void draw_surfaces(Frame& f, const GBuffer& gbuffer, const TileDistances* distan
       [&](uint32_t features) -> const GlProgram& {
         std::vector<std::string> defines = light_defines(f, features, nullptr);
         if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
+        if (gbuffer.own_light == OwnLight::in_image) defines.emplace_back("OWN_LIGHT");
         return f.program("shaders/scene.vert", "shaders/gbuffer.frag", defines);
       },
       distances);
@@ -40,24 +46,26 @@ void draw_surfaces(Frame& f, const GBuffer& gbuffer, const TileDistances* distan
 
 }  // namespace
 
-GBuffer gbuffer_of(Frame& f) {
+GBuffer gbuffer_of(Frame& f, OwnLight own_light) {
   GBuffer g;
+  g.own_light = own_light;
   g.layout = &layout_of(f.plan.settings);
   for (int i = 0; i < 2; ++i) {
     g.textures[i] =
         f.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
   }
   g.depth = f.targets.depth();
-  g.framebuffer =
-      f.targets.framebuffer({f.targets.texture("color", GL_RGBA32F), g.textures[0], g.textures[1]}, g.depth);
+  const GLuint image = f.targets.texture("color", GL_RGBA32F);
+  g.framebuffer = own_light == OwnLight::in_image ? f.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
+                                                  : f.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
   g.depth_image = {f.depth_framebuffer()};
   g.image = {f.color_framebuffer()};
   return g;
 }
 
-GBuffer fill_gbuffer(Frame& f) {
+GBuffer fill_gbuffer(Frame& f, OwnLight own_light) {
   auto pass = f.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(f);
+  const GBuffer gbuffer = gbuffer_of(f, own_light);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as where others shade at equal depth
   glDepthMask(GL_TRUE);
@@ -65,18 +73,18 @@ GBuffer fill_gbuffer(Frame& f) {
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
   draw_surfaces(f, gbuffer, nullptr);
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(f.gpu.geometry_bytes(), pixels * (4 + 16 + gbuffer.layout->bytes()));
+  pass.moves(f.gpu.geometry_bytes(), pixels * (4 + written_bytes(gbuffer)));
   return gbuffer;
 }
 
-GBuffer fill_gbuffer(Frame& f, const TileDistances& distances) {
+GBuffer fill_gbuffer(Frame& f, const TileDistances& distances, OwnLight own_light) {
   auto pass = f.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(f);
+  const GBuffer gbuffer = gbuffer_of(f, own_light);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   draw_surfaces(f, gbuffer, &distances);
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(f.gpu.geometry_bytes() + pixels * 4, pixels * (16 + gbuffer.layout->bytes()));
+  pass.moves(f.gpu.geometry_bytes() + pixels * 4, pixels * written_bytes(gbuffer));
   return gbuffer;
 }
 

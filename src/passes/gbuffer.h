@@ -41,9 +41,15 @@ inline constexpr GBufferLayout gbuffer_layouts[] = {
      {{{"gbuffer_normal_32", GL_RGBA32F, GL_FLOAT, 16}, {"gbuffer_color_32", GL_RGBA32F, GL_FLOAT, 16}}}},
 };
 
+// Where light that is no point or spot light's is added: ambient, emissive, directional, unlit color. in_image: by the
+// geometry pass; light passes add to the image. in_light_pass: by it, which is only for plain ambient light
+// (FramePlan::own_light); the image is not written.
+enum class OwnLight { in_image, in_light_pass };
+
 struct GBuffer {
+  OwnLight own_light = OwnLight::in_image;
   const GBufferLayout* layout = nullptr;
-  GLuint framebuffer = 0;  // the image, then the layout's images, over depth
+  GLuint framebuffer = 0;  // the layout's images and, for own light, the image; over depth
   std::array<GLuint, 2> textures{};
   GLuint depth = 0;
   DepthImage depth_image;
@@ -51,13 +57,13 @@ struct GBuffer {
 };
 
 // The view's geometry buffer as the setting buffer-bits lays it out, drawn or not.
-GBuffer gbuffer_of(Frame& f);
+GBuffer gbuffer_of(Frame& f, OwnLight own_light = OwnLight::in_image);
 
 // Opaque surfaces with their depth, in one pass over the geometry.
-GBuffer fill_gbuffer(Frame& f);
+GBuffer fill_gbuffer(Frame& f, OwnLight own_light = OwnLight::in_image);
 
 // The same at the depth that a prepass left. What `distances` shows to be hidden is not drawn.
-GBuffer fill_gbuffer(Frame& f, const TileDistances& distances);
+GBuffer fill_gbuffer(Frame& f, const TileDistances& distances, OwnLight own_light = OwnLight::in_image);
 
 // The defines of shaders that read the geometry buffer, which bind_gbuffer makes it ready for
 // (shaders/common/read_gbuffer.glsl).

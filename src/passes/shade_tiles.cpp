@@ -59,6 +59,7 @@ class TileShading : public Kept {
     if (lanes) defines += fmt::format(" -DTILE={}", f.plan.settings.tile);
     if (lanes && !f.plan.settings.portable && builds_avx512(*f.devices.cl, *f.devices.programs)) defines += " -DAVX512";
     if (f.plan.index_bits == 32) defines += " -DINDEX_32";
+    if (f.plan.own_light) defines += " -DOWN_LIGHT";
     if (f.plan.spots) defines += " -DSPOTS";
     if (f.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
     if (f.view.orthographic) defines += " -DORTHOGRAPHIC";
@@ -77,13 +78,14 @@ void copy_attachment(Frame& f, int attachment, GLenum type, SharedBuffer& to) {
 
 void gbuffer_to_cl(Frame& f, const GBuffer& gbuffer, TileShading& shading) {
   const size_t pixels = size_t(f.view.width) * f.view.height;
+  const bool own_light = gbuffer.own_light == OwnLight::in_image;
   auto pass = f.timer.pass("gbuffer_to_cl", "gl");
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
-  copy_attachment(f, 0, GL_FLOAT, shading.image);
-  for (int i = 0; i < 2; ++i) copy_attachment(f, i + 1, gbuffer.layout->images[i].type, shading.surfaces[i]);
+  for (int i = 0; i < 2; ++i) copy_attachment(f, i, gbuffer.layout->images[i].type, shading.surfaces[i]);
+  if (own_light) copy_attachment(f, 2, GL_FLOAT, shading.image);
   for (int i = 0; i < 2; ++i) shading.surfaces[i].hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
-  shading.image.hand_to_cl(pixels * 16);
-  const size_t bytes = pixels * (gbuffer.layout->bytes() + 16);
+  if (own_light) shading.image.hand_to_cl(pixels * 16);
+  const size_t bytes = pixels * (gbuffer.layout->bytes() + (own_light ? 16 : 0));
   pass.moves(bytes, bytes);
 }
 
@@ -104,11 +106,13 @@ void add_light(Frame& f, TileShading& s, const LightGrid& grid, const GBufferLay
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(f.params.tiles_x, f.params.tiles_y)
                                     : cl::NDRange(whole(f.view.width), whole(f.view.height));
+  const glm::vec3 background = f.plan.own_light ? glm::vec3(0) : f.scene.background;  // in the image already, or not
   launch(*f.devices.cl, "shade_tiles", s.kernel, items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
          s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(), f.depth_copy().cl_buffer(), s.places, s.colors, s.cones,
-         f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), s.image.cl_buffer(), s.view);
+         f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), s.image.cl_buffer(),
+         cl_float4{{background.r, background.g, background.b, 0}}, s.view);
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(pixels * (layout.bytes() + 4 + 16) + grid.cell_bytes + grid.index_bytes, pixels * 16);
+  pass.moves(pixels * (layout.bytes() + 4 + (f.plan.own_light ? 16 : 0)) + grid.cell_bytes + grid.index_bytes, pixels * 16);
 }
 
 }  // namespace

@@ -32,6 +32,12 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
   return p;
 }
 
+// What a surface reflects of constant radiance from all sides, without occlusion.
+SHARED_FUNCTION Real3 reflected_ambient(ShadingPoint p, real r, real g, real b) {
+  Real3 reflected_part = add3(scale3(p.diffuse, REAL(SHADING_PI)), p.f0);
+  return real3(r * reflected_part.x, g * reflected_part.y, b * reflected_part.z);
+}
+
 SHARED_FUNCTION real reflected_channel(real diffuse, real f0, real grazing5, real specular) {
   real fresnel = f0 + (1.0f - f0) * grazing5;
   return diffuse + fresnel * (specular - diffuse);

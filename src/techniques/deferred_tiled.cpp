@@ -4,7 +4,7 @@
 namespace lightgrid {
 
 static ShadedImage render(Frame& f) {
-  const GBuffer gbuffer = fill_gbuffer(f);
+  const GBuffer gbuffer = fill_gbuffer(f, own_light_of(f));
   return add_tiled_light(f, gbuffer, depth_bounds(f, gbuffer.depth_image));
 }
 

@@ -7,7 +7,7 @@ namespace lightgrid {
 static ShadedImage render(Frame& f) {
   const DepthImage depth = depth_prepass(f);
   const DepthBounds bounds = depth_bounds(f, depth);
-  return add_tiled_light(f, fill_gbuffer(f, tile_distances(f, bounds)), bounds);
+  return add_tiled_light(f, fill_gbuffer(f, tile_distances(f, bounds), own_light_of(f)), bounds);
 }
 
 extern const Technique forward_plus_compute{
