@@ -71,6 +71,26 @@ TEST(TiledLight, IsNoneWhereThereAreNoLights) {
   for (const char* technique : both) EXPECT_TRUE(identical(render(scene, view, technique), forward)) << technique;
 }
 
+// docs/techniques/deferred_tiled.md#what-it-costs, by hand: 1024 point lights, no spot.
+TEST(TiledLight, TakesTheMemoryThatItsPageSays) {
+  const Scene scene = find_builtin_scene("spheres")->make();
+  const View view = default_view(scene, 64, 40);
+  const auto result_of = [&](const char* technique, int bits) {
+    TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique(technique));
+    run.run_frame();
+    return run.result();
+  };
+  const size_t pixels = 64 * 40, lights = 1024 * 32 + sizeof(ViewParams);
+  const size_t beside = result_of("forward_plus", 32).memory_total;
+  for (const char* technique : both) {
+    for (const auto& [bits, bytes] : {std::pair<int, size_t>(8, 8), {16, 16}, {32, 32}}) {
+      const RunResult result = result_of(technique, bits);
+      EXPECT_EQ(result.memory_gbuffer, pixels * bytes) << technique << ' ' << bits;
+      EXPECT_EQ(result.memory_total - beside, pixels * bytes + (pixels + 16) * (bytes + 16) + lights) << technique << ' ' << bits;
+    }
+  }
+}
+
 TEST(TiledLight, OfMoreLightsThan16BitsIndex) {
   Scene scene = find_builtin_scene("spheres")->make();
   const Light light = scene.lights.front();
