@@ -110,7 +110,10 @@ std::string faster_sentence(const std::vector<ReportView>& views, const std::vec
   sort_by_count(tallies);
   std::vector<std::string> parts;
   for (const Tally& t : tallies) parts.push_back(fmt::format("{} in {}", t.name, places_in_words(t)));
-  return fmt::format("Faster than it, but {}: {}.", but, fmt::join(parts, "; "));
+  constexpr size_t most = 4;  // the page's table has all
+  const size_t more = parts.size() > most ? parts.size() - most : 0;
+  if (more) parts.resize(most);
+  return fmt::format("Faster than it, but {}: {}{}.", but, fmt::join(parts, "; "), more ? fmt::format("; and {} more", more) : "");
 }
 
 // The fastest exact row of a technique; null where there is none.

@@ -43,6 +43,19 @@ TEST(Overview, CountsWinsAndSaysWhatIsFasterAtAPrice) {
                           "forward_plus in street (1.25 times); forward_plus and clustered do not differ clearly in terrain."));
 }
 
+TEST(Overview, NamesTheFirstFewOfMany) {
+  std::vector<Row> rows = {{"forward", 100}};
+  for (const char* name : {"a", "b", "c", "d", "e", "f"}) rows.push_back({name, 50, 0.1});
+  EXPECT_EQ(overview_sentences({view("hall", rows)})[1],
+            "Faster than it, but lossy: a in hall (2.00 times); b in hall (2.00 times); c in hall (2.00 times); d in hall "
+            "(2.00 times); and 2 more.");
+  std::vector<ReportView> views;
+  for (const char* scene : {"1", "2", "3", "4", "5", "6", "7", "8"}) views.push_back(view(scene, {{"forward", 1}, {"lidr", 2}}));
+  views.push_back(view("9", {{"forward", 2}, {"lidr", 1}}));
+  EXPECT_EQ(overview_sentences(views)[0],
+            "The fastest exact technique is forward in 8 of 9 views (1, 2, 3, 4, 5 and 3 views more), lidr in 1 of 9 views (9).");
+}
+
 TEST(Overview, NamesViewsByWhatTellsThemApart) {
   EXPECT_THAT(overview_sentences({view("hall", {{"forward", 1}, {"lidr", 2}}, 8), view("hall", {{"forward", 2}, {"lidr", 1}}, 1024)}),
               ElementsAre("The fastest exact technique is forward in 1 of 2 views (8 lights), lidr in 1 of 2 views (1,024 lights)."));
