@@ -169,7 +169,7 @@ Chart chart_over(const std::string& key, const std::vector<ReportView>& views, s
   }
   for (size_t i = 0; i < names.size(); ++i) {
     const RunResult& row = report.rows[i];
-    if (row.settings.count(key) || row.frame_ms.runs == 0) continue;
+    if (row.settings.count(key) || row.frame_ms.runs == 0 || !is_exact(row)) continue;
     Curve flat{row_names(report)[i], {}, true};
     for (double x : xs) flat.points.push_back(point_at(x, row, v, i));
     chart.curves.push_back(flat);

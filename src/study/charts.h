@@ -51,7 +51,8 @@ std::vector<Crossing> crossings_of(const std::vector<Curve>& curves);
 // axis: views without lights are left out of the former.
 std::vector<Chart> charts_over_views(const std::vector<ReportView>& views);
 
-// Over each numeric setting in which rows of a technique differ, within one view.
+// Over each numeric setting in which rows of a technique differ, within one view. Rows that do not read it are flat
+// where they are exact, and else left out.
 std::vector<Chart> charts_over_settings(const std::vector<ReportView>& views, size_t view);
 
 }  // namespace lightgrid

@@ -128,6 +128,8 @@ TEST(ChartsOverSettings, HaveALineAPackingAndFlatOnesForTheRest) {
     row.frame_ms = {0.99 * ms, ms, ms, ms, 3};
   };
   add("forward_plus", {{"tile", "16"}}, 50);
+  add("deferred", {}, 30);
+  report.rows.back().error = ImageError{1, 1, 1, 1, {}, false};
   for (const char* packing : {"sort", "bitshift"}) {
     for (const auto& [overlap, ms] : {std::pair{"1", 20.0}, {"4", 80.0}}) {
       add("lidr", {{"lidr_packing", packing}, {"lidr_overlap", overlap}}, ms);
