@@ -1,6 +1,7 @@
 // Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS for its
-// masks, LIGHTS_LIDR for light index images, else every light.
+// masks, LIGHTS_LIDR for light index images, LIGHTS_OBJECT for some of those that reach the object, else every light.
 // BLEND: output is multiplied by coverage and laid over what is there.
+// ADDED: only what these lights add to what is there.
 
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
@@ -17,6 +18,8 @@
 #include "shaders/lights/masks.glsl"
 #elif defined(LIGHTS_LIDR)
 #include "shaders/lights/lidr.glsl"
+#elif defined(LIGHTS_OBJECT)
+#include "shaders/lights/object.glsl"
 #else
 #include "shaders/lights/all.glsl"
 #endif
@@ -30,13 +33,19 @@ void main() {
 #ifdef MASK
   if (has(MATERIAL_MASK) && s.alpha < material.alpha_cutoff) discard;
 #endif
+#ifdef ADDED
+  vec3 color = vec3(0.0);
+#else
   vec3 color = s.base_color;
+#endif
 #ifdef UNLIT
   if (!s.unlit) {
 #endif
     vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
     ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
+#ifndef ADDED
     color = own_light(s, p);
+#endif
 #ifdef LIGHTS
     color += light_sum(p);
 #endif
@@ -45,6 +54,8 @@ void main() {
 #endif
 #ifdef BLEND
   radiance = vec4(color * s.alpha, s.alpha);
+#elif defined(ADDED)
+  radiance = vec4(color, 0.0);
 #else
   radiance = vec4(color, 1.0);
 #endif

@@ -4,10 +4,8 @@
 #include "passes/frame/light_defines.h"
 
 namespace lightgrid {
-namespace {
 
-template <typename Draw>
-std::vector<uint32_t> cells_drawn(Frame& f, const Draw& draw) {
+std::vector<uint32_t> indices_drawn(Frame& f, const std::function<void()>& draw) {
   const int width = f.view.width, height = f.view.height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
   const GlFramebuffer framebuffer = make_framebuffer({target.name()}, f.targets.depth());
@@ -24,6 +22,8 @@ std::vector<uint32_t> cells_drawn(Frame& f, const Draw& draw) {
   return cells;
 }
 
+namespace {
+
 std::vector<std::string> slice_defines(const Frame& f) {
   return f.plan.slices > 1 ? std::vector<std::string>{"SLICES"} : std::vector<std::string>{};
 }
@@ -31,7 +31,7 @@ std::vector<std::string> slice_defines(const Frame& f) {
 }  // namespace
 
 std::vector<uint32_t> shaded_cells(Frame& f) {
-  return cells_drawn(f, [&] {
+  return indices_drawn(f, [&] {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     draw_instances(f, f.plan.opaque, DrawStreams::all, [&](uint32_t) -> const GlProgram& {
@@ -45,7 +45,7 @@ std::vector<uint32_t> cells_at_depths(Frame& f, const std::vector<float>& depths
   glTextureSubImage2D(texture.name(), 0, 0, 0, f.view.width, f.view.height, GL_RED, GL_FLOAT, depths.data());
   std::vector<std::string> defines = slice_defines(f);
   defines.emplace_back("GIVEN_DEPTH");
-  return cells_drawn(f, [&] {
+  return indices_drawn(f, [&] {
     glDisable(GL_DEPTH_TEST);
     glBindTextureUnit(0, texture.name());
     draw_screen(f.program("shaders/screen.vert", "shaders/cells.frag", defines));

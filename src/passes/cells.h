@@ -1,11 +1,16 @@
 // The cells that shading finds, for tests: not part of any technique's frame.
 #pragma once
 
+#include <functional>
+
 #include "passes/passes.h"
 
 namespace lightgrid {
 
 inline constexpr uint32_t no_cell = 0xffffffffu;
+
+// What `draw` writes at each pixel as an unsigned integer, else no_cell. Over the depth image of the last frame.
+std::vector<uint32_t> indices_drawn(Frame& f, const std::function<void()>& draw);
 
 // Of each pixel that shows an opaque surface, else no_cell. Uses the depth image of the last frame.
 std::vector<uint32_t> shaded_cells(Frame& f);

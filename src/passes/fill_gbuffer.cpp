@@ -36,7 +36,7 @@ void draw_surfaces(Frame& f, const GBuffer& gbuffer, const TileDistances* distan
   draw_instances(
       f, f.plan.opaque, DrawStreams::all,
       [&](uint32_t features) -> const GlProgram& {
-        std::vector<std::string> defines = light_defines(f, features, nullptr);
+        std::vector<std::string> defines = own_light_defines(f, features);
         if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
         if (gbuffer.own_light == OwnLight::in_image) defines.emplace_back("OWN_LIGHT");
         return f.program("shaders/scene.vert", "shaders/gbuffer.frag", defines);

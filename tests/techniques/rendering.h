@@ -63,4 +63,21 @@ inline void expect_exact(const Scene& scene, const View& view, const Settings& s
   EXPECT_GE(pairs.listed, pairs.lit);
 }
 
+// A technique that sums in another order or precision: its image within `bound` of forward's brightest channel, its pairs
+// as above.
+inline void expect_close(const Scene& scene, const View& view, const Settings& settings, const Image& forward,
+                         const char* technique, double bound = 1e-5) {
+  TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
+  run.run_frame();
+  EXPECT_LT(compare_images(run.image(), forward).max_rel, bound);
+  EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run.frame()));
+  EXPECT_EQ(pairs.lost, 0u);
+  EXPECT_EQ(pairs.wrong, 0u);
+  EXPECT_GE(pairs.listed, pairs.lit);
+  const Image first = run.image();
+  run.run_frame();
+  EXPECT_TRUE(identical(run.image(), first)) << "the next frame";
+}
+
 }  // namespace lightgrid

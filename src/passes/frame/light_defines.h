@@ -19,12 +19,18 @@ inline void bind_lights(Frame& f, const LightIndexImages& index) {
   for (size_t i = 0; i < index.images.size(); ++i) glBindTextureUnit(GLuint(12 + i), index.images[i]);
 }
 
-inline std::vector<std::string> light_defines(const Frame& f, uint32_t features) {
+// Without point and spot lights.
+inline std::vector<std::string> own_light_defines(const Frame& f, uint32_t features) {
   std::vector<std::string> defines = defines_of(features);
   if (f.plan.settings.brdf == Brdf::blinn) defines.emplace_back("BLINN");
+  if (f.plan.directional) defines.emplace_back("DIRECTIONAL");
+  return defines;
+}
+
+inline std::vector<std::string> light_defines(const Frame& f, uint32_t features) {
+  std::vector<std::string> defines = own_light_defines(f, features);
   if (f.plan.local_lights) defines.emplace_back("LIGHTS");
   if (f.plan.spots) defines.emplace_back("SPOTS");
-  if (f.plan.directional) defines.emplace_back("DIRECTIONAL");
   return defines;
 }
 

@@ -1,6 +1,8 @@
 #include "passes/frame/visible_clusters.h"
 
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace lightgrid {
 namespace {
@@ -45,6 +47,9 @@ bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParam
   return true;
 }
 
+// Layers of distance from the eye, nearest first: what is drawn in their order is mostly drawn front to back.
+constexpr int distance_layers = 5;
+
 // Each layer ends at twice the distance of the one before it; the last holds all beyond.
 int layer_of(const Frame& f, const Aabb& box, const glm::dmat4& view_from_object) {
   const glm::dvec3 middle = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
@@ -54,35 +59,61 @@ int layer_of(const Frame& f, const Aabb& box, const glm::dmat4& view_from_object
   return layer;
 }
 
-void append(IndexRanges& ranges, const GpuMesh& mesh, const TriangleCluster& cluster) {
-  const void* offset = reinterpret_cast<const void*>(size_t(cluster.first_index) * sizeof(uint32_t));
-  if (ranges.end_index == cluster.first_index) {
-    ranges.counts.back() += GLsizei(cluster.index_count);
-  } else {
-    ranges.counts.push_back(GLsizei(cluster.index_count));
-    ranges.offsets.push_back(offset);
-    ranges.base_vertices.push_back(mesh.base_vertex);
-  }
-  ranges.end_index = cluster.first_index + cluster.index_count;
-}
+using Layers = std::array<std::vector<uint32_t>, distance_layers>;
 
-}  // namespace
-
-std::array<IndexRanges, distance_layers> visible_clusters(const Frame& f, const Frustum& frustum,
-                                                          const TileDistances* distances, int instance,
-                                                          const glm::dmat4& view_from_object) {
+// Of one instance, by layer; a cluster is in the layer of its middle.
+Layers visible_clusters(const Frame& f, const Frustum& frustum, const TileDistances* distances, int instance,
+                        const glm::dmat4& view_from_object) {
   const GpuMesh& mesh = f.gpu.mesh(f.scene.instances[instance].mesh);
   const Mesh& source = f.scene.meshes[f.scene.instances[instance].mesh];
   const bool one_sided = !f.scene.materials[source.material].double_sided && !f.view.orthographic;
   const glm::dvec3 eye = one_sided ? glm::dvec3(glm::inverse(view_from_object)[3]) : glm::dvec3(0);
-  std::array<IndexRanges, distance_layers> layers;
-  for (const TriangleCluster& cluster : mesh.clusters) {
+  Layers layers;
+  for (uint32_t i = 0; i < mesh.clusters.size(); ++i) {
+    const TriangleCluster& cluster = mesh.clusters[i];
     if (one_sided && faces_away(cluster, eye)) continue;
     if (!may_see_box(frustum, view_from_object, cluster.bounds)) continue;
     if (distances && !distances->intervals.empty() && hidden(cluster.bounds, view_from_object, f.params, *distances)) continue;
-    append(layers[layer_of(f, cluster.bounds, view_from_object)], mesh, cluster);
+    layers[layer_of(f, cluster.bounds, view_from_object)].push_back(i);
   }
   return layers;
+}
+
+}  // namespace
+
+std::vector<VisiblePart> visible_parts(const Frame& f, const std::vector<int>& instances, DrawOrder order,
+                                       const TileDistances* distances) {
+  const Frustum frustum = frustum_of(f.view);
+  std::array<std::vector<VisiblePart>, distance_layers> parts;
+  for (int index : instances) {
+    const glm::dmat4 exact = view_from_object(f.view, f.scene.instances[index].world_from_object);
+    Layers layers = visible_clusters(f, frustum, distances, index, exact);
+    for (int layer = 0; layer < distance_layers; ++layer) {
+      if (layers[layer].empty()) continue;
+      parts[order == DrawOrder::front_to_back ? layer : 0].push_back({index, exact, std::move(layers[layer])});
+    }
+  }
+  for (int layer = 1; layer < distance_layers; ++layer) {
+    std::move(parts[layer].begin(), parts[layer].end(), std::back_inserter(parts[0]));
+  }
+  return std::move(parts[0]);
+}
+
+IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters) {
+  IndexRanges ranges;
+  uint32_t end = ~0u;
+  for (const uint32_t i : clusters) {
+    const TriangleCluster& cluster = mesh.clusters[i];
+    if (cluster.first_index == end) {
+      ranges.counts.back() += GLsizei(cluster.index_count);
+    } else {
+      ranges.counts.push_back(GLsizei(cluster.index_count));
+      ranges.offsets.push_back(reinterpret_cast<const void*>(size_t(cluster.first_index) * sizeof(uint32_t)));
+      ranges.base_vertices.push_back(mesh.base_vertex);
+    }
+    end = cluster.first_index + cluster.index_count;
+  }
+  return ranges;
 }
 
 }  // namespace lightgrid

@@ -1,7 +1,7 @@
 // Which clusters of triangles a view may see: in its frustum, turned towards it, and not behind what is nearer.
 #pragma once
 
-#include <array>
+#include <span>
 #include <vector>
 
 #include "passes/frame/frame.h"
@@ -14,20 +14,28 @@ struct TileDistances {
   std::vector<DepthInterval> intervals;  // least and greatest distance; empty: nothing is known
 };
 
-// Index ranges for glMultiDrawElementsBaseVertex; neighbours are joined.
+// front_to_back: by layers of distance, and within each as given. Passes over the same instances in the same order agree
+// on what is seen where surfaces share a depth: what comes last.
+enum class DrawOrder { front_to_back, as_given };
+
+// What is drawn of an instance at once.
+struct VisiblePart {
+  int instance;
+  glm::dmat4 view_from_object;
+  std::vector<uint32_t> clusters;  // of its mesh, ascending
+};
+
+// Conservative: what is left out changes no pixel.
+std::vector<VisiblePart> visible_parts(const Frame& f, const std::vector<int>& instances, DrawOrder order,
+                                       const TileDistances* distances);
+
+// For glMultiDrawElementsBaseVertex; neighbours are joined.
 struct IndexRanges {
   std::vector<GLsizei> counts;
   std::vector<const void*> offsets;
   std::vector<GLint> base_vertices;
-  uint32_t end_index = ~0u;  // of the last range
 };
 
-// Layers of distance from the eye, nearest first: what is drawn in their order is mostly drawn front to back.
-constexpr int distance_layers = 5;
-
-// Of one instance, by layer; a cluster is in the layer of its middle. Conservative: what is left out changes no pixel.
-std::array<IndexRanges, distance_layers> visible_clusters(const Frame& f, const Frustum& frustum,
-                                                          const TileDistances* distances, int instance,
-                                                          const glm::dmat4& view_from_object);
+IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters);
 
 }  // namespace lightgrid

@@ -1,0 +1,6 @@
+// Which object is drawn.
+uniform uint object;
+
+layout(location = 0) out uint object_here;
+
+void main() { object_here = object; }

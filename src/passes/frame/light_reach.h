@@ -1,0 +1,29 @@
+// Whether a light may reach a box: in double, and conservative.
+#pragma once
+
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+// Along the axes of view space.
+struct ViewBox {
+  glm::dvec3 center, half;
+};
+
+ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box);
+
+class LightReach {
+ public:
+  explicit LightReach(const ViewLight& light);
+
+  // False only where no pixel of a surface in the box gets anything of the light.
+  bool may_reach(const ViewBox& box) const;
+
+ private:
+  glm::dvec3 position_, direction_;
+  double radius_;
+  double cos_ = -1, sin_ = 0;  // of the cone's half-angle, where it is one: below 90 degrees
+  bool cone_ = false;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,195 @@
+// Techniques that draw lights one by one, or some at a time, and add them up in the image: forward_multipass and
+// forward_zprepass. Sums in another order: within 1e-5 of the brightest channel.
+#include <cmath>
+
+#include "scene/load_gltf.h"
+#include "scene/lights_file.h"
+#include "scene/random.h"
+#include "support/shared_files.h"
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+struct Way {
+  const char* name;
+  const char* technique;
+  Settings settings;
+};
+
+const Way ways[] = {
+    {"multipass", "forward_multipass", {}},
+    {"zprepass", "forward_zprepass", {}},
+};
+
+void expect_all_close(const Scene& scene, const View& view) {
+  const Image forward = render(scene, view, "forward");
+  for (const Way& way : ways) {
+    SCOPED_TRACE(way.name);
+    expect_close(scene, view, way.settings, forward, way.technique);
+  }
+}
+
+struct BuiltinOneByOne : testing::TestWithParam<const char*> {
+  const Scene scene = find_builtin_scene(GetParam())->make();
+};
+
+TEST_P(BuiltinOneByOne, IsTheImageOfEveryLightAtEveryPixel) {
+  for (const glm::ivec2 size : {glm::ivec2(95, 53), glm::ivec2(17, 9), glm::ivec2(1, 1)}) {
+    SCOPED_TRACE(size.x);
+    expect_all_close(scene, default_view(scene, size.x, size.y));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinOneByOne, testing::Values("hall", "spheres", "terrain", "street"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(OneByOne, AtASizeThatNothingDivides) {
+  Scene scene = find_builtin_scene("terrain")->make();
+  scene.lights.resize(16);
+  expect_all_close(scene, default_view(scene, 1279, 721));
+}
+
+TEST(OneByOne, Sponza) {
+  LIGHTGRID_NEEDS_SHARED("scenes/large/Sponza");
+  LIGHTGRID_NEEDS_SHARED("bench/sponza_lights.json");
+  Scene scene = load_gltf(shared_folder() / "scenes/large/Sponza/Sponza.gltf");
+  const std::filesystem::path lights = shared_folder() / "bench/sponza_lights.json";
+  scene.lights = load_lights_file(lights);
+  scene.lights.resize(255);
+  expect_all_close(scene, make_view(choose_camera(scene, camera_of_lights_file(lights)), 320, 180));
+}
+
+// The small scene's wall and ball among lamps and torches of all sizes.
+Scene lamps(int count, float most_m) {
+  Scene scene = small_scene(false).scene;
+  Random random(7);
+  for (int i = 0; i < count; ++i) {
+    const glm::vec3 at{random.uniform(-2, 2), random.uniform(-1.5f, 1.5f), random.uniform(-4.2f, 0.5f)};
+    const float radius = random.uniform(0.1f, most_m);
+    if (i % 5 == 4) {
+      add_spot(scene, "torch", at, at + glm::vec3(random.uniform(-1, 1), random.uniform(-1, 1), -1), {1, 1, 1}, 0.2f, radius, 5,
+               random.uniform(10, 100));
+    } else {
+      add_point(scene, "lamp", at, {1, random.uniform(0, 1), random.uniform(0, 1)}, 0.2f, radius);
+    }
+  }
+  return scene;
+}
+
+TEST(OneByOne, WithAnyNumberOfLights) {
+  for (const int count : {0, 1, 7, 8, 9, 15, 16, 255, 256}) {
+    SCOPED_TRACE(count);
+    expect_all_close(lamps(count, 1.5f), small_view(33, 19));
+  }
+}
+
+// Sums of n terms round by n * 2^-24 of the sum at most.
+TEST(OneByOne, With65535Lights) {
+  const Scene scene = lamps(65535, 0.3f);
+  const View view = small_view(17, 9);
+  const Image forward = render(scene, view, "forward");
+  for (const Way& way : ways) {
+    SCOPED_TRACE(way.name);
+    expect_close(scene, view, way.settings, forward, way.technique);
+  }
+}
+
+TEST(OneByOne, InsideLightsAndBehindTheEyeAndPastTheFarPlane) {
+  SmallScene s = small_scene();
+  add_point(s.scene, "around the eye", {0.1f, 0, 0.1f}, {1, 1, 1}, 5, 30);
+  add_point(s.scene, "around the eye, ends before the wall", {0.1f, 0, 0.1f}, {1, 1, 1}, 5, 3);
+  add_point(s.scene, "across the near plane", {0.05f, 0, -0.2f}, {1, 1, 1}, 5, 0.15f);
+  add_point(s.scene, "behind", {0, 0, 3}, {1, 1, 1}, 5, 2);
+  add_point(s.scene, "behind, reaches in", {0, 0, 2}, {1, 1, 1}, 50, 7);
+  add_point(s.scene, "past far", {0, 0, -4.6f}, {1, 0, 0}, 5, 2);
+  add_point(s.scene, "in front, past far", {0, 0.5f, -12}, {0, 1, 0}, 50, 9);
+  add_point(s.scene, "fills the screen", {0, 0, -3.5f}, {1, 1, 1}, 1, 9);
+  add_spot(s.scene, "eye in the cone", {0, 0, 1}, {0, 0, -4}, {1, 1, 1}, 9, 9, 10, 25);
+  add_spot(s.scene, "away", {0, 0, -3.5f}, {0, 0, 0}, {1, 1, 1}, 9, 9, 10, 25);
+  add_spot(s.scene, "hemisphere and more", {0.5f, 0, -3.5f}, {1, 0, -3.5f}, {1, 1, 1}, 1, 2, 10, 120);
+  effects()[0].add(s);
+  for (const double far_m : {4.5, std::numeric_limits<double>::infinity()}) {
+    Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+    camera.far_m = far_m;
+    expect_all_close(s.scene, make_view(camera, 127, 73));
+  }
+}
+
+// A light that the wall is tangent to, one it is tangent to but for an ulp, and lights that graze it.
+TEST(OneByOne, TangentAndGrazingLights) {
+  SmallScene s = small_scene();
+  for (const float radius : {1.0f, std::nextafter(1.0f, 2.0f), std::nextafter(1.0f, 0.0f), 1.0001f, 1.01f}) {
+    add_point(s.scene, "tangent", {0.4f, 0.3f, -3}, {1, 1, 1}, 5, radius);
+  }
+  add_point(s.scene, "grazing", {0.2f, 0, -3.999f}, {1, 1, 1}, 1, 3);
+  add_spot(s.scene, "along the wall", {-1.5f, 0, -3.9f}, {2, 0, -3.95f}, {1, 1, 1}, 5, 4, 2, 8);
+  for (const glm::ivec2 size : {glm::ivec2(127, 73), glm::ivec2(1, 1)}) expect_all_close(s.scene, small_view(size.x, size.y));
+}
+
+TEST(OneByOne, LightsThatReachEverywhereOrNowhere) {
+  SmallScene s = small_scene();
+  for (const float radius : {0.0f, 1e-40f, 1e20f, std::numeric_limits<float>::infinity()}) {
+    add_point(s.scene, "strange", {0.3f, 0.4f, -3.9f}, {1, 1, 1}, 1, radius);
+    add_spot(s.scene, "strange", {0.3f, 0.4f, -2.9f}, {0.3f, 0, -4}, {1, 1, 1}, 1, radius, 10, 40);
+  }
+  expect_all_close(s.scene, small_view(127, 73));
+}
+
+TEST(OneByOne, OrthographicViews) {
+  SmallScene s = small_scene();
+  effects()[0].add(s);
+  for (const double near_m : {0.0, -3.0}) {
+    Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+    camera.orthographic = true;
+    camera.half_width_m = camera.half_height_m = 2;
+    camera.near_m = near_m, camera.far_m = 10;
+    expect_all_close(s.scene, make_view(camera, 127, 73));
+  }
+}
+
+// Two surfaces in one place: the later one is seen, and lit once.
+TEST(OneByOne, SurfacesOfOneDepth) {
+  SmallScene s = small_scene();
+  const int paint = add_material(s.scene, "paint", {0.1f, 0.9f, 0.2f}, 0, 0.5f);
+  Mesh copy = s.scene.meshes[s.wall];
+  copy.material = paint;
+  add_instance(s.scene, "the wall again", add_mesh(s.scene, std::move(copy)));
+  expect_all_close(s.scene, small_view(127, 73));
+}
+
+struct OneByOneEffect : testing::TestWithParam<int> {};
+
+TEST_P(OneByOneEffect, IsThereAsInForwardAndWithEverythingOn) {
+  SmallScene s = small_scene();
+  effects()[size_t(GetParam())].add(s);
+  const View view = small_view(63, 37);
+  const Image forward = render(s.scene, view, "forward");
+  for (const Way& way : ways) {
+    SCOPED_TRACE(way.name);
+    for (const bool everything_on : {false, true}) {
+      Settings settings = way.settings;
+      settings.everything_on = everything_on;
+      expect_close(s.scene, view, settings, forward, way.technique);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, OneByOneEffect, testing::Range(0, int(effects().size())),
+                         [](const auto& info) { return effects()[size_t(info.param)].name; });
+
+TEST(OneByOne, BlinnPhong) {
+  const Scene scene = lamps(40, 1.5f);
+  const View view = small_view(63, 37);
+  const Image forward = render(scene, view, "forward", {.brdf = Brdf::blinn});
+  for (const Way& way : ways) {
+    SCOPED_TRACE(way.name);
+    Settings settings = way.settings;
+    settings.brdf = Brdf::blinn;
+    expect_close(scene, view, settings, forward, way.technique);
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
