@@ -10,7 +10,3 @@ LitSurface surface_of_pixel(ivec2 pixel) {
   return lit_surface(GBufferTexels(texelFetch(gbuffer_normal_roughness_metallic, pixel, 0),
                                    texelFetch(gbuffer_base_color_lit, pixel, 0)));
 }
-
-vec3 position_here() {
-  return position_of_pixel(gl_FragCoord.xy, texelFetch(depth_image, ivec2(gl_FragCoord.xy), 0).r);
-}

@@ -1,7 +1,7 @@
-// Object-light pairs on the CPU: boxes of instances, then of their clusters, against balls and cones of lights.
+// Object-light pairs on the CPU: boxes of instances, then of their clusters, against balls and cones of
+// lights.
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -24,16 +24,12 @@ void ObjectLights::update(Frame& f, const TileDistances& distances) {
   objects_.clear(), lights_.clear(), reaches_.clear();
   const std::vector<ViewLight> all = lights_in_view(f.scene, f.view);
   for (const int i : f.plan.local) reaches_.emplace_back(all[size_t(i)]);
-  std::map<int, std::vector<uint32_t>> candidates;  // of instances, which may be drawn in several parts
+  std::vector<uint32_t> every_light(reaches_.size());
+  std::iota(every_light.begin(), every_light.end(), 0u);
   for (const VisiblePart& part : visible_parts(f, f.plan.opaque, DrawOrder::front_to_back, &distances)) {
-    const auto [found, added] = candidates.try_emplace(part.instance);
-    if (added) {
-      const Aabb& whole = f.scene.meshes[f.scene.instances[part.instance].mesh].bounds;
-      std::vector<uint32_t> every_light(reaches_.size());
-      std::iota(every_light.begin(), every_light.end(), 0u);
-      found->second = lights_reaching(box_in_view(part.view_from_object, whole), reaches_, every_light);
-    }
-    add_part(f, part, found->second);
+    const ViewBox whole =
+        box_in_view(part.view_from_object, f.scene.meshes[f.scene.instances[part.instance].mesh].bounds);
+    add_part(f, part, lights_reaching(whole, reaches_, every_light));
   }
   upload();
 }
@@ -62,8 +58,10 @@ void ObjectLights::upload() {
     GLint texels = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
     if (lights_.size() > size_t(texels)) {
-      throw machine_error("object-light pairs: {} are more than the {} texels that a buffer texture may have in this "
-                          "OpenGL; use fewer or smaller lights", lights_.size(), texels);
+      throw machine_error(
+          "object-light pairs: {} are more than the {} texels that a buffer texture may have in this "
+          "OpenGL; use fewer or smaller lights",
+          lights_.size(), texels);
     }
     buffer_ = make_buffer(bytes, lights_.data());
     texture_ = make_buffer_texture(GL_R32UI, buffer_.name());

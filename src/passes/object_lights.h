@@ -1,4 +1,5 @@
-// Which lights reach each object: for forward techniques that draw an object with its lights and know no grid.
+// Which lights reach each object: for forward techniques that draw an object with its lights and know no
+// grid.
 #pragma once
 
 #include "passes/frame/light_reach.h"
@@ -7,20 +8,21 @@
 
 namespace lightgrid {
 
-// Objects are parts of instances: clusters of triangles that follow each other and are reached by the same lights.
+// Objects are parts of instances: clusters of triangles that follow each other and are reached by the same
+// lights.
 class ObjectLights : public Kept {
  public:
   struct Object {
     int instance;
-    std::vector<uint32_t> clusters;         // of its mesh
+    std::vector<uint32_t> clusters;             // of its mesh
     uint32_t first_light = 0, light_count = 0;  // in lights, ascending
   };
 
   explicit ObjectLights(Frame&) {}
   size_t memory_bytes() const override { return buffer_bytes_; }
 
-  // Opaque objects in the order of drawing, without those that `distances` shows to be hidden; then their lights into
-  // the buffer that shaders/lights/object.glsl reads.
+  // Opaque objects in the order of drawing, without those that `distances` shows to be hidden; then their
+  // lights into the buffer that shaders/lights/object.glsl reads.
   void update(Frame& f, const TileDistances& distances);
 
   const std::vector<Object>& objects() const { return objects_; }
@@ -42,8 +44,8 @@ class ObjectLights : public Kept {
 // The pass: object-light pairs, found on the CPU.
 const ObjectLights& find_object_lights(Frame& f, const TileDistances& distances);
 
-// Each object at the depth that the prepass left: its own light over what is there, then its lights in the order of
-// their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
+// Each object at the depth that the prepass left: its own light over what is there, then its lights in the
+// order of their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
 ShadedImage shade_objects(Frame& f, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart);
 
 // What the last frame of shade_objects shaded each pixel with. For the oracle, not part of a frame.

@@ -1,5 +1,6 @@
-// Forward shading object by object, in as many draws as its lights take. Objects stand outside and their draws inside: the
-// first one puts over what is there, so that of two surfaces of one depth the later stands, as it does in shade_forward.
+// Forward shading object by object, in as many draws as its lights take. Objects stand outside and their
+// draws inside: the first one puts over what is there, so that of two surfaces of one depth the later stands,
+// as it does in shade_forward.
 #include <algorithm>
 
 #include "passes/cells.h"
@@ -26,7 +27,9 @@ const GlProgram& program_of(Frame& f, uint32_t features, Part part) {
 class ObjectDraws {
  public:
   ObjectDraws(Frame& f, const ObjectLights::Object& object, InstanceDrawer& drawer)
-      : f_(f), object_(object), drawer_(drawer),
+      : f_(f),
+        object_(object),
+        drawer_(drawer),
         ranges_(index_ranges(f.gpu.mesh(f.scene.instances[object.instance].mesh), object.clusters)) {}
 
   void draw(Part part, uint32_t first, uint32_t count) {
@@ -49,11 +52,13 @@ class ObjectDraws {
 void draw_object(Frame& f, const ObjectLights::Object& object, uint32_t lights_a_draw, bool own_apart,
                  InstanceDrawer& drawer) {
   ObjectDraws draws(f, object, drawer);
-  const bool unlit = f.scene.materials[f.scene.meshes[f.scene.instances[object.instance].mesh].material].unlit;
+  const bool unlit =
+      f.scene.materials[f.scene.meshes[f.scene.instances[object.instance].mesh].material].unlit;
   const uint32_t count = unlit ? 0 : object.light_count;
   uint32_t done = own_apart ? 0 : std::min(count, lights_a_draw);
   draws.draw(done > 0 ? Part::own_and_lights : Part::own, 0, done);
-  for (; done < count; done += lights_a_draw) draws.draw(Part::lights, done, std::min(count - done, lights_a_draw));
+  for (; done < count; done += lights_a_draw)
+    draws.draw(Part::lights, done, std::min(count - done, lights_a_draw));
 }
 
 }  // namespace
@@ -72,7 +77,8 @@ ShadedImage shade_objects(Frame& f, const ObjectLights& objects, uint32_t lights
   f.bind_lights();
   if (objects.texture()) glBindTextureUnit(12, objects.texture());
   InstanceDrawer drawer(f, DrawStreams::all);
-  for (const ObjectLights::Object& object : objects.objects()) draw_object(f, object, lights_a_draw, own_apart, drawer);
+  for (const ObjectLights::Object& object : objects.objects())
+    draw_object(f, object, lights_a_draw, own_apart, drawer);
   glDisable(GL_BLEND);
   const size_t pixels = size_t(f.view.width) * f.view.height;
   pass.moves(f.gpu.geometry_bytes() + pixels * 4 + objects.lights().size() * sizeof(uint32_t), pixels * 16);

@@ -44,6 +44,7 @@ struct TechniqueNeeds {
   bool stencil = false;  // beside the depth buffer
   bool lists = false;    // whose light code reads lists alone, not masks
   bool z_bins = false;   // whose shading passes over lights by z-bins, where the setting says so
+  bool light_volumes = false;  // lights drawn one by one: with stencil where volume-culling asks for it
 };
 
 struct FramePlan {

@@ -11,6 +11,9 @@ namespace lightgrid {
 
 enum class Brdf { ggx, blinn };  // the specular lobe: shared/brdf.h
 
+// What keeps a deferred light from pixels that it does not reach (passes/shade_light_volumes.cpp).
+enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };
+
 // Light-indexed deferred rendering (docs/techniques/lidr.md): how several light indices share a pixel, what of a light's
 // volume is drawn, and in which order lights are.
 enum class LidrPacking { bitshift, maxblend, sort };
@@ -30,6 +33,7 @@ struct Settings {
   int z_bins = 1;  // 1 (off), 16, 64 or 256
   GridLists grid_lists = GridLists::lists;
   int buffer_bits = 32;  // a channel of geometry buffers: 8, 16 or 32
+  VolumeCulling volume_culling = VolumeCulling::back_faces;
   KernelShape kernel_shape = KernelShape::automatic;
   LidrPacking lidr_packing = LidrPacking::bitshift;
   int lidr_overlap = 0;  // lights a pixel may have: 1, 2, 4, 8, 16, or 0: the most there is room for

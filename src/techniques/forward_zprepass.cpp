@@ -1,4 +1,5 @@
-// Each object with up to eight of the lights that reach it in a draw; what more there are in further draws, added up.
+// Each object with up to eight of the lights that reach it in a draw; what more
+// there are in further draws, added up.
 #include "passes/object_lights.h"
 #include "techniques/technique.h"
 

@@ -156,7 +156,7 @@ TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
   const GBuffer g = fill_gbuffer(f);
   std::vector<glm::u16vec4> stored(32 * 32);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, g.framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(0, 0, 32, 32, GL_RGBA, g.layout->images[0].type, stored.data());
   const SurfaceImages kept = read_gbuffer_surfaces(f);
   for (size_t i = 0; i < stored.size(); ++i) {

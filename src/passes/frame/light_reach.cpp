@@ -7,8 +7,9 @@
 namespace lightgrid {
 namespace {
 
-// Float rounding of vertices, depth, lights and positions, all told under a part in 10^5 of the distances; and what has
-// no bound that is of use, depth across triangles seen edge-on: a part in 256 of the radius (as light_volumes.cpp).
+// Float rounding of vertices, depth, lights and positions, all told under a part in 10^5 of the distances;
+// and what has no bound that is of use, depth across triangles seen edge-on: a part in 256 of the radius (as
+// light_volumes.cpp).
 constexpr double rounding = 1e-5, of_radius = 1.0 / 256;
 
 double sum(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
@@ -16,7 +17,8 @@ double sum(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::ab
 }  // namespace
 
 ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box) {
-  const glm::dvec3 center = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)), half = glm::dvec3(box.max) - center;
+  const glm::dvec3 center = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)),
+                   half = glm::dvec3(box.max) - center;
   const glm::dmat3 axes(view_from_object);
   return {glm::dvec3(view_from_object * glm::dvec4(center, 1)),
           glm::abs(axes[0]) * half.x + glm::abs(axes[1]) * half.y + glm::abs(axes[2]) * half.z};
@@ -39,7 +41,8 @@ bool LightReach::may_reach(const ViewBox& box) const {
   const glm::dvec3 outside = glm::max(glm::abs(from_light) - box.half, 0.0);
   if (glm::dot(outside, outside) > reach * reach) return false;
   if (!cone_) return true;
-  // The ball around the box against the cone's side: the distance from it, negative inside. An apex in the ball passes.
+  // The ball around the box against the cone's side: the distance from it, negative inside. An apex in the
+  // ball passes.
   const double ball = glm::length(box.half) + slack + of_radius * std::min(radius_, 1e30);
   const double along = glm::dot(from_light, direction_);
   const double across = std::sqrt(std::max(glm::dot(from_light, from_light) - along * along, 0.0));

@@ -1,0 +1,49 @@
+// One light on the surfaces of the geometry buffer, to be added to the image.
+//   LIGHT_VOLUME: the light comes with its volume (light_volume.vert), else as a uniform
+//   DEPTH_BOUNDS: nothing outside an interval of depth
+//   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel, so that sums
+//         are exact and tell how often
+//   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
+#include "shaders/common/read_gbuffer.glsl"
+#include "shared/brdf.h"
+#include "shaders/lights/punctual.glsl"
+
+#ifdef LIGHT_VOLUME
+flat in uint light;
+#else
+uniform uint light;
+#endif
+#ifdef DEPTH_BOUNDS
+uniform vec2 depth_bounds;
+#endif
+#ifdef MARK
+uniform uint first_light;
+#endif
+
+layout(location = 0) out vec4 added;
+
+#ifdef MARK
+vec4 mark() {
+  uint place = light - first_light;
+  vec4 digits = vec4(0.0);
+  digits[place / 12u] = float(1u << (2u * (place % 12u)));
+  return digits;
+}
+#endif
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+#ifdef DEPTH_BOUNDS
+  if (depth < depth_bounds.x || depth > depth_bounds.y) discard;
+#endif
+#ifdef MARK
+  added = mark();
+#else
+  LitSurface s = surface_of_pixel(pixel);
+  if (!s.lit) discard;
+  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
+  ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
+  added = vec4(punctual_light(p, int(light)), 0.0);
+#endif
+}

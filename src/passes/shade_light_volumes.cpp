@@ -1,0 +1,204 @@
+// Lights on the geometry buffer, one after the other, kept from pixels that they do not reach by one of the
+// means of Engel, "Designing a Renderer for Multiple Lights" (ShaderX7, 2009):
+//
+//   scissor       The whole screen, cut to the rectangle of the light's tangents.
+//
+//   depth-bounds  That; pixels of other depths leave the shader first. Few OpenGLs have a test of their own.
+//
+//   back-faces    The volume's back faces, where they are behind the surface: also with the eye in the volume.
+//
+//   stencil       Faces behind the surface are counted, back plus one, front minus one; what is not 0 is inside.
+//                 Then the same back faces, where it is not 0, which set it to 0 again.
+#include <algorithm>
+
+#include "passes/frame/draw.h"
+#include "passes/frame/light_defines.h"
+#include "passes/frame/light_volumes.h"
+#include "passes/light_passes.h"
+#include "passes/light_screen_bounds.h"
+
+namespace lightgrid {
+namespace {
+
+class VolumeDraws {
+ public:
+  VolumeDraws(Frame& f, const GBuffer& gbuffer, const char* output)
+      : f_(f),
+        culling_(f.plan.settings.volume_culling),
+        volumes_(f.kept<LightVolumes>()),
+        lights_(lights_in_view(f.scene, f.view)) {
+    std::vector<std::string> defines = own_light_defines(f, 0);
+    if (f.plan.spots) defines.emplace_back("SPOTS");
+    if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
+    if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
+    if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
+    if (output) defines.emplace_back(output);
+    program_ = &f.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert",
+                          "shaders/deferred_light.frag", defines);
+    if (culling_ == VolumeCulling::stencil)
+      marking_ = &f.program("shaders/light_volume.vert", "shaders/depth.frag", {});
+  }
+
+  const GlProgram& program() const { return *program_; }
+
+  // Volumes first ... end - 1 into the framebuffer that is bound, which has the frame's depth.
+  void draw(size_t first, size_t end) {
+    if (!drawn_as_volumes()) return draw_rectangles(first, end);
+    volumes_.begin();
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    glDepthFunc(GL_LEQUAL);  // behind the surface: depth is reversed
+    if (culling_ == VolumeCulling::stencil) {
+      draw_marked(first, end);
+    } else {
+      glUseProgram(program_->name());
+      volumes_.draw(first, end - first);
+    }
+    glCullFace(GL_BACK);
+    volumes_.end();
+  }
+
+ private:
+  bool drawn_as_volumes() const {
+    return culling_ == VolumeCulling::back_faces || culling_ == VolumeCulling::stencil;
+  }
+
+  void draw_marked(size_t first, size_t end) {
+    glEnable(GL_STENCIL_TEST);
+    for (size_t i = first; i < end; ++i) {
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      glDisable(GL_CULL_FACE);
+      glDepthFunc(GL_GREATER);
+      glStencilFunc(GL_ALWAYS, 0, 0xff);
+      glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
+      glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
+      glUseProgram(marking_->name());
+      volumes_.draw(i, 1);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      glEnable(GL_CULL_FACE);
+      glDepthFunc(GL_LEQUAL);
+      glStencilFunc(GL_NOTEQUAL, 0, 0xff);
+      glStencilOp(GL_KEEP, GL_ZERO, GL_ZERO);
+      glUseProgram(program_->name());
+      volumes_.draw(i, 1);
+    }
+    glDisable(GL_STENCIL_TEST);
+  }
+
+  void draw_rectangles(size_t first, size_t end) {
+    const GlVertexArray nothing = make_vertex_array();
+    glBindVertexArray(nothing.name());
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_SCISSOR_TEST);
+    glUseProgram(program_->name());
+    for (size_t i = first; i < end; ++i) {
+      const LightVolume& volume = volumes_.volumes()[i];
+      const ScreenBounds bounds =
+          screen_bounds(f_.view, lights_[size_t(f_.plan.local[volume.light])], volume);
+      const glm::ivec2 size = bounds.end - bounds.first;
+      glScissor(bounds.first.x, bounds.first.y, size.x, size.y);
+      glUniform1ui(program_->uniform("light"), volume.light);
+      if (culling_ == VolumeCulling::depth_bounds) {
+        glUniform2f(program_->uniform("depth_bounds"), bounds.depth.x, bounds.depth.y);
+      }
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    glDisable(GL_SCISSOR_TEST);
+    glBindVertexArray(0);
+  }
+
+  Frame& f_;
+  VolumeCulling culling_;
+  LightVolumes& volumes_;
+  std::vector<ViewLight> lights_;
+  const GlProgram *program_ = nullptr, *marking_ = nullptr;
+};
+
+// To add light to what is there.
+void begin_adding(Frame& f, const GBuffer& gbuffer, GLuint framebuffer) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, f.view.width, f.view.height);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE);
+  f.bind_lights();
+  bind_gbuffer(gbuffer);
+}
+
+// Lights that one image of marks tells apart: shaders/deferred_light.frag.
+constexpr uint32_t lights_a_mark = 48;
+
+// Draws the marks of all lights, some at a time, and calls visit(pixel, light) for each time that a shader
+// ran.
+template <typename Visit>
+void visit_pairs(Frame& f, const Visit& visit) {
+  const GBuffer gbuffer = gbuffer_of(f);
+  const int width = f.view.width, height = f.view.height;
+  const GlTexture target = make_texture_2d(GL_RGBA32F, width, height);
+  const GlFramebuffer framebuffer = make_framebuffer({target.name()}, gbuffer.depth);
+  const std::vector<LightVolume>& volumes = f.kept<LightVolumes>().volumes();
+  VolumeDraws draws(f, gbuffer, "MARK");
+  Image marks(width, height);
+  for (size_t first = 0, end = 0; first < volumes.size(); first = end) {
+    const uint32_t first_light = volumes[first].light;
+    while (end < volumes.size() && volumes[end].light - first_light < lights_a_mark) ++end;
+    const float nothing[4] = {0, 0, 0, 0};
+    glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, nothing);
+    begin_adding(f, gbuffer, framebuffer.name());
+    glUseProgram(draws.program().name());
+    glUniform1ui(draws.program().uniform("first_light"), first_light);
+    draws.draw(first, end);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, marks.pixels.data());
+    for (size_t pixel = 0; pixel < marks.pixels.size(); ++pixel) {
+      for (uint32_t channel = 0; channel < 4; ++channel) {
+        uint32_t digits = uint32_t(marks.pixels[pixel][int(channel)]);
+        for (uint32_t light = first_light + 12 * channel; digits > 0; ++light, digits /= 4) {
+          for (uint32_t times = digits % 4; times > 0; --times) visit(pixel, light);
+        }
+      }
+    }
+  }
+  glDisable(GL_BLEND);
+}
+
+}  // namespace
+
+void shade_light_volumes(Frame& f, const GBuffer& gbuffer) {
+  if (!f.plan.local_lights) return;
+  auto pass = f.timer.pass("shade_light_volumes", "gl");
+  LightVolumes& volumes = f.kept<LightVolumes>();
+  volumes.update(f, f.plan.settings.volume_mesh);
+  if (f.plan.stencil) {
+    const GLint nothing = 0;
+    glStencilMask(0xff);
+    glClearNamedFramebufferiv(gbuffer.image.framebuffer, GL_STENCIL, 0, &nothing);
+  }
+  begin_adding(f, gbuffer, gbuffer.image.framebuffer);
+  VolumeDraws(f, gbuffer, nullptr).draw(0, volumes.volumes().size());
+  glDisable(GL_BLEND);
+  const size_t pixels = size_t(f.view.width) * f.view.height;
+  pass.moves(pixels * (4 + 16 + gbuffer.layout->bytes()), pixels * 16);
+}
+
+ListedLights listed_of_light_volumes(Frame& f) {
+  ListedLights lists;
+  const size_t pixels = size_t(f.view.width) * f.view.height;
+  lists.first.resize(pixels), lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
+  if (!f.plan.local_lights) return list_every_light(0);
+  visit_pairs(f, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
+  uint32_t sum = 0;
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    lists.cell_of_pixel[pixel] = uint32_t(pixel), lists.first[pixel] = sum;
+    sum += lists.count[pixel];
+  }
+  lists.indices.resize(sum);
+  std::vector<uint32_t> next = lists.first;
+  visit_pairs(f, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
+  return lists;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,23 @@
+// Surfaces into a geometry buffer, then the lights one after the other, each on
+// the pixels that its volume covers.
+#include "passes/light_passes.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+static ShadedImage render(Frame& f) {
+  const GBuffer gbuffer = fill_gbuffer(f);
+  shade_light_volumes(f, gbuffer);
+  shade_blended(f, gbuffer.image, nullptr);
+  return gbuffer.image;
+}
+
+extern const Technique deferred{.name = "deferred",
+                                .summary = "geometry buffer, then light volumes",
+                                .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
+                                .needs = {.light_volumes = true},
+                                .settings = {"brdf", "buffer-bits", "volume-culling", "volume-mesh"},
+                                .render = render,
+                                .listed = listed_of_light_volumes};
+
+}  // namespace lightgrid
