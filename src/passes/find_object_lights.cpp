@@ -20,13 +20,14 @@ std::vector<uint32_t> lights_reaching(const ViewBox& box, const std::vector<Ligh
 
 }  // namespace
 
-void ObjectLights::update(Frame& f, const TileDistances& distances) {
+void ObjectLights::update(Frame& f, const std::vector<int>& instances, DrawOrder order,
+                          const TileDistances* distances) {
   objects_.clear(), lights_.clear(), reaches_.clear();
   const std::vector<ViewLight> all = lights_in_view(f.scene, f.view);
   for (const int i : f.plan.local) reaches_.emplace_back(all[size_t(i)]);
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
-  for (const VisiblePart& part : visible_parts(f, f.plan.opaque, DrawOrder::front_to_back, &distances)) {
+  for (const VisiblePart& part : visible_parts(f, instances, order, distances)) {
     const ViewBox whole =
         box_in_view(part.view_from_object, f.scene.meshes[f.scene.instances[part.instance].mesh].bounds);
     add_part(f, part, lights_reaching(whole, reaches_, every_light));
@@ -71,12 +72,25 @@ void ObjectLights::upload() {
   }
 }
 
+static void count_bytes(const Frame& f, const ObjectLights& objects, PassTimer::Scope& pass) {
+  pass.moves(f.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
+             objects.lights().size() * sizeof(uint32_t));
+}
+
 const ObjectLights& find_object_lights(Frame& f, const TileDistances& distances) {
   auto pass = f.timer.pass("find_object_lights", "cpu");
   ObjectLights& objects = f.kept<ObjectLights>();
-  objects.update(f, distances);
-  pass.moves(f.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
-             objects.lights().size() * sizeof(uint32_t));
+  objects.update(f, f.plan.opaque, DrawOrder::front_to_back, &distances);
+  count_bytes(f, objects, pass);
+  return objects;
+}
+
+const ObjectLights& find_blended_object_lights(Frame& f) {
+  ObjectLights& objects = f.kept<BlendedObjectLights>();
+  if (!f.plan.blend) return objects;
+  auto pass = f.timer.pass("find_blended_object_lights", "cpu");
+  objects.update(f, f.plan.blended, DrawOrder::as_given, nullptr);
+  count_bytes(f, objects, pass);
   return objects;
 }
 

@@ -21,9 +21,9 @@ class ObjectLights : public Kept {
   explicit ObjectLights(Frame&) {}
   size_t memory_bytes() const override { return buffer_bytes_; }
 
-  // Opaque objects in the order of drawing, without those that `distances` shows to be hidden; then their
-  // lights into the buffer that shaders/lights/object.glsl reads.
-  void update(Frame& f, const TileDistances& distances);
+  // The instances' objects in the order of drawing, without those that `distances` (null: nothing is known) shows
+  // to be hidden; then their lights into the buffer that shaders/lights/object.glsl reads.
+  void update(Frame& f, const std::vector<int>& instances, DrawOrder order, const TileDistances* distances);
 
   const std::vector<Object>& objects() const { return objects_; }
   const std::vector<uint32_t>& lights() const { return lights_; }  // places in FramePlan::local
@@ -41,12 +41,22 @@ class ObjectLights : public Kept {
   size_t buffer_bytes_ = 0;
 };
 
-// The pass: object-light pairs, found on the CPU.
+class BlendedObjectLights : public ObjectLights {
+ public:
+  using ObjectLights::ObjectLights;
+};
+
+// The passes: object-light pairs of opaque surfaces and of blended ones, found on the CPU.
 const ObjectLights& find_object_lights(Frame& f, const TileDistances& distances);
+const ObjectLights& find_blended_object_lights(Frame& f);
 
 // Each object at the depth that the prepass left: its own light over what is there, then its lights in the
 // order of their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
 ShadedImage shade_objects(Frame& f, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart);
+
+// Blended objects over the image, back to front, each in one draw with all of its lights: a second one would lay
+// the surface over itself.
+void shade_blended(Frame& f, const ShadedImage& image, const ObjectLights& objects);
 
 // What the last frame of shade_objects shaded each pixel with. For the oracle, not part of a frame.
 ListedLights listed_of_objects(Frame& f);

@@ -14,26 +14,23 @@ namespace {
 // The forward program without point and spot lights, with some of the object's, or of those alone.
 enum class Part { own, own_and_lights, lights };
 
-const GlProgram& program_of(Frame& f, uint32_t features, Part part) {
-  std::vector<std::string> defines = own_light_defines(f, features);
-  if (part != Part::own) {
-    defines.insert(defines.end(), {"LIGHTS", "LIGHTS_OBJECT"});
-    if (f.plan.spots) defines.emplace_back("SPOTS");
-  }
+const GlProgram& program_of(Frame& f, const ObjectLights& objects, uint32_t features, Part part) {
+  auto defines = part == Part::own ? own_light_defines(f, features) : light_defines(f, features, objects);
   if (part == Part::lights) defines.emplace_back("ADDED");
   return f.program("shaders/scene.vert", "shaders/forward.frag", defines);
 }
 
 class ObjectDraws {
  public:
-  ObjectDraws(Frame& f, const ObjectLights::Object& object, InstanceDrawer& drawer)
+  ObjectDraws(Frame& f, const ObjectLights& objects, const ObjectLights::Object& object, InstanceDrawer& drawer)
       : f_(f),
+        objects_(objects),
         object_(object),
         drawer_(drawer),
         ranges_(index_ranges(f.gpu.mesh(f.scene.instances[object.instance].mesh), object.clusters)) {}
 
   void draw(Part part, uint32_t first, uint32_t count) {
-    const GlProgram& program = program_of(f_, f_.plan.features_of_instance[object_.instance], part);
+    const GlProgram& program = program_of(f_, objects_, f_.plan.features_of_instance[object_.instance], part);
     drawer_.bind(object_.instance, program);
     if (part != Part::own) {
       glUniform2i(program.uniform("lights_of_draw"), GLint(object_.first_light + first), GLint(count));
@@ -44,14 +41,15 @@ class ObjectDraws {
 
  private:
   Frame& f_;
+  const ObjectLights& objects_;
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
   IndexRanges ranges_;
 };
 
-void draw_object(Frame& f, const ObjectLights::Object& object, uint32_t lights_a_draw, bool own_apart,
-                 InstanceDrawer& drawer) {
-  ObjectDraws draws(f, object, drawer);
+void draw_object(Frame& f, const ObjectLights& objects, const ObjectLights::Object& object, uint32_t lights_a_draw,
+                 bool own_apart, InstanceDrawer& drawer) {
+  ObjectDraws draws(f, objects, object, drawer);
   const bool unlit =
       f.scene.materials[f.scene.meshes[f.scene.instances[object.instance].mesh].material].unlit;
   const uint32_t count = unlit ? 0 : object.light_count;
@@ -74,11 +72,10 @@ ShadedImage shade_objects(Frame& f, const ObjectLights& objects, uint32_t lights
   glDepthMask(GL_FALSE);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
-  f.bind_lights();
-  if (objects.texture()) glBindTextureUnit(12, objects.texture());
+  bind_lights(f, objects);
   InstanceDrawer drawer(f, DrawStreams::all);
   for (const ObjectLights::Object& object : objects.objects())
-    draw_object(f, object, lights_a_draw, own_apart, drawer);
+    draw_object(f, objects, object, lights_a_draw, own_apart, drawer);
   glDisable(GL_BLEND);
   const size_t pixels = size_t(f.view.width) * f.view.height;
   pass.moves(f.gpu.geometry_bytes() + pixels * 4 + objects.lights().size() * sizeof(uint32_t), pixels * 16);

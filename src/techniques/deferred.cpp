@@ -1,6 +1,7 @@
 // Surfaces into a geometry buffer, then the lights one after the other, each on
 // the pixels that its volume covers.
 #include "passes/light_passes.h"
+#include "passes/object_lights.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -8,7 +9,7 @@ namespace lightgrid {
 static ShadedImage render(Frame& f) {
   const GBuffer gbuffer = fill_gbuffer(f);
   shade_light_volumes(f, gbuffer);
-  shade_blended(f, gbuffer.image, nullptr);
+  shade_blended(f, gbuffer.image, find_blended_object_lights(f));
   return gbuffer.image;
 }
 

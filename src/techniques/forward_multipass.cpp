@@ -9,7 +9,7 @@ static ShadedImage render(Frame& f) {
   const TileDistances distances = tile_distances(f, depth_bounds(f, depth));
   const ObjectLights& objects = find_object_lights(f, distances);
   const ShadedImage image = shade_objects(f, objects, 1, true);
-  shade_blended(f, image, nullptr);
+  shade_blended(f, image, find_blended_object_lights(f));
   return image;
 }
 

@@ -231,13 +231,17 @@ size_t memory_of(const Scene& scene, const View& view, const char* technique, co
 }
 
 TEST(OneByOne, TakesTheMemoryThatThePagesSay) {
-  const Scene scene = small_scene().scene;
+  SmallScene s = small_scene();
+  effects()[0].add(s);  // glass
+  const Scene& scene = s.scene;
   const View view = small_view(127, 73);
   const size_t pixels = 127 * 73, lights = 6 * 32;
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward_zprepass"));
   run.run_frame();
-  const size_t pairs = run.frame().kept<ObjectLights>().lights().size();
+  const size_t blended_pairs = run.frame().kept<BlendedObjectLights>().lights().size();
+  const size_t pairs = run.frame().kept<ObjectLights>().lights().size() + blended_pairs;
   EXPECT_GT(pairs, 6u);
+  EXPECT_GT(blended_pairs, 0u);
   for (const char* technique : {"forward_multipass", "forward_zprepass"}) {
     EXPECT_EQ(memory_of(scene, view, technique), memory_of(scene, view, "forward") + 4 * pairs) << technique;
   }
@@ -248,7 +252,7 @@ TEST(OneByOne, TakesTheMemoryThatThePagesSay) {
       settings.buffer_bits = bits;
       const size_t depth = way.settings.volume_culling == VolumeCulling::stencil ? 5 : 4;
       EXPECT_EQ(memory_of(scene, view, "deferred", settings),
-                pixels * (size_t(bits) + 16 + depth) + lights + 6 * 68 + 10962)
+                pixels * (size_t(bits) + 16 + depth) + lights + 6 * 68 + 10962 + 4 * blended_pairs)
           << way.name << " " << bits;
     }
   }

@@ -1,6 +1,7 @@
 // Which light code a shading program holds.
 #pragma once
 
+#include "passes/object_lights.h"
 #include "passes/passes.h"
 
 namespace lightgrid {
@@ -17,6 +18,11 @@ inline void bind_lights(Frame& f, const GridTextures* grid) {
 inline void bind_lights(Frame& f, const LightIndexImages& index) {
   f.bind_lights();
   for (size_t i = 0; i < index.images.size(); ++i) glBindTextureUnit(GLuint(12 + i), index.images[i]);
+}
+
+inline void bind_lights(Frame& f, const ObjectLights& objects) {
+  f.bind_lights();
+  if (objects.texture()) glBindTextureUnit(12, objects.texture());
 }
 
 // Without point and spot lights.
@@ -39,6 +45,12 @@ inline std::vector<std::string> light_defines(const Frame& f, uint32_t features,
   if (grid) defines.emplace_back(grid->masks ? "LIGHTS_MASKS" : "LIGHTS_GRID");
   if (grid && f.plan.slices > 1) defines.emplace_back("SLICES");
   if (grid && f.plan.z_bins > 1) defines.emplace_back("Z_BINS");
+  return defines;
+}
+
+inline std::vector<std::string> light_defines(const Frame& f, uint32_t features, const ObjectLights&) {
+  std::vector<std::string> defines = light_defines(f, features);
+  defines.emplace_back("LIGHTS_OBJECT");
   return defines;
 }
 
