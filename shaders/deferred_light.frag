@@ -40,10 +40,14 @@ void main() {
 #ifdef MARK
   added = mark();
 #else
+  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
+  PunctualLight from = light_at(int(light));
+  Arrival arrival = arrival_at(position, from);
+  if (!(arrival.attenuation > 0.0)) discard;  // would add an exact zero
   LitSurface s = surface_of_pixel(pixel);
   if (!s.lit) discard;
-  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
-  ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
-  added = vec4(punctual_light(p, int(light)), 0.0);
+  vec3 to_viewer = direction_to_viewer(position);
+  ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
+  added = vec4(radiance_of(p, arrival, from), 0.0);
 #endif
 }

@@ -7,12 +7,14 @@ layout(binding = 9) uniform samplerBuffer light_colors;
 layout(binding = 10) uniform samplerBuffer light_cones;
 #endif
 
-vec3 punctual_light(ShadingPoint p, int index) {
+PunctualLight light_at(int index) {
   PunctualLight light;
   light.place = texelFetch(light_places, index);
   light.color = texelFetch(light_colors, index);
 #ifdef SPOTS
   light.cone = texelFetch(light_cones, index);
 #endif
-  return radiance_from(p, light);
+  return light;
 }
+
+vec3 punctual_light(ShadingPoint p, int index) { return radiance_from(p, light_at(index)); }
