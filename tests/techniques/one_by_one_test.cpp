@@ -1,6 +1,6 @@
-// Techniques that draw lights one by one, or some at a time, and add them up in the image: forward_multipass,
-// forward_zprepass, and deferred in each way of culling. Sums in another order: within 1e-5 of the brightest
-// channel.
+// Techniques that draw lights one by one, or some at a time, and add them up in the image (forward_multipass,
+// forward_zprepass, and deferred in each way of culling), and those whose light loop is in OpenCL. They round elsewhere
+// than forward: within 1e-5 of the brightest channel.
 #include <cmath>
 
 #include "passes/object_lights.h"
@@ -27,6 +27,8 @@ const Way ways[] = {
     {"stencil", "deferred", {.volume_culling = VolumeCulling::stencil}},
     {"scissor", "deferred", {.volume_culling = VolumeCulling::scissor}},
     {"depth_bounds", "deferred", {.volume_culling = VolumeCulling::depth_bounds}},
+    {"tiled", "deferred_tiled", {}},
+    {"compute", "forward_plus_compute", {}},
 };
 
 void expect_all_close(const Scene& scene, const View& view) {
