@@ -3,28 +3,51 @@
 //   LIDR_SHIFTED: bitshift; LIDR_GREATEST: maxblend; else sort
 //   LIDR_FLOAT: unpacks as the article does, without integers
 //   LIDR_REPEATS: one light may stand there twice in a row, and counts once
+// Loops run as often as there are lights: where pixels are shaded several at once, code under an if may cost all of them.
 #include "shared/light_index.h"
 
 layout(binding = 12) uniform sampler2D light_index_images[LIDR_TARGETS];
 
-vec3 lidr_sum;
-uint lidr_before;
-
-void add_light(ShadingPoint p, uint index) {
-  if (index == 0u) return;
-#ifdef LIDR_REPEATS
-  if (index == lidr_before) return;
-  lidr_before = index;
-#endif
-  lidr_sum += punctual_light(p, int(index) - 1);
-}
-
 vec4 texel_of(uint target) { return texelFetch(light_index_images[target], ivec2(gl_FragCoord.xy), 0); }
 
+uint lidr_before = 0u;
+
+vec3 light_of(ShadingPoint p, uint index) {
+#ifdef LIDR_REPEATS
+  if (index == lidr_before) return vec3(0.0);
+  lidr_before = index;
+#endif
+  return punctual_light(p, int(index) - 1);
+}
+
+#if defined(LIDR_SHIFTED) && !defined(LIDR_FLOAT)
+vec3 light_sum(ShadingPoint p) {
+  const uint words = (LIDR_CHANNELS + 3u) / 4u;
+  vec3 sum = vec3(0.0);
+  for (uint group = 0u; group < LIDR_GROUPS; ++group) {
+    uint word[words], used = 0u;
+    for (uint w = 0u; w < words; ++w) {
+      word[w] = packUnorm4x8(texel_of(group * words + w)) & LIDR_PRESENT;
+      used |= word[w];
+    }
+    // An index has some bit set: the lowest of all channels is in the oldest slot, and none after it is empty.
+    used = (used | used >> 8u | used >> 16u | used >> 24u) & 255u;
+    uint count = used == 0u ? 0u : (7u - uint(findLSB(used))) / LIDR_SHIFT + 1u;
+    for (uint slot = count; slot-- > 0u;) {
+      uint index = 0u;
+      for (uint w = 0u; w < words; ++w) index |= light_index_in_word(word[w], slot, LIDR_SHIFT) << (4u * w * LIDR_SHIFT);
+      sum += light_of(p, index);
+    }
+  }
+  return sum;
+}
+#else
+const uint places = LIDR_GROUPS * LIDR_SLOTS;
+uint lidr_found[places];  // 0: none
+
 #if defined(LIDR_SHIFTED)
-#ifdef LIDR_FLOAT
 // ceil and 254.5: floor or a product with 255 may miss the number that was stored.
-void add_group(ShadingPoint p, uint group) {
+void unpack_group(uint group) {
   const uint words = (LIDR_CHANNELS + 3u) / 4u;
   const float slot_size = float(1u << LIDR_SHIFT);
   vec4 present = unpackUnorm4x8(LIDR_PRESENT);
@@ -38,21 +61,9 @@ void add_group(ShadingPoint p, uint group) {
       index += dot(down - rest[w], vec4(1.0, slot_size, slot_size * slot_size, slot_size * slot_size * slot_size) * scale);
       scale *= slot_size * slot_size * slot_size * slot_size;
     }
-    add_light(p, uint(index));
+    lidr_found[group * LIDR_SLOTS + slot] = uint(index);
   }
 }
-#else
-void add_group(ShadingPoint p, uint group) {
-  const uint words = (LIDR_CHANNELS + 3u) / 4u;
-  uint word[words];
-  for (uint w = 0u; w < words; ++w) word[w] = packUnorm4x8(texel_of(group * words + w)) & LIDR_PRESENT;
-  for (uint slot = LIDR_SLOTS; slot-- > 0u;) {
-    uint index = 0u;
-    for (uint w = 0u; w < words; ++w) index |= light_index_in_word(word[w], slot, LIDR_SHIFT) << (4u * w * LIDR_SHIFT);
-    add_light(p, index);
-  }
-}
-#endif
 #else
 uint channel_value(uint channel) {
   float stored = texel_of(channel / 4u)[channel % 4u];
@@ -63,26 +74,29 @@ uint channel_value(uint channel) {
 #endif
 }
 
-#if defined(LIDR_GREATEST)
-void add_group(ShadingPoint p, uint group) {
-  uint greatest = channel_value(group * LIDR_CHANNELS);
-  uint least = greatest;
-  if (greatest != 0u && LIDR_SLOTS > 1u) least = LIDR_MOST - channel_value(group * LIDR_CHANNELS + 1u);
-  add_light(p, least);
-  if (greatest != least) add_light(p, greatest);
-}
-#else
-void add_group(ShadingPoint p, uint group) {
+void unpack_group(uint group) {
   uint index = channel_value(group * LIDR_CHANNELS);
+#if defined(LIDR_GREATEST)
+  uint least = index != 0u && LIDR_SLOTS > 1u ? LIDR_MOST - channel_value(group * LIDR_CHANNELS + 1u) : index;
+  lidr_found[group * LIDR_SLOTS] = least;
+  if (LIDR_SLOTS > 1u) lidr_found[group * LIDR_SLOTS + 1u] = index == least ? 0u : index;
+#else
   if (LIDR_CHANNELS > 1u) index |= channel_value(group * LIDR_CHANNELS + 1u) << 8u;
-  add_light(p, index);
-}
+  lidr_found[group] = index;
 #endif
+}
 #endif
 
 vec3 light_sum(ShadingPoint p) {
-  lidr_sum = vec3(0.0);
-  lidr_before = 0u;
-  for (uint group = 0u; group < LIDR_GROUPS; ++group) add_group(p, group);
-  return lidr_sum;
+  uint left = 0u;
+  for (uint group = 0u; group < LIDR_GROUPS; ++group) unpack_group(group);
+  for (uint i = 0u; i < places; ++i) left |= uint(lidr_found[i] != 0u) << i;
+  vec3 sum = vec3(0.0);
+  for (; left != 0u; left &= left - 1u) {
+    uint place = uint(findLSB(left)), index = 0u;
+    for (uint i = 0u; i < places; ++i) index = i == place ? lidr_found[i] : index;
+    sum += light_of(p, index);
+  }
+  return sum;
 }
+#endif
