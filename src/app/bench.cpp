@@ -92,6 +92,7 @@ int bench(const BenchCommand& o) {
     };
   }
   ClDevice device(o.device);
+  for (BenchContestant& c : options.contestants) c.settings = with_tuned(c.settings, read_tuned_sizes(device.info()));
   if (table) fmt::print("{}, {}\n{}", device.info().name, device.info().driver, table_head());
   const BenchReport report = run_bench(device, options);
   if (!o.json.empty()) write_json(o.json, to_json(report).dump(1));

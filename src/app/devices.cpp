@@ -10,6 +10,7 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "bridge/shared_buffer.h"
+#include "cl/tuned_sizes.h"
 
 namespace lightgrid {
 namespace {
@@ -29,6 +30,7 @@ struct Found {
   std::vector<ClDeviceInfo> cl;
   std::vector<GlFound> gl;
   int chosen_cl = -1, chosen_gl = -1;  // -1: there is none to use, for the reason in `problems`
+  TunedSizes tuned;                    // of the chosen OpenCL device
   std::string bridge;
   std::vector<std::string> problems;
 };
@@ -50,6 +52,7 @@ Found find_devices(const DeviceOptions& o) {
   } catch (const Error& error) {
     found.problems.push_back(error.what());
   }
+  if (found.chosen_cl >= 0) found.tuned = read_tuned_sizes(found.cl[found.chosen_cl]);
   for (const char* name : {"osmesa", "egl"}) found.gl.push_back(try_gl(name));
   try {
     const auto context = GlContext::create(wanted);
@@ -74,6 +77,8 @@ void print(const Found& found) {
                d.driver, d.version);
   }
   if (found.cl.empty()) fmt::print("  none\n");
+  for (const auto& [key, value] : found.tuned) fmt::print("  tuned: {}={}\n", key, value);
+  if (!found.tuned.empty()) fmt::print("  in {}\n", tuned_sizes_file().string());
   fmt::print("OpenGL backends\n");
   for (int i = 0; i < int(found.gl.size()); ++i) {
     const GlFound& g = found.gl[i];
@@ -122,6 +127,7 @@ nlohmann::ordered_json to_json(const Found& found) {
     json["gl"].push_back(row);
   }
   if (!found.bridge.empty()) json["bridge"] = found.bridge;
+  json["tuned"] = {{"file", tuned_sizes_file().string()}, {"settings", found.tuned}};
   return json;
 }
 

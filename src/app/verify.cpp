@@ -16,7 +16,7 @@ namespace lightgrid {
 namespace {
 
 struct VerifyCommand {
-  std::string device, filter, json;
+  std::string device, filter, json, replay;
   bool nightly = false, list = false;
 };
 
@@ -44,6 +44,8 @@ void print(const verify::VerifyReport& report) {
 
 int run(const VerifyCommand& o) {
   const auto chosen = verify::chosen_cases(o.filter);
+  if (!o.replay.empty() && (o.nightly || o.list || !o.filter.empty()))
+    throw input_error("verify: --replay {} goes with none of --filter, --nightly and --list", o.replay);
   if (o.list) {
     for (const std::string& row : verify::catalogue_rows(chosen)) fmt::print("{}\n", row);
     return 0;
@@ -51,7 +53,10 @@ int run(const VerifyCommand& o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   verify::VerifyOptions options{.filter = o.filter, .progress = progress_bar()};
   if (o.nightly) options.adversarial_lights = 10'000'000;
-  const verify::VerifyReport report = verify::run_cases(engines_of(o.device), options);
+  const CapturedFrame frame = o.replay.empty() ? CapturedFrame() : read_frame(o.replay);
+  const auto engines = engines_of(o.device);
+  const verify::VerifyReport report =
+      o.replay.empty() ? verify::run_cases(engines, options) : verify::replay_frame(engines, frame, options.progress);
   if (!o.json.empty()) write_json(o.json, verify::to_json(report).dump(1) + "\n");
   if (o.json != "-") print(report);
   return report.failed ? 1 : 0;
@@ -64,6 +69,7 @@ void add_verify(CommandLine& line) {
   Subcommand command = line.add("verify", "the hard cases of culling on this machine's devices", [o] { return run(*o); });
   command.option("--filter", o->filter, "only cases whose GROUP/NAME holds this regular expression");
   command.option("--device", o->device, "only the OpenCL device whose platform and name hold this text; else all");
+  command.option("--replay", o->replay, "a captured frame's folder instead: its grids against a flat C++ program's, bit for bit");
   command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand");
   command.flag("--list", o->list, "the catalogue as a table, and nothing run");
   command.option("--json", o->json, "as JSON into a file, - for stdout");

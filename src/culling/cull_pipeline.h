@@ -22,6 +22,7 @@ struct PipelineOptions {
   bool avx512 = false;
   int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
   int index_bytes = 2;
+  int group_size = 0;  // CullerOptions'
   bool many_lights = false;  // one more step from coarse to fine pays
   bool operator==(const PipelineOptions&) const = default;
 };
@@ -41,6 +42,9 @@ class CullPipeline {
 
 std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
 std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
+
+// Throws Error(machine) where the device has not the memory.
+cl::Buffer device_buffer(ClDevice& device, size_t bytes);
 
 // A buffer that is made anew where it is too small.
 class GrowingBuffer {

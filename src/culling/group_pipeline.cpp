@@ -21,6 +21,7 @@ class GroupPipeline : public CullPipeline {
       : CullPipeline(options), device_(device) {
     project_ = programs.kernel("project_lights_group", options.light_defines);
     const size_t allowed = device.device().getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    if (options.group_size > 0) list_items_ = size_t(options.group_size);
     while (list_items_ > allowed) list_items_ /= 2;
     list_ = programs.kernel("list_candidates_group", fmt::format("{} -DGROUP={}", options.defines, list_items_));
     mark_cells_ = programs.kernel("mark_cells_group", options.defines);

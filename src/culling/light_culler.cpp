@@ -10,26 +10,17 @@
 #include "cl/avx512.h"
 #include "cl/launch.h"
 #include "culling/cull_pipeline.h"
+#include "culling/culler_options.h"
+#include "culling/light_arrays.h"
 #include "culling/two_floats.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr float far_away = 1e18f;   // as kernels/common/project.h
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
-constexpr int world_arrays = 8;     // as kernels/common/light_arrays.h
 constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
 constexpr uint most_regions = 64, many_lights = 16384;
-constexpr double half_ulp = 0x1p-24;
-
-cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
-  try {
-    return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
-  } catch (const cl::Error& error) {
-    throw cl_machine_error(error, fmt::format("light culling: {} bytes", bytes));
-  }
-}
 
 int planes_of(DepthBoundsMode mode) {
   if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
@@ -40,45 +31,6 @@ int planes_of(DepthBoundsMode mode) {
 size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, uint ty) {
   const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
   return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
-}
-
-// A light has a place and a radius; what has none is listed nowhere.
-bool is_light(const CullLight& light) {
-  return light.radius_m >= 0 && std::isfinite(light.position.x) && std::isfinite(light.position.y) &&
-         std::isfinite(light.position.z);
-}
-
-// An actual coordinate of some light, so that moving all by an exact amount moves it by that amount; in the middle, so
-// that a few lights far off cost the others no precision.
-double middle(std::span<const CullLight> lights, int axis) {
-  std::vector<double> values;
-  values.reserve(lights.size());
-  for (const CullLight& light : lights) {
-    if (is_light(light)) values.push_back(light.position[axis]);
-  }
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
-struct UploadedSphere {
-  glm::vec3 place{0};
-  float radius = -far_away;  // listed nowhere
-};
-
-// Of its place's rounding the radius makes up. Past what kernels call infinite only a light as large can reach a cell.
-UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin) {
-  if (!is_light(light)) return {};
-  const glm::dvec3 place = light.position - origin;
-  const double size = std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
-  if (!(size < far_away)) {
-    return light.radius_m > size / 4 ? UploadedSphere{glm::vec3(0), std::numeric_limits<float>::infinity()} : UploadedSphere{};
-  }
-  const float grown = float(std::min(light.radius_m + half_ulp * size, 3e38));
-  const float radius = std::isinf(light.radius_m) ? std::numeric_limits<float>::infinity()
-                       : grown > 0                ? std::nextafter(grown, std::numeric_limits<float>::infinity())
-                                                  : 0.0f;
-  return {glm::vec3(place), radius};
 }
 
 // Near and far of each range between two edges, metres, widened by what a distance may round.
@@ -97,18 +49,9 @@ std::vector<cl_float2> widened_ranges(const std::vector<float>& edges, const Cul
 
 }  // namespace
 
-cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
-  if (bytes > bytes_ || !buffer_()) buffer_ = device_buffer(device, bytes), bytes_ = bytes;
-  return buffer_;
-}
-
-cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
-  if (bytes > size || !buffer()) buffer = device_buffer(device_, bytes), size = bytes;
-  return buffer;
-}
-
 LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
     : device_(device), programs_(programs), options_(options), lights_(std::make_unique<GrowingBuffer>()) {
+  check_options(options);
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
   }
@@ -127,19 +70,8 @@ void LightCuller::set_lights(std::span<const CullLight> lights) {
   light_stride_ = (light_count_ + lane_count - 1) / lane_count * lane_count;
   cones_ = std::any_of(lights.begin(), lights.end(), [](const CullLight& light) { return light.cos_outer >= 0; });
   if (lights.empty()) return;
-  origin_ = {middle(lights, 0), middle(lights, 1), middle(lights, 2)};
-  const size_t stride = light_stride_;
-  std::vector<float> values(world_arrays * stride);
-  std::fill_n(values.begin() + 3 * stride, stride, -far_away);  // those past the last are listed nowhere
-  for (size_t i = 0; i < lights.size(); ++i) {
-    const CullLight& light = lights[i];
-    const UploadedSphere sphere = uploaded_sphere(light, origin_);
-    for (int a = 0; a < 3; ++a) values[a * stride + i] = sphere.place[a];
-    values[3 * stride + i] = sphere.radius;
-    for (int a = 0; a < 3; ++a) values[(4 + a) * stride + i] = float(light.direction[a]);
-    // Rounding of the cosine is given to the cone.
-    values[7 * stride + i] = light.cos_outer >= 0 ? float(std::max(0.0, light.cos_outer - 1e-6)) : 2.0f;
-  }
+  origin_ = middle_of(lights);
+  const std::vector<float> values = light_arrays(lights, origin_, light_stride_);
   device_.queue().enqueueWriteBuffer(lights_->at_least(device_, values.size() * sizeof(float)), CL_TRUE, 0,
                                      values.size() * sizeof(float), values.data());
 }
@@ -283,6 +215,7 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   // Asked at the first cull: who wants depth bounds alone builds nothing else.
   if (!avx512_) avx512_ = !options_.portable && options_.shape == KernelShape::lanes && builds_avx512(device_, programs_);
   options.avx512 = *avx512_;
+  options.group_size = options_.group_size;
   options.many_lights = light_count_ > many_lights;
   options.view_arrays = cones_ ? 11 : 7;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
@@ -393,26 +326,6 @@ size_t LightCuller::memory_bytes() const {
   size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) + bounds_bytes_ * (options_.blend ? 2 : 1);
   for (const auto& pipeline : pipelines_) bytes += pipeline ? pipeline->memory_bytes() : 0;
   return bytes;
-}
-
-HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage) {
-  HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}, {}, {}};
-  host.z_bins.resize(grid.z_bin_bytes / sizeof(cl_uint));
-  if (grid.z_bin_bytes) device.queue().enqueueReadBuffer(storage.z_bins(grid.z_bin_bytes), CL_TRUE, 0, grid.z_bin_bytes, host.z_bins.data());
-  host.masks.resize(grid.mask_bytes / sizeof(cl_uint));
-  if (grid.mask_bytes) device.queue().enqueueReadBuffer(storage.masks(grid.mask_bytes), CL_TRUE, 0, grid.mask_bytes, host.masks.data());
-  host.cells.resize(grid.cell_bytes / sizeof(glm::uvec2));
-  host.indices.resize(grid.index_count);
-  device.queue().enqueueReadBuffer(storage.cells(grid.cell_bytes), CL_TRUE, 0, grid.cell_bytes, host.cells.data());
-  if (grid.index_count == 0) return host;
-  if (grid.index_bits == 32) {
-    device.queue().enqueueReadBuffer(storage.indices(grid.index_bytes), CL_TRUE, 0, grid.index_bytes, host.indices.data());
-    return host;
-  }
-  std::vector<uint16_t> narrow(grid.index_count);
-  device.queue().enqueueReadBuffer(storage.indices(grid.index_bytes), CL_TRUE, 0, grid.index_bytes, narrow.data());
-  std::copy(narrow.begin(), narrow.end(), host.indices.begin());
-  return host;
 }
 
 }  // namespace lightgrid

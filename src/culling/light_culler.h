@@ -122,8 +122,7 @@ HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage
 // off that the format rounds its depth to the far end counts as none.
 enum class DepthFormat { d32f, d24, d16 };
 
-// shared/cull_settings.h says what the choices are, and where they come from. Other values than those listed are not
-// checked for.
+// shared/cull_settings.h says what the choices are, and where they come from.
 struct CullerOptions {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
@@ -133,9 +132,11 @@ struct CullerOptions {
   int samples = 1;             // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
   GridLists lists = GridLists::lists;  // masks: bitmasks as well
   bool blend = false;          // blended surfaces need bounds of their own
-  int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights
+  int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights. More than those take 32 in any case
   bool pixel_centres = true;   // cells span their pixels' centres, which is all that is shaded; false: whole pixels
   bool portable = false;       // no builtins of one kind of CPU
+  int group_size = 0;          // work-items that gather a bin's candidates in the group shape: 64, 128, 256, 512 or 1024, as
+                               // far as the device allows; 0: 1024
 };
 
 // All that the culling kernels read, as it lies in the device's memory: for a check that does their work by other means.
@@ -151,7 +152,8 @@ class GrowingBuffer;
 
 class LightCuller {
  public:
-  // Both outlive it. Kernels are built where they are first needed, or taken from the cache.
+  // Both outlive it. Kernels are built where they are first needed, or taken from the cache. Throws Error(input) for a
+  // value that CullerOptions does not list.
   LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options);
   ~LightCuller();
   LightCuller(LightCuller&&) noexcept;

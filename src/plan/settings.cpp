@@ -106,6 +106,11 @@ const std::vector<Setting>& all_settings() {
       {"portable",
        "plain OpenCL C alone, without the builtins that some kinds of CPU have",
        {choice("off", &Settings::portable, false), choice("on", &Settings::portable, true)}},
+      {"group-size",
+       "work-items that gather a bin's candidate lights, in the group shape",
+       {choice("auto", &Settings::group_size, 0), choice("64", &Settings::group_size, 64),
+        choice("128", &Settings::group_size, 128), choice("256", &Settings::group_size, 256),
+        choice("512", &Settings::group_size, 512), choice("1024", &Settings::group_size, 1024)}},
       {"everything-on",
        "build and run every effect's code, called for or not (for tests of the plan)",
        {choice("off", &Settings::everything_on, false), choice("on", &Settings::everything_on, true)}},
@@ -128,10 +133,29 @@ void apply_setting(Settings& settings, const std::string& assignment) {
   const std::string value = assignment.substr(equals + 1);
   std::string values;
   for (const Choice& c : setting->choices) {
-    if (c.value == value) return c.set(settings);
+    if (c.value == value) {
+      settings.given.insert(key);
+      return c.set(settings);
+    }
     values += (values.empty() ? "" : ", ") + c.value;
   }
   throw input_error("--set {}: \"{}\" is not a value of {}; values are {}", assignment, value, key, values);
+}
+
+const std::vector<std::string>& tunable_settings() {
+  static const std::vector<std::string> keys = {"kernel-shape", "portable", "group-size"};
+  return keys;
+}
+
+Settings with_tuned(Settings settings, const std::map<std::string, std::string>& tuned) {
+  for (const Setting& s : all_settings()) {
+    const auto found = tuned.find(s.key);
+    if (found == tuned.end() || settings.given.contains(s.key) || std::ranges::count(tunable_settings(), s.key) == 0) continue;
+    for (const Choice& c : s.choices) {
+      if (c.value == found->second) c.set(settings);
+    }
+  }
+  return settings;
 }
 
 std::map<std::string, std::string> to_strings(const Settings& settings) {

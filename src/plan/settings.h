@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,17 @@ struct Settings {
   LidrOrder lidr_order = LidrOrder::priority;
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
   bool portable = false;       // kernels without the builtins of one kind of CPU
+  int group_size = 0;          // work-items of the group shape that gather a bin's candidates; 0: the most there can be
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against
+  std::set<std::string> given{};  // keys that apply_setting has set
 };
+
+// Those that change no result, and that `lightgrid bench --tune` therefore tries.
+const std::vector<std::string>& tunable_settings();
+
+// With what was found to be the fastest of those (cl/tuned_sizes.h), but for keys that apply_setting has set. What is no
+// tunable setting, or no value of it, is passed over.
+Settings with_tuned(Settings settings, const std::map<std::string, std::string>& tuned);
 
 // Applies "key=value". Throws Error(input) that lists the keys, or the values of a key.
 void apply_setting(Settings& settings, const std::string& assignment);

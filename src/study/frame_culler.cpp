@@ -40,6 +40,7 @@ CullerOptions culler_options(const Settings& settings) {
   options.shape = settings.kernel_shape;
   options.tile = settings.tile;
   options.portable = settings.portable;
+  options.group_size = settings.group_size;
   options.lists = settings.grid_lists;
   return options;
 }
@@ -64,9 +65,9 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
 FrameCuller::FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
                          const Settings& settings, const TechniqueNeeds& needs)
     : device_(device),
-      settings_(settings),
+      settings_(with_tuned(settings, read_tuned_sizes(device.info()))),
       view_(cull_view(frame.view)),
-      culler_(device, programs, culler_options(settings)),
+      culler_(device, programs, culler_options(settings_)),
       storage_(device) {
   if (!needs.slices) settings_.slices = 1;
   if (!needs.z_bins) settings_.z_bins = 1;

@@ -23,7 +23,7 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
 
 class FrameCuller {
  public:
-  // settings.tile decides, not the frame's own. Slices and z-bins reach from the near plane to frame.surfaces_far_m or,
+  // What settings leave open is as tuned for the device. settings.tile decides, not the frame's own. Slices and z-bins reach from the near plane to frame.surfaces_far_m or,
   // where nobody knows it, to the farthest surface. Uploads depth and lights; the frame may go then.
   FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings,
               const TechniqueNeeds& needs = {});

@@ -10,7 +10,7 @@ extern const Technique clustered{
     .source = "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
     .needs = {.light_grid = true, .slices = true, .z_bins = true},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins", "grid-lists",
-                 "kernel-shape", "portable"},
+                 "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -9,7 +9,7 @@ extern const Technique forward_plus{
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012",
     .needs = {.light_grid = true, .z_bins = true},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins", "grid-lists", "kernel-shape",
-                 "portable"},
+                 "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -15,7 +15,7 @@ extern const Technique forward_plus_compute{
     .summary = "per-tile light lists, gone through in OpenCL",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
     .needs = {.light_grid = true, .lists = true},
-    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "kernel-shape", "portable"},
+    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

@@ -120,6 +120,34 @@ TEST_F(Frames, HaveSlicesWhereTheSettingSaysSoAndNoneFromATechniqueWithoutAGrid)
   EXPECT_THAT(none.err, HasSubstr("forward"));
 }
 
+// What --tune found goes before the default and after --set, and changes no byte.
+TEST_F(Frames, AreCulledAsTuned) {
+  const auto frame = capture(), culled = folder_.path / "culled", file = folder_.path / "tuned.json";
+  const ProgramRun devices = run_program({"devices", "--json", "-"});
+  const auto listed = nlohmann::json::parse(devices.out);
+  nlohmann::json tuned;
+  for (const auto& d : listed["cl"]) {
+    const auto text = [&](const char* key) { return d[key].get<std::string>(); };
+    tuned[text("platform") + " | " + text("name") + " | " + text("version") + " | " + text("driver")] = {
+        {"kernel-shape", "group"}, {"portable", "on"}};
+  }
+  std::ofstream(file) << tuned.dump();
+  const std::vector<std::string> environment = {"LIGHTGRID_TUNED=" + file.string()};
+  EXPECT_THAT(run_program({"devices"}, environment).out, HasSubstr("tuned: kernel-shape=group"));
+  const auto settings_of = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"cull", frame, "-o", culled, "--frames", "1", "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments, environment);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(file_bytes(culled / "indices.u32") == file_bytes(frame / "indices.u32"));
+    return nlohmann::json::parse(run.out)["settings"];
+  };
+  EXPECT_EQ(settings_of({})["kernel_shape"], "group");
+  EXPECT_EQ(settings_of({})["portable"], "on");
+  EXPECT_EQ(settings_of({"--set", "kernel-shape=lanes"})["kernel_shape"], "lanes");
+  EXPECT_EQ(settings_of({"--set", "kernel-shape=auto"})["kernel_shape"], "auto");
+}
+
 TEST_F(Frames, CullSaysAsJsonWhatItMade) {
   const auto frame = capture(), culled = folder_.path / "culled";
   const ProgramRun run =

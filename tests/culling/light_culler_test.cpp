@@ -1,6 +1,7 @@
 // One culler from view to view: what was before must not show.
 #include <gmock/gmock.h>
 
+#include "base/error.h"
 #include "culling/culled_grid.h"
 #include "scene/random.h"
 
@@ -89,6 +90,41 @@ TEST(LightCuller, ChoosesTheShapeFromTheDevice) {
 }
 
 // Radii that reach nothing, in front of every pixel.
+TEST(LightCuller, RefusesOptionsThatAreNone) {
+  const auto message_of = [](const CullerOptions& options) -> std::string {
+    try {
+      const LightCuller culler(test_device(), test_programs(), options);
+      return "";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error.what();
+    }
+  };
+  EXPECT_EQ(message_of({.tile = 12}), "culler options: tile is 12, not one of 8, 16, 32, 64");
+  EXPECT_THAT(message_of({.tile = 0}), testing::HasSubstr("tile is 0"));
+  EXPECT_THAT(message_of({.samples = 3}), testing::HasSubstr("samples is 3, not one of 1, 2, 4, 8"));
+  EXPECT_THAT(message_of({.index_bits = 8}), testing::HasSubstr("index_bits is 8"));
+  EXPECT_THAT(message_of({.group_size = 2048}), testing::HasSubstr("group_size is 2048"));
+  EXPECT_THAT(message_of({.cull_test = CullTest(5)}), testing::HasSubstr("cull_test is 5"));
+  EXPECT_THAT(message_of({.depth_bounds = DepthBoundsMode(-1)}), testing::HasSubstr("depth_bounds is -1"));
+  EXPECT_THAT(message_of({.shape = KernelShape(3)}), testing::HasSubstr("shape is 3"));
+  EXPECT_THAT(message_of({.depth_format = DepthFormat(3)}), testing::HasSubstr("depth_format is 3"));
+  EXPECT_THAT(message_of({.lists = GridLists(2)}), testing::HasSubstr("lists is 2"));
+  EXPECT_EQ(message_of({}), "");
+}
+
+// Lights in several chunks of the smallest group.
+TEST(LightCuller, GivesTheSameGridWithAnyGroupSize) {
+  const View view = view_of(127, 73, 60);
+  std::vector<ViewLight> lights;
+  for (int i = 0; i < 5000; ++i) lights.push_back(point_light({0.01 * (i % 100) - 0.5, 0.002 * (i % 37), -1 - 0.001 * i}, 0.2));
+  const std::vector<glm::vec2> intervals(tile_count(view, 16), {1, 9});
+  const CulledGrid lanes = cull_cells(view, lights, intervals, {.shape = KernelShape::lanes});
+  for (const int size : {0, 64, 128, 256, 512, 1024}) {
+    EXPECT_EQ(cull_cells(view, lights, intervals, {.shape = KernelShape::group, .group_size = size}), lanes) << size;
+  }
+}
+
 // Not as GCC 12.2 had it, which made the rests of y and z 0: docs/devices.md#known-faults.
 TEST(LightCuller, KeepsWhatFloatLeavesOfTheEyesPlace) {
   LightCuller culler(test_device(), test_programs(), {});

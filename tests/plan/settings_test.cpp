@@ -49,6 +49,19 @@ TEST(Settings, ValuesMeanWhatTheySay) {
   EXPECT_EQ(settings.kernel_shape, KernelShape::group);
 }
 
+TEST(Settings, TakeWhatWasTunedWhereNothingElseIsSaid) {
+  Settings settings;
+  apply_setting(settings, "kernel-shape=auto");
+  apply_setting(settings, "tile=32");
+  const Settings tuned = with_tuned(settings, {{"kernel-shape", "group"}, {"portable", "on"}, {"group-size", "128"}});
+  EXPECT_EQ(tuned.kernel_shape, KernelShape::automatic) << "said";
+  EXPECT_TRUE(tuned.portable);
+  EXPECT_EQ(tuned.group_size, 128);
+  EXPECT_EQ(tuned.tile, 32);
+  const Settings wrong = with_tuned({}, {{"tile", "64"}, {"portable", "perhaps"}, {"no-such", "1"}, {"group-size", "100"}});
+  EXPECT_EQ(to_strings(wrong), to_strings(Settings{})) << "what changes results, or is nothing known, is passed over";
+}
+
 TEST(Settings, AWrongKeyListsTheKeys) {
   for (const char* wrong : {"tiles=16", "tile", "=16", "", "Tile=16"}) {
     EXPECT_THAT(message_of(wrong),

@@ -31,6 +31,11 @@ GlBuffer block_of_keys(std::span<const float> keys) {
   return make_buffer(block.size() * sizeof block[0], block.data());
 }
 
+FramePlan tuned_plan(FramePlan plan, const TunedSizes& tuned) {
+  plan.settings = with_tuned(std::move(plan.settings), tuned);
+  return plan;
+}
+
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
   ViewParams p = view_params(cull_view(view), plan.settings.tile);
   p.light_count = uint(plan.local.size()), p.directional_count = uint(plan.directional_lights.size());
@@ -67,6 +72,7 @@ Devices open_devices(const std::string& cl_substring, GlBackend backend) {
   devices.cl = std::make_unique<ClDevice>(cl_substring);
   devices.programs = std::make_unique<ProgramCache>(*devices.cl);
   devices.bridge = choose_bridge(*devices.cl, *devices.gl);
+  devices.tuned = read_tuned_sizes(devices.cl->info());
   return devices;
 }
 
@@ -90,7 +96,7 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
     : devices(devices),
       scene(scene),
       view(view),
-      plan(std::move(plan_of_frame)),
+      plan(tuned_plan(std::move(plan_of_frame), devices.tuned)),
       gpu(scene, plan, devices.gl->software),
       params(params_of(view, plan, scene.ambient)),
       timer([this](const std::string& on) {
@@ -155,6 +161,7 @@ LightCuller& Frame::culler() {
     options.shape = plan.settings.kernel_shape;
     options.tile = plan.settings.tile;
     options.portable = plan.settings.portable;
+    options.group_size = plan.settings.group_size;
     options.blend = plan.blend_grid;
     options.lists = plan.settings.grid_lists;
     options.index_bits = plan.index_bits;

@@ -9,6 +9,7 @@
 
 #include "bridge/shared_buffer.h"
 #include "cl/program_cache.h"
+#include "cl/tuned_sizes.h"
 #include "culling/light_culler.h"
 #include "gl/program.h"
 #include "passes/frame/gpu_scene.h"
@@ -23,6 +24,7 @@ struct Devices {
   std::unique_ptr<ClDevice> cl;
   std::unique_ptr<ProgramCache> programs;
   BridgeKind bridge = BridgeKind::staged;
+  TunedSizes tuned{};  // what frames do where settings leave it open
 };
 
 // Opens both devices. Throws Error(machine) where one is missing.

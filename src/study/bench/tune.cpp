@@ -10,9 +10,6 @@
 namespace lightgrid {
 namespace {
 
-// Settings that change no result. Those that this program has not are passed over.
-const char* const tunable_keys[] = {"kernel-shape", "portable"};
-
 std::vector<std::string> values_of(const std::string& key) {
   for (const SettingHelp& help : setting_help()) {
     if (help.key != key) continue;
@@ -79,7 +76,8 @@ TuneResult tune_kernels(ClDevice& device, const TuneOptions& options) {
   ProgramCache programs(device);
   TuneResult result;
   Settings settings;
-  for (const char* key : tunable_keys) {
+  for (const std::string& key : tunable_settings()) {
+    if (key == "group-size" && settings.kernel_shape != KernelShape::group) continue;  // of that shape alone
     std::vector<Candidate> candidates = candidates_of(key, settings);
     for (size_t i = 0; i < frames.size(); ++i) {
       if (options.step) options.step(double(i) / double(frames.size()), key);

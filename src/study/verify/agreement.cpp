@@ -278,7 +278,7 @@ std::vector<HardCase> agreement_cases() {
 const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases;
-    for (const auto& group : {depth_cases(), camera_cases(), light_cases(), list_cases(), agreement_cases()})
+    for (const auto& group : {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(), agreement_cases()})
       cases.insert(cases.end(), group.begin(), group.end());
     return cases;
   }();

@@ -44,12 +44,12 @@ class DeviceEngine : public CullEngine {
   }
 
  private:
-  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool>;
+  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int>;
 
   LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
     o.samples = samples;
     const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend, o.index_bits, o.portable,
-                  o.pixel_centres);
+                  o.pixel_centres, o.group_size);
     auto& culler = cullers_[key];
     if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
     culler->set_view(view);

@@ -24,6 +24,7 @@ struct HardCase {
 const std::vector<HardCase>& hard_cases();
 
 std::vector<HardCase> depth_cases();
+std::vector<HardCase> depth_bounds_cases();
 std::vector<HardCase> camera_cases();
 std::vector<HardCase> light_cases();
 std::vector<HardCase> list_cases();
