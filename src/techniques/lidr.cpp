@@ -1,5 +1,6 @@
 // Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of the lights
 // that a pixel's indices name (docs/techniques/lidr.md).
+#include "passes/object_lights.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -18,7 +19,7 @@ static ShadedImage render(Frame& f) {
   if (f.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
     shade_blended(f, image, index);
   } else {
-    shade_blended(f, image, nullptr);
+    shade_blended(f, image, find_blended_object_lights(f));
   }
   return image;
 }
