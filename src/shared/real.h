@@ -25,19 +25,8 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 }
 #define max_real lane_max
 #define min_real lane_min
-#if LANES == 16 && defined(AVX512)
-// Square roots and divisions of 16 lanes keep their unit busy some 20 cycles each. An estimate of 14 bits and a step of
-// Newton's are 6 instructions and right to 2 units in the last place. x above 0.
-static inline real inverse_sqrt_real(real x) {
-  const real bounded = lane_min(x, (real)(3e38f));  // infinity times an estimate of 0 would be NaN
-  const real y = __builtin_ia32_rsqrt14ps512_mask(bounded, bounded, (ushort)0xffff);
-  return y * (1.5f - 0.5f * bounded * y * y);
-}
-static inline real sqrt_real(real x) { return x * inverse_sqrt_real(x); }
-#else
-#define inverse_sqrt_real(x) (1.0f / sqrt(x))
 #define sqrt_real sqrt
-#endif
+#define inverse_sqrt_real(x) (1.0f / sqrt(x))
 #define exp_real exp
 #define log_real log
 #else

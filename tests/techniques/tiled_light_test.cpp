@@ -29,6 +29,13 @@ TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
   }
 }
 
+// Narrow highlights in many pixels: what shortcuts in rounding show first.
+TEST(TiledLight, IsForwardsInTheHighlightsOfALargeImage) {
+  const Scene scene = find_builtin_scene("hall")->make();
+  const View view = default_view(scene, 1280, 720);
+  EXPECT_LT(compare_images(render(scene, view, "deferred_tiled"), render(scene, view, "forward")).max_rel, 0.5 * exact_enough);
+}
+
 TEST(TiledLight, InEverySizeAndTile) {
   const Scene scene = find_builtin_scene("spheres")->make();
   for (const auto& [width, height] : {std::pair(1, 1), {17, 9}, {7, 31}}) {
