@@ -52,7 +52,7 @@ def cell(row, best):
     if faults:
         return f"{text} ({', '.join(faults)})"
     if not row["max_rel"] or float(row["max_rel"]) > EXACT:
-        return f"{text} (off by {float(row['max_rel'] or 'nan'):.0e})"
+        return f"{text} (off by {float(row['max_rel'] or 'nan'):.1e})"
     return f"**{text}**" if row is best else text
 
 
