@@ -17,7 +17,7 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 OVERLAPS = ["lidr:lidr-overlap=1", "lidr:lidr-overlap=2", "lidr:lidr-overlap=4", "lidr:lidr-overlap=8",
-            "lidr:lidr-overlap=2,lidr-packing=maxblend", "lidr:lidr-overlap=4,lidr-packing=sort"]
+            "lidr:lidr-overlap=16", "lidr:lidr-overlap=2,lidr-packing=maxblend", "lidr:lidr-overlap=4,lidr-packing=sort"]
 TECHNIQUES = ["forward", "forward_multipass", "forward_zprepass", "forward_plus", "clustered", "forward_plus_compute",
               "deferred", "deferred_tiled", *OVERLAPS]
 COLUMNS = ["commit", "cl", "gl", "technique", "runs", "min_ms", "median_ms", "max_ms", "ratio", "listed", "lit", "lost",
