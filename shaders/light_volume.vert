@@ -1,3 +1,4 @@
+// The volume of a light, for its light or for marking what is inside.
 #include "shaders/common/light_volume.glsl"
 
 flat out uint light;

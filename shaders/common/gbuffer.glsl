@@ -3,6 +3,8 @@
 //   first   octahedral normal (2), perceptual roughness, metallic
 //   second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
 
+#include "shared/octahedral.h"
+
 // Steps of a normal's channel to either side of 0, which is a step itself: a wall along an axis keeps its normal.
 #if defined(GBUFFER_8)
 #define NORMAL_STEPS 127.0
@@ -24,17 +26,10 @@ struct LitSurface {
 
 vec2 signs(vec2 v) { return vec2(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0); }
 
-// The octahedron |x| + |y| + |z| = 1, its lower half folded over: Cigolle et al., "A Survey of Efficient
-// Representations for Independent Unit Vectors", JCGT 2014.
+// The other way round: shared/octahedral.h.
 vec2 octahedral(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;
-}
-
-vec3 normal_of_octahedral(vec2 p) {
-  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-  if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * signs(n.xy);
-  return normalize(n);
 }
 
 GBufferTexels gbuffer_texels(LitSurface s) {
@@ -59,6 +54,6 @@ LitSurface lit_surface(GBufferTexels t) {
 #ifdef GBUFFER_8
   color *= color;
 #endif
-  return LitSurface(normal_of_octahedral(normal), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
+  return LitSurface(normal_of_octahedral(normal.x, normal.y), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
                     t.base_color_lit.a > 0.5);
 }

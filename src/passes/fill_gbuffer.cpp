@@ -22,7 +22,7 @@ size_t written_bytes(const GBuffer& gbuffer) {
 void clear(Frame& f, const GBuffer& gbuffer) {
   const float background[4] = {f.scene.background.r, f.scene.background.g, f.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
-  glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
+  if (gbuffer.own_light == OwnLight::in_image) glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
   for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
 }
 

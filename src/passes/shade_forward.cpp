@@ -1,4 +1,5 @@
 // Forward shading of the surfaces that the depth prepass found: each pixel once, at equal depth.
+#include "passes/frame/begin_shading.h"
 #include "passes/frame/draw.h"
 #include "passes/frame/light_defines.h"
 #include "passes/passes.h"
@@ -9,13 +10,7 @@ namespace {
 template <typename Lights>
 ShadedImage shade(Frame& f, const TileDistances& distances, const Lights& lights) {
   auto pass = f.timer.pass("shade_forward", "gl");
-  const ShadedImage image{f.color_framebuffer()};
-  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
-  const float background[4] = {f.scene.background.r, f.scene.background.g, f.scene.background.b, 1};
-  glClearNamedFramebufferfv(image.framebuffer, GL_COLOR, 0, background);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE);
+  const ShadedImage image = begin_shading(f);
   glDisable(GL_BLEND);
   bind_lights(f, lights);
   draw_instances(

@@ -3,6 +3,7 @@
 // as it does in shade_forward.
 #include <algorithm>
 
+#include "passes/frame/begin_shading.h"
 #include "passes/cells.h"
 #include "passes/frame/draw.h"
 #include "passes/frame/light_defines.h"
@@ -63,13 +64,7 @@ void draw_object(Frame& f, const ObjectLights& objects, const ObjectLights::Obje
 
 ShadedImage shade_objects(Frame& f, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart) {
   auto pass = f.timer.pass("shade_objects", "gl");
-  const ShadedImage image{f.color_framebuffer()};
-  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
-  const float background[4] = {f.scene.background.r, f.scene.background.g, f.scene.background.b, 1};
-  glClearNamedFramebufferfv(image.framebuffer, GL_COLOR, 0, background);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE);
+  const ShadedImage image = begin_shading(f);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
   bind_lights(f, objects);

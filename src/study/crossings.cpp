@@ -1,3 +1,4 @@
+// Where two curves of frame time cross.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// The settings that a technique reads, of all there are.
 #include <algorithm>
 
 #include "techniques/technique.h"
