@@ -27,7 +27,7 @@ struct BenchCommand {
 std::vector<BenchContestant> contestants_of(const BenchCommand& o) {
   Settings base;
   for (const std::string& assignment : o.set) apply_setting(base, assignment);
-  return contestants_of(base, o.compare, 64);
+  return culling_contestants(base, o.compare, 64);
 }
 
 void check_frame_folder(const std::string& folder) {

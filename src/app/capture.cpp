@@ -21,7 +21,7 @@ struct CaptureOptions {
 
 int capture(const CaptureOptions& o) {
   const Settings settings = chosen_settings(o.scene);
-  const TechniqueNeeds needs = grid_needs(o.technique, o.scene.set);
+  const TechniqueNeeds needs = grid_needs(o.technique, settings);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);

@@ -1,8 +1,11 @@
 #include "app/contestants.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/error.h"
+#include "study/frame_culler.h"
 
 namespace lightgrid {
 namespace {
@@ -33,6 +36,17 @@ std::vector<BenchContestant> contestants_of(const Settings& base, const std::vec
   std::vector<BenchContestant> contestants{{"", base}};
   for (const std::string& comparison : comparisons) contestants = multiplied(contestants, comparison);
   if (contestants.size() > most) throw input_error("--compare: {} combinations; {} at most", contestants.size(), most);
+  return contestants;
+}
+
+std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
+                                                 size_t most) {
+  const std::vector<BenchContestant> contestants = contestants_of(base, comparisons, most);
+  for (const std::string& comparison : comparisons) {
+    const std::string key = comparison.substr(0, comparison.find('='));
+    if (std::ranges::count(culling_settings(), key) > 0) continue;
+    throw input_error("--compare {}: culling does not read {}; it reads {}", comparison, key, fmt::join(culling_settings(), ", "));
+  }
   return contestants;
 }
 

@@ -13,4 +13,8 @@ namespace lightgrid {
 std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
                                             size_t most);
 
+// Of settings that culling reads. Throws Error(input) for another one: its values would all run the same.
+std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
+                                                 size_t most);
+
 }  // namespace lightgrid

@@ -29,6 +29,8 @@ struct InspectOptions {
   bool all = false;
 };
 
+constexpr size_t most_compared = 1000;
+
 struct Place {
   int x = 0, y = 0;
 };
@@ -130,8 +132,8 @@ int compare_settings(const InspectOptions& o, const Subject& subject, Devices& d
   const LitBlocks truth = find_lit_blocks(subject.frame);
   std::vector<AccuracyRow> rows;
   uint64_t lost = 0;
-  for (const BenchContestant& c : contestants_of(subject.settings, o.compare, 1000)) {
-    FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings, subject.needs);
+  for (const BenchContestant& c : culling_contestants(subject.settings, o.compare, most_compared)) {
+    FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings, grid_needs(o.technique, c.settings));
     culler.run();
     const FrameGrid grid = culler.grid();
     if (grid.lists.slices != 1 || !grid.z_bin_edges.empty()) {
@@ -152,10 +154,9 @@ int inspect(const InspectOptions& o) {
     throw input_error("inspect: none of --pixel X,Y, -o DIR and --compare KEY=A,B is given");
   }
   if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
-  chosen_settings(o.scene);  // a wrong setting is told before the scene is loaded
-  std::vector<std::string> set = o.scene.set;
-  set.insert(set.end(), o.compare.begin(), o.compare.end());
-  const TechniqueNeeds needs = grid_needs(o.technique, set);
+  const Settings given = chosen_settings(o.scene);  // a wrong setting is told before the scene is loaded
+  const TechniqueNeeds needs = grid_needs(o.technique, given);
+  culling_contestants(given, o.compare, most_compared);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   Subject subject = load_subject(o.scene);

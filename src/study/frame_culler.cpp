@@ -45,13 +45,32 @@ CullerOptions culler_options(const Settings& settings) {
   return options;
 }
 
-TechniqueNeeds grid_needs(const std::string& technique, const std::vector<std::string>& set) {
+TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings) {
   TechniqueNeeds needs = find_technique(technique).needs;
   if (!needs.light_grid) throw input_error("technique {}: shades from no light grid", technique);
-  for (const std::string& assignment : set) {
-    needs.slices |= assignment.starts_with("slices="), needs.z_bins |= assignment.starts_with("z-bins=");
-  }
+  needs.slices |= settings.given.contains("slices"), needs.z_bins |= settings.given.contains("z-bins");
   return needs;
+}
+
+Settings grid_settings(Settings settings, const TechniqueNeeds& needs) {
+  if (!needs.slices) settings.slices = 1;
+  if (!needs.z_bins) settings.z_bins = 1;
+  return settings;
+}
+
+CullView cull_view_of(const CapturedFrame& frame, const Settings& settings) {
+  CullView view = cull_view(frame.view);
+  if (settings.slices == 1 && settings.z_bins == 1) return view;
+  const double far_m = far_of_surfaces(frame);
+  view.slice_edges = slice_edges(settings.slice_spacing, settings.slices, frame.view.near_m, far_m);
+  view.z_bin_edges = slice_edges(settings.slice_spacing, settings.z_bins, frame.view.near_m, far_m);
+  return view;
+}
+
+const std::vector<std::string>& culling_settings() {
+  static const std::vector<std::string> keys = {"cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
+                                                "grid-lists", "kernel-shape", "portable", "group-size"};
+  return keys;
 }
 
 std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
@@ -62,30 +81,29 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
   return cull_lights_of(scene, all);
 }
 
+cl::Buffer upload_depth(ClDevice& device, const CapturedFrame& frame) {
+  const size_t bytes = frame.depth.size() * sizeof(float);
+  cl::Buffer buffer(device.context(), CL_MEM_READ_WRITE, bytes);
+  device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, frame.depth.data());
+  return buffer;
+}
+
 FrameCuller::FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
                          const Settings& settings, const TechniqueNeeds& needs)
     : device_(device),
-      settings_(with_tuned(settings, read_tuned_sizes(device.info()))),
-      view_(cull_view(frame.view)),
+      settings_(grid_settings(with_tuned(settings, read_tuned_sizes(device.info())), needs)),
+      view_(cull_view_of(frame, settings_)),
       culler_(device, programs, culler_options(settings_)),
       storage_(device) {
-  if (!needs.slices) settings_.slices = 1;
-  if (!needs.z_bins) settings_.z_bins = 1;
-  if (settings_.slices > 1 || settings_.z_bins > 1) {
-    const double far_m = far_of_surfaces(frame);
-    view_.slice_edges = slice_edges(settings_.slice_spacing, settings_.slices, frame.view.near_m, far_m);
-    view_.z_bin_edges = slice_edges(settings_.slice_spacing, settings_.z_bins, frame.view.near_m, far_m);
-  }
   culler_.set_lights(cull_lights_of(frame));
   culler_.set_view(view_);
-  const size_t bytes = frame.depth.size() * sizeof(float);
-  depth_.values = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes);
-  device.queue().enqueueWriteBuffer(depth_.values, CL_TRUE, 0, bytes, frame.depth.data());
+  depth_.values = upload_depth(device, frame);
 }
 
 void FrameCuller::run() {
   bounds_ = culler_.depth_bounds(depth_);
   grid_ = culler_.cull(bounds_.opaque, storage_);
+  if (grid_.mask_bytes) device_.queue().finish();  // cull leaves them enqueued
 }
 
 FrameGrid FrameCuller::grid() {

@@ -120,6 +120,55 @@ TEST(BenchCommand, ComparesSettingsInTurnAndPrintsRatios) {
   EXPECT_LT(rows[0]["params"]["indices"], rows[1]["params"]["indices"]) << "the tile's sphere lists more";
 }
 
+TEST(BenchCommand, RunsTheKernelsThatTheSettingsAskForAndWaitsForThem) {
+  const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "2", "--set", "slice-spacing=linear", "--compare", "slices=1,8",
+                                            "--compare", "z-bins=off,64", "--compare", "grid-lists=lists,masks"});
+  const auto rows = rows_named(report, "pipeline");
+  ASSERT_EQ(rows.size(), 8u);
+  const auto z_bins = rows_named(report, "light_z_bins"), masks = rows_named(report, "lists_to_masks");
+  ASSERT_EQ(z_bins.size(), 4u);
+  ASSERT_EQ(masks.size(), 4u);
+  for (const auto& row : z_bins) {
+    EXPECT_EQ(row["params"]["settings"]["z_bins"], "64");
+    EXPECT_EQ(row["bytes"], 40 * (16 + 4) + 64 * 8);
+    EXPECT_FALSE(row.contains("ratio_to_first")) << "the first contestant has none";
+  }
+  const auto cells = [](const nlohmann::json& row) { return row["params"]["settings"]["slices"] == "8" ? 20 * 12 * 8 : 20 * 12; };
+  for (const auto& row : masks) {
+    EXPECT_EQ(row["params"]["settings"]["grid_lists"], "masks");
+    EXPECT_EQ(row["bytes"], cells(row) * (8 + 2 * 4) + 2 * row["params"]["indices"].get<int>()) << "40 lights are two words";
+  }
+  for (const auto& row : rows) {
+    EXPECT_TRUE(row["bytes"].is_number()) << "every kernel's cost is known";
+    EXPECT_NEAR(row["params"]["mean_listed"], row["params"]["indices"].get<double>() / cells(row), 1e-9);
+  }
+  // The wall at 10 m is in one slice of a tile, whose list stays what it was.
+  EXPECT_EQ(rows[0]["params"]["indices"], rows[1]["params"]["indices"]);
+}
+
+TEST(BenchCommand, ListsPerSliceWhatTheCullCommandLists) {
+  const TempFolder folder;
+  const std::string frame = write_small_frame(folder.path);
+  for (const std::vector<std::string>& set : {std::vector<std::string>{"--set", "depth-bounds=none"},
+                                              {"--set", "depth-bounds=none", "--set", "slices=16"}}) {
+    std::vector<std::string> culls = {"cull", frame, "-o", (folder.path / "grid").string(), "--frames", "1", "--json", "-"};
+    culls.insert(culls.end(), set.begin(), set.end());
+    const ProgramRun cull = run_program(culls);
+    ASSERT_EQ(cull.status, 0) << cull.err;
+    const auto listed = nlohmann::json::parse(cull.out)["grid"]["indices"];
+    std::vector<std::string> more = {"--filter", "/pipeline$", "--frames", "1"};
+    more.insert(more.end(), set.begin(), set.end());
+    EXPECT_EQ(rows_named(bench_of_small_frame(more), "pipeline").at(0)["params"]["indices"], listed) << set.back();
+  }
+}
+
+TEST(BenchCommand, RefusesToCompareWhatCullingDoesNotRead) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--compare", "brdf=ggx,blinn"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("--compare brdf=ggx,blinn: culling does not read brdf; it reads cull-test"));
+}
+
 TEST(BenchCommand, PrintsATable) {
   const TempFolder folder;
   const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--frames", "2", "--filter", "pipeline"});

@@ -204,8 +204,12 @@ TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
 }
 
 TEST(FrameCuller, GridsHaveWhatTheTechniqueAndTheSettingsAskFor) {
-  EXPECT_FALSE(grid_needs("forward_plus", {"tile=8"}).slices);
-  EXPECT_TRUE(grid_needs("forward_plus", {"slices=8"}).slices);
+  Settings given;
+  apply_setting(given, "tile=8");
+  EXPECT_FALSE(grid_needs("forward_plus", given).slices);
+  apply_setting(given, "slices=8");
+  EXPECT_TRUE(grid_needs("forward_plus", given).slices);
+  EXPECT_TRUE(grid_needs("forward_plus", given).z_bins) << "where the setting says so";
   EXPECT_TRUE(grid_needs("clustered", {}).slices);
   EXPECT_THROW(grid_needs("forward", {}), Error);
   const FrameGrid grid = cull(small_frame(), {.slices = 8, .z_bins = 16});

@@ -18,26 +18,29 @@ nlohmann::ordered_json machine_of(const ClDeviceInfo& info) {
           {"commit", commit_of_build()}};
 }
 
-nlohmann::ordered_json params_of(const CapturedFrame& frame, const BenchContestant& contestant, const LightGrid& grid) {
-  const double cells = double(grid.cells_x) * grid.cells_y;
+nlohmann::ordered_json params_of(const CapturedFrame& frame, const std::string& compared, const CullingRun& run) {
+  const LightGrid& grid = run.grid();
+  const double cells = double(grid.cells_x) * grid.cells_y * grid.slices;
   nlohmann::ordered_json params = {{"frame", frame.name},
                                    {"lights", frame.lights.size()},
                                    {"size", {frame.view.width, frame.view.height}},
                                    {"indices", grid.index_count},
                                    {"mean_listed", double(grid.index_count) / cells},
-                                   {"settings", to_strings(contestant.settings)}};
-  if (!contestant.compared.empty()) params["compared"] = contestant.compared;
+                                   {"settings", to_strings(run.settings())}};
+  if (!compared.empty()) params["compared"] = compared;
   return params;
 }
 
-KernelWork work_of(const CapturedFrame& frame, const BenchContestant& contestant, const LightGrid& grid) {
+KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
   constexpr size_t bin = 8;
+  const LightGrid& grid = run.grid();
   KernelWork work;
   work.pixels = frame.depth.size(), work.lights = frame.lights.size();
   work.tiles = size_t(grid.cells_x) * grid.cells_y, work.cells = grid.cell_bytes / 8;
   work.bins = ((grid.cells_x + bin - 1) / bin) * ((grid.cells_y + bin - 1) / bin);
   work.indices = grid.index_count, work.index_bytes = grid.index_bytes;
-  work.exact = to_strings(contestant.settings).at("cull_test") == "exact";
+  work.mask_bytes = grid.mask_bytes, work.z_bins = size_t(run.settings().z_bins);
+  work.exact = run.settings().cull_test == CullTest::exact;
   for (const Light& light : frame.lights) work.cones |= light.type == LightType::spot;
   return work;
 }
@@ -55,11 +58,12 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
                                    const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;
   std::vector<CullingRun*> in_turn;
+  const cl::Buffer depth = upload_depth(device, frame);
   std::vector<BenchContestant> contestants = options.contestants;
   for (BenchContestant& contestant : contestants) {
     if (c.tile) contestant.settings.tile = c.tile;
     if (!c.folder.empty() && options.own_tile) contestant.settings.tile = frame.tile;
-    runs.push_back(std::make_unique<CullingRun>(device, programs, frame, contestant.settings));
+    runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, contestant.settings));
     in_turn.push_back(runs.back().get());
   }
   PlainRead read(device, programs);
@@ -67,15 +71,16 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
   const MeasuredFrame measured = measure_in_turn(device, in_turn, read, rounds);
 
-  std::vector<BenchRow> rows;
+  std::vector<BenchRow> rows, of_first;
   for (size_t i = 0; i < runs.size(); ++i) {
-    const LightGrid& grid = runs[i]->grid();
-    const ContestantParams about{c.name, params_of(frame, contestants[i], grid), work_of(frame, contestants[i], grid)};
-    for (BenchRow& row : contestant_rows(about, measured.runs[i], measured, limits)) {
-      const auto first = std::find_if(rows.begin(), rows.end(), [&](const BenchRow& r) { return r.name == row.name; });
-      if (first != rows.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
-      rows.push_back(std::move(row));
+    const ContestantParams about{c.name, params_of(frame, contestants[i].compared, *runs[i]), work_of(frame, *runs[i])};
+    std::vector<BenchRow> found = contestant_rows(about, measured.runs[i], measured, limits);
+    for (BenchRow& row : found) {
+      const auto first = std::find_if(of_first.begin(), of_first.end(), [&](const BenchRow& r) { return r.name == row.name; });
+      if (first != of_first.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
     }
+    if (i == 0) of_first = found;
+    rows.insert(rows.end(), found.begin(), found.end());
   }
   return rows;
 }

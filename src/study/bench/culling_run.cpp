@@ -1,33 +1,27 @@
 #include "study/bench/culling_run.h"
 
 #include "passes/frame/frame.h"
-#include "study/frame_culler.h"
 
 namespace lightgrid {
-namespace {
 
-cl::Buffer upload(ClDevice& device, const std::vector<float>& values) {
-  const size_t bytes = values.size() * sizeof(float);
-  cl::Buffer buffer(device.context(), CL_MEM_READ_WRITE, bytes);
-  device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, values.data());
-  return buffer;
-}
-
-}  // namespace
-
-CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings)
+CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const cl::Buffer& depth,
+                       const Settings& settings)
     : device_(device),
+      settings_(grid_settings(settings, grid_needs("forward_plus", settings))),
       lights_(cull_lights_of(frame)),
-      culler_(std::make_unique<LightCuller>(device, programs, culler_options(settings))),
+      culler_(std::make_unique<LightCuller>(device, programs, culler_options(settings_))),
       storage_(device),
-      depth_(upload(device, frame.depth)),
+      depth_(depth),
       depth_bytes_(frame.depth.size() * sizeof(float)) {
   upload_lights();
-  culler_->set_view(cull_view(frame.view));
+  culler_->set_view(cull_view_of(frame, settings_));
   for (int i = 0; i < 2; ++i) run();
 }
 
-void CullingRun::run() { grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_); }
+void CullingRun::run() {
+  grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_);
+  if (grid_.mask_bytes) device_.queue().finish();  // cull leaves them enqueued
+}
 
 void CullingRun::upload_lights() {
   culler_->set_lights(lights_);
@@ -35,10 +29,16 @@ void CullingRun::upload_lights() {
 }
 
 void CullingRun::download_grid() {
-  host_.resize(grid_.cell_bytes + grid_.index_bytes);
-  device_.queue().enqueueReadBuffer(storage_.cells(0), CL_TRUE, 0, grid_.cell_bytes, host_.data());
-  if (grid_.index_bytes == 0) return;
-  device_.queue().enqueueReadBuffer(storage_.indices(0), CL_TRUE, 0, grid_.index_bytes, host_.data() + grid_.cell_bytes);
+  host_.resize(grid_.cell_bytes + grid_.index_bytes + grid_.mask_bytes + grid_.z_bin_bytes);
+  char* to = host_.data();
+  const auto read = [&](const cl::Buffer& buffer, size_t bytes) {
+    if (bytes) device_.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, to);
+    to += bytes;
+  };
+  read(storage_.cells(0), grid_.cell_bytes);
+  read(storage_.indices(0), grid_.index_bytes);
+  read(storage_.masks(0), grid_.mask_bytes);
+  read(storage_.z_bins(0), grid_.z_bin_bytes);
 }
 
 }  // namespace lightgrid

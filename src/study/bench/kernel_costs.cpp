@@ -8,6 +8,7 @@ namespace {
 using Formula = KernelCost (*)(const KernelWork&);
 
 constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4;
+constexpr double place_bytes = 16, z_bin_word_bytes = 4;
 constexpr double bin_tiles = 64;
 
 // Floats of a light: place and radius, and with cones an axis and a cosine; in view space its tile rectangle and index
@@ -18,6 +19,8 @@ double view_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 11 : 7); }
 // Operations of kernels/common/project.h and light_cell_tests.h, counted in their text: to view space and two pairs of
 // tangents; sphere against box; three Newton steps besides; cone against sphere besides.
 constexpr double project_flops = 100, box_flops = 18, exact_flops = 110, cone_flops = 60;
+// Of view_sphere there, and of a range of distances out of it.
+constexpr double range_flops = 28;
 double test_flops(const KernelWork& w) { return box_flops + (w.exact ? exact_flops : 0) + (w.cones ? cone_flops : 0); }
 
 // A bin has as many candidates as its longest list at least, and so its indices / 64.
@@ -55,6 +58,13 @@ const std::map<std::string, Formula>& formulas() {
        }},
       {"fill_lists",
        [](const KernelWork& w) { return KernelCost{cell_mark_bytes(w) + cell_bytes * w.cells + w.index_bytes, 0.0}; }},
+      // Where the settings ask for what they make.
+      {"light_z_bins",
+       [](const KernelWork& w) {
+         return KernelCost{(place_bytes + z_bin_word_bytes) * w.lights + interval_bytes * w.z_bins, range_flops * w.lights};
+       }},
+      {"lists_to_masks",
+       [](const KernelWork& w) { return KernelCost{cell_bytes * w.cells + w.index_bytes + w.mask_bytes, 0.0}; }},
   };
   return table;
 }

@@ -41,10 +41,11 @@ void run_on(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame
             std::vector<Candidate>& candidates) {
   std::vector<std::unique_ptr<CullingRun>> runs;
   std::vector<Candidate*> running;
+  const cl::Buffer depth = upload_depth(device, frame);
   for (Candidate& candidate : candidates) {
     if (!candidate.failure.empty()) continue;
     try {
-      runs.push_back(std::make_unique<CullingRun>(device, programs, frame, candidate.settings));
+      runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, candidate.settings));
       running.push_back(&candidate);
     } catch (const Error& error) {
       candidate.failure = error.what();
