@@ -1,91 +1,92 @@
-// Depth bounds of every tile, for GPUs: one work-group of GROUP items reduces one tile. The same contract, arguments and
-// bytes as depth_bounds_lanes.cl.
-// -DGROUP  items a group, a power of two (default 64)
+// Depth bounds of every tile, for GPUs: one work-group takes GROUP values of a row side by side, an item each, down a
+// row of tiles, so that each item waits for TILE loads at once and memory is read in long stretches. Then an item a
+// tile. The same contract, arguments and bytes as depth_bounds_lanes.cl.
+// -DGROUP  items a group, a power of two (default 256)
 #define LANES 1
 #include "kernels/common/depth_bounds.h"
 
 #ifndef GROUP
-#define GROUP 64
+#define GROUP 256
 #endif
+#define WIDTH (ROW < GROUP ? ROW : GROUP)  // items of a tile
+#define TILES (GROUP / WIDTH)              // of a group
+#define PLACE(i) ((i) + (i) / WIDTH)       // a word between tiles: items that each read their own tile use other banks
 
-// Least `low`, greatest `high` and least `lowest` of the group, for every item of it.
-static inline uint3 reduce_group(uint3 mine, local uint3* scratch) {
-  const uint item = get_local_id(0);
-  scratch[item] = mine;
-  for (uint step = GROUP / 2; step > 0; step /= 2) {
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < step) {
-      const uint3 other = scratch[item + step];
-      mine = (uint3)(min(mine.x, other.x), max(mine.y, other.y), min(mine.z, other.z));
-      scratch[item] = mine;
-    }
+// Calls BODY(key) on every key of this item: its columns down the rows of tiles from `strip` on. Past the view's right
+// and upper edges the last column and row count again, which changes no minimum and no maximum.
+#define FOR_KEYS(BODY)                                                                                        \
+  for (uint x = item; x < TILES * ROW; x += GROUP) {                                                          \
+    global const uint* column = strip + min(tx0 * ROW + x, p->width * SAMPLES - 1u);                          \
+    _Pragma("unroll 16") for (uint y = 0; y < TILE; ++y) {                                                    \
+      const uint key = KEY(column[(size_t)min(y, last_row) * p->depth_row]);                                  \
+      BODY                                                                                                    \
+    }                                                                                                         \
   }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  return scratch[0];
-}
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_group(
     global const uint* depth, global float* opaque, global float* blend, global volatile uint* counters,
     constant CullParams* p) {
-  local uint3 scratch[GROUP];
-  local uint mask;
-  const uint tx = get_group_id(0), ty = get_group_id(1), item = get_local_id(0);
-  const uint columns = min((uint)TILE, p->width - tx * TILE) * SAMPLES, rows = min((uint)TILE, p->height - ty * TILE);
-  global const uint* first = depth + p->depth_first + (size_t)ty * TILE * p->depth_row + tx * ROW;
-  uint3 keys = (uint3)(0xffffffffu, 0u, 0xffffffffu);
-  for (uint i = item; i < TILE * ROW; i += GROUP) {
-    const uint x = i % ROW, y = i / ROW;
-    if (x < columns && y < rows) {
-      const uint key = KEY(first[(size_t)y * p->depth_row + x]);
-      keys = (uint3)(min(keys.x, key - 1u), max(keys.y, key), min(keys.z, key));
-    }
+  local uint lows[PLACE(GROUP)], highs[PLACE(GROUP)], lowests[PLACE(GROUP)];
+  const uint item = get_local_id(0), tx0 = get_group_id(0) * TILES, tx = tx0 + item, ty = get_group_id(1);
+  const bool writes = item < TILES && tx < p->tiles_x;
+  const uint last_row = min((uint)TILE, p->height - ty * TILE) - 1u, from = PLACE(item * WIDTH);
+  global const uint* strip = depth + p->depth_first + (size_t)ty * TILE * p->depth_row;
+  // Least key less 1, so that nothing there (0) goes to the top and is left out; greatest key; least key.
+  uint low = 0xffffffffu, high = 0u, lowest = 0xffffffffu;
+  FOR_KEYS(low = min(low, key - 1u); high = max(high, key); lowest = min(lowest, key);)
+  lows[PLACE(item)] = low, highs[PLACE(item)] = high, lowests[PLACE(item)] = lowest;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  low = lowest = 0xffffffffu, high = 0u;
+  for (uint i = 0; writes && i < WIDTH; ++i) {
+    low = min(low, lows[from + i]), high = max(high, highs[from + i]), lowest = min(lowest, lowests[from + i]);
   }
-  if (item == 0) mask = 0u;
-  keys = reduce_group(keys, scratch);
-  const uint low = keys.x + 1u, high = keys.y;
+  low += 1u;
   const Interval all = opaque_interval(low, high, p);
   float planes[4] = {all.near, all.far, FAR_AWAY, -FAR_AWAY};
+#if DEPTH_MODE == DEPTH_HALFZ || DEPTH_MODE == DEPTH_HALFZ_MODIFIED
   const float middle = 0.5f * (all.near + all.far);
+#endif
 #if DEPTH_MODE == DEPTH_HALFZ
   if (all.near <= all.far) planes[1] = planes[2] = middle, planes[3] = all.far;
-#elif DEPTH_MODE == DEPTH_HALFZ_MODIFIED
-  const uint cut = KEY(as_uint(depth_of_distance(middle, p)));
-  uint3 around = (uint3)(0xffffffffu, 0u, 0u);
-#elif DEPTH_MODE == DEPTH_MASK32
-  uint slots = 0u;
 #endif
 #ifdef SECOND_LOOK
-  barrier(CLK_LOCAL_MEM_FENCE);  // scratch is free again
-  if (high != 0u && high <= ONE_BITS) {
-    for (uint i = item; i < TILE * ROW; i += GROUP) {
-      const uint x = i % ROW, y = i / ROW;
-      if (x >= columns || y >= rows) continue;
-      const uint key = KEY(first[(size_t)y * p->depth_row + x]);
+  const uint tile = item / WIDTH;
+  barrier(CLK_LOCAL_MEM_FENCE);  // lows and highs are free again
 #if DEPTH_MODE == DEPTH_HALFZ_MODIFIED
-      if (key >= cut) around.x = min(around.x, key);
-      if (key < cut) around.y = max(around.y, key);
-#else
-      if (key != 0u) slots |= 1u << mask_slot(distance_of_depth(as_float(KEY(key)), p), all.near, all.far);
-#endif
-    }
-  }
-#if DEPTH_MODE == DEPTH_HALFZ_MODIFIED
-  around = reduce_group(around, scratch);
+  // Least key at or above the cut, and greatest below it. A side without a key is empty; a tile with strange depths
+  // keeps its interval.
+  local uint cuts[TILES];
+  if (item < TILES) cuts[item] = KEY(as_uint(depth_of_distance(middle, p)));
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint cut = cuts[tile];
+  uint above = 0xffffffffu, below = 0u;
+  FOR_KEYS(above = min(above, key >= cut ? key : 0xffffffffu); below = max(below, key < cut ? key : 0u);)
+  lows[PLACE(item)] = above, highs[PLACE(item)] = below;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  above = 0xffffffffu, below = 0u;
+  for (uint i = 0; writes && i < WIDTH; ++i) above = min(above, lows[from + i]), below = max(below, highs[from + i]);
   if (high <= ONE_BITS) {
-    const Interval nearer = opaque_interval(around.x, around.x == 0xffffffffu ? 0u : high, p);
-    const Interval farther = opaque_interval(low, around.y, p);
+    const Interval nearer = opaque_interval(above, above == 0xffffffffu ? 0u : high, p);
+    const Interval farther = opaque_interval(low, below, p);
     planes[0] = nearer.near, planes[1] = nearer.far, planes[2] = farther.near, planes[3] = farther.far;
   }
 #else
-  atomic_or(&mask, slots);
+  local float nears[TILES], fars[TILES];
+  local uint masks[TILES];
+  if (item < TILES) nears[item] = all.near, fars[item] = all.far, masks[item] = 0u;
   barrier(CLK_LOCAL_MEM_FENCE);
-  planes[2] = as_float(high == 0u || high > ONE_BITS ? 0xffffffffu : mask);
+  const float near = nears[tile], far = fars[tile];
+  uint slots = 0u;
+  FOR_KEYS(if (key != 0u) slots |= 1u << mask_slot(distance_of_depth(as_float(KEY(key)), p), near, far);)
+  atomic_or(&masks[tile], slots);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (writes) planes[2] = as_float(high == 0u || high > ONE_BITS ? 0xffffffffu : masks[item]);
 #endif
 #endif
-  if (item != 0) return;
+  if (!writes) return;
   for (uint i = 0; i < BOUND_PLANES; ++i) put_bounds(opaque, BOUND_PLANES, i, tx, ty, planes[i], p);
 #ifdef BLEND
-  const Interval in_front = blend_interval(keys.z, high, p);
+  const Interval in_front = blend_interval(lowest, high, p);
   put_bounds(blend, 2, 0, tx, ty, in_front.near, p), put_bounds(blend, 2, 1, tx, ty, in_front.far, p);
 #endif
   if (high > ONE_BITS) atomic_inc(counters + 2);

@@ -19,7 +19,7 @@ namespace lightgrid {
 namespace {
 
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
-constexpr uint lane_count = 16, depth_group = 64, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
+constexpr uint lane_count = 16, depth_group = 256, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
 constexpr uint most_regions = 64, many_lights = 16384;
 
 int planes_of(DepthBoundsMode mode) {
@@ -158,10 +158,11 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   params_.depth_first = (uint(depth.y) * row + uint(depth.x)) * uint(options_.samples);
   upload_params();
   const uint tiles_x = params_.tiles_x, tiles_y = params_.tiles_y;
-  const cl::NDRange items = lanes ? cl::NDRange((tiles_x + depth_tiles_an_item - 1) / depth_tiles_an_item, tiles_y)
-                                  : cl::NDRange(tiles_x * depth_group, tiles_y);
-  launch(device_, "depth_bounds", bounds_kernel_, items, lanes ? cl::NDRange(1, 1) : cl::NDRange(depth_group, 1), depth.values,
-         opaque_, blend_, counters_, params_buffer_);
+  // An item, or a group, takes tiles side by side.
+  const uint group = lanes ? 1 : depth_group, values = uint(options_.tile * options_.samples);
+  const uint tiles = lanes ? depth_tiles_an_item : std::max(depth_group / values, 1u);
+  launch(device_, "depth_bounds", bounds_kernel_, cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
+         cl::NDRange(group, 1), depth.values, opaque_, blend_, counters_, params_buffer_);
   return {{opaque_, options_.depth_bounds}, {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
 }
 
