@@ -6,8 +6,9 @@
 
 kernel void shade_tiles_group(global const channel_t* first, global const channel_t* second, global const float* depth,
                               global const float4* places, global const float4* colors, global const float4* cones,
-                              global const uint2* cells, global const index_t* indices, global float* image,
-                              float4 background, constant ViewParams* view) {
+                              global const uint2* cells, global const index_t* indices, global const uint* light_bins,
+                              constant float* bin_edges, global float* image, float4 background,
+                              constant ViewParams* view) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
@@ -16,10 +17,10 @@ kernel void shade_tiles_group(global const channel_t* first, global const channe
   const bool lit = depth[at] > 0.0f && color.w > 0.0f;
   Real3 sum = real3(background.x, background.y, background.z);
   if (lit) {
-    const Lights lights = {places, colors, cones};
+    const Lights lights = {places, colors, cones, light_bins};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
-    sum = light_sum(&p, indices + range.x, range.y, &lights, view);
+    sum = light_sum(&p, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
   }
 #ifdef OWN_LIGHT
   const float4 under = vload4(at, image);

@@ -4,10 +4,11 @@
 // first, second  geometry buffer, and depth: row 0 at the bottom (kernels/common/gbuffer.h)
 // places, colors, cones  of lights (shared/punctual_light.h)
 // cells, indices  light grid (shared/light_grid.h)
+// light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with -DZ_BINS alone
 // image           RGBA a pixel. With -DOWN_LIGHT it holds what surfaces show without these lights, which are added
 // background      of pixels without a surface; without -DOWN_LIGHT alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
-// -DBUFFER_BITS, -DINDEX_32, -DSPOTS, -DBLINN, -DORTHOGRAPHIC  as the headers say
+// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DORTHOGRAPHIC  as the headers say
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16
@@ -56,14 +57,15 @@ static inline void put_run(global float* image, float8 r, float8 g, float8 b, ui
 
 kernel void shade_tiles_lanes(global const channel_t* first, global const channel_t* second, global const float* depth,
                               global const float4* places, global const float4* colors, global const float4* cones,
-                              global const uint2* cells, global const index_t* indices, global float* image,
-                              float4 background, constant ViewParams* view) {
+                              global const uint2* cells, global const index_t* indices, global const uint* light_bins,
+                              constant float* bin_edges, global float* image, float4 background,
+                              constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
 #ifdef OWN_LIGHT
   if (range.y == 0) return;
 #endif
-  const Lights lights = {places, colors, cones};
+  const Lights lights = {places, colors, cones, light_bins};
   const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
   for (uint y = tile_y * TILE; y < y_end; y += 1 + RUN_DY) {
     for (uint x = tile_x * TILE; x < x_end; x += 8 + RUN_DX) {
@@ -80,7 +82,8 @@ kernel void shade_tiles_lanes(global const channel_t* first, global const channe
       const real py = (real)((float8)((float)y + 0.5f), (float8)((float)y2 + 0.5f));
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
       const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
-      const Real3 sum = light_sum(&p, indices + range.x, range.y, &lights, view);
+      const PixelBins bins = bins_of_pixels(depths, lit, bin_edges);
+      const Real3 sum = light_sum(&p, indices + range.x, range.y, bins, &lights, view);
       const real r = lit ? sum.x : REAL(background.x), g = lit ? sum.y : REAL(background.y);
       const real b = lit ? sum.z : REAL(background.z);
       put_run(image + 4 * at, r.lo, g.lo, b.lo, x_end - x);

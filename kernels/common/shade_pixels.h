@@ -2,6 +2,7 @@
 //
 // -DINDEX_32  indices are 32 bits, not 16
 // -DOWN_LIGHT the image holds ambient light and more already; else ambient light is added here
+// -DZ_BINS    lights are passed over whose z-bins hold none of the pixels
 // -DSPOTS     some light has a cone
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 #pragma once
@@ -9,6 +10,7 @@
 #include "kernels/common/gbuffer.h"
 #include "shared/pixel_position.h"
 #include "shared/punctual_light.h"
+#include "shared/slices.h"
 
 #ifdef INDEX_32
 typedef uint index_t;
@@ -16,9 +18,10 @@ typedef uint index_t;
 typedef ushort index_t;
 #endif
 
-// Point and spot lights by index, as the shaders read them.
+// Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
 typedef struct Lights {
   global const float4 *places, *colors, *cones;
+  global const uint* bins;
 } Lights;
 
 static inline PunctualLight light_at(const Lights* lights, uint index) {
@@ -31,18 +34,76 @@ static inline PunctualLight light_at(const Lights* lights, uint index) {
   return light;
 }
 
-// In the order of the list: the sum of the GL loop. A light that reaches none of the pixels would add exact zeros.
-static inline Real3 light_sum(const ShadingPoint* p, global const index_t* list, uint count, const Lights* lights,
-                              constant ViewParams* view) {
-#ifdef OWN_LIGHT
-  Real3 sum = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+// The z-bins from the nearest to the farthest of those of the pixels that are lit.
+typedef struct PixelBins {
+  uint first, last;
+} PixelBins;
+
+#if LANES == 16
+static inline float least_lane(real v) {
+  const float8 a = fmin(v.lo, v.hi);
+  const float4 b = fmin(a.lo, a.hi);
+  const float2 c = fmin(b.lo, b.hi);
+  return fmin(c.x, c.y);
+}
 #else
-  Real3 sum = reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+#define least_lane(v) (v)
 #endif
-  for (uint i = 0; i < count; ++i) {
-    const PunctualLight light = light_at(lights, list[i]);
-    const Arrival arrival = arrival_at(p->position, light);
-    if (any_lane(arrival.attenuation > REAL(0.0f))) sum = add3(sum, radiance_of(*p, arrival, light));
+
+static inline PixelBins bins_of_pixels(real depths, mask_t lit, constant float* edges) {
+  PixelBins bins = {0, 0};
+#ifdef Z_BINS
+  const real nearest = lit ? -depths : REAL(INFINITY), farthest = lit ? depths : REAL(INFINITY);
+  bins.first = z_bin_of_key(least_lane(nearest), edges);
+  bins.last = z_bin_of_key(-least_lane(farthest), edges);
+#endif
+  return bins;
+}
+
+// A light that reaches none of the pixels would add exact zeros.
+static inline Real3 with_light(Real3 sum, const ShadingPoint* p, uint index, const Lights* lights) {
+  const PunctualLight light = light_at(lights, index);
+  const Arrival arrival = arrival_at(p->position, light);
+  return any_lane(arrival.attenuation > REAL(0.0f)) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
+}
+
+// In the order of the list: the sum of the GL loop.
+#if defined(Z_BINS) && LANES == 16
+#define STRETCH 64u
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
+                                const Lights* lights) {
+  uint met[STRETCH];
+  for (uint begin = 0; begin < count; begin += STRETCH) {
+    const uint end = min(begin + STRETCH, count);
+    uint n = 0;
+    // Apart from the sum, and without a branch: one among the sums costs more than the lights that it leaves out.
+    for (uint i = begin; i < end; ++i) {
+      met[n] = list[i];
+      n += bins_meet(lights->bins[list[i]], bins.first, bins.last) ? 1 : 0;
+    }
+    for (uint i = 0; i < n; ++i) sum = with_light(sum, p, met[i], lights);
   }
   return sum;
+}
+#else
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
+                                const Lights* lights) {
+  for (uint i = 0; i < count; ++i) {
+#ifdef Z_BINS
+    if (!bins_meet(lights->bins[list[i]], bins.first, bins.last)) continue;
+#endif
+    sum = with_light(sum, p, list[i], lights);
+  }
+  return sum;
+}
+#endif
+
+static inline Real3 light_sum(const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
+                              const Lights* lights, constant ViewParams* view) {
+#ifdef OWN_LIGHT
+  const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#else
+  const Real3 own = reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+#endif
+  return sum_of_list(own, p, list, count, bins, lights);
 }

@@ -30,16 +30,21 @@ class TileShading : public Kept {
     ClDevice& device = *f.devices.cl;
     places = buffer_of(device, texels.places), colors = buffer_of(device, texels.colors);
     cones = buffer_of(device, texels.cones), view = buffer_of(device, std::vector<ViewParams>{f.params});
+    if (f.plan.z_bins > 1) {
+      const auto keys = z_bin_keys(cull_view(f.view, f.plan));
+      bin_edges = buffer_of(device, std::vector<float>(keys.begin(), keys.end()));
+      edge_bytes_ = sizeof keys;
+    }
     light_bytes_ = (texels.places.size() + texels.colors.size() + texels.cones.size()) * sizeof(glm::vec4);
   }
 
   size_t memory_bytes() const override {
-    return surfaces[0].size() + surfaces[1].size() + image.size() + light_bytes_ + sizeof(ViewParams);
+    return surfaces[0].size() + surfaces[1].size() + image.size() + light_bytes_ + edge_bytes_ + sizeof(ViewParams);
   }
 
   const bool lanes;
   SharedBuffer surfaces[2], image;
-  cl::Buffer places, colors, cones, view;
+  cl::Buffer places, colors, cones, view, bin_edges;
   cl::Kernel kernel;
 
  private:
@@ -59,6 +64,7 @@ class TileShading : public Kept {
     if (lanes) defines += fmt::format(" -DTILE={}", f.plan.settings.tile);
     if (lanes && !f.plan.settings.portable && builds_avx512(*f.devices.cl, *f.devices.programs)) defines += " -DAVX512";
     if (f.plan.index_bits == 32) defines += " -DINDEX_32";
+    if (f.plan.z_bins > 1) defines += " -DZ_BINS";
     if (f.plan.own_light) defines += " -DOWN_LIGHT";
     if (f.plan.spots) defines += " -DSPOTS";
     if (f.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
@@ -66,7 +72,7 @@ class TileShading : public Kept {
     return defines;
   }
 
-  size_t light_bytes_ = 0;
+  size_t light_bytes_ = 0, edge_bytes_ = 0;
 };
 
 void copy_attachment(Frame& f, int attachment, GLenum type, SharedBuffer& to) {
@@ -107,12 +113,15 @@ void add_light(Frame& f, TileShading& s, const LightGrid& grid, const GBufferLay
   const cl::NDRange items = s.lanes ? cl::NDRange(f.params.tiles_x, f.params.tiles_y)
                                     : cl::NDRange(whole(f.view.width), whole(f.view.height));
   const glm::vec3 background = f.plan.own_light ? glm::vec3(0) : f.scene.background;  // in the image already, or not
+  const cl::Buffer light_bins = grid.z_bin_bytes ? f.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*f.devices.cl, "shade_tiles", s.kernel, items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
          s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(), f.depth_copy().cl_buffer(), s.places, s.colors, s.cones,
-         f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), s.image.cl_buffer(),
-         cl_float4{{background.r, background.g, background.b, 0}}, s.view);
+         f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), light_bins, s.bin_edges,
+         s.image.cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}}, s.view);
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(pixels * (layout.bytes() + 4 + (f.plan.own_light ? 16 : 0)) + grid.cell_bytes + grid.index_bytes, pixels * 16);
+  pass.moves(pixels * (layout.bytes() + 4 + (f.plan.own_light ? 16 : 0)) + grid.cell_bytes + grid.index_bytes +
+                 grid.z_bin_bytes,
+             pixels * 16);
 }
 
 }  // namespace

@@ -46,8 +46,10 @@ SHARED_FUNCTION uint slice_of_key(float key EDGES) { RETURN_REACHED(MOST_SLICES,
 #if !defined(LIGHTGRID_GLSL) || defined(Z_BINS)
 SHARED_FUNCTION uint z_bin_of_key(float key EDGES) { RETURN_REACHED(MOST_Z_BINS, Z_BIN_EDGE) }
 
-// A light's z-bins: the first in the low half of a word, the one after the last in the high half.
-SHARED_FUNCTION bool bins_hold(uint bins, uint bin) { return bin >= (bins & 0xffffu) && bin < bins >> 16; }
+// A light's z-bins: the first in the low half of a word, the one after the last in the high half. Is one of them from `first`
+// to `last`?
+SHARED_FUNCTION bool bins_meet(uint bins, uint first, uint last) { return last >= (bins & 0xffffu) && first < bins >> 16; }
+SHARED_FUNCTION bool bins_hold(uint bins, uint bin) { return bins_meet(bins, bin, bin); }
 #endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

@@ -12,8 +12,9 @@ extern const Technique deferred_tiled{
     .name = "deferred_tiled",
     .summary = "a geometry buffer, lit in OpenCL from per-tile light lists",
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
-    .needs = {.light_grid = true, .lists = true},
-    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "kernel-shape", "portable", "group-size"},
+    .needs = {.light_grid = true, .lists = true, .z_bins = true},
+    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",
+                 "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

@@ -19,6 +19,31 @@ TEST_P(BuiltinZBins, HaveTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
   }
 }
 
+constexpr const char* in_opencl[] = {"deferred_tiled", "forward_plus_compute"};
+
+// The technique with z-bins against itself without, whose image is forward's but for rounding: tiled_light_test.cpp.
+void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings settings, const char* technique) {
+  SCOPED_TRACE(testing::PrintToString(to_strings(settings)) + technique);
+  TechniqueRun on(test_devices(), scene, view, settings, find_technique(technique));
+  settings.z_bins = 1;
+  TechniqueRun off(test_devices(), scene, view, settings, find_technique(technique));
+  on.run_frame(), off.run_frame();
+  EXPECT_TRUE(identical(on.image(), off.image()));
+  const LitPairs with = count_listed_pairs(on, read_depth(on.frame())), without = count_listed_pairs(off, read_depth(off.frame()));
+  EXPECT_EQ(with.lost, 0u);
+  EXPECT_EQ(with.lit, without.lit);
+  EXPECT_LE(with.listed, without.listed);
+  EXPECT_GT(on.frame().opaque_grid_last.z_bin_bytes, 0u);
+}
+
+TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
+  const View view = default_view(scene, 95, 53);
+  for (const char* technique : in_opencl) {
+    expect_the_bytes_of_none(scene, view, {.z_bins = 256}, technique);
+    expect_the_bytes_of_none(scene, view, {.z_bins = 16, .kernel_shape = KernelShape::group}, technique);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinZBins, testing::Values("hall", "spheres", "terrain", "street"),
                          [](const auto& info) { return std::string(info.param); });
 
@@ -52,10 +77,33 @@ TEST(ZBins, HaveTheBytesWithGlassMasksLinearBinsAndNoDepthBounds) {
   }
 }
 
+TEST(ZBins, LeaveTheLightPassInOpenClItsBytesWithGlassSmallTilesAndNoDepthBounds) {
+  const Scene scene = scene_with_glass().scene;
+  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
+  camera.orthographic = true;
+  camera.half_width_m = camera.half_height_m = 2;
+  camera.near_m = -3, camera.far_m = 10;
+  const Settings in_small_tiles{.tile = 8, .slice_spacing = SliceSpacing::linear, .z_bins = 64};
+  const Settings everywhere{.depth_bounds = DepthBoundsMode::none, .z_bins = 256, .portable = true};
+  for (const View& view : {small_view(127, 73), small_view(1, 1)}) {
+    expect_the_bytes_of_none(scene, view, in_small_tiles, "deferred_tiled");
+  }
+  expect_the_bytes_of_none(scene, make_view(camera, 127, 73), everywhere, "deferred_tiled");
+}
+
 uint64_t listed(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward_plus"));
   run.run_frame();
   return count_listed_pairs(run, read_depth(run.frame())).listed;
+}
+
+// Longer than the stretch of a list that the kernel looks at together.
+TEST(ZBins, LeaveLongListsTheirOrder) {
+  Scene scene = find_builtin_scene("spheres")->make();
+  for (Light& light : scene.lights) light.radius_m = 4;
+  const View view = default_view(scene, 47, 31);
+  EXPECT_GT(listed(scene, view, {}), 47u * 31 * 65) << "more than 64 a pixel";
+  expect_the_bytes_of_none(scene, view, {.z_bins = 64}, "deferred_tiled");
 }
 
 TEST(ZBins, PassOverMoreTheFinerTheyAre) {
