@@ -1,6 +1,7 @@
 // lightgrid compare SCENE… -t A,B,… -o DIR: images, results.json and index.html.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -71,10 +72,33 @@ std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const 
   return all;
 }
 
+void check_comparisons(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
+  for (const std::string& comparison : comparisons) {
+    const std::string key = comparison.substr(0, comparison.find('='));
+    const auto reads = [&](const Contestant& c) { return reads_setting(*c.technique, key); };
+    if (std::ranges::none_of(contestants, reads)) throw input_error("--compare {}: no technique of -t reads {}", comparison, key);
+  }
+}
+
+// All are held against one image of every light: with another BRDF, what differs would be taken for a technique's error.
+void check_brdf(const std::vector<Contestant>& contestants) {
+  const Contestant& first = contestants.front();
+  const auto brdf_of = [](const Contestant& c) { return to_strings(c.settings).at("brdf"); };
+  for (const Contestant& c : contestants) {
+    if (c.settings.brdf == first.settings.brdf) continue;
+    throw input_error("compare: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose with --brdf",
+                      first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
+  }
+}
+
 std::vector<Contestant> chosen_contestants(const CompareCommand& o) {
   const Settings common = chosen_settings(o.scene);
   contestants_of(common, o.compare, 64);  // what is wrong with a comparison that no technique reads
-  return swept(contestants_of(o.techniques, common), o.compare);
+  const std::vector<Contestant> named = contestants_of(o.techniques, common);
+  check_comparisons(named, o.compare);
+  const std::vector<Contestant> all = swept(named, o.compare);
+  check_brdf(all);
+  return all;
 }
 
 int parse_lights(const std::string& text) {
