@@ -18,14 +18,16 @@ cl::Buffer buffer_of(ClDevice& device, const std::vector<T>& values) {
   }
 }
 
-// The geometry buffer and the image as OpenCL reads them, the lights, and the kernel.
+// Whether the image holds what surfaces show of themselves before the light pass.
+bool holds_own_light(const GBuffer& gbuffer) { return gbuffer.own_light == OwnLight::in_image; }
+
+// The geometry buffer and the image as OpenCL reads them, the lights, and the kernels.
 class TileShading : public Kept {
  public:
   explicit TileShading(Frame& f)
       : lanes(takes_lanes(f)),
         surfaces{image_buffer(f, layout(f).images[0].bytes), image_buffer(f, layout(f).images[1].bytes)},
-        image(image_buffer(f, 16)),
-        kernel(f.devices.programs->kernel(lanes ? "shade_tiles_lanes" : "shade_tiles_group", defines(f))) {
+        image(image_buffer(f, 16)) {
     const LightTexels texels = light_texels(f.scene, f.view, f.plan);
     ClDevice& device = *f.devices.cl;
     places = buffer_of(device, texels.places), colors = buffer_of(device, texels.colors);
@@ -42,10 +44,16 @@ class TileShading : public Kept {
     return surfaces[0].size() + surfaces[1].size() + image.size() + light_bytes_ + edge_bytes_ + sizeof(ViewParams);
   }
 
+  // Built at first use.
+  cl::Kernel& kernel(Frame& f, const GBuffer& gbuffer) {
+    cl::Kernel& kernel = kernels_[holds_own_light(gbuffer)];
+    if (!kernel()) kernel = f.devices.programs->kernel(lanes ? "shade_tiles_lanes" : "shade_tiles_group", defines(f, gbuffer));
+    return kernel;
+  }
+
   const bool lanes;
   SharedBuffer surfaces[2], image;
   cl::Buffer places, colors, cones, view, bin_edges;
-  cl::Kernel kernel;
 
  private:
   static bool takes_lanes(const Frame& f) {
@@ -59,19 +67,20 @@ class TileShading : public Kept {
     return {*f.devices.cl, f.devices.bridge, (size_t(f.view.width) * f.view.height + Frame::spare_pixels) * pixel_bytes};
   }
 
-  std::string defines(Frame& f) const {
-    std::string defines = fmt::format("-DBUFFER_BITS={}", layout(f).bits);
+  std::string defines(Frame& f, const GBuffer& gbuffer) const {
+    std::string defines = fmt::format("-DBUFFER_BITS={}", gbuffer.layout->bits);
     if (lanes) defines += fmt::format(" -DTILE={}", f.plan.settings.tile);
     if (lanes && !f.plan.settings.portable && builds_avx512(*f.devices.cl, *f.devices.programs)) defines += " -DAVX512";
     if (f.plan.index_bits == 32) defines += " -DINDEX_32";
     if (f.plan.z_bins > 1) defines += " -DZ_BINS";
-    if (f.plan.own_light) defines += " -DOWN_LIGHT";
+    if (holds_own_light(gbuffer)) defines += " -DOWN_LIGHT";
     if (f.plan.spots) defines += " -DSPOTS";
     if (f.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
     if (f.view.orthographic) defines += " -DORTHOGRAPHIC";
     return defines;
   }
 
+  cl::Kernel kernels_[2];  // by holds_own_light
   size_t light_bytes_ = 0, edge_bytes_ = 0;
 };
 
@@ -84,7 +93,7 @@ void copy_attachment(Frame& f, int attachment, GLenum type, SharedBuffer& to) {
 
 void gbuffer_to_cl(Frame& f, const GBuffer& gbuffer, TileShading& shading) {
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  const bool own_light = gbuffer.own_light == OwnLight::in_image;
+  const bool own_light = holds_own_light(gbuffer);
   auto pass = f.timer.pass("gbuffer_to_cl", "gl");
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
   for (int i = 0; i < 2; ++i) copy_attachment(f, i, gbuffer.layout->images[i].type, shading.surfaces[i]);
@@ -106,20 +115,20 @@ void image_to_gl(Frame& f, SharedBuffer& image) {
   pass.moves(bytes, bytes);
 }
 
-void add_light(Frame& f, TileShading& s, const LightGrid& grid, const GBufferLayout& layout) {
+void add_light(Frame& f, TileShading& s, const LightGrid& grid, const GBuffer& gbuffer) {
   auto pass = f.timer.pass("shade_tiles", "cl");
   constexpr size_t side = 16;  // of the pixels that a group takes
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(f.params.tiles_x, f.params.tiles_y)
                                     : cl::NDRange(whole(f.view.width), whole(f.view.height));
-  const glm::vec3 background = f.plan.own_light ? glm::vec3(0) : f.scene.background;  // in the image already, or not
+  const glm::vec3 background = holds_own_light(gbuffer) ? glm::vec3(0) : f.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? f.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
-  launch(*f.devices.cl, "shade_tiles", s.kernel, items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+  launch(*f.devices.cl, "shade_tiles", s.kernel(f, gbuffer), items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
          s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(), f.depth_copy().cl_buffer(), s.places, s.colors, s.cones,
          f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), light_bins, s.bin_edges,
          s.image.cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}}, s.view);
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(pixels * (layout.bytes() + 4 + (f.plan.own_light ? 16 : 0)) + grid.cell_bytes + grid.index_bytes +
+  pass.moves(pixels * (gbuffer.layout->bytes() + 4 + (holds_own_light(gbuffer) ? 16 : 0)) + grid.cell_bytes + grid.index_bytes +
                  grid.z_bin_bytes,
              pixels * 16);
 }
@@ -130,7 +139,7 @@ ShadedImage shade_tiles(Frame& f, const GBuffer& gbuffer, const LightGrid& grid)
   TileShading& shading = f.kept<TileShading>();
   gbuffer_to_cl(f, gbuffer, shading);
   if (f.plan.settings.depth_bounds == DepthBoundsMode::none) depth_to_cl(f, gbuffer.depth_image);  // no bounds read it
-  add_light(f, shading, grid, *gbuffer.layout);
+  add_light(f, shading, grid, gbuffer);
   if (!f.plan.blend) return {gbuffer.image.framebuffer, &shading.image};
   image_to_gl(f, shading.image);
   return gbuffer.image;

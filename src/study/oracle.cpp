@@ -1,8 +1,6 @@
 #include "study/oracle.h"
 
-#include "passes/surfaces.h"
 #include "reference/position.h"
-#include "reference/shading.h"
 #include "shared/light_grid.h"
 #include "study/metrics.h"
 #include "study/grid_lists.h"
@@ -40,6 +38,15 @@ void add_lists(SharedGridStorage& storage, const LightGrid& grid, ListedLights& 
   }
 }
 
+// A row of pixels as an image, for the metrics.
+Image as_image(const std::vector<glm::dvec3>& colors) {
+  Image image(int(colors.size()), 1);
+  for (size_t i = 0; i < colors.size(); ++i) image.pixels[i] = glm::vec4(glm::vec3(colors[i]), 1);
+  return image;
+}
+
+}  // namespace
+
 Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   Surface surface;
   surface.normal = glm::normalize(glm::dvec3(s.normal_roughness.pixels[pixel]));
@@ -51,15 +58,6 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   surface.unlit = surface.occlusion < 0;
   return surface;
 }
-
-// A row of pixels as an image, for the metrics.
-Image as_image(const std::vector<glm::dvec3>& colors) {
-  Image image(int(colors.size()), 1);
-  for (size_t i = 0; i < colors.size(); ++i) image.pixels[i] = glm::vec4(glm::vec3(colors[i]), 1);
-  return image;
-}
-
-}  // namespace
 
 std::vector<float> read_depth(Frame& f) {
   std::vector<float> depth(size_t(f.view.width) * f.view.height);

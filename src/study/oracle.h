@@ -1,11 +1,16 @@
 // Where the renderer's buffers meet the double-precision oracle (reference/).
 #pragma once
 
+#include "passes/surfaces.h"
 #include "reference/lit_set.h"
+#include "reference/shading.h"
 #include "study/results.h"
 #include "study/run_technique.h"
 
 namespace lightgrid {
+
+// The surface at a pixel, for the oracle to shade.
+Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
 
 // The depth image of the last frame: width * height, row 0 at the bottom, 0 where nothing is.
 std::vector<float> read_depth(Frame& f);
