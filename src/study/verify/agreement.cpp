@@ -11,11 +11,6 @@
 namespace lightgrid::verify {
 namespace {
 
-const CullView& sixty() {
-  static const CullView view = field_of_view(60, 127, 73);
-  return view;
-}
-
 CullerOptions options_of(CullTest test) {
   CullerOptions options;
   options.cull_test = test;
@@ -52,11 +47,8 @@ void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const
 // A test made of two lists what both list, and no more.
 void tests_are_nested(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
-    Random random(51);
-    const auto bounds = scattered_bounds(named.view, 16, random);
-    auto lights = scattered_lights(named.view, 300, true, random);
-    move_to_world(named.view, lights);
-    const auto grid_by = [&](CullTest test) { return c.grid(named.view, lights, bounds, {options_of(test)}); };
+    const OverTiles over = scattered_over_tiles(named.view, 300, true, 51);
+    const auto grid_by = [&](CullTest test) { return c.grid(named.view, over.lights, over.bounds, {options_of(test)}); };
     const HostGrid both = grid_by(CullTest::planes_aabb);
     for (const CullTest test : {CullTest::planes, CullTest::aabb})
       expect_subset(c, both, grid_by(test), "planes+aabb within one of the two");
@@ -67,14 +59,11 @@ void tests_are_nested(Check& c) {
 // Of spheres: a cone is tested against the sphere around a cell's box, and that of a part may stick out of the whole's.
 void bounds_are_nested(Check& c) {
   for (const NamedView& named : hard_views(63, 41)) {
-    Random random(52);
-    const DepthImage depth = scattered_depth(named.view, random);
-    auto lights = scattered_lights(named.view, 300, false, random);
-    move_to_world(named.view, lights);
+    const OverDepth over = scattered_over_depth(named.view, 300, false, 52);
     const auto grid_by = [&](DepthBoundsMode mode) {
       CullerOptions options;
       options.depth_bounds = mode;
-      return c.pixels(named.view, lights, depth, {options});
+      return c.pixels(named.view, over.lights, over.depth, {options});
     };
     const HostGrid minmax = grid_by(DepthBoundsMode::minmax);
     expect_subset(c, minmax, grid_by(DepthBoundsMode::none), "min/max within none");
@@ -95,9 +84,7 @@ void narrower_intervals_list_less(Check& c) {
 }
 
 void larger_lights_list_more(Check& c) {
-  Random random(54);
-  auto lights = scattered_lights(sixty(), 300, true, random);
-  const auto bounds = scattered_bounds(sixty(), 16, random);
+  auto [bounds, lights] = scattered_over_tiles(sixty(), 300, true, 54);
   HostGrid inner = c.grid(sixty(), lights, bounds);
   for (int i = 0; i < 4; ++i) {
     for (CullLight& light : lights) light.radius_m *= i % 2 ? 2 : 1 + 1e-6;
@@ -109,10 +96,7 @@ void larger_lights_list_more(Check& c) {
 
 void whole_pixels_hold_centres(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
-    Random random(55);
-    const auto bounds = scattered_bounds(named.view, 16, random);
-    auto lights = tangent_lights(named.view, bounds, 16, 300, Contact::any, 0, random);
-    move_to_world(named.view, lights);
+    const auto [bounds, lights] = tangent_over_tiles(named.view, 300, Contact::any, 55);
     CullerOptions whole, centres;
     whole.pixel_centres = false;
     const HostGrid outer = c.grid(named.view, lights, bounds, {whole});
@@ -122,10 +106,7 @@ void whole_pixels_hold_centres(Check& c) {
 
 void portable_form(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
-    Random random(56);
-    const auto bounds = scattered_bounds(named.view, 16, random);
-    auto lights = scattered_lights(named.view, 300, true, random);
-    move_to_world(named.view, lights);
+    const auto [bounds, lights] = scattered_over_tiles(named.view, 300, true, 56);
     for (CullerOptions options : c.every_test()) {
       const HostGrid tuned = c.grid(named.view, lights, bounds, {options});
       options.portable = true;
@@ -206,15 +187,17 @@ void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLig
 
 // Lights across the near plane, behind the eye, around it, past the last edge, in every bin, without end and of no size.
 void z_bins_of_lights(Check& c) {
-  Random random(59);
+  uint64_t seed = 590;
   for (NamedView named : hard_views(64, 48)) {
     CullView& view = named.view;
     view.z_bin_edges = {0.3f, 0.5f, 1, 1, 2, 3, 5, 7, 10, 20};
-    auto lights = scattered_lights(view, 300, true, random);
+    auto [depth, lights] = scattered_over_depth(view, 300, true, seed++);
+    std::vector<CullLight> axial;
     for (const double d : {-3.0, -0.5, 0.0, 0.05, 0.1, 0.3, 1.0, 6.0, 99.0, 100.0, 1000.0})
-      for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0}) lights.push_back(point({0, 0, -d}, r));
-    move_to_world(view, lights);
-    expect_tight_bins(c, view, lights, c.pixels(view, lights, scattered_depth(view, random), {CullerOptions{}}));
+      for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0}) axial.push_back(point({0, 0, -d}, r));
+    move_to_world(view, axial);
+    lights.insert(lights.end(), axial.begin(), axial.end());
+    expect_tight_bins(c, view, lights, c.pixels(view, lights, depth, {CullerOptions{}}));
   }
 }
 
@@ -239,9 +222,10 @@ void slices_make_the_whole(Check& c) {
 
 void slices_and_bounds(Check& c) {
   const CullView view = sliced(sixty(), 24);
-  Random random(58);
-  c.grid(view, scattered_lights(view, 200, true, random), scattered_bounds(view, 16, random));
-  c.pixels(view, scattered_lights(view, 200, true, random), scattered_depth(view, random), c.every_test());
+  const OverTiles tiles = scattered_over_tiles(view, 200, true, 58);
+  c.grid(view, tiles.lights, tiles.bounds);
+  const OverDepth surfaces = scattered_over_depth(view, 200, true, 59);
+  c.pixels(view, surfaces.lights, surfaces.depth, c.every_test());
 }
 
 }  // namespace

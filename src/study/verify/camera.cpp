@@ -25,6 +25,11 @@ void lights_of_all_kinds(Check& c, const CullView& view, int tile = 16) {
   c.grid(view, lights, bounds, c.every_test(tile));
 }
 
+void scattered_pixels(Check& c, const CullView& view, uint64_t seed) {
+  const auto [depth, lights] = scattered_over_depth(view, 100, true, seed);
+  c.pixels(view, lights, depth, c.every_test());
+}
+
 void field(Check& c, double degrees) { lights_of_all_kinds(c, field_of_view(degrees, 127, 73)); }
 void field_of_a_tenth(Check& c) { field(c, 0.1); }
 void field_of_170(Check& c) { field(c, 170); }
@@ -60,11 +65,9 @@ Lens box(double half, double near, double far) {
 }
 
 void orthographic_near_zero(Check& c) {
-  CullView view = view_through(box(5, 0, 100), 127, 73);
+  const CullView view = view_through(box(5, 0, 100), 127, 73);
   lights_of_all_kinds(c, view);
-  Random random(22);
-  const DepthImage depth = scattered_depth(view, random);
-  c.pixels(view, scattered_lights(view, 100, true, random), depth, c.every_test());
+  scattered_pixels(c, view, 22);
 }
 
 void orthographic_behind_the_eye(Check& c) {
@@ -100,8 +103,7 @@ void sixteen_thousand_wide(Check& c) { lights_of_all_kinds(c, view_through({.hal
 
 void tiny_near(Check& c) {
   const CullView view = view_through({.near = 1e-6}, 63, 41);
-  Random random(23);
-  c.pixels(view, scattered_lights(view, 100, true, random), scattered_depth(view, random), c.every_test());
+  scattered_pixels(c, view, 23);
   c.grid(view, {point({0, 0, -1e-6}, 1e-6), point({1e-7, 0, -2e-6}, 1e-7)}, {{1e-6f, 3e-6f}});
 }
 
@@ -110,11 +112,6 @@ void huge_near(Check& c) {
   std::vector<CullLight> lights;
   for (int i = 0; i < 100; ++i) lights.push_back(point({(i % 10 - 5) * 200, (i / 10 - 5) * 200, -1.5e6}, 150));
   c.grid(view, lights, {{1.4e6f, 1.6e6f}}), c.grid(view, lights, {{1.5e6f, 1.5e6f}});
-}
-
-const CullView& sixty() {
-  static const CullView view = field_of_view(60, 127, 73);
-  return view;
 }
 
 void inside_a_light(Check& c) {

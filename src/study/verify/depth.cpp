@@ -39,9 +39,7 @@ void empty_interval(Check& c) {
 
 void awkward_size(Check& c, int width, int height) {
   const CullView view = field_of_view(60, width, height);
-  Random random(3);
-  const DepthImage depth = scattered_depth(view, random);
-  const auto lights = scattered_lights(view, 60, true, random);
+  const auto [depth, lights] = scattered_over_depth(view, 60, true, 3);
   for (const CullerOptions& options : c.every_tile()) c.bounds(view, depth, options);
   c.pixels(view, lights, depth, c.every_tile());
 }

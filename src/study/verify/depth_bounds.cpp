@@ -204,10 +204,7 @@ void bounds_none(Check& c) {
 // Random surfaces in every kind of view, under every mode and every cull test.
 void scattered(Check& c) {
   for (const NamedView& named : hard_views(63, 41)) {
-    Random random(8);
-    const DepthImage depth = scattered_depth(named.view, random);
-    auto lights = scattered_lights(named.view, 150, true, random);
-    move_to_world(named.view, lights);
+    const auto [depth, lights] = scattered_over_depth(named.view, 150, true, 8);
     std::vector<CullerOptions> settings = every_mode(8);
     for (const CullerOptions& options : c.every_test()) settings.push_back(options);
     settings.push_back(every_mode()[4]), settings.back().cull_test = CullTest::exact;

@@ -9,17 +9,9 @@ namespace {
 
 constexpr double inf = no_end, nan = std::numeric_limits<double>::quiet_NaN();
 
-const CullView& sixty() {
-  static const CullView view = field_of_view(60, 127, 73);
-  return view;
-}
-
 void tangent(Check& c, Contact contact, int ulps) {
   for (const NamedView& named : hard_views(127, 73)) {
-    Random random(31);
-    const auto bounds = scattered_bounds(named.view, 16, random);
-    auto lights = tangent_lights(named.view, bounds, 16, 400, contact, ulps, random);
-    move_to_world(named.view, lights);
+    const auto [bounds, lights] = tangent_over_tiles(named.view, 400, contact, 31, ulps);
     c.grid(named.view, lights, bounds);
   }
 }

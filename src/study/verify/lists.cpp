@@ -9,11 +9,6 @@
 namespace lightgrid::verify {
 namespace {
 
-const CullView& sixty() {
-  static const CullView view = field_of_view(60, 127, 73);
-  return view;
-}
-
 CullView small() { return field_of_view(60, 33, 17); }
 
 CullerOptions tile_of(int tile) {

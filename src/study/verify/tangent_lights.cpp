@@ -53,6 +53,30 @@ size_t some_cell(std::span<const DepthInterval> bounds, Random& random) {
 
 }  // namespace
 
+OverDepth scattered_over_depth(const CullView& view, size_t count, bool spots, uint64_t seed) {
+  Random random(seed);
+  OverDepth over{scattered_depth(view, random), {}};
+  over.lights = scattered_lights(view, count, spots, random);
+  move_to_world(view, over.lights);
+  return over;
+}
+
+OverTiles scattered_over_tiles(const CullView& view, size_t count, bool spots, uint64_t seed) {
+  Random random(seed);
+  OverTiles over{scattered_bounds(view, 16, random), {}};
+  over.lights = scattered_lights(view, count, spots, random);
+  move_to_world(view, over.lights);
+  return over;
+}
+
+OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact, uint64_t seed, int ulps) {
+  Random random(seed);
+  OverTiles over{scattered_bounds(view, 16, random), {}};
+  over.lights = tangent_lights(view, over.bounds, 16, count, contact, ulps, random);
+  move_to_world(view, over.lights);
+  return over;
+}
+
 CullLight point(const glm::dvec3& position, double radius) { return {.position = position, .radius_m = radius}; }
 
 CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double radius, double outer_deg) {

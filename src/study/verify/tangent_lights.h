@@ -26,6 +26,19 @@ std::vector<DepthInterval> scattered_bounds(const CullView& view, int tile, Rand
 // Surfaces at distances from 0.3 to 100 m, with sky in places; for any kind of view.
 DepthImage scattered_depth(const CullView& view, Random& random);
 
+// Lights over surfaces, or over the intervals of tiles, in world space; the same for the same seed.
+struct OverDepth {
+  DepthImage depth;
+  std::vector<CullLight> lights;
+};
+struct OverTiles {
+  std::vector<DepthInterval> bounds;
+  std::vector<CullLight> lights;
+};
+OverDepth scattered_over_depth(const CullView& view, size_t count, bool spots, uint64_t seed);
+OverTiles scattered_over_tiles(const CullView& view, size_t count, bool spots, uint64_t seed);  // of 16 pixels
+OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact, uint64_t seed, int ulps = 0);
+
 CullLight point(const glm::dvec3& position, double radius);
 CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double radius, double outer_deg);
 

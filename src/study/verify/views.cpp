@@ -44,6 +44,11 @@ CullView field_of_view(double fov_y_deg, int width, int height) {
   return view_through({.half_x = half_y * width / height, .half_y = half_y}, width, height);
 }
 
+const CullView& sixty() {
+  static const CullView view = field_of_view(60, 127, 73);
+  return view;
+}
+
 View oracle_view(const CullView& view) {
   View v{.width = view.width, .height = view.height, .view_from_world = view.view_from_world, .eye = view.eye};
   v.clip_from_view = view.clip_from_view;

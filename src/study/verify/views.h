@@ -22,6 +22,7 @@ struct Lens {
 };
 CullView view_through(const Lens& lens, int width, int height);
 CullView field_of_view(double fov_y_deg, int width, int height);
+const CullView& sixty();  // degrees; 127 x 73
 
 // The same as the oracle takes it (reference/position.h), which reads size, matrices and kind of projection.
 View oracle_view(const CullView& view);
