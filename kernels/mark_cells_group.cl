@@ -1,45 +1,221 @@
-// Which candidates of its bin may touch each cell, a bit each, for GPUs: one work-group of BIN_SIZE items takes a bin, an
-// item each of its tiles, and walks words of 32 candidates. All items read the same light at a time.
+// The lights that may touch each block of tiles, in their order, and a bit for each of them and each of the block's cells,
+// for GPUs: one work-group of GROUP items a block.
 //
-// pool, bins  as list_candidates_group.cl writes them; bins[].w += number of indices
-// bounds      as depth_bounds_group.cl writes them
-// slices      where there are some: as kernels/common/bin_cells.h says
-// marks       a bin's cells (BIN_SIZE slots, slices each), a word for each 32 candidates
+// views, light_marks  as project_lights_group.cl writes them
+// bounds    as depth_bounds_group.cl writes them
+// slices    where there are some: as kernels/common/bin_cells.h says
+// ids       the blocks' candidates, in units of 16: how many were asked for is in counters[0]
+// places    uint4 a block: where its candidates lie (in units), how many they are, where its marks lie (in units of 16
+//           words: counters[1]), 0
+// totals    number of indices, a block
+// marks     a block's cells (BLOCK_SIZE slots, slices each), a word for each 32 candidates
+// cells     uint2 a cell, of which .y: the number of its indices
+//
+// Where room runs out a block writes nothing and sets counters[3]; the host reads what was asked for and runs the kernels
+// again with more.
+// -DGROUP  items a group, a power of two, 64 at least (default 256)
+#ifndef GROUP
+#define GROUP 256
+#endif
 #define LANES 1
 #include "kernels/common/bin_cells.h"
+#include "kernels/common/append.h"
+#include "kernels/common/group_grid.h"
 
-kernel __attribute__((reqd_work_group_size(BIN_SIZE, 1, 1))) void mark_cells_group(
-    global const float* pool, global uint* bins, global const float* bounds, global const float2* slices,
-    global uint* marks, constant CullParams* p) {
-  local uint total;
-  const uint bin = get_group_id(0), slot = get_local_id(0);
-  const uint count = bins[4 * bin + 1], words = (count + 31) / 32;
-  if (get_group_id(1) >= words) return;
-  if (slot == 0) total = 0;
-  barrier(CLK_LOCAL_MEM_FENCE);
-  bounds += bin * BOUND_PLANES * BIN_SIZE;
-  marks += (size_t)bins[4 * bin + 2] * 16;
-  const size_t stride = (count + 15) / 16 * 16;
-  global const float* candidates = pool + (size_t)bins[4 * bin] * 16 * VIEW_ARRAYS;
-  const uint bx = bin % p->bins_x, by = bin / p->bins_x;
-  const int tx = (int)(bx * BIN_TILES + tile_x_of_slot(slot)), ty = (int)(by * BIN_TILES + tile_y_of_slot(slot));
-  uint kept = 0;
-  for (uint slice = 0; slice < p->slices; ++slice) {
+#define LIGHT_WORDS 2048              // words of lights' marks handled at once
+#define MARK_WORDS 32                 // words of candidates, likewise
+#define MARK_STRIDE (MARK_WORDS + 1)  // items that each read their own cell use other banks
+#define SPANS 6
+
+typedef struct Block {
+  int x, y;               // in tiles
+  uint bin_x, bin_y, first_slot;
+  global const float* bounds;
+  global const float2* slices;
+  local TestCell* cells;  // where tiles have one cell each
+} Block;
+
+static inline bool holds_something(const TestCell* c) {
+  bool some = false;
+  for (int i = 0; i < INTERVALS; ++i) some |= c->parts[i].near <= c->parts[i].far;
+  return some;
+}
+
+static inline bool cell_in_block(const Block* block, uint slot, uint slice, TestCell* c, constant CullParams* p) {
+#ifdef SLICES
+  return make_test_cell(block->bounds, block->bin_x, block->bin_y, block->first_slot + slot, slice, block->slices, c, p);
+#else
+  *c = block->cells[slot];
+  return holds_something(c);
+#endif
+}
+
+// The box around all that the block's tiles show; near > far where that is nothing. Makes block->cells.
+// spans: near, x0, y0, -far, -x1, -y1 of each tile: their least are the box.
+static inline Cell block_box(const Block* block, local float* spans, constant CullParams* p) {
+  const uint item = get_local_id(0);
+  if (item < BLOCK_SIZE) {
+    const uint slot = block->first_slot + item;
+    float least[SPANS] = {NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, NOTHING};
+    const TileSides sides = tile_sides(block->x + (int)tile_x_of_slot(item), block->y + (int)tile_y_of_slot(item), p);
+    for (int i = 0; i < INTERVALS; ++i) {
+      const float near = at_slot(block->bounds, 2 * i, slot), far = at_slot(block->bounds, 2 * i + 1, slot);
+      if (near > far) continue;
+      const Box box = box_between(sides, near, far, p);
+      least[0] = min(least[0], near), least[1] = min(least[1], box.x0), least[2] = min(least[2], box.y0);
+      least[3] = min(least[3], -far), least[4] = min(least[4], -box.x1), least[5] = min(least[5], -box.y1);
+    }
+    for (int i = 0; i < SPANS; ++i) spans[item * SPANS + i] = least[i];
+#ifndef SLICES
     TestCell cell;
-    const bool some = make_test_cell(bounds, bx, by, slot, slice, slices, &cell, p);
-    for (uint w = get_group_id(1); w < words; w += get_num_groups(1)) {
-      uint bits = 0;
-      const uint lights = some ? min(32u, count - w * 32) : 0u;
-      for (uint i = 0; i < lights; ++i) {
-        global const float* light = candidates + w * 32 + i;
-        const TileRect rect = {as_int(light[VIEW_FIRST * stride]), as_int(light[VIEW_LAST * stride])};
-        if (rect_meets(rect, tx | ty << 16, tx | ty << 16) && light_may_touch(light, stride, &cell, p)) bits |= 1u << i;
-      }
-      marks[((size_t)slot * p->slices + slice) * words + w] = bits;
-      kept += popcount(bits);
+    make_test_cell(block->bounds, block->bin_x, block->bin_y, slot, 0, block->slices, &cell, p);
+    block->cells[item] = cell;
+#endif
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item < SPANS) {
+    float least = spans[item];
+    for (uint i = 1; i < BLOCK_SIZE; ++i) least = min(least, spans[i * SPANS + item]);
+    spans[item] = least;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  Cell c = {spans[0], -spans[3], spans[1], -spans[4], spans[2], -spans[5]};
+  return c;
+}
+
+// Of the lights in `bits`, from `first` on, those that may touch the block.
+static inline uint touch_block(uint bits, global const float4* first, const Cell* box) {
+  uint kept = 0;
+  for (; bits; bits &= bits - 1) {
+    const uint bit = lowest_bit(bits);
+    if (may_touch_coarsely(record_sphere(first + bit * RECORD), box)) kept |= 1u << bit;
+  }
+  return kept;
+}
+
+// Appends the block's candidates to `ids` and returns how many they are. Lights are those that the marks of its column and
+// of its row share; where they are few words, several items take a part of each.
+static inline uint list_candidates(global const uint* column, global const uint* row, uint words,
+                                   global const float4* views, const Cell* box, global uint* ids, local uint* kept,
+                                   local uint* scratch) {
+  const uint item = get_local_id(0);
+  uint parts = 1;
+  while (parts < 8 && words * parts * 2 <= GROUP) parts *= 2;
+  const uint share = 32 / parts;  // bits
+  uint n = 0;
+  for (uint base = 0; base < words; base += LIGHT_WORDS) {
+    const uint some = min((uint)LIGHT_WORDS, words - base), each = (some + GROUP - 1) / GROUP;
+    for (uint i = item; i < some; i += GROUP) kept[i] = 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint i = item; i < some * parts; i += GROUP) {
+      const uint w = base + i / parts, mine = 0xffffffffu >> (32 - share) << i % parts * share;
+      const uint touching = touch_block(column[w] & row[w] & mine, views + (size_t)w * 32 * RECORD, box);
+      if (touching) atomic_or(&kept[i / parts], touching);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    const uint from = min(item * each, some), to = min(from + each, some);
+    uint count = 0;
+    for (uint i = from; i < to; ++i) count += popcount(kept[i]);
+    const uint2 place = append_place(count, scratch);
+    uint k = n + place.x;
+    for (uint i = from; i < to; ++i) {
+      for (uint bits = kept[i]; bits; bits &= bits - 1, ++k) ids[k] = (base + i) * 32 + lowest_bit(bits);
+    }
+    n += place.y;
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  return n;
+}
+
+static inline ViewLight record_light(global const float4* record) {
+  ViewLight light;
+  light.sphere = record_sphere(record);
+#ifdef SPOTS
+  const float4 v = record[2];
+  light.cone.x = v.x, light.cone.y = v.y, light.cone.d = v.z, light.cone.cosine = v.w;
+#endif
+  return light;
+}
+
+// Sets the bits of candidates `ids` in the marks of the block's cells of one slice; an item takes a row of tiles of a
+// light.
+static inline void mark_cells(global const uint* ids, uint count, global const float4* views, const Block* block,
+                              uint slice, local uint* marks, constant CullParams* p) {
+  for (uint i = get_local_id(0); i < count * BLOCK_TILES; i += GROUP) {
+    const uint k = i / BLOCK_TILES;
+    const int row = (int)(i % BLOCK_TILES);
+    global const float4* record = views + (size_t)ids[k] * RECORD;
+    const TileRect rect = record_rect(record);
+    const ViewLight light = record_light(record);
+    if (row < (rect.first >> 16) - block->y || row > (rect.last >> 16) - block->y) continue;
+    const int end = min((rect.last & 0xffff) - block->x, (int)BLOCK_TILES - 1);
+    for (int x = max((rect.first & 0xffff) - block->x, 0); x <= end; ++x) {
+      const uint slot = slot_of_tile((uint)x, (uint)row);
+      TestCell cell;
+      if (!cell_in_block(block, slot, slice, &cell, p) || !view_light_may_touch(light, &cell, p)) continue;
+      atomic_or(&marks[slot * MARK_STRIDE + k / 32], 1u << k % 32);
     }
   }
-  atomic_add(&total, kept);
+}
+
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
+    global const float4* views, global const uint* light_marks, global const float* bounds, global const float2* slices,
+    global uint* ids, global uint4* places, global uint* totals, global uint* marks, global uint2* cells,
+    global volatile uint* counters, constant CullParams* p) {
+  local uint scratch[APPEND_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
+  local float spans[SPANS * BLOCK_SIZE];
+  local TestCell made[BLOCK_SIZE];
+  local uint most, ids_at, marks_at, total;
+  const uint index = get_group_id(0), item = get_local_id(0), bin = index / BIN_BLOCKS;
+  const Block block = {block_x(index, p), block_y(index, p), bin % p->bins_x, bin / p->bins_x, index % BIN_BLOCKS * BLOCK_SIZE,
+                       bounds + bin * BOUND_PLANES * BIN_SIZE, slices, made};
+  const uint line_words = light_mark_words(p);
+  global const uint* column = light_marks + (size_t)(block.x / (int)BLOCK_TILES) * line_words;
+  global const uint* row = light_marks + (size_t)(BLOCKS_X(p) + block.y / BLOCK_TILES) * line_words;
+  const uint all_words = (p->light_count + 31) / 32;
+  uint seen = 0;
+  for (uint w = item; w < all_words; w += GROUP) seen += popcount(column[w] & row[w]);
+  if (item == 0) most = total = 0u;
+  const Cell box = block_box(&block, spans, p);
+  const bool some = box.near <= box.far;
+  if (seen) atomic_add(&most, seen);
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (slot == 0) atomic_add((global volatile uint*)&bins[4 * bin + 3], total);
+  const uint units = some ? (most + 15) / 16 : 0u;
+  if (item == 0) ids_at = atomic_add(counters, units);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const bool room = (ulong)ids_at + units <= p->pool_blocks;
+  ids += (size_t)ids_at * 16;
+  const uint count = list_candidates(column, row, some && room ? all_words : 0u, views, &box, ids, kept, scratch);
+
+  const uint words = (count + 31) / 32, mark_units = words * (BLOCK_SIZE / 16) * p->slices;
+  uint mark_units_at = 0;
+  if (item == 0) mark_units_at = atomic_add(counters + 1, mark_units);
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
+    uint listed = 0;
+    for (uint base = 0; base < words; base += MARK_WORDS) {
+      const uint n = min((uint)MARK_WORDS, words - base);
+      for (uint i = item; i < BLOCK_SIZE * MARK_STRIDE; i += GROUP) cell_marks[i] = 0u;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      mark_cells(ids + base * 32, min(n * 32, count - base * 32), views, &block, slice, cell_marks, p);
+      if (item == 0) marks_at = mark_units_at;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      const bool fits = (ulong)marks_at + mark_units <= p->staging_units;
+      global uint* to = marks + (size_t)marks_at * 16 + base;
+      for (uint i = item; fits && i < BLOCK_SIZE * n; i += GROUP) {
+        to[((size_t)(i / n) * p->slices + slice) * words + i % n] = cell_marks[i / n * MARK_STRIDE + i % n];
+      }
+      for (uint w = 0; item < BLOCK_SIZE && w < n; ++w) listed += popcount(cell_marks[item * MARK_STRIDE + w]);
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    uint cell;
+    if (item < BLOCK_SIZE && cell_of(index, item, slice, &cell, p)) cells[cell].y = listed;
+    if (item < BLOCK_SIZE) atomic_add(&total, listed);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item != 0) return;
+  const bool fits = room && (ulong)mark_units_at + mark_units <= p->staging_units;
+  places[index] = fits ? (uint4)(ids_at, count, mark_units_at, 0u) : (uint4)(0u);
+  totals[index] = fits ? total : 0u;
+  if (!fits) counters[3] = 1u;
 }

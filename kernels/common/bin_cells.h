@@ -35,15 +35,22 @@ static inline mask_t mask_meets(ViewSphere s, const TestCell* c) {
 }
 #endif
 
-// lights: arrays of light_arrays.h, at the first of LANES lights. The cell holds something.
-static inline mask_t light_may_touch(global const float* lights, size_t stride, const TestCell* c, constant CullParams* p) {
-  const ViewSphere s = load_sphere(lights, stride);
+typedef struct ViewLight {
+  ViewSphere sphere;
+#ifdef SPOTS
+  ViewCone cone;
+#endif
+} ViewLight;
+
+// The cell holds something.
+static inline mask_t view_light_may_touch(ViewLight light, const TestCell* c, constant CullParams* p) {
+  const ViewSphere s = light.sphere;
   mask_t keep = 0;
   for (int i = 0; i < INTERVALS; ++i) {
     if (INTERVALS > 1 && c->parts[i].near > c->parts[i].far) continue;
     mask_t touch = may_touch(s, &c->parts[i], p);
 #ifdef SPOTS
-    touch &= cone_may_touch(s, load_cone(lights + VIEW_CONE * stride, stride), &c->parts[i]);
+    touch &= cone_may_touch(s, light.cone, &c->parts[i]);
 #endif
     keep |= touch;
   }
@@ -51,6 +58,16 @@ static inline mask_t light_may_touch(global const float* lights, size_t stride, 
   keep &= mask_meets(s, c);
 #endif
   return keep;
+}
+
+// lights: arrays of light_arrays.h, at the first of LANES lights.
+static inline mask_t light_may_touch(global const float* lights, size_t stride, const TestCell* c, constant CullParams* p) {
+  ViewLight light;
+  light.sphere = load_sphere(lights, stride);
+#ifdef SPOTS
+  light.cone = load_cone(lights + VIEW_CONE * stride, stride);
+#endif
+  return view_light_may_touch(light, c, p);
 }
 
 static inline float at_slot(global const float* bounds, uint plane, uint slot) { return bounds[plane * BIN_SIZE + slot]; }

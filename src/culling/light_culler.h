@@ -135,8 +135,8 @@ struct CullerOptions {
   int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights. More than those take 32 in any case
   bool pixel_centres = true;   // cells span their pixels' centres, which is all that is shaded; false: whole pixels
   bool portable = false;       // no builtins of one kind of CPU
-  int group_size = 0;          // work-items that gather a bin's candidates in the group shape: 64, 128, 256, 512 or 1024, as
-                               // far as the device allows; 0: 1024
+  int group_size = 0;          // work-items that cull a block of 4 x 4 tiles in the group shape: 64, 128, 256, 512 or 1024,
+                               // as far as the device allows; 0: 256
 };
 
 // All that the culling kernels read, as it lies in the device's memory: for a check that does their work by other means.

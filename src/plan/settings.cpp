@@ -107,7 +107,7 @@ const std::vector<Setting>& all_settings() {
        "plain OpenCL C alone, without the builtins that some kinds of CPU have",
        {choice("off", &Settings::portable, false), choice("on", &Settings::portable, true)}},
       {"group-size",
-       "work-items that gather a bin's candidate lights, in the group shape",
+       "work-items that cull a block of 4 x 4 tiles, in the group shape",
        {choice("auto", &Settings::group_size, 0), choice("64", &Settings::group_size, 64),
         choice("128", &Settings::group_size, 128), choice("256", &Settings::group_size, 256),
         choice("512", &Settings::group_size, 512), choice("1024", &Settings::group_size, 1024)}},

@@ -44,7 +44,7 @@ struct Settings {
   LidrOrder lidr_order = LidrOrder::priority;
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
   bool portable = false;       // kernels without the builtins of one kind of CPU
-  int group_size = 0;          // work-items of the group shape that gather a bin's candidates; 0: the most there can be
+  int group_size = 0;          // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against
   std::set<std::string> given{};  // keys that apply_setting has set
 };

@@ -113,11 +113,11 @@ TEST(LightCuller, RefusesOptionsThatAreNone) {
   EXPECT_EQ(message_of({}), "");
 }
 
-// Lights in several chunks of the smallest group.
+// More lights, and more candidates of a block, than any group takes at once (mark_cells_group.cl).
 TEST(LightCuller, GivesTheSameGridWithAnyGroupSize) {
   const View view = view_of(127, 73, 60);
   std::vector<ViewLight> lights;
-  for (int i = 0; i < 5000; ++i) lights.push_back(point_light({0.01 * (i % 100) - 0.5, 0.002 * (i % 37), -1 - 0.001 * i}, 0.2));
+  for (int i = 0; i < 70000; ++i) lights.push_back(point_light({0.01 * (i % 100) - 0.5, 0.002 * (i % 37), -1 - 0.0004 * i}, 0.2));
   const std::vector<glm::vec2> intervals(tile_count(view, 16), {1, 9});
   const CulledGrid lanes = cull_cells(view, lights, intervals, {.shape = KernelShape::lanes});
   for (const int size : {0, 64, 128, 256, 512, 1024}) {

@@ -7,7 +7,7 @@ namespace {
 
 using Formula = KernelCost (*)(const KernelWork&);
 
-constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4;
+constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4, id_bytes = 4;
 constexpr double place_bytes = 16, z_bin_word_bytes = 4;
 constexpr double bin_tiles = 64;
 
@@ -46,14 +46,10 @@ const std::map<std::string, Formula>& formulas() {
       {"compact_lists",
        [](const KernelWork& w) { return KernelCost{2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0.0}; }},
       // For GPUs.
-      {"list_candidates",
-       [](const KernelWork& w) {
-         return KernelCost{interval_bytes * w.tiles + view_bytes(w) * (w.lights + 2 * least_candidates(w)),
-                           box_flops * least_candidates(w)};
-       }},
       {"mark_cells",
        [](const KernelWork& w) {
-         return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + cell_mark_bytes(w),
+         return KernelCost{interval_bytes * w.tiles + w.lights / 8.0 + (view_bytes(w) + 2 * id_bytes) * least_candidates(w) +
+                               cell_mark_bytes(w) + count_bytes * w.cells,
                            test_flops(w) * w.indices};
        }},
       {"fill_lists",
