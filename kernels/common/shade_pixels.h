@@ -70,8 +70,8 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, uint index, con
 // In the order of the list: the sum of the GL loop.
 #if defined(Z_BINS) && LANES == 16
 #define STRETCH 64u
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
-                                const Lights* lights) {
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count,
+                                PixelBins bins, const Lights* lights) {
   uint met[STRETCH];
   for (uint begin = 0; begin < count; begin += STRETCH) {
     const uint end = min(begin + STRETCH, count);
@@ -86,8 +86,8 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const i
   return sum;
 }
 #else
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
-                                const Lights* lights) {
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count,
+                                PixelBins bins, const Lights* lights) {
   for (uint i = 0; i < count; ++i) {
 #ifdef Z_BINS
     if (!bins_meet(lights->bins[list[i]], bins.first, bins.last)) continue;

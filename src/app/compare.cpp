@@ -76,18 +76,20 @@ void check_comparisons(const std::vector<Contestant>& contestants, const std::ve
   for (const std::string& comparison : comparisons) {
     const std::string key = comparison.substr(0, comparison.find('='));
     const auto reads = [&](const Contestant& c) { return reads_setting(*c.technique, key); };
-    if (std::ranges::none_of(contestants, reads)) throw input_error("--compare {}: no technique of -t reads {}", comparison, key);
+    if (std::ranges::any_of(contestants, reads)) continue;
+    throw input_error("--compare {}: no technique of -t reads {}", comparison, key);
   }
 }
 
-// All are held against one image of every light: with another BRDF, what differs would be taken for a technique's error.
+// All are held against one image of every light: of another BRDF, what differs would be taken for a technique's error.
 void check_brdf(const std::vector<Contestant>& contestants) {
   const Contestant& first = contestants.front();
   const auto brdf_of = [](const Contestant& c) { return to_strings(c.settings).at("brdf"); };
   for (const Contestant& c : contestants) {
     if (c.settings.brdf == first.settings.brdf) continue;
-    throw input_error("compare: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose with --brdf",
-                      first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
+    throw input_error(
+        "compare: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose with --brdf",
+        first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
   }
 }
 

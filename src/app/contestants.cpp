@@ -45,7 +45,8 @@ std::vector<BenchContestant> culling_contestants(const Settings& base, const std
   for (const std::string& comparison : comparisons) {
     const std::string key = comparison.substr(0, comparison.find('='));
     if (std::ranges::count(culling_settings(), key) > 0) continue;
-    throw input_error("--compare {}: culling does not read {}; it reads {}", comparison, key, fmt::join(culling_settings(), ", "));
+    throw input_error("--compare {}: culling does not read {}; it reads {}", comparison, key,
+                      fmt::join(culling_settings(), ", "));
   }
   return contestants;
 }

@@ -47,7 +47,8 @@ class TileShading : public Kept {
   // Built at first use.
   cl::Kernel& kernel(Frame& f, const GBuffer& gbuffer) {
     cl::Kernel& kernel = kernels_[holds_own_light(gbuffer)];
-    if (!kernel()) kernel = f.devices.programs->kernel(lanes ? "shade_tiles_lanes" : "shade_tiles_group", defines(f, gbuffer));
+    if (kernel()) return kernel;
+    kernel = f.devices.programs->kernel(lanes ? "shade_tiles_lanes" : "shade_tiles_group", defines(f, gbuffer));
     return kernel;
   }
 
@@ -121,16 +122,16 @@ void add_light(Frame& f, TileShading& s, const LightGrid& grid, const GBuffer& g
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(f.params.tiles_x, f.params.tiles_y)
                                     : cl::NDRange(whole(f.view.width), whole(f.view.height));
-  const glm::vec3 background = holds_own_light(gbuffer) ? glm::vec3(0) : f.scene.background;  // in the image already, or not
+  const bool own_light = holds_own_light(gbuffer);
+  const glm::vec3 background = own_light ? glm::vec3(0) : f.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? f.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
-  launch(*f.devices.cl, "shade_tiles", s.kernel(f, gbuffer), items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
-         s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(), f.depth_copy().cl_buffer(), s.places, s.colors, s.cones,
+  launch(*f.devices.cl, "shade_tiles", s.kernel(f, gbuffer), items,
+         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(), f.depth_copy().cl_buffer(), s.places, s.colors, s.cones,
          f.opaque_grid().cells(grid.cell_bytes), f.opaque_grid().indices(grid.index_bytes), light_bins, s.bin_edges,
          s.image.cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}}, s.view);
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(pixels * (gbuffer.layout->bytes() + 4 + (holds_own_light(gbuffer) ? 16 : 0)) + grid.cell_bytes + grid.index_bytes +
-                 grid.z_bin_bytes,
-             pixels * 16);
+  const size_t surface_bytes = gbuffer.layout->bytes() + 4 + (own_light ? 16 : 0);
+  pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings
 // With one slice where the grid has none, and z-bins likewise.
 Settings grid_settings(Settings settings, const TechniqueNeeds& needs);
 
-// The frame's view in those slices and z-bins, from the near plane to frame.surfaces_far_m or, where nobody knows it, to the
-// farthest surface.
+// The frame's view in those slices and z-bins, from the near plane to frame.surfaces_far_m or, where nobody knows it,
+// to the farthest surface.
 CullView cull_view_of(const CapturedFrame& frame, const Settings& settings);
 
 cl::Buffer upload_depth(ClDevice& device, const CapturedFrame& frame);
@@ -35,8 +35,8 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
 
 class FrameCuller {
  public:
-  // What settings leave open is as tuned for the device. settings.tile decides, not the frame's own. Uploads depth and lights;
-  // the frame may go then.
+  // What settings leave open is as tuned for the device. settings.tile decides, not the frame's own. Uploads depth and
+  // lights; the frame may go then.
   FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings,
               const TechniqueNeeds& needs = {});
 

@@ -121,8 +121,9 @@ TEST(BenchCommand, ComparesSettingsInTurnAndPrintsRatios) {
 }
 
 TEST(BenchCommand, RunsTheKernelsThatTheSettingsAskForAndWaitsForThem) {
-  const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "2", "--set", "slice-spacing=linear", "--compare", "slices=1,8",
-                                            "--compare", "z-bins=off,64", "--compare", "grid-lists=lists,masks"});
+  const auto report =
+      bench_of_small_frame({"--filter", "wall/", "--frames", "2", "--set", "slice-spacing=linear", "--compare", "slices=1,8",
+                            "--compare", "z-bins=off,64", "--compare", "grid-lists=lists,masks"});
   const auto rows = rows_named(report, "pipeline");
   ASSERT_EQ(rows.size(), 8u);
   const auto z_bins = rows_named(report, "light_z_bins"), masks = rows_named(report, "lists_to_masks");
@@ -133,10 +134,13 @@ TEST(BenchCommand, RunsTheKernelsThatTheSettingsAskForAndWaitsForThem) {
     EXPECT_EQ(row["bytes"], 40 * (16 + 4) + 64 * 8);
     EXPECT_FALSE(row.contains("ratio_to_first")) << "the first contestant has none";
   }
-  const auto cells = [](const nlohmann::json& row) { return row["params"]["settings"]["slices"] == "8" ? 20 * 12 * 8 : 20 * 12; };
+  const auto cells = [](const nlohmann::json& row) {
+    return 20 * 12 * (row["params"]["settings"]["slices"] == "8" ? 8 : 1);
+  };
   for (const auto& row : masks) {
     EXPECT_EQ(row["params"]["settings"]["grid_lists"], "masks");
-    EXPECT_EQ(row["bytes"], cells(row) * (8 + 2 * 4) + 2 * row["params"]["indices"].get<int>()) << "40 lights are two words";
+    const int index_bytes = 2 * row["params"]["indices"].get<int>(), words = 2;  // of a mask of 40 lights
+    EXPECT_EQ(row["bytes"], cells(row) * (8 + words * 4) + index_bytes);
   }
   for (const auto& row : rows) {
     EXPECT_TRUE(row["bytes"].is_number()) << "every kernel's cost is known";
@@ -151,7 +155,7 @@ TEST(BenchCommand, ListsPerSliceWhatTheCullCommandLists) {
   const std::string frame = write_small_frame(folder.path);
   for (const std::vector<std::string>& set : {std::vector<std::string>{"--set", "depth-bounds=none"},
                                               {"--set", "depth-bounds=none", "--set", "slices=16"}}) {
-    std::vector<std::string> culls = {"cull", frame, "-o", (folder.path / "grid").string(), "--frames", "1", "--json", "-"};
+    std::vector<std::string> culls = {"cull", frame, "-o", folder.path / "grid", "--frames", "1", "--json", "-"};
     culls.insert(culls.end(), set.begin(), set.end());
     const ProgramRun cull = run_program(culls);
     ASSERT_EQ(cull.status, 0) << cull.err;
@@ -164,7 +168,8 @@ TEST(BenchCommand, ListsPerSliceWhatTheCullCommandLists) {
 
 TEST(BenchCommand, RefusesToCompareWhatCullingDoesNotRead) {
   const TempFolder folder;
-  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--compare", "brdf=ggx,blinn"});
+  const std::string frame = write_small_frame(folder.path);
+  const ProgramRun run = run_program({"bench", "--replay", frame, "--compare", "brdf=ggx,blinn"});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("--compare brdf=ggx,blinn: culling does not read brdf; it reads cull-test"));
 }

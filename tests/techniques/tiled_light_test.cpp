@@ -76,8 +76,8 @@ struct Loss {
   double unexplained = 0;  // by what the geometry buffer rounds
 };
 
-// Own light (ambient, emission) is in the image before anything is rounded. The rest of the loss must be what the oracle
-// makes of the surfaces as they were stored.
+// Own light (ambient, emission) is in the image before anything is rounded. The rest of the loss must be what the
+// oracle makes of the surfaces as they were stored.
 Loss loss_of(const Scene& scene, const View& view, const Image& forward, int bits) {
   TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique("deferred_tiled"));
   run.run_frame();
@@ -89,7 +89,8 @@ Loss loss_of(const Scene& scene, const View& view, const Image& forward, int bit
   for (uint32_t i = 0; i < depth.size(); ++i) {
     if (depth[i] > 0 && !drawn.blended[i] && drawn.emissive_occlusion.pixels[i].w >= 0) pixels.push_back(i);
   }
-  const std::vector<glm::dvec3> rounded = shade_in_double(f, kept, depth, pixels), exact = shade_in_double(f, drawn, depth, pixels);
+  const std::vector<glm::dvec3> rounded = shade_in_double(f, kept, depth, pixels);
+  const std::vector<glm::dvec3> exact = shade_in_double(f, drawn, depth, pixels);
   const double brightest = brightest_channel(forward);
   Loss loss;
   for (size_t k = 0; k < pixels.size(); ++k) {
@@ -105,7 +106,8 @@ TEST(TiledLight, LosesIn16And8BitsJustWhatTheGeometryBufferRounds) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 95, 53);
   const Image forward = render(scene, view, "forward");
-  const Loss in_32 = loss_of(scene, view, forward, 32), in_16 = loss_of(scene, view, forward, 16), in_8 = loss_of(scene, view, forward, 8);
+  const Loss in_32 = loss_of(scene, view, forward, 32), in_16 = loss_of(scene, view, forward, 16);
+  const Loss in_8 = loss_of(scene, view, forward, 8);
   for (const Loss& loss : {in_32, in_16, in_8}) EXPECT_LT(loss.unexplained, exact_enough);
   EXPECT_LT(in_32.image, exact_enough);
   EXPECT_GT(in_16.image, exact_enough) << "else nothing was explained";

@@ -29,7 +29,8 @@ void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings set
   TechniqueRun off(test_devices(), scene, view, settings, find_technique(technique));
   on.run_frame(), off.run_frame();
   EXPECT_TRUE(identical(on.image(), off.image()));
-  const LitPairs with = count_listed_pairs(on, read_depth(on.frame())), without = count_listed_pairs(off, read_depth(off.frame()));
+  const LitPairs with = count_listed_pairs(on, read_depth(on.frame()));
+  const LitPairs without = count_listed_pairs(off, read_depth(off.frame()));
   EXPECT_EQ(with.lost, 0u);
   EXPECT_EQ(with.lit, without.lit);
   EXPECT_LE(with.listed, without.listed);

@@ -76,7 +76,7 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
     const ContestantParams about{c.name, params_of(frame, contestants[i].compared, *runs[i]), work_of(frame, *runs[i])};
     std::vector<BenchRow> found = contestant_rows(about, measured.runs[i], measured, limits);
     for (BenchRow& row : found) {
-      const auto first = std::find_if(of_first.begin(), of_first.end(), [&](const BenchRow& r) { return r.name == row.name; });
+      const auto first = std::ranges::find(of_first, row.name, &BenchRow::name);
       if (first != of_first.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
     }
     if (i == 0) of_first = found;

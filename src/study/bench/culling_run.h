@@ -12,8 +12,8 @@ namespace lightgrid {
 
 class CullingRun {
  public:
-  // Uploads the lights and runs twice, so that kernels are built and memory has its size. Slices and z-bins are those that
-  // were set by name. Runs of one frame share its depth, so that none finds it colder than another does.
+  // Uploads the lights and runs twice, so that kernels are built and memory has its size. Slices and z-bins are those
+  // that were set by name. Runs of one frame share its depth, so that none finds it colder than another does.
   CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const cl::Buffer& depth,
              const Settings& settings);
 

@@ -57,7 +57,8 @@ const std::map<std::string, Formula>& formulas() {
       // Where the settings ask for what they make.
       {"light_z_bins",
        [](const KernelWork& w) {
-         return KernelCost{(place_bytes + z_bin_word_bytes) * w.lights + interval_bytes * w.z_bins, range_flops * w.lights};
+         const double bytes = (place_bytes + z_bin_word_bytes) * w.lights + interval_bytes * w.z_bins;
+         return KernelCost{bytes, range_flops * w.lights};
        }},
       {"lists_to_masks",
        [](const KernelWork& w) { return KernelCost{cell_bytes * w.cells + w.index_bytes + w.mask_bytes, 0.0}; }},
