@@ -155,13 +155,21 @@ static inline uint list_cell(Candidates few, int tile, const TestCell* cell, glo
 #define BINS 1
 #endif
 
-// Room for `lists` lists of `blocks` x 16 lights, or null.
-static inline global float* allocate(global float* pool, uint lists, uint blocks, global volatile uint* counters,
-                                     constant CullParams* p) {
-  const uint at = atomic_add(counters, lists * blocks);
-  if ((ulong)at + lists * blocks <= p->pool_blocks) return pool + (size_t)at * 16 * VIEW_ARRAYS;
-  counters[3] = 1u;
-  return 0;
+// Room for candidates that a work-item keeps from bin to bin: what it wrote for one is still in its cache for the next.
+typedef struct Room {
+  global float* at;
+  uint blocks;  // of 16 lights
+} Room;
+
+// Makes it `blocks` blocks at least. Returns whether there was room.
+static inline bool make_room(Room* room, uint blocks, global float* pool, global volatile uint* counters,
+                             constant CullParams* p) {
+  if (room->blocks >= blocks) return true;
+  const uint at = atomic_add(counters, blocks);
+  room->at = pool + (size_t)at * 16 * VIEW_ARRAYS;
+  room->blocks = (ulong)at + blocks <= p->pool_blocks ? blocks : 0u;
+  if (room->blocks == 0) counters[3] = 1u;
+  return room->blocks != 0;
 }
 
 #if BINS > 1
@@ -186,18 +194,18 @@ static inline uint select_lights(Lights all, int x, int y, global float* to, siz
 #endif
 
 static inline void cull_bin(const Lights* lights, uint bin, global const float* bounds, global const float2* slices,
-                            global float* pool, global index_t* staged, global uint* cell_counts, global uint2* bins,
-                            global volatile uint* counters, constant CullParams* p) {
+                            Room* room, global float* pool, global index_t* staged, global uint* cell_counts,
+                            global uint2* bins, global volatile uint* counters, constant CullParams* p) {
   const uint bx = bin % p->bins_x, by = bin / p->bins_x;
   BinTiles tiles;
   Cell whole_bin, blocks[4], quads[16];
   make_bin_tiles(bounds, bx, by, &tiles, quads, blocks, &whole_bin, p);
   if (lights->count == 0 || whole_bin.near > whole_bin.far) return;
 
-  const uint room = (lights->count / 16 + 2) | 1u;  // odd: arrays a power of two apart would collide in the cache
-  global float* lists = allocate(pool, 3, room, counters, p);
-  if (!lists) return;
-  const size_t stride = room * 16, step = stride * VIEW_ARRAYS;
+  const uint blocks_each = (lights->count / 16 + 2) | 1u;  // odd: arrays a power of two apart would collide in the cache
+  if (!make_room(room, 3 * blocks_each, pool, counters, p)) return;
+  global float* lists = room->at;
+  const size_t stride = blocks_each * 16, step = stride * VIEW_ARRAYS;
   Candidates all = {lists, stride, 0}, some = {lists + step, stride, 0}, few = {lists + 2 * step, stride, 0};
   uint pairs;
   all.count = gather(*lights, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
@@ -234,11 +242,11 @@ static inline void cull_bin(const Lights* lights, uint bin, global const float* 
   bins[bin] = (uint2)(place, written);
 }
 
-kernel void cull_lanes(global const float* lists, global const uint* counts, uint runs, global const float* bounds,
-                       global const float2* slices, global float* pool, global index_t* staged, global uint* cell_counts,
-                       global uint2* bins, global volatile uint* counters, constant CullParams* p) {
-  const uint items_x = (p->bins_x + BINS - 1) / BINS;
-  const uint bx0 = get_global_id(0) % items_x * BINS, by0 = get_global_id(0) / items_x * BINS;
+// BINS x BINS bins from (bx0, by0) on.
+static inline void cull_bins(uint bx0, uint by0, global const float* lists, global const uint* counts, uint runs,
+                             global const float* bounds, global const float2* slices, Room* rooms, global float* pool,
+                             global index_t* staged, global uint* cell_counts, global uint2* bins,
+                             global volatile uint* counters, constant CullParams* p) {
   const uint bx1 = min(bx0 + BINS, p->bins_x), by1 = min(by0 + BINS, p->bins_y);
   const uint region = by0 / p->region_bins * p->regions_x + bx0 / p->region_bins;
   const size_t list_stride = p->light_stride + 16;
@@ -255,18 +263,28 @@ kernel void cull_lanes(global const float* lists, global const uint* counts, uin
     }
   }
 #if BINS > 1
-  const uint room = lights.count / 16 + 2;
-  global float* selected = allocate(pool, 1, room, counters, p);
-  if (!selected) return;
-  const uint n = select_lights(lights, bx0 * BIN_TILES, by0 * BIN_TILES, selected, room * 16);
-  const Lights fewer = {selected, room * 16, 0, 1, room, n};
+  const uint blocks = lights.count / 16 + 2;
+  if (!make_room(&rooms[1], blocks, pool, counters, p)) return;
+  const uint n = select_lights(lights, bx0 * BIN_TILES, by0 * BIN_TILES, rooms[1].at, blocks * 16);
+  const Lights fewer = {rooms[1].at, blocks * 16, 0, 1, blocks, n};
   lights = fewer;
 #endif
   for (uint by = by0; by < by1; ++by) {
     for (uint bx = bx0; bx < bx1; ++bx) {
       const uint bin = by * p->bins_x + bx;
-      cull_bin(&lights, bin, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, pool, staged,
+      cull_bin(&lights, bin, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, &rooms[0], pool, staged,
                cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins, counters, p);
     }
+  }
+}
+
+kernel void cull_lanes(global const float* lists, global const uint* counts, uint runs, global const float* bounds,
+                       global const float2* slices, global float* pool, global index_t* staged, global uint* cell_counts,
+                       global uint2* bins, global volatile uint* counters, constant CullParams* p) {
+  const uint across = (p->bins_x + BINS - 1) / BINS, down = (p->bins_y + BINS - 1) / BINS;
+  Room rooms[2] = {{0, 0u}, {0, 0u}};
+  for (uint i = get_global_id(0); i < across * down; i += get_global_size(0)) {
+    cull_bins(i % across * BINS, i / across * BINS, lists, counts, runs, bounds, slices, rooms, pool, staged, cell_counts,
+              bins, counters, p);
   }
 }

@@ -8,11 +8,11 @@
 
 #include "kernels/common/cell.h"
 
-// Squared distance from the centre to the cell's box.
+// Squared distance from the centre to the cell's box; NaN for a light that is none.
 static inline real box_distance2(ViewSphere s, const Cell* c) {
-  const real x = lane_max(lane_max(c->box_x0 - s.x, s.x - c->box_x1), (real)(0.0f));
-  const real y = lane_max(lane_max(c->box_y0 - s.y, s.y - c->box_y1), (real)(0.0f));
-  const real d = lane_max(lane_max(c->near - s.d, s.d - c->far), (real)(0.0f));
+  const real x = s.x - lane_min(lane_max(s.x, (real)(c->box_x0)), (real)(c->box_x1));
+  const real y = s.y - lane_min(lane_max(s.y, (real)(c->box_y0)), (real)(c->box_y1));
+  const real d = s.d - lane_min(lane_max(s.d, (real)(c->near)), (real)(c->far));
   return x * x + y * y + d * d;
 }
 
@@ -76,7 +76,7 @@ static inline mask_t may_touch_coarsely(ViewSphere s, const Cell* c) {
 #if CULL_TEST == CULL_SPHERE || CULL_TEST == CULL_PLANES
   return (s.d + s.r >= c->near) & (s.d - s.r <= c->far);
 #else
-  return box_distance2(s, c) <= s.r * s.r;
+  return (box_distance2(s, c) > s.r * s.r) == (mask_t)(0);
 #endif
 }
 
@@ -85,7 +85,7 @@ static inline mask_t may_touch(ViewSphere s, const Cell* c, constant CullParams*
 #if CULL_TEST == CULL_SPHERE
   return sphere_may_touch(s, c);
 #elif CULL_TEST == CULL_EXACT
-  return exact_may_touch(box_distance2(s, c) <= s.r * s.r, s, c, p->orthographic);
+  return exact_may_touch((box_distance2(s, c) > s.r * s.r) == (mask_t)(0), s, c, p->orthographic);
 #else
   return may_touch_coarsely(s, c);
 #endif

@@ -8,6 +8,7 @@
 namespace lightgrid {
 namespace {
 
+constexpr size_t items_a_unit = 16;  // each takes bins far apart, so that all have about the same to do
 constexpr size_t spare = 64;  // values that a vector load or store may reach past the last
 
 class LanesPipeline : public CullPipeline {
@@ -36,7 +37,9 @@ class LanesPipeline : public CullPipeline {
     launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, lists_.get(),
            run_counts_.get(), job.counters, job.params_buffer);
     const uint side = options.many_lights ? 2 : 1;
-    const size_t items = size_t((job.params.bins_x + side - 1) / side) * ((job.params.bins_y + side - 1) / side);
+    const size_t parts = size_t((job.params.bins_x + side - 1) / side) * ((job.params.bins_y + side - 1) / side);
+    const size_t most = items_a_unit * size_t(device_.info().compute_units), rounds = (parts + most - 1) / most;
+    const size_t items = (parts + rounds - 1) / rounds;
     launch(device_, "cull_lights", cull_, cl::NDRange(items), cl::NDRange(1), lists_.get(), run_counts_.get(),
            cl_uint(runs_), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(),
            job.counters, job.params_buffer);
