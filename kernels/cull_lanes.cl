@@ -1,9 +1,9 @@
-// Lights to the cells of each bin, for CPUs: one work-item takes a bin, gathers its candidates from its region's list,
-// narrows them for each block of 4 x 4 tiles where they are many, and for each quad of 2 x 2, and tests what is left
-// against each cell, 16 lights at a time. Lists come out sorted. Compare: Olsson, Assarsson, "Tiled Shading" (2011); Olsson, Billeter, Assarsson, "Clustered Deferred and
-// Forward Shading" (2012) where there are slices.
+// Lights to the cells of each bin, for CPUs: one work-item takes bins, gathers the lights of one at a time from its region's
+// list, narrows them for each block of 4 x 4 tiles where they are many, and for each quad of 2 x 2, and tests what is left against each
+// cell, 16 lights at a time. Lists come out sorted. Compare: Olsson, Assarsson, "Tiled Shading" (2011); Olsson, Billeter,
+// Assarsson, "Clustered Deferred and Forward Shading" (2012) where there are slices.
 //
-// lists, counts  as project_lights_lanes.cl writes them, `runs` counts a region
+// records, lists, counts  as project_lights_lanes.cl writes them, `runs` counts a region
 // bounds         as depth_bounds_lanes.cl writes them
 // slices         where there are some: as kernels/common/bin_cells.h says
 // pool           room for candidates, handed out in blocks of 16 lights: how many were asked for is in counters[0]
@@ -11,13 +11,11 @@
 // cell_counts    a bin's cells: BIN_SIZE slots, slices each
 // bins           uint2 a bin: where its lists lie in `staged`, in units, and how many indices they hold
 //
-// -DBINS: a work-item takes BINS x BINS bins of one region, and first narrows the region's list to them: pays for many
-// lights (default 1)
-//
 // Where room runs out a bin writes nothing and sets counters[3]; the host reads what was asked for and runs the kernels
 // again with more.
 #define LANES 16
 #include "kernels/common/bin_tiles.h"
+#include "kernels/common/light_records.h"
 
 #ifdef INDEX_32
 typedef uint index_t;
@@ -27,34 +25,50 @@ typedef ushort index_t;
 #define append_indices append_ushorts
 #endif
 
-// Candidates: the arrays of light_arrays.h, but for the rectangle: bits 0-7 its columns in the bin, 8-15 its rows.
-#define CANDIDATE_TILES VIEW_FIRST
+typedef struct Candidates {
+  global float* lights;  // arrays of kernels/common/light_arrays.h
+  size_t stride;
+  uint count;
+} Candidates;
 
-// The 16 lights at `from`, those that `bits` keeps, with their tiles.
-static inline uint append_lights(global float* to, size_t to_stride, global const float* from, size_t from_stride,
-                                 int16 tiles, uint bits) {
+// Those of the 16 lights at `from` that `bits` keeps. Returns how many.
+static inline uint append_lights(global float* to, global const float* from, size_t stride, uint bits) {
 #ifdef AVX512
 #pragma unroll
-  for (uint a = 0; a < VIEW_ARRAYS; ++a) {
-    if (a != VIEW_FIRST && a != VIEW_LAST) append_reals(to + a * to_stride, vload16(0, from + a * from_stride), bits);
-  }
-  append_reals(to + CANDIDATE_TILES * to_stride, as_float16(tiles), bits);
+  for (uint a = 0; a < VIEW_ARRAYS; ++a) append_reals(to + a * stride, vload16(0, from + a * stride), bits);
 #else
-  int lanes[16];
-  vstore16(tiles, 0, lanes);
   for (uint left = bits; left; left &= left - 1, ++to) {
     const uint i = lowest_bit(left);
-    for (uint a = 0; a < VIEW_ARRAYS; ++a) {
-      if (a != VIEW_FIRST && a != VIEW_LAST) to[a * to_stride] = from[a * from_stride + i];
-    }
-    to[CANDIDATE_TILES * to_stride] = as_float(lanes[i]);
+    for (uint a = 0; a < VIEW_ARRAYS; ++a) to[a * stride] = from[a * stride + i];
   }
 #endif
   return popcount(bits);
 }
 
-static inline uint append_array(global float* to, global const float* from, uint bits) {
-  append_reals(to, vload16(0, from), bits);
+// The same of 16 records.
+static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles, global const uint* ids,
+                                  global const float* records, uint bits) {
+#ifdef AVX512
+  append_reals(to + VIEW_X * stride, l.sphere.x, bits), append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
+  append_reals(to + VIEW_D * stride, l.sphere.d, bits), append_reals(to + VIEW_R * stride, l.sphere.r, bits);
+  append_reals(to + VIEW_TILES * stride, as_float16(tiles), bits);
+  append_reals(to + VIEW_ID * stride, as_float16(vload16(0, ids)), bits);
+#ifdef SPOTS
+  append_reals(to + VIEW_CONE * stride, l.cone.x, bits), append_reals(to + (VIEW_CONE + 1) * stride, l.cone.y, bits);
+  append_reals(to + (VIEW_CONE + 2) * stride, l.cone.d, bits);
+  append_reals(to + (VIEW_CONE + 3) * stride, l.cone.cosine, bits);
+#endif
+#else
+  int lanes[16];
+  vstore16(tiles, 0, lanes);
+  for (uint left = bits; left; left &= left - 1, ++to) {
+    const uint i = lowest_bit(left);
+    global const float* record = records + ids[i] * (size_t)RECORD;
+    for (uint a = 0; a < 4; ++a) to[a * stride] = record[a];
+    to[VIEW_TILES * stride] = as_float(lanes[i]), to[VIEW_ID * stride] = as_float(ids[i]);
+    for (uint a = VIEW_CONE; a < VIEW_ARRAYS; ++a) to[a * stride] = record[RECORD_CONE + a - VIEW_CONE];
+  }
+#endif
   return popcount(bits);
 }
 
@@ -75,45 +89,44 @@ static inline int16 tiles_in_bin(TileRect rect, int x, int y, int16* count) {
   return ((one << (x1 + 1)) - (one << x0)) | ((one << (y1 + 1)) - (one << y0)) << 8;
 }
 
-// A list of lights in parts, one a run of project_lights_lanes.cl.
-typedef struct Lights {
-  global const float* values;
-  size_t stride;
-  global const uint* counts;  // null: `count` in one part
-  uint runs, blocks;          // of 16 lights, over all runs
-  uint count;                 // over all runs
-} Lights;
+// The indices of the lights in a region, in parts, one a run of project_lights_lanes.cl.
+typedef struct RegionLights {
+  global const uint* tiles;
+  size_t stride;  // from tiles to spans, and on to indices
+  global const uint* counts;
+  uint runs, blocks;  // of 16 lights, over all runs
+} RegionLights;
 
-#define FIRST_OF_RUN(lights, run) ((uint)((ulong)(lights).blocks * (run) / (lights).runs) * 16)
-#define COUNT_OF_RUN(lights, run) ((int)((lights).counts ? (lights).counts[run] : (lights).count))
+// The lights that meet what the bin asks, in order. The last of them fills the list up to a multiple of 16.
+static inline uint select_lights(RegionLights all, BinAsks asks, global uint* ids) {
+  uint n = 0;
+  for (uint run = 0; run < all.runs; ++run) {
+    global const uint* tiles = all.tiles + (uint)((ulong)all.blocks * run / all.runs) * 16;
+    const int count = (int)all.counts[run];
+    for (int i = 0; i < count; i += 16, tiles += 16) {
+      const uint bits = mask_bits(meets_bin(vload16(0, tiles), vload16(0, tiles + all.stride), asks) & (i + LANE_INDEX < count));
+      append_uints(ids + n, as_int16(vload16(0, tiles + 2 * all.stride)), bits);
+      n += popcount(bits);
+    }
+  }
+  for (uint i = n; i % 16 != 0; ++i) ids[i] = ids[n - 1];
+  return n;
+}
 
-typedef struct Candidates {
-  global float* lights;
-  size_t stride;
-  uint count;
-} Candidates;
-
-// Lights that may touch the bin, in order; *pairs: a bound of the pairs they make with its tiles.
-static inline uint gather(Lights all, int x, int y, const Cell* bin, Candidates out, uint* pairs) {
-  const size_t stride = all.stride;
-  const int first = x | y << 16, last = (x + 7) | (y + 7) << 16;
+// Of the lights `ids` those that may touch the bin's box, in order; *pairs: a bound of the pairs they make with its tiles.
+static inline uint gather(global const uint* ids, uint count, global const float* records, int x, int y, const Cell* bin,
+                          Candidates out, uint* pairs) {
   uint n = 0;
   int16 sum = 0;
-  for (uint run = 0; run < all.runs; ++run) {
-    global const float* from = all.values + FIRST_OF_RUN(all, run);
-    const int count = COUNT_OF_RUN(all, run);
-    for (int i = 0; i < count; i += 16, from += 16) {
-      const TileRect rect = {as_int16(vload16(0, from + VIEW_FIRST * stride)), as_int16(vload16(0, from + VIEW_LAST * stride))};
-      const int16 meets = rect_meets(rect, first, last) & (i + LANE_INDEX < count);
-      if (mask_bits(meets) == 0) continue;
-      const int16 keep = meets & may_touch_coarsely(load_sphere(from, stride), bin);
-      const uint bits = mask_bits(keep);
-      if (bits == 0) continue;
-      int16 pairs_each;
-      const int16 tiles = tiles_in_bin(rect, x, y, &pairs_each);
-      n += append_lights(out.lights + n, out.stride, from, stride, tiles, bits);
-      sum += keep & pairs_each;
-    }
+  for (uint i = 0; i < count; i += 16) {
+    const LightRecords l = load_records(records, ids + i);
+    const int16 keep = may_touch_coarsely(l.sphere, bin) & ((int)i + LANE_INDEX < (int)count);
+    const uint bits = mask_bits(keep);
+    if (bits == 0) continue;
+    int16 pairs_each;
+    const int16 tiles = tiles_in_bin(l.tiles, x, y, &pairs_each);
+    n += append_records(out.lights + n, out.stride, l, tiles, ids + i, records, bits);
+    sum += keep & pairs_each;
   }
   const int8 a = sum.lo + sum.hi;
   const int4 b = a.lo + a.hi;
@@ -128,21 +141,21 @@ static inline uint narrow(Candidates all, uint x, uint y, uint side, const Cell*
   uint n = 0;
   for (uint i = 0; i < all.count; i += 16) {
     global const float* from = all.lights + i;
-    const int16 tiles = as_int16(vload16(0, from + CANDIDATE_TILES * all.stride));
+    const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * all.stride));
     const int16 keep = ((tiles & columns) != 0) & ((tiles & rows) != 0) & ((int)i + LANE_INDEX < (int)all.count) &
                        may_touch_coarsely(load_sphere(from, all.stride), &b);
     const uint bits = mask_bits(keep);
-    if (bits != 0) n += append_lights(out + n, all.stride, from, all.stride, tiles, bits);
+    if (bits != 0) n += append_lights(out + n, from, all.stride, bits);
   }
   return n;
 }
 
-// The lights of one cell, written to `list`; `tile` is its tile as CANDIDATE_TILES has it. Returns how many.
+// The lights of one cell, written to `list`; `tile` is its tile as VIEW_TILES has it. Returns how many.
 static inline uint list_cell(Candidates few, int tile, const TestCell* cell, global index_t* list, constant CullParams* p) {
   uint n = 0;
   for (uint i = 0; i < few.count; i += 16) {
     global const float* from = few.lights + i;
-    const int16 tiles = as_int16(vload16(0, from + CANDIDATE_TILES * few.stride));
+    const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * few.stride));
     const int16 held = ((tiles & tile) == tile) & ((int)i + LANE_INDEX < (int)few.count);
     const uint bits = mask_bits(held & light_may_touch(from, few.stride, cell, p));
     n += append_ids(list + n, from + VIEW_ID * few.stride, bits);
@@ -151,9 +164,6 @@ static inline uint list_cell(Candidates few, int tile, const TestCell* cell, glo
 }
 
 #define MANY 256  // candidates from which on blocks pay
-#ifndef BINS
-#define BINS 1
-#endif
 
 // Room for candidates that a work-item keeps from bin to bin: what it wrote for one is still in its cache for the next.
 typedef struct Room {
@@ -172,43 +182,31 @@ static inline bool make_room(Room* room, uint blocks, global float* pool, global
   return room->blocks != 0;
 }
 
-#if BINS > 1
-// The lights whose rectangle meets tiles x, y, ... of BINS x BINS bins, in order.
-static inline uint select_lights(Lights all, int x, int y, global float* to, size_t to_stride) {
-  const int first = x | y << 16, last = (x + BINS * (int)BIN_TILES - 1) | (y + BINS * (int)BIN_TILES - 1) << 16;
-  uint n = 0;
-  for (uint run = 0; run < all.runs; ++run) {
-    global const float* from = all.values + FIRST_OF_RUN(all, run);
-    const int count = COUNT_OF_RUN(all, run);
-    for (int i = 0; i < count; i += 16, from += 16) {
-      const TileRect rect = {as_int16(vload16(0, from + VIEW_FIRST * all.stride)),
-                             as_int16(vload16(0, from + VIEW_LAST * all.stride))};
-      const uint bits = mask_bits(rect_meets(rect, first, last) & (i + LANE_INDEX < count));
-      if (bits == 0) continue;
-      append_lights(to + n, to_stride, from, all.stride, rect.first, bits);
-      n += append_array(to + VIEW_LAST * to_stride + n, from + VIEW_LAST * all.stride, bits);
-    }
-  }
-  return n;
-}
-#endif
-
-static inline void cull_bin(const Lights* lights, uint bin, global const float* bounds, global const float2* slices,
-                            Room* room, global float* pool, global index_t* staged, global uint* cell_counts,
-                            global uint2* bins, global volatile uint* counters, constant CullParams* p) {
-  const uint bx = bin % p->bins_x, by = bin / p->bins_x;
+// rooms: for the indices of a bin's lights, and for its candidates.
+static inline void cull_bin(uint bx, uint by, global const float* records, RegionLights lights,
+                            global const float* bounds, global const float2* slices, Room* rooms, global float* pool,
+                            global index_t* staged, global uint* cell_counts, global uint2* lists,
+                            global volatile uint* counters, constant CullParams* p) {
+  *lists = (uint2)(0u);
+  for (uint i = 0; i < BIN_SIZE * SLICE_COUNT; i += 16) vstore16((uint16)(0u), 0, cell_counts + i);
+  uint light_count = 0;
+  for (uint run = 0; run < lights.runs; ++run) light_count += lights.counts[run];
   BinTiles tiles;
   Cell whole_bin, blocks[4], quads[16];
   make_bin_tiles(bounds, bx, by, &tiles, quads, blocks, &whole_bin, p);
-  if (lights->count == 0 || whole_bin.near > whole_bin.far) return;
+  if (light_count == 0 || whole_bin.near > whole_bin.far) return;
 
-  const uint blocks_each = (lights->count / 16 + 2) | 1u;  // odd: arrays a power of two apart would collide in the cache
-  if (!make_room(room, 3 * blocks_each, pool, counters, p)) return;
-  global float* lists = room->at;
+  if (!make_room(&rooms[0], light_count / (16 * VIEW_ARRAYS) + 2, pool, counters, p)) return;
+  global uint* ids = (global uint*)rooms[0].at;
+  const uint in_region_x = bx % p->region_bins * BIN_TILES, in_region_y = by % p->region_bins * BIN_TILES;
+  const uint count = select_lights(lights, asks_of_bin(in_region_x, in_region_y, &whole_bin), ids);
+  const uint blocks_each = (count / 16 + 2) | 1u;  // odd: arrays a power of two apart would collide in the cache
+  if (!make_room(&rooms[1], 3 * blocks_each, pool, counters, p)) return;
+  global float* candidates = rooms[1].at;
   const size_t stride = blocks_each * 16, step = stride * VIEW_ARRAYS;
-  Candidates all = {lists, stride, 0}, some = {lists + step, stride, 0}, few = {lists + 2 * step, stride, 0};
+  Candidates all = {candidates, stride, 0}, some = {candidates + step, stride, 0}, few = {candidates + 2 * step, stride, 0};
   uint pairs;
-  all.count = gather(*lights, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
+  all.count = gather(ids, count, records, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
   const ulong wanted = (ulong)pairs * SLICE_COUNT / 16 + 2;
   const uint units = wanted > 0x0fffffffu ? 0x0fffffffu : (uint)wanted;
   const uint place = atomic_add(counters + 1, units);
@@ -239,52 +237,25 @@ static inline void cull_bin(const Lights* lights, uint bin, global const float* 
       }
     }
   }
-  bins[bin] = (uint2)(place, written);
+  *lists = (uint2)(place, written);
 }
 
-// BINS x BINS bins from (bx0, by0) on.
-static inline void cull_bins(uint bx0, uint by0, global const float* lists, global const uint* counts, uint runs,
-                             global const float* bounds, global const float2* slices, Room* rooms, global float* pool,
-                             global index_t* staged, global uint* cell_counts, global uint2* bins,
-                             global volatile uint* counters, constant CullParams* p) {
-  const uint bx1 = min(bx0 + BINS, p->bins_x), by1 = min(by0 + BINS, p->bins_y);
-  const uint region = by0 / p->region_bins * p->regions_x + bx0 / p->region_bins;
-  const size_t list_stride = p->light_stride + 16;
-  Lights lights = {lists + (size_t)region * VIEW_ARRAYS * list_stride, list_stride, counts + region * runs, runs,
-                   p->light_stride / 16, 0};
-  for (uint run = 0; run < runs; ++run) lights.count += lights.counts[run];
-  for (uint by = by0; by < by1; ++by) {
-    for (uint bx = bx0; bx < bx1; ++bx) {
-      const uint bin = by * p->bins_x + bx;
-      bins[bin] = (uint2)(0u);
-      for (uint i = 0; i < BIN_SIZE * SLICE_COUNT; i += 16) {
-        vstore16((uint16)(0u), 0, cell_counts + bin * BIN_SIZE * SLICE_COUNT + i);
-      }
-    }
-  }
-#if BINS > 1
-  const uint blocks = lights.count / 16 + 2;
-  if (!make_room(&rooms[1], blocks, pool, counters, p)) return;
-  const uint n = select_lights(lights, bx0 * BIN_TILES, by0 * BIN_TILES, rooms[1].at, blocks * 16);
-  const Lights fewer = {rooms[1].at, blocks * 16, 0, 1, blocks, n};
-  lights = fewer;
-#endif
-  for (uint by = by0; by < by1; ++by) {
-    for (uint bx = bx0; bx < bx1; ++bx) {
-      const uint bin = by * p->bins_x + bx;
-      cull_bin(&lights, bin, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, &rooms[0], pool, staged,
-               cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins, counters, p);
-    }
-  }
-}
-
-kernel void cull_lanes(global const float* lists, global const uint* counts, uint runs, global const float* bounds,
-                       global const float2* slices, global float* pool, global index_t* staged, global uint* cell_counts,
-                       global uint2* bins, global volatile uint* counters, constant CullParams* p) {
-  const uint across = (p->bins_x + BINS - 1) / BINS, down = (p->bins_y + BINS - 1) / BINS;
+kernel void cull_lanes(global const float* records, global const uint* lists, global const uint* counts, uint runs,
+                       global const float* bounds, global const float2* slices, global float* pool,
+                       global index_t* staged, global uint* cell_counts, global uint2* bins,
+                       global volatile uint* counters, constant CullParams* p) {
   Room rooms[2] = {{0, 0u}, {0, 0u}};
-  for (uint i = get_global_id(0); i < across * down; i += get_global_size(0)) {
-    cull_bins(i % across * BINS, i / across * BINS, lists, counts, runs, bounds, slices, rooms, pool, staged, cell_counts,
-              bins, counters, p);
+  const size_t stride = p->light_stride + 16;
+  const uint across = (p->bins_x + 1) / 2, down = (p->bins_y + 1) / 2;
+  // Four neighbors at a time: they share most of their lights.
+  for (uint quad = get_global_id(0); quad < across * down; quad += get_global_size(0)) {
+    for (uint i = 0; i < 4; ++i) {
+      const uint bx = quad % across * 2 + (i & 1), by = quad / across * 2 + (i >> 1), bin = by * p->bins_x + bx;
+      if (bx >= p->bins_x || by >= p->bins_y) continue;
+      const uint region = by / p->region_bins * p->regions_x + bx / p->region_bins;
+      const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs, p->light_stride / 16};
+      cull_bin(bx, by, records, lights, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, rooms, pool, staged,
+               cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins + bin, counters, p);
+    }
   }
 }

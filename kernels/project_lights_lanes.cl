@@ -1,41 +1,39 @@
-// Lights to view space, sorted into regions of the screen, for CPUs: one work-item takes a run of lights, 16 at a time,
-// and appends each to the list of every region that its tile rectangle meets.
+// Lights to view space, and sorted into regions of the screen, for CPUs: one work-item takes a run of lights, 16 at a time,
+// and appends the index of each to the list of every region that its tile rectangle meets.
 //
 // lights    as kernels/common/light_arrays.h says
-// lists     a region's lights: VIEW_ARRAYS arrays of light_stride + 16 each. A work-item's part begins where its run
-//           does, so that parts never meet
+// records   as kernels/common/light_records.h says
+// lists     a region's lights: their tiles there, their spans of distances (kernels/common/light_records.h), their indices:
+//           light_stride + 16 words each. A work-item's part begins where its run does, so that parts never meet
 // counts    of a region: one a work-item
 // counters  [0], [1], [3], [4], [5] set to 0, for the kernels that follow
 #define LANES 16
-#include "kernels/common/light_arrays.h"
+#include "kernels/common/light_records.h"
 
 #define BLOCKS 32  // of 16 lights, projected before they are handed out: both steps stay in the first cache
-#define HELD (BLOCKS * 16)
 
 typedef struct Held {
-  float values[VIEW_ARRAYS][HELD];
+  int first[BLOCKS * 16], last[BLOCKS * 16], span[BLOCKS * 16];
 } Held;
 
-static inline void project_block(global const float* lights, uint at, uint n, Held* held, constant CullParams* p) {
+static inline void project_block(global const float* lights, global float* records, uint block, uint b, Held* held,
+                                 constant CullParams* p) {
   const size_t stride = p->light_stride;
-  global const float* l = lights + at;
+  global const float* l = lights + block * 16;
   const float16 radius = LOAD(l + 3 * stride);
-  const ViewSphere s = view_sphere(LOAD(l), LOAD(l + stride), LOAD(l + 2 * stride), radius, p);
-  const TileRect rect = tile_rect(s, radius, p);
-  vstore16(s.x, 0, held->values[VIEW_X] + n), vstore16(s.y, 0, held->values[VIEW_Y] + n);
-  vstore16(s.d, 0, held->values[VIEW_D] + n), vstore16(s.r, 0, held->values[VIEW_R] + n);
-  vstore16(as_float16(rect.first), 0, held->values[VIEW_FIRST] + n);
-  vstore16(as_float16(rect.last), 0, held->values[VIEW_LAST] + n);
-  vstore16(as_float16((int)at + LANE_INDEX), 0, held->values[VIEW_ID] + n);
+  LightRecords r;
+  r.sphere = view_sphere(LOAD(l), LOAD(l + stride), LOAD(l + 2 * stride), radius, p);
+  r.tiles = tile_rect(r.sphere, radius, p);
 #ifdef SPOTS
-  const ViewCone k = view_cone(l, stride, p);
-  vstore16(k.x, 0, held->values[VIEW_CONE] + n), vstore16(k.y, 0, held->values[VIEW_CONE + 1] + n);
-  vstore16(k.d, 0, held->values[VIEW_CONE + 2] + n), vstore16(k.cosine, 0, held->values[VIEW_CONE + 3] + n);
+  r.cone = view_cone(l, stride, p);
 #endif
+  store_records(r, records + block * 16 * (size_t)RECORD);
+  vstore16(r.tiles.first, b, held->first), vstore16(r.tiles.last, b, held->last);
+  vstore16(as_int16(span_of(r.sphere)), b, held->span);
 }
 
-kernel void project_lights_lanes(global const float* lights, global float* lists, global uint* counts,
-                                 global uint* counters, constant CullParams* p) {
+kernel void project_lights_lanes(global const float* lights, global float* records, global uint* lists,
+                                 global uint* counts, global uint* counters, constant CullParams* p) {
   const uint item = get_global_id(0), items = get_global_size(0);
   const uint blocks = p->light_stride / 16, regions = p->regions_x * p->regions_y;
   const uint from = (uint)((ulong)blocks * item / items), to = (uint)((ulong)blocks * (item + 1) / items);
@@ -46,26 +44,19 @@ kernel void project_lights_lanes(global const float* lights, global float* lists
   Held held;
   for (uint base = from; base < to; base += BLOCKS) {
     const uint n = min((uint)BLOCKS, to - base);
-    for (uint b = 0; b < n; ++b) project_block(lights, (base + b) * 16, b * 16, &held, p);
+    for (uint b = 0; b < n; ++b) project_block(lights, records, base + b, b, &held, p);
     for (uint r = 0; r < regions; ++r) {
       const int x = (int)(r % p->regions_x) * side, y = (int)(r / p->regions_x) * side;
       const int first = x | y << 16, last = (x + side - 1) | (y + side - 1) << 16;
-      global float* list = lists + r * VIEW_ARRAYS * stride + from * 16;
+      global uint* list = lists + r * 3 * stride + from * 16;
       uint count = counts[r * items + item];
       for (uint b = 0; b < n; ++b) {
-        const TileRect rect = {as_int16(vload16(b, held.values[VIEW_FIRST])), as_int16(vload16(b, held.values[VIEW_LAST]))};
+        const TileRect rect = {vload16(b, held.first), vload16(b, held.last)};
         const uint bits = mask_bits(rect_meets(rect, first, last));
-        if (bits == 0) continue;
-#ifdef AVX512
-#pragma unroll
-        for (uint a = 0; a < VIEW_ARRAYS; ++a) append_reals(list + a * stride + count, vload16(b, held.values[a]), bits);
+        append_uints(list + count, as_int16(tiles_in_region(rect, x, y)), bits);
+        append_uints(list + stride + count, vload16(b, held.span), bits);
+        append_uints(list + 2 * stride + count, (int)((base + b) * 16) + LANE_INDEX, bits);
         count += popcount(bits);
-#else
-        for (uint left = bits; left; left &= left - 1, ++count) {
-          const uint i = b * 16 + lowest_bit(left);
-          for (uint a = 0; a < VIEW_ARRAYS; ++a) list[a * stride + count] = held.values[a][i];
-        }
-#endif
       }
       counts[r * items + item] = count;
     }

@@ -7,19 +7,25 @@
 // axis and the outer half-angle's cosine (2 where there is none). Readable up to a multiple of 16 lights.
 #define WORLD_ARRAYS 8
 
-// Lights in view space: centre and radius with slack; the tiles they can be seen in; the index; the cone.
+// Lights in view space, an array each: centre and radius with slack; the tiles they can be seen in; the index; the cone.
 #define VIEW_X 0
 #define VIEW_Y 1
 #define VIEW_D 2
 #define VIEW_R 3
+#if LANES == 16
+#define VIEW_TILES 4  // of one bin: bits 0-7 its columns, 8-15 its rows
+#define VIEW_ID 5
+#define VIEW_CONE 6   // four arrays
+#else
 #define VIEW_FIRST 4  // TileRect
 #define VIEW_LAST 5
 #define VIEW_ID 6
+#define VIEW_CONE 7
+#endif
 #ifdef SPOTS
-#define VIEW_CONE 7   // four arrays
-#define VIEW_ARRAYS 11
+#define VIEW_ARRAYS (VIEW_CONE + 4)
 #else
-#define VIEW_ARRAYS 7
+#define VIEW_ARRAYS VIEW_CONE
 #endif
 
 #if LANES == 16

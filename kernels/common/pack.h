@@ -32,10 +32,10 @@ static inline uint mask_bits(mask_t m) {
   return (uint)(e.x | e.y);
 }
 
-static inline void append_reals(global float* to, real v, uint bits) {
-  float lanes[16];
+static inline void append_uints(global uint* to, whole v, uint bits) {
+  int lanes[16];
   vstore16(v, 0, lanes);
-  for (uint left = bits; left; left &= left - 1) *to++ = lanes[lowest_bit(left)];
+  for (uint left = bits; left; left &= left - 1) *to++ = (uint)lanes[lowest_bit(left)];
 }
 #endif
 #define any_lane(m) (mask_bits(m) != 0)

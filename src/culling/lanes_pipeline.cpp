@@ -17,14 +17,15 @@ class LanesPipeline : public CullPipeline {
       : CullPipeline(options), device_(device) {
     const std::string builtins = options.avx512 ? " -DAVX512" : "", defines = options.defines + builtins;
     project_ = programs.kernel("project_lights_lanes", options.light_defines + builtins);
-    cull_ = programs.kernel("cull_lanes", defines + (options.many_lights ? " -DBINS=2" : ""));
+    cull_ = programs.kernel("cull_lanes", defines);
     compact_ = programs.kernel("compact_lanes", std::string(options.index_bytes == 4 ? "-DINDEX_32" : "") + (options.avx512 ? " -DAVX512" : ""));
   }
 
   void prepare(const CullParams& p) override {
     const size_t regions = size_t(p.regions_x) * p.regions_y, bins = size_t(p.bins_x) * p.bins_y;
     runs_ = std::clamp<uint>(p.light_stride / 512, 1, std::max(4, 2 * device_.info().compute_units));
-    lists_.at_least(device_, (regions * options.view_arrays * (p.light_stride + 16) + spare) * sizeof(float));
+    records_.at_least(device_, size_t(p.light_stride) * (options.view_arrays > 6 ? 12 : 8) * sizeof(float));
+    lists_.at_least(device_, (regions * 3 * (p.light_stride + 16) + spare) * sizeof(cl_uint));
     run_counts_.at_least(device_, regions * runs_ * sizeof(cl_uint));
     pool_.at_least(device_, (size_t(p.pool_blocks) * 16 * options.view_arrays + spare) * sizeof(float));
     staged_.at_least(device_, (size_t(p.staging_units) * 16 + spare) * options.index_bytes);
@@ -34,28 +35,26 @@ class LanesPipeline : public CullPipeline {
 
   void enqueue(const CullJob& job) override {
     const size_t bins = size_t(job.params.bins_x) * job.params.bins_y;
-    launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, lists_.get(),
+    launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, records_.get(), lists_.get(),
            run_counts_.get(), job.counters, job.params_buffer);
-    const uint side = options.many_lights ? 2 : 1;
-    const size_t parts = size_t((job.params.bins_x + side - 1) / side) * ((job.params.bins_y + side - 1) / side);
-    const size_t most = items_a_unit * size_t(device_.info().compute_units), rounds = (parts + most - 1) / most;
-    const size_t items = (parts + rounds - 1) / rounds;
-    launch(device_, "cull_lights", cull_, cl::NDRange(items), cl::NDRange(1), lists_.get(), run_counts_.get(),
-           cl_uint(runs_), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(),
-           job.counters, job.params_buffer);
+    const size_t quads = size_t((job.params.bins_x + 1) / 2) * ((job.params.bins_y + 1) / 2);
+    const size_t most = items_a_unit * size_t(device_.info().compute_units), rounds = (quads + most - 1) / most;
+    launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1), records_.get(),
+           lists_.get(), run_counts_.get(), runs_, job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(),
+           bins_.get(), job.counters, job.params_buffer);
     launch(device_, "compact_lists", compact_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
            staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
 
   size_t memory_bytes() const override {
-    return lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() + cell_counts_.bytes() + bins_.bytes();
+    return records_.bytes() + lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() + cell_counts_.bytes() + bins_.bytes();
   }
 
  private:
   ClDevice& device_;
-  uint runs_ = 1;
+  cl_uint runs_ = 1;
   cl::Kernel project_, cull_, compact_;
-  GrowingBuffer lists_, run_counts_, pool_, staged_, cell_counts_, bins_;
+  GrowingBuffer records_, lists_, run_counts_, pool_, staged_, cell_counts_, bins_;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
 constexpr uint lane_count = 16, depth_group = 256, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
-constexpr uint most_regions = 64, many_lights = 16384;
+constexpr uint most_regions = 64, most_region_bins = 16, many_lights = 16384;
 
 int planes_of(DepthBoundsMode mode) {
   if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
@@ -120,7 +120,9 @@ cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
 void LightCuller::choose_regions() {
   params_.region_bins = 4;
   const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
-  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions) params_.region_bins *= 2;
+  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions && params_.region_bins < most_region_bins) {
+    params_.region_bins *= 2;
+  }
   params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
 }
 
@@ -211,6 +213,11 @@ CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
   return in;
 }
 
+// As kernels/common/light_arrays.h has them.
+int LightCuller::candidate_floats() const {
+  return (options_.shape == KernelShape::lanes ? 6 : 7) + (cones_ ? 4 : 0);
+}
+
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
   // Asked at the first cull: who wants depth bounds alone builds nothing else.
@@ -218,7 +225,7 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   options.avx512 = *avx512_;
   options.group_size = options_.group_size;
   options.many_lights = light_count_ > many_lights;
-  options.view_arrays = cones_ ? 11 : 7;
+  options.view_arrays = candidate_floats();
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
   options.defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(mode),
@@ -251,7 +258,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
     return grid;
   }
   CullPipeline& kernels = pipeline(bounds.mode);
-  const size_t view_bytes = (cones_ ? 11 : 7) * sizeof(float);
+  const size_t view_bytes = candidate_floats() * sizeof(float);
   params_.pool_blocks = std::max(params_.pool_blocks, 2048 + light_stride_ / 4);
   params_.staging_units = std::max(params_.staging_units, params_.tiles_x * params_.tiles_y * 4);
   index_capacity_ = std::max<size_t>(index_capacity_, size_t(params_.tiles_x) * params_.tiles_y * 64);

@@ -1,0 +1,143 @@
+// Lights in view space as records, for CPUs: with all of a light in one place, lists of indices are enough to sort lights
+// by place, and any 16 of them become vectors in a few shuffles.
+//
+// A record: x, y, d, r; first and last of its TileRect; two unused; with cones the axis x, y, d and the cosine.
+#pragma once
+
+#include "kernels/common/light_arrays.h"
+
+#define RECORD_TILES 4
+#define RECORD_CONE 8
+#ifdef SPOTS
+#define RECORD 12
+#else
+#define RECORD 8
+#endif
+
+typedef struct LightRecords {
+  ViewSphere sphere;
+  TileRect tiles;
+#ifdef SPOTS
+  ViewCone cone;
+#endif
+} LightRecords;
+
+static inline float16 evens(float16 a, float16 b) { return (float16)(a.even, b.even); }
+static inline float16 odds(float16 a, float16 b) { return (float16)(a.odd, b.odd); }
+
+static inline float16 mixed(float8 a, float8 b) {  // a, b, a, b, ...
+  float16 m;
+  m.even = a, m.odd = b;
+  return m;
+}
+
+// The lights ids[0 ... 15].
+static inline LightRecords load_records(global const float* records, global const uint* ids) {
+  float16 even[4], odd[4];  // fields 0, 2, 4, 6 and 1, 3, 5, 7 of four lights each
+#pragma unroll
+  for (uint i = 0; i < 4; ++i) {
+    const float16 a = {vload8(0, records + ids[4 * i] * (size_t)RECORD), vload8(0, records + ids[4 * i + 1] * (size_t)RECORD)};
+    const float16 b = {vload8(0, records + ids[4 * i + 2] * (size_t)RECORD), vload8(0, records + ids[4 * i + 3] * (size_t)RECORD)};
+    even[i] = evens(a, b), odd[i] = odds(a, b);
+  }
+  const float16 x_first0 = evens(even[0], even[1]), x_first1 = evens(even[2], even[3]);
+  const float16 y_last0 = evens(odd[0], odd[1]), y_last1 = evens(odd[2], odd[3]);
+  LightRecords l;
+  l.sphere.x = evens(x_first0, x_first1), l.tiles.first = as_int16(odds(x_first0, x_first1));
+  l.sphere.y = evens(y_last0, y_last1), l.tiles.last = as_int16(odds(y_last0, y_last1));
+  l.sphere.d = evens(odds(even[0], even[1]), odds(even[2], even[3]));
+  l.sphere.r = evens(odds(odd[0], odd[1]), odds(odd[2], odd[3]));
+#ifdef SPOTS
+  float16 cone[4];  // four lights each
+#pragma unroll
+  for (uint i = 0; i < 4; ++i) {
+    global const float* c = records + RECORD_CONE;
+    cone[i].lo = (float8)(vload4(0, c + ids[4 * i] * (size_t)RECORD), vload4(0, c + ids[4 * i + 1] * (size_t)RECORD));
+    cone[i].hi = (float8)(vload4(0, c + ids[4 * i + 2] * (size_t)RECORD), vload4(0, c + ids[4 * i + 3] * (size_t)RECORD));
+  }
+  const float16 x_d0 = evens(cone[0], cone[1]), x_d1 = evens(cone[2], cone[3]);
+  const float16 y_cosine0 = odds(cone[0], cone[1]), y_cosine1 = odds(cone[2], cone[3]);
+  l.cone.x = evens(x_d0, x_d1), l.cone.d = odds(x_d0, x_d1);
+  l.cone.y = evens(y_cosine0, y_cosine1), l.cone.cosine = odds(y_cosine0, y_cosine1);
+#endif
+  return l;
+}
+
+// 16 lights one after the other.
+static inline void store_records(LightRecords l, global float* records) {
+  const float16 first = as_float16(l.tiles.first), last = as_float16(l.tiles.last), none = 0.0f;
+#pragma unroll
+  for (uint h = 0; h < 2; ++h) {  // eight lights each
+#define HALF(v) (h ? (v).hi : (v).lo)
+    const float16 x_first = mixed(HALF(l.sphere.x), HALF(first)), d_none = mixed(HALF(l.sphere.d), HALF(none));
+    const float16 y_last = mixed(HALF(l.sphere.y), HALF(last)), r_none = mixed(HALF(l.sphere.r), HALF(none));
+#pragma unroll
+    for (uint q = 0; q < 2; ++q) {  // four each
+#define QUARTER(v) (q ? (v).hi : (v).lo)
+      const float16 even = mixed(QUARTER(x_first), QUARTER(d_none)), odd = mixed(QUARTER(y_last), QUARTER(r_none));
+      const float16 a = mixed(even.lo, odd.lo), b = mixed(even.hi, odd.hi);
+      global float* to = records + (h * 8 + q * 4) * RECORD;
+      vstore8(a.lo, 0, to), vstore8(a.hi, 0, to + RECORD);
+      vstore8(b.lo, 0, to + 2 * RECORD), vstore8(b.hi, 0, to + 3 * RECORD);
+#undef QUARTER
+    }
+#ifdef SPOTS
+    const float16 x_d = mixed(HALF(l.cone.x), HALF(l.cone.d)), y_cosine = mixed(HALF(l.cone.y), HALF(l.cone.cosine));
+    const float16 a = mixed(x_d.lo, y_cosine.lo), b = mixed(x_d.hi, y_cosine.hi);
+    global float* to = records + h * 8 * RECORD + RECORD_CONE;
+    vstore4(a.lo.lo, 0, to), vstore4(a.lo.hi, 0, to + RECORD);
+    vstore4(a.hi.lo, 0, to + 2 * RECORD), vstore4(a.hi.hi, 0, to + 3 * RECORD);
+    vstore4(b.lo.lo, 0, to + 4 * RECORD), vstore4(b.lo.hi, 0, to + 5 * RECORD);
+    vstore4(b.hi.lo, 0, to + 6 * RECORD), vstore4(b.hi.hi, 0, to + 7 * RECORD);
+#endif
+#undef HALF
+  }
+}
+
+// What a light asks of a bin in a region, in two words. Each of their parts has its top bit set and loses it when more is
+// taken away than is there, so that one subtraction compares all parts.
+//
+// Tiles: last column and row, and how far the first ones are from column and row 127, a byte each.
+// Distances: the farthest, and how far the nearest is from the greatest one there is, 15 bits each: the upper half of a
+// float. Both round in the order of floats, so that nothing that overlaps comes apart.
+#define REGION_TILES 128u  // a side at most
+#define BYTE_TOPS 0x80808080u
+#define HALF_TOPS 0x80008000u
+
+// x, y: the region's first tile. The light meets it.
+static inline uint16 tiles_in_region(TileRect rect, int x, int y) {
+  const int16 zero = 0, most = (int)REGION_TILES - 1;  // vectors: with a number beside one, Oclgrind 21.10 reads past it
+  const int16 x0 = max((rect.first & 0xffff) - x, zero), x1 = min((rect.last & 0xffff) - x, most);
+  const int16 y0 = max((rect.first >> 16) - y, zero), y1 = min((rect.last >> 16) - y, most);
+  return as_uint16(x1 | y1 << 8 | (most - x0) << 16 | (most - y0) << 24) | BYTE_TOPS;
+}
+
+// 0 for all that is negative.
+static inline uint16 short_distance(float16 distance, float otherwise) {
+  const float16 some = distance >= 0.0f ? distance : (distance < 0.0f ? (float16)(0.0f) : (float16)(otherwise));
+  return as_uint16(some) >> 16;
+}
+
+// A light's span of distances. It is wider than the sphere's by more than the finer tests' roundings, so that none of them
+// would keep what this drops.
+static inline uint16 span_of(ViewSphere s) {
+  const float16 margin = 1e-6f * (fabs(s.d) + s.r);
+  const uint16 near = short_distance(s.d - s.r - margin, 0.0f), far = short_distance(s.d + s.r + margin, FAR_AWAY);
+  return far | (0x7fffu - near) << 16 | HALF_TOPS;
+}
+
+// The least words that meet the bin whose first tile is (x, y) of the region, and the distances that it spans.
+typedef struct BinAsks {
+  uint tiles, span;
+} BinAsks;
+
+static inline BinAsks asks_of_bin(uint x, uint y, const Cell* bin) {
+  const uint near = as_uint(max(bin->near, 0.0f)) >> 16, far = as_uint(max(bin->far, 0.0f)) >> 16;
+  const uint last = REGION_TILES - BIN_TILES;
+  const BinAsks asks = {x | y << 8 | (last - x) << 16 | (last - y) << 24, near | (0x7fffu - far) << 16};
+  return asks;
+}
+
+static inline int16 meets_bin(uint16 tiles, uint16 span, BinAsks asks) {
+  return ((((tiles - asks.tiles) & BYTE_TOPS) ^ BYTE_TOPS) | (((span - asks.span) & HALF_TOPS) ^ HALF_TOPS)) == (uint16)(0u);
+}
