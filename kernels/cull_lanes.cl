@@ -135,30 +135,30 @@ static inline uint gather(global const uint* ids, uint count, global const float
 }
 
 // Candidates that share a tile with `side` x `side` tiles from (x, y) of the bin on, and may touch their box.
-static inline uint narrow(Candidates all, uint x, uint y, uint side, const Cell* box, global float* out) {
+static inline uint narrow(const Candidates* all, uint x, uint y, uint side, const Cell* box, global float* out) {
   const int columns = (int)(((1u << side) - 1u) << x), rows = (int)(((1u << side) - 1u) << (y + 8));
   const Cell b = *box;
   uint n = 0;
-  for (uint i = 0; i < all.count; i += 16) {
-    global const float* from = all.lights + i;
-    const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * all.stride));
-    const int16 keep = ((tiles & columns) != 0) & ((tiles & rows) != 0) & ((int)i + LANE_INDEX < (int)all.count) &
-                       may_touch_coarsely(load_sphere(from, all.stride), &b);
+  for (uint i = 0; i < all->count; i += 16) {
+    global const float* from = all->lights + i;
+    const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * all->stride));
+    const int16 keep = ((tiles & columns) != 0) & ((tiles & rows) != 0) & ((int)i + LANE_INDEX < (int)all->count) &
+                       may_touch_coarsely(load_sphere(from, all->stride), &b);
     const uint bits = mask_bits(keep);
-    if (bits != 0) n += append_lights(out + n, from, all.stride, bits);
+    if (bits != 0) n += append_lights(out + n, from, all->stride, bits);
   }
   return n;
 }
 
 // The lights of one cell, written to `list`; `tile` is its tile as VIEW_TILES has it. Returns how many.
-static inline uint list_cell(Candidates few, int tile, const TestCell* cell, global index_t* list, constant CullParams* p) {
+static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, global index_t* list, constant CullParams* p) {
   uint n = 0;
-  for (uint i = 0; i < few.count; i += 16) {
-    global const float* from = few.lights + i;
-    const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * few.stride));
-    const int16 held = ((tiles & tile) == tile) & ((int)i + LANE_INDEX < (int)few.count);
-    const uint bits = mask_bits(held & light_may_touch(from, few.stride, cell, p));
-    n += append_ids(list + n, from + VIEW_ID * few.stride, bits);
+  for (uint i = 0; i < few->count; i += 16) {
+    global const float* from = few->lights + i;
+    const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * few->stride));
+    const int16 held = ((tiles & tile) == tile) & ((int)i + LANE_INDEX < (int)few->count);
+    const uint bits = mask_bits(held & light_may_touch(from, few->stride, cell, p));
+    n += append_ids(list + n, from + VIEW_ID * few->stride, bits);
   }
   return n;
 }
@@ -220,10 +220,10 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   uint written = 0;
   for (uint quad = 0; quad < 16; ++quad) {
     const uint x = tile_x_of_slot(quad * 4), y = tile_y_of_slot(quad * 4);
-    if (quad % 4 == 0 && many) some.count = narrow(all, x, y, 4, &blocks[quad / 4], some.lights);
+    if (quad % 4 == 0 && many) some.count = narrow(&all, x, y, 4, &blocks[quad / 4], some.lights);
     if (quads[quad].near > quads[quad].far) continue;
     const Candidates wider = {many ? some.lights : all.lights, stride, many ? some.count : all.count};
-    few.count = narrow(wider, x, y, 2, &quads[quad], few.lights);
+    few.count = narrow(&wider, x, y, 2, &quads[quad], few.lights);
     if (few.count == 0) continue;
     const int column = 1 << x, row = 0x100 << y;
     const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
@@ -231,7 +231,7 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
       for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
         TestCell cell;
         if (!pick_test_cell(&tiles, bounds, slot, slice, slices, &cell, p)) continue;
-        const uint n = list_cell(few, held_by[slot & 3], &cell, list + written, p);
+        const uint n = list_cell(&few, held_by[slot & 3], &cell, list + written, p);
         cell_counts[slot * SLICE_COUNT + slice] = n;
         written += n;
       }
