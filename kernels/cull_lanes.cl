@@ -182,6 +182,25 @@ static inline bool make_room(Room* room, uint blocks, global float* pool, global
   return room->blocks != 0;
 }
 
+// The lists of a quad's cells from its candidates, one after the other. Returns how many indices they hold.
+static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* tiles, global const float* bounds,
+                             global const float2* slices, global uint* cell_counts, global index_t* list,
+                             constant CullParams* p) {
+  const int column = 1 << tile_x_of_slot(quad * 4), row = 0x100 << tile_y_of_slot(quad * 4);
+  const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
+  uint written = 0;
+  for (uint slot = quad * 4; slot < quad * 4 + 4 && few->count != 0; ++slot) {
+    for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
+      TestCell cell;
+      if (!pick_test_cell(tiles, bounds, slot, slice, slices, &cell, p)) continue;
+      const uint n = list_cell(few, held_by[slot & 3], &cell, list + written, p);
+      cell_counts[slot * SLICE_COUNT + slice] = n;
+      written += n;
+    }
+  }
+  return written;
+}
+
 // rooms: for the indices of a bin's lights, and for its candidates.
 static inline void cull_bin(uint bx, uint by, global const float* records, RegionLights lights,
                             global const float* bounds, global const float2* slices, Room* rooms, global float* pool,
@@ -201,10 +220,11 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   const uint in_region_x = bx % p->region_bins * BIN_TILES, in_region_y = by % p->region_bins * BIN_TILES;
   const uint count = select_lights(lights, asks_of_bin(in_region_x, in_region_y, &whole_bin), ids);
   const uint blocks_each = (count / 16 + 2) | 1u;  // odd: arrays a power of two apart would collide in the cache
-  if (!make_room(&rooms[1], 3 * blocks_each, pool, counters, p)) return;
-  global float* candidates = rooms[1].at;
+  if (!make_room(&rooms[1], 4 * blocks_each, pool, counters, p)) return;
   const size_t stride = blocks_each * 16, step = stride * VIEW_ARRAYS;
-  Candidates all = {candidates, stride, 0}, some = {candidates + step, stride, 0}, few = {candidates + 2 * step, stride, 0};
+  global float* candidates = rooms[1].at;
+  Candidates all = {candidates, stride, 0}, some = {candidates + step, stride, 0};
+  Candidates few[2] = {{candidates + 2 * step, stride, 0}, {candidates + 3 * step, stride, 0}};
   uint pairs;
   all.count = gather(ids, count, records, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
   const ulong wanted = (ulong)pairs * SLICE_COUNT / 16 + 2;
@@ -218,23 +238,16 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   global index_t* list = staged + (size_t)place * 16;
   const bool many = all.count > MANY;
   uint written = 0;
-  for (uint quad = 0; quad < 16; ++quad) {
-    const uint x = tile_x_of_slot(quad * 4), y = tile_y_of_slot(quad * 4);
-    if (quad % 4 == 0 && many) some.count = narrow(&all, x, y, 4, &blocks[quad / 4], some.lights);
-    if (quads[quad].near > quads[quad].far) continue;
-    const Candidates wider = {many ? some.lights : all.lights, stride, many ? some.count : all.count};
-    few.count = narrow(&wider, x, y, 2, &quads[quad], few.lights);
-    if (few.count == 0) continue;
-    const int column = 1 << x, row = 0x100 << y;
-    const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
-    for (uint slot = quad * 4; slot < quad * 4 + 4; ++slot) {
-      for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
-        TestCell cell;
-        if (!pick_test_cell(&tiles, bounds, slot, slice, slices, &cell, p)) continue;
-        const uint n = list_cell(&few, held_by[slot & 3], &cell, list + written, p);
-        cell_counts[slot * SLICE_COUNT + slice] = n;
-        written += n;
-      }
+  // A quad is listed after the next one is narrowed: what was just stored in pieces is slow to load as a whole.
+  for (uint quad = 0; quad <= 16; ++quad) {
+    if (quad < 16) {
+      const uint x = tile_x_of_slot(quad * 4), y = tile_y_of_slot(quad * 4);
+      if (quad % 4 == 0 && many) some.count = narrow(&all, x, y, 4, &blocks[quad / 4], some.lights);
+      const bool shown = quads[quad].near <= quads[quad].far;
+      few[quad & 1].count = shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad], few[quad & 1].lights) : 0u;
+    }
+    if (quad > 0) {
+      written += list_quad(&few[~quad & 1], quad - 1, &tiles, bounds, slices, cell_counts, list + written, p);
     }
   }
   *lists = (uint2)(place, written);
