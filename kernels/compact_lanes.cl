@@ -8,6 +8,11 @@
 #include "shared/cull_params.h"
 #include "shared/light_grid.h"
 
+#ifdef SLICES
+#define SLICE_COUNT (p->slices)
+#else
+#define SLICE_COUNT 1u
+#endif
 #ifdef INDEX_32
 typedef uint index_t;
 #else
@@ -35,16 +40,19 @@ kernel void compact_lanes(global const uint2* bins, global const uint* cell_coun
   for (; i + 16 <= count; i += 16) COPY_16(to + i, from + i);
   for (; i < count; ++i) to[i] = from[i];
 
-  const uint tx0 = bin % p->bins_x * BIN_TILES, ty0 = bin / p->bins_x * BIN_TILES;
-  global const uint* counts = cell_counts + bin * BIN_SIZE * p->slices;
+  global const uint* counts = cell_counts + bin * BIN_SIZE * SLICE_COUNT;
   uint first = (uint)before;
-  for (uint slot = 0; slot < BIN_SIZE; ++slot) {
-    const uint tx = tx0 + tile_x_of_slot(slot), ty = ty0 + tile_y_of_slot(slot);
-    if (tx >= p->tiles_x || ty >= p->tiles_y) continue;
-    for (uint slice = 0; slice < p->slices; ++slice) {
-      const uint n = counts[slot * p->slices + slice];
-      cells[(slice * p->tiles_y + ty) * p->tiles_x + tx] = (uint2)(first, n);
-      first += n;
+  for (uint quad = 0; quad < BIN_SIZE; quad += 4) {
+    const uint tx0 = bin % p->bins_x * BIN_TILES + tile_x_of_slot(quad), ty0 = bin / p->bins_x * BIN_TILES + tile_y_of_slot(quad);
+#pragma unroll
+    for (uint i = 0; i < 4; ++i) {
+      const uint tx = tx0 + (i & 1), ty = ty0 + (i >> 1);
+      if (tx >= p->tiles_x || ty >= p->tiles_y) continue;
+      for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
+        const uint n = counts[(quad + i) * SLICE_COUNT + slice];
+        cells[(slice * p->tiles_y + ty) * p->tiles_x + tx] = (uint2)(first, n);
+        first += n;
+      }
     }
   }
 }

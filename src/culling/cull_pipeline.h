@@ -20,6 +20,7 @@ struct PipelineOptions {
   std::string light_defines;  // of lights alone: test, cones
   std::string defines;        // and of cells and index type
   bool avx512 = false;
+  bool slices = false;  // cells a tile: more than one
   int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
   int index_bytes = 2;
   int group_size = 0;  // CullerOptions'

@@ -1,4 +1,6 @@
 // project_lights -> cull -> compact, a work-item a bin: for CPUs.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "cl/launch.h"
@@ -18,7 +20,8 @@ class LanesPipeline : public CullPipeline {
     const std::string builtins = options.avx512 ? " -DAVX512" : "", defines = options.defines + builtins;
     project_ = programs.kernel("project_lights_lanes", options.light_defines + builtins);
     cull_ = programs.kernel("cull_lanes", defines);
-    compact_ = programs.kernel("compact_lanes", std::string(options.index_bytes == 4 ? "-DINDEX_32" : "") + (options.avx512 ? " -DAVX512" : ""));
+    compact_ = programs.kernel("compact_lanes", fmt::format("{}{}{}", options.index_bytes == 4 ? "-DINDEX_32" : "",
+                                                            options.slices ? " -DSLICES" : "", builtins));
   }
 
   void prepare(const CullParams& p) override {

@@ -223,13 +223,14 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   // Asked at the first cull: who wants depth bounds alone builds nothing else.
   if (!avx512_) avx512_ = !options_.portable && options_.shape == KernelShape::lanes && builds_avx512(device_, programs_);
   options.avx512 = *avx512_;
+  options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
   options.many_lights = light_count_ > many_lights;
   options.view_arrays = candidate_floats();
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
   options.defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(mode),
-                                params_.slices > 1 ? " -DSLICES" : "", options.index_bytes == 4 ? " -DINDEX_32" : "");
+                                options.slices ? " -DSLICES" : "", options.index_bytes == 4 ? " -DINDEX_32" : "");
   std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
   if (!made || made->options != options) {
     made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
