@@ -18,7 +18,7 @@ typedef uint index_t;
 #else
 typedef ushort index_t;
 #endif
-#ifdef AVX512  // a compiler that knows this; vstore16 of ushort becomes 16 stores
+#ifdef __clang__  // knows this; vstore16 of ushort becomes 16 stores in PoCL 3.1
 typedef index_t unaligned_indices __attribute__((ext_vector_type(16), aligned(2)));
 #define COPY_16(to, from) *(global unaligned_indices*)(to) = *(global const unaligned_indices*)(from)
 #else

@@ -39,6 +39,7 @@ static inline uint append_lights(global float* to, global const float* from, siz
 #else
   for (uint left = bits; left; left &= left - 1, ++to) {
     const uint i = lowest_bit(left);
+#pragma unroll
     for (uint a = 0; a < VIEW_ARRAYS; ++a) to[a * stride] = from[a * stride + i];
   }
 #endif
@@ -64,8 +65,10 @@ static inline uint append_records(global float* to, size_t stride, LightRecords 
   for (uint left = bits; left; left &= left - 1, ++to) {
     const uint i = lowest_bit(left);
     global const float* record = records + ids[i] * (size_t)RECORD;
+#pragma unroll
     for (uint a = 0; a < 4; ++a) to[a * stride] = record[a];
     to[VIEW_TILES * stride] = as_float(lanes[i]), to[VIEW_ID * stride] = as_float(ids[i]);
+#pragma unroll
     for (uint a = VIEW_CONE; a < VIEW_ARRAYS; ++a) to[a * stride] = record[RECORD_CONE + a - VIEW_CONE];
   }
 #endif
@@ -73,11 +76,7 @@ static inline uint append_records(global float* to, size_t stride, LightRecords 
 }
 
 static inline uint append_ids(global index_t* to, global const float* ids, uint bits) {
-#ifdef AVX512
   append_indices(to, as_int16(vload16(0, ids)), bits);
-#else
-  for (uint left = bits; left; left &= left - 1) *to++ = (index_t)as_uint(ids[lowest_bit(left)]);
-#endif
   return popcount(bits);
 }
 

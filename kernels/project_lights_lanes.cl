@@ -53,9 +53,8 @@ kernel void project_lights_lanes(global const float* lights, global float* recor
       for (uint b = 0; b < n; ++b) {
         const TileRect rect = {vload16(b, held.first), vload16(b, held.last)};
         const uint bits = mask_bits(rect_meets(rect, first, last));
-        append_uints(list + count, as_int16(tiles_in_region(rect, x, y)), bits);
-        append_uints(list + stride + count, vload16(b, held.span), bits);
-        append_uints(list + 2 * stride + count, (int)((base + b) * 16) + LANE_INDEX, bits);
+        append_uints_3(list + count, stride, as_int16(tiles_in_region(rect, x, y)), vload16(b, held.span),
+                       (int)((base + b) * 16) + LANE_INDEX, bits);
         count += popcount(bits);
       }
       counts[r * items + item] = count;

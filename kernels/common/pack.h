@@ -23,6 +23,9 @@ static inline void append_ushorts(global ushort* to, whole v, uint bits) {
 static inline void append_uints(global uint* to, whole v, uint bits) {
   *(global unaligned_uints*)to = as_uint16(packed(v, bits));
 }
+static inline void append_uints_3(global uint* to, size_t stride, whole a, whole b, whole c, uint bits) {
+  append_uints(to, a, bits), append_uints(to + stride, b, bits), append_uints(to + 2 * stride, c, bits);
+}
 #else
 static inline uint mask_bits(mask_t m) {
   const int16 b = m & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
@@ -32,10 +35,26 @@ static inline uint mask_bits(mask_t m) {
   return (uint)(e.x | e.y);
 }
 
-static inline void append_uints(global uint* to, whole v, uint bits) {
-  int lanes[16];
-  vstore16(v, 0, lanes);
-  for (uint left = bits; left; left &= left - 1) *to++ = (uint)lanes[lowest_bit(left)];
+// As above. To write each lane where the next one belongs costs less than to branch on what is kept.
+#define APPEND_LANES(T)                                                       \
+  int lanes[16];                                                              \
+  vstore16(v, 0, lanes);                                                      \
+  _Pragma("unroll") for (uint i = 0; i < 16; ++i) {                           \
+    *to = (T)lanes[i];                                                        \
+    to += bits >> i & 1u;                                                     \
+  }
+static inline void append_ushorts(global ushort* to, whole v, uint bits) { APPEND_LANES(ushort) }
+static inline void append_uints(global uint* to, whole v, uint bits) { APPEND_LANES(uint) }
+#undef APPEND_LANES
+
+static inline void append_uints_3(global uint* to, size_t stride, whole a, whole b, whole c, uint bits) {
+  int lanes[3][16];
+  vstore16(a, 0, lanes[0]), vstore16(b, 0, lanes[1]), vstore16(c, 0, lanes[2]);
+#pragma unroll
+  for (uint i = 0; i < 16; ++i) {
+    to[0] = (uint)lanes[0][i], to[stride] = (uint)lanes[1][i], to[2 * stride] = (uint)lanes[2][i];
+    to += bits >> i & 1u;
+  }
 }
 #endif
 #define any_lane(m) (mask_bits(m) != 0)
