@@ -35,27 +35,32 @@ static inline uint mask_bits(mask_t m) {
   return (uint)(e.x | e.y);
 }
 
-// As above. To write each lane where the next one belongs costs less than to branch on what is kept.
-#define APPEND_LANES(T)                                                       \
-  int lanes[16];                                                              \
-  vstore16(v, 0, lanes);                                                      \
-  _Pragma("unroll") for (uint i = 0; i < 16; ++i) {                           \
-    *to = (T)lanes[i];                                                        \
-    to += bits >> i & 1u;                                                     \
+// As above. To write each lane where the next one belongs costs less than to branch on what is kept; the upper half
+// starts from its own sum, so that it need not wait for the lower one.
+#define APPEND_LANES(WRITE)                                         \
+  _Pragma("unroll") for (uint h = 0; h < 16; h += 8) {              \
+    uint n = h == 0 ? 0u : popcount(bits & 0xffu);                  \
+    _Pragma("unroll") for (uint i = h; i < h + 8; ++i) {            \
+      WRITE;                                                        \
+      n += bits >> i & 1u;                                          \
+    }                                                               \
   }
-static inline void append_ushorts(global ushort* to, whole v, uint bits) { APPEND_LANES(ushort) }
-static inline void append_uints(global uint* to, whole v, uint bits) { APPEND_LANES(uint) }
-#undef APPEND_LANES
-
+static inline void append_ushorts(global ushort* to, whole v, uint bits) {
+  int lanes[16];
+  vstore16(v, 0, lanes);
+  APPEND_LANES(to[n] = (ushort)lanes[i])
+}
+static inline void append_uints(global uint* to, whole v, uint bits) {
+  int lanes[16];
+  vstore16(v, 0, lanes);
+  APPEND_LANES(to[n] = (uint)lanes[i])
+}
 static inline void append_uints_3(global uint* to, size_t stride, whole a, whole b, whole c, uint bits) {
   int lanes[3][16];
   vstore16(a, 0, lanes[0]), vstore16(b, 0, lanes[1]), vstore16(c, 0, lanes[2]);
-#pragma unroll
-  for (uint i = 0; i < 16; ++i) {
-    to[0] = (uint)lanes[0][i], to[stride] = (uint)lanes[1][i], to[2 * stride] = (uint)lanes[2][i];
-    to += bits >> i & 1u;
-  }
+  APPEND_LANES((to[n] = (uint)lanes[0][i], to[stride + n] = (uint)lanes[1][i], to[2 * stride + n] = (uint)lanes[2][i]))
 }
+#undef APPEND_LANES
 #endif
 #define any_lane(m) (mask_bits(m) != 0)
 #endif
