@@ -1,9 +1,11 @@
 // Lights to the cells of each bin, for CPUs: one work-item takes bins, gathers the lights of one at a time from its region's
-// list, narrows them for each block of 4 x 4 tiles where they are many, and for each quad of 2 x 2, and tests what is left against each
-// cell, 16 lights at a time. Lists come out sorted. Compare: Olsson, Assarsson, "Tiled Shading" (2011); Olsson, Billeter,
-// Assarsson, "Clustered Deferred and Forward Shading" (2012) where there are slices.
+// list, narrows them for each block of 4 x 4 tiles where they are many, and for each quad of 2 x 2, and tests what is left
+// against each cell, 16 lights at a time. Lists come out sorted. Compare: Olsson, Assarsson, "Tiled Shading" (2011);
+// Olsson, Billeter, Assarsson, "Clustered Deferred and Forward Shading" (2012) where there are slices.
 //
 // records, lists, counts  as project_lights_lanes.cl writes them, `runs` counts a region
+// step           quads of bins from one to the next that is taken, no factor of their number in common: each thread's
+//                part of the work-items then lies all over the screen
 // bounds         as depth_bounds_lanes.cl writes them
 // slices         where there are some: as kernels/common/bin_cells.h says
 // pool           room for candidates, handed out in blocks of 16 lights: how many were asked for is in counters[0]
@@ -15,7 +17,7 @@
 // again with more.
 #define LANES 16
 #include "kernels/common/bin_tiles.h"
-#include "kernels/common/light_records.h"
+#include "kernels/common/candidates.h"
 
 #ifdef INDEX_32
 typedef uint index_t;
@@ -25,67 +27,9 @@ typedef ushort index_t;
 #define append_indices append_ushorts
 #endif
 
-typedef struct Candidates {
-  global float* lights;  // arrays of kernels/common/light_arrays.h
-  size_t stride;
-  uint count;
-} Candidates;
-
-// Those of the 16 lights at `from` that `bits` keeps. Returns how many.
-static inline uint append_lights(global float* to, global const float* from, size_t stride, uint bits) {
-#ifdef AVX512
-#pragma unroll
-  for (uint a = 0; a < VIEW_ARRAYS; ++a) append_reals(to + a * stride, vload16(0, from + a * stride), bits);
-#else
-  for (uint left = bits; left; left &= left - 1, ++to) {
-    const uint i = lowest_bit(left);
-#pragma unroll
-    for (uint a = 0; a < VIEW_ARRAYS; ++a) to[a * stride] = from[a * stride + i];
-  }
-#endif
-  return popcount(bits);
-}
-
-// The same of 16 records.
-static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles, global const uint* ids,
-                                  global const float* records, uint bits) {
-#ifdef AVX512
-  append_reals(to + VIEW_X * stride, l.sphere.x, bits), append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
-  append_reals(to + VIEW_D * stride, l.sphere.d, bits), append_reals(to + VIEW_R * stride, l.sphere.r, bits);
-  append_reals(to + VIEW_TILES * stride, as_float16(tiles), bits);
-  append_reals(to + VIEW_ID * stride, as_float16(vload16(0, ids)), bits);
-#ifdef SPOTS
-  append_reals(to + VIEW_CONE * stride, l.cone.x, bits), append_reals(to + (VIEW_CONE + 1) * stride, l.cone.y, bits);
-  append_reals(to + (VIEW_CONE + 2) * stride, l.cone.d, bits);
-  append_reals(to + (VIEW_CONE + 3) * stride, l.cone.cosine, bits);
-#endif
-#else
-  int lanes[16];
-  vstore16(tiles, 0, lanes);
-  for (uint left = bits; left; left &= left - 1, ++to) {
-    const uint i = lowest_bit(left);
-    global const float* record = records + ids[i] * (size_t)RECORD;
-#pragma unroll
-    for (uint a = 0; a < 4; ++a) to[a * stride] = record[a];
-    to[VIEW_TILES * stride] = as_float(lanes[i]), to[VIEW_ID * stride] = as_float(ids[i]);
-#pragma unroll
-    for (uint a = VIEW_CONE; a < VIEW_ARRAYS; ++a) to[a * stride] = record[RECORD_CONE + a - VIEW_CONE];
-  }
-#endif
-  return popcount(bits);
-}
-
 static inline uint append_ids(global index_t* to, global const float* ids, uint bits) {
   append_indices(to, as_int16(vload16(0, ids)), bits);
   return popcount(bits);
-}
-
-static inline int16 tiles_in_bin(TileRect rect, int x, int y, int16* count) {
-  const int16 zero = 0, one = 1, seven = 7;  // vectors: with a number beside one, Oclgrind 21.10 reads past it
-  const int16 x0 = max((rect.first & 0xffff) - x, zero), x1 = min((rect.last & 0xffff) - x, seven);
-  const int16 y0 = max((rect.first >> 16) - y, zero), y1 = min((rect.last >> 16) - y, seven);
-  *count = (x1 - x0 + 1) * (y1 - y0 + 1);
-  return ((one << (x1 + 1)) - (one << x0)) | ((one << (y1 + 1)) - (one << y0)) << 8;
 }
 
 // The indices of the lights in a region, in parts, one a run of project_lights_lanes.cl.
@@ -253,14 +197,15 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
 }
 
 kernel void cull_lanes(global const float* records, global const uint* lists, global const uint* counts, uint runs,
-                       global const float* bounds, global const float2* slices, global float* pool,
+                       uint step, global const float* bounds, global const float2* slices, global float* pool,
                        global index_t* staged, global uint* cell_counts, global uint2* bins,
                        global volatile uint* counters, constant CullParams* p) {
   Room rooms[2] = {{0, 0u}, {0, 0u}};
   const size_t stride = p->light_stride + 16;
   const uint across = (p->bins_x + 1) / 2, down = (p->bins_y + 1) / 2;
   // Four neighbors at a time: they share most of their lights.
-  for (uint quad = get_global_id(0); quad < across * down; quad += get_global_size(0)) {
+  for (uint turn = get_global_id(0); turn < across * down; turn += get_global_size(0)) {
+    const uint quad = (uint)((ulong)turn * step % (across * down));
     for (uint i = 0; i < 4; ++i) {
       const uint bx = quad % across * 2 + (i & 1), by = quad / across * 2 + (i >> 1), bin = by * p->bins_x + bx;
       if (bx >= p->bins_x || by >= p->bins_y) continue;

@@ -24,7 +24,6 @@ struct PipelineOptions {
   int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
   int index_bytes = 2;
   int group_size = 0;  // CullerOptions'
-  bool many_lights = false;  // one more step from coarse to fine pays
   bool operator==(const PipelineOptions&) const = default;
 };
 

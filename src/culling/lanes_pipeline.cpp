@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "cl/launch.h"
 #include "culling/cull_pipeline.h"
@@ -10,8 +11,15 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t items_a_unit = 16;  // each takes bins far apart, so that all have about the same to do
+constexpr size_t items_a_unit = 16;  // few enough to keep their room warm, enough to share out evenly
 constexpr size_t spare = 64;  // values that a vector load or store may reach past the last
+
+// Near the golden section of n, and coprime to it: steps of this size visit all of n, spread evenly from early on.
+size_t spreading_step(size_t n) {
+  size_t step = std::max<size_t>(1, size_t(0.382 * double(n)));
+  while (std::gcd(step, n) > 1) --step;
+  return step;
+}
 
 class LanesPipeline : public CullPipeline {
  public:
@@ -43,7 +51,7 @@ class LanesPipeline : public CullPipeline {
     const size_t quads = size_t((job.params.bins_x + 1) / 2) * ((job.params.bins_y + 1) / 2);
     const size_t most = items_a_unit * size_t(device_.info().compute_units), rounds = (quads + most - 1) / most;
     launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1), records_.get(),
-           lists_.get(), run_counts_.get(), runs_, job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(),
+           lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(),
            bins_.get(), job.counters, job.params_buffer);
     launch(device_, "compact_lists", compact_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
            staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
 constexpr uint lane_count = 16, depth_group = 256, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
-constexpr uint most_regions = 64, most_region_bins = 16, many_lights = 16384;
+constexpr uint most_regions = 64, most_region_bins = 16;
 
 int planes_of(DepthBoundsMode mode) {
   if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
@@ -225,7 +225,6 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   options.avx512 = *avx512_;
   options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
-  options.many_lights = light_count_ > many_lights;
   options.view_arrays = candidate_floats();
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
