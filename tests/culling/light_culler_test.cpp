@@ -125,6 +125,29 @@ TEST(LightCuller, GivesTheSameGridWithAnyGroupSize) {
   }
 }
 
+// So many tiles that 64 regions would be wider than the 128 tiles which a byte can tell apart (light_records.h).
+TEST(LightCuller, FindsSmallLightsAmongTwoMillionTiles) {
+  const View view = view_of(16400, 8300, 60);
+  const int tile = 8, tiles_x = 2050, tiles_y = 1038;
+  const glm::dmat4 view_from_clip = glm::inverse(view.clip_from_view);
+  Random random(31);
+  std::vector<ViewLight> lights;
+  std::vector<size_t> cells;
+  for (int i = 0; i < 500; ++i) {
+    const int x = int(random.uniform() * (tiles_x - 1)), y = int(random.uniform() * (tiles_y - 1));
+    const glm::dvec4 clip((x + 0.5) * tile / 8200 - 1, (y + 0.5) * tile / 4150 - 1, 0.5, 1);
+    const glm::dvec4 place = view_from_clip * clip;
+    lights.push_back(point_light(glm::dvec3(place) * (5 / -place.z), 1e-4));
+    cells.push_back(size_t(y) * tiles_x + x);
+  }
+  const std::vector<glm::vec2> intervals(tile_count(view, tile), {1, 15});
+  const CulledGrid grid = cull_cells(view, lights, intervals, {.shape = KernelShape::lanes, .tile = tile});
+  EXPECT_EQ(grid.params.region_bins, 16u);
+  EXPECT_GT(grid.params.regions_x * grid.params.regions_y, 64u);
+  for (uint32_t i = 0; i < lights.size(); ++i) EXPECT_THAT(grid.list(cells[i]), testing::Contains(i)) << cells[i];
+  EXPECT_EQ(grid.indices.size(), lights.size());  // each in the middle of its tile
+}
+
 // Not as GCC 12.2 had it, which made the rests of y and z 0: docs/devices.md#known-faults.
 TEST(LightCuller, KeepsWhatFloatLeavesOfTheEyesPlace) {
   LightCuller culler(test_device(), test_programs(), {});
