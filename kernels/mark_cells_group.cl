@@ -105,12 +105,14 @@ static inline uint list_candidates(global const uint* column, global const uint*
   uint n = 0;
   for (uint base = 0; base < words; base += LIGHT_WORDS) {
     const uint some = min((uint)LIGHT_WORDS, words - base), each = (some + GROUP - 1) / GROUP;
-    for (uint i = item; i < some; i += GROUP) kept[i] = 0u;
+    for (uint i = item; i < some; i += GROUP) kept[i] = parts > 1 ? 0u : column[base + i] & row[base + i];
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint i = item; i < some * parts; i += GROUP) {
-      const uint w = base + i / parts, mine = 0xffffffffu >> (32 - share) << i % parts * share;
-      const uint touching = touch_block(column[w] & row[w] & mine, views + (size_t)w * 32 * RECORD, box);
-      if (touching) atomic_or(&kept[i / parts], touching);
+      const uint w = i / parts, mine = 0xffffffffu >> (32 - share) << i % parts * share;
+      const uint bits = parts > 1 ? column[base + w] & row[base + w] & mine : kept[w];
+      const uint touching = touch_block(bits, views + (size_t)(base + w) * 32 * RECORD, box);
+      if (parts == 1) kept[w] = touching;
+      else if (touching) atomic_or(&kept[w], touching);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint from = min(item * each, some), to = min(from + each, some);
