@@ -46,23 +46,26 @@ TEST(DepthInput, ThatIsPartOfALargerImageGivesTheBoundsOfThatPart) {
   }
 }
 
+// 64 pixels of 8 samples are more values in a row of a tile than a group has items.
 TEST(DepthInput, OfSeveralSamplesGivesBoundsOfAll) {
-  const CullView view = view_through(projections()[0], 37, 21);
-  const size_t pixels = 37 * 21;
-  for (const KernelShape shape : shapes) {
-    for (const int samples : {2, 4}) {
-      const std::vector<float> depth = random_depth(pixels * samples, 2 + samples);
+  const int width = 150, height = 70;
+  const CullView view = view_through(projections()[0], width, height);
+  const size_t pixels = size_t(width) * height;
+  for (const auto& [tile, samples] : {std::pair(16, 2), std::pair(16, 4), std::pair(64, 8)}) {
+    const std::vector<float> depth = random_depth(pixels * samples, 2 + samples);
+    for (const KernelShape shape : shapes) {
       std::vector<DepthInterval> expected;
       for (int s = 0; s < samples; ++s) {
         std::vector<float> one(pixels);
         for (size_t i = 0; i < pixels; ++i) one[i] = depth[i * samples + s];
-        const auto bounds = bounds_in(view, {buffer_of(one)}, {.shape = shape});
+        const auto bounds = bounds_in(view, {buffer_of(one)}, {.shape = shape, .tile = tile});
         if (s == 0) expected = bounds;
         for (size_t i = 0; i < bounds.size(); ++i) {
           expected[i] = {std::min(expected[i].near, bounds[i].near), std::max(expected[i].far, bounds[i].far)};
         }
       }
-      EXPECT_TRUE(bounds_in(view, {buffer_of(depth)}, {.shape = shape, .samples = samples}) == expected) << samples;
+      EXPECT_TRUE(bounds_in(view, {buffer_of(depth)}, {.shape = shape, .tile = tile, .samples = samples}) == expected)
+          << samples;
     }
   }
 }
