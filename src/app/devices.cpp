@@ -75,10 +75,11 @@ void print(const Found& found) {
     fmt::print("{} {} {}: {}, {} compute units, {:.1f} GiB, driver {}, {}\n", mark(i == found.chosen_cl),
                d.platform, d.name, d.cpu ? "CPU" : "GPU", d.compute_units, double(d.global_bytes) / (1 << 30),
                d.driver, d.version);
+    if (i != found.chosen_cl || found.tuned.empty()) continue;
+    for (const auto& [key, value] : found.tuned) fmt::print("    tuned: {}={}\n", key, value);
+    fmt::print("    in {}\n", tuned_sizes_file().string());
   }
   if (found.cl.empty()) fmt::print("  none\n");
-  for (const auto& [key, value] : found.tuned) fmt::print("  tuned: {}={}\n", key, value);
-  if (!found.tuned.empty()) fmt::print("  in {}\n", tuned_sizes_file().string());
   fmt::print("OpenGL backends\n");
   for (int i = 0; i < int(found.gl.size()); ++i) {
     const GlFound& g = found.gl[i];

@@ -21,7 +21,7 @@ struct PipelineOptions {
   std::string defines;        // and of cells and index type
   bool avx512 = false;
   bool slices = false;  // cells a tile: more than one
-  int view_arrays = 7;  // floats a light: kernels/common/light_arrays.h
+  bool cones = false;   // some light is a spot
   int index_bytes = 2;
   int group_size = 0;  // CullerOptions'
   bool operator==(const PipelineOptions&) const = default;
@@ -37,6 +37,7 @@ class CullPipeline {
   // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
   // asked for, [3] whether some bin found no room, [4] and [5] low and high word of the number of indices.
   virtual void enqueue(const CullJob& job) = 0;
+  virtual size_t candidate_bytes() const = 0;  // of one
   virtual size_t memory_bytes() const = 0;
 };
 

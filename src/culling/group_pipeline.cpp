@@ -25,11 +25,11 @@ class GroupPipeline : public CullPipeline {
   }
 
   void prepare(const CullParams& p) override {
-    const size_t record = options.view_arrays > 7 ? 12 : 8;  // floats
+    const size_t record = options.cones ? 12 : 8;  // floats
     const size_t lines = (p.bins_x + p.bins_y) * (BIN_TILES / block_tiles);
     views_.at_least(device_, p.light_stride * record * sizeof(float));
     light_marks_.at_least(device_, lines * project_groups(p) * (project_items / 32) * sizeof(cl_uint));
-    ids_.at_least(device_, size_t(p.pool_blocks) * 16 * sizeof(cl_uint));
+    ids_.at_least(device_, size_t(p.pool_blocks) * 16 * candidate_bytes());
     cell_marks_.at_least(device_, size_t(p.staging_units) * 16 * sizeof(cl_uint));
     places_.at_least(device_, blocks(p) * sizeof(cl_uint4));
     totals_.at_least(device_, blocks(p) * sizeof(cl_uint));
@@ -45,6 +45,8 @@ class GroupPipeline : public CullPipeline {
     launch(device_, "fill_lists", fill_, cl::NDRange(blocks(p) * fill_items), cl::NDRange(fill_items), ids_.get(),
            places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
+
+  size_t candidate_bytes() const override { return sizeof(cl_uint); }
 
   size_t memory_bytes() const override {
     return views_.bytes() + light_marks_.bytes() + ids_.bytes() + cell_marks_.bytes() + places_.bytes() + totals_.bytes();

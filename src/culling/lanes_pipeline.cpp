@@ -35,10 +35,10 @@ class LanesPipeline : public CullPipeline {
   void prepare(const CullParams& p) override {
     const size_t regions = size_t(p.regions_x) * p.regions_y, bins = size_t(p.bins_x) * p.bins_y;
     runs_ = std::clamp<uint>(p.light_stride / 512, 1, std::max(4, 2 * device_.info().compute_units));
-    records_.at_least(device_, size_t(p.light_stride) * (options.view_arrays > 6 ? 12 : 8) * sizeof(float));
+    records_.at_least(device_, size_t(p.light_stride) * (options.cones ? 12 : 8) * sizeof(float));
     lists_.at_least(device_, (regions * 3 * (p.light_stride + 16) + spare) * sizeof(cl_uint));
     run_counts_.at_least(device_, regions * runs_ * sizeof(cl_uint));
-    pool_.at_least(device_, (size_t(p.pool_blocks) * 16 * options.view_arrays + spare) * sizeof(float));
+    pool_.at_least(device_, size_t(p.pool_blocks) * 16 * candidate_bytes() + spare * sizeof(float));
     staged_.at_least(device_, (size_t(p.staging_units) * 16 + spare) * options.index_bytes);
     cell_counts_.at_least(device_, bins * BIN_SIZE * p.slices * sizeof(cl_uint));
     bins_.at_least(device_, bins * sizeof(cl_uint2));
@@ -56,6 +56,8 @@ class LanesPipeline : public CullPipeline {
     launch(device_, "compact_lists", compact_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
            staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
+
+  size_t candidate_bytes() const override { return (options.cones ? 10 : 6) * sizeof(float); }
 
   size_t memory_bytes() const override {
     return records_.bytes() + lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() + cell_counts_.bytes() + bins_.bytes();

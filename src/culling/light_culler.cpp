@@ -213,11 +213,6 @@ CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
   return in;
 }
 
-// As kernels/common/light_arrays.h has them.
-int LightCuller::candidate_floats() const {
-  return (options_.shape == KernelShape::lanes ? 6 : 7) + (cones_ ? 4 : 0);
-}
-
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
   // Asked at the first cull: who wants depth bounds alone builds nothing else.
@@ -225,7 +220,7 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   options.avx512 = *avx512_;
   options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
-  options.view_arrays = candidate_floats();
+  options.cones = cones_;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
   options.defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(mode),
@@ -258,7 +253,6 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
     return grid;
   }
   CullPipeline& kernels = pipeline(bounds.mode);
-  const size_t view_bytes = candidate_floats() * sizeof(float);
   params_.pool_blocks = std::max(params_.pool_blocks, 2048 + light_stride_ / 4);
   params_.staging_units = std::max(params_.staging_units, params_.tiles_x * params_.tiles_y * 4);
   index_capacity_ = std::max<size_t>(index_capacity_, size_t(params_.tiles_x) * params_.tiles_y * 64);
@@ -282,7 +276,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
       return std::min(most, wanted + wanted / 4);
     };
     if (counters[0] > params_.pool_blocks) {
-      params_.pool_blocks = uint(grown(counters[0], 16 * view_bytes, "blocks of 16 candidate lights"));
+      params_.pool_blocks = uint(grown(counters[0], 16 * kernels.candidate_bytes(), "blocks of 16 candidate lights"));
     } else if (counters[1] > params_.staging_units) {
       params_.staging_units = uint(grown(counters[1], 64, "units of 16 list entries"));
     } else if (total > index_capacity_) {

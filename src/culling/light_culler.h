@@ -194,7 +194,6 @@ class LightCuller {
   void enqueue_z_bins(LightGrid& grid, GridStorage& storage);
   cl::Buffer empty_bounds(int planes, float near, float far);
   void choose_regions();
-  int candidate_floats() const;
   void upload_params();
 
   ClDevice& device_;
