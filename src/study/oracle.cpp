@@ -105,8 +105,9 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
     add_lists(f.opaque_grid(), grid, lists);
   }
   if (grid.z_bin_bytes == 0) return lists;
-  const GLuint buffer = f.opaque_grid().z_bins_.buffer->gl_buffer();
-  return in_z_bins(lists, z_bins_of_pixels(f, depth), read_buffer<uint32_t>(buffer, grid.z_bin_bytes / 4));
+  SharedBuffer& bins = *f.opaque_grid().z_bins_.buffer;
+  bins.hand_to_gl(grid.z_bin_bytes);  // as in add_lists
+  return in_z_bins(lists, z_bins_of_pixels(f, depth), read_buffer<uint32_t>(bins.gl_buffer(), grid.z_bin_bytes / 4));
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {

@@ -22,11 +22,12 @@ TEST_P(BuiltinZBins, HaveTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
 constexpr const char* in_opencl[] = {"deferred_tiled", "forward_plus_compute"};
 
 // The technique with z-bins against itself without, whose image is forward's but for rounding: tiled_light_test.cpp.
-void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings settings, const char* technique) {
+void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings settings, const char* technique,
+                              Devices& devices = test_devices()) {
   SCOPED_TRACE(testing::PrintToString(to_strings(settings)) + technique);
-  TechniqueRun on(test_devices(), scene, view, settings, find_technique(technique));
+  TechniqueRun on(devices, scene, view, settings, find_technique(technique));
   settings.z_bins = 1;
-  TechniqueRun off(test_devices(), scene, view, settings, find_technique(technique));
+  TechniqueRun off(devices, scene, view, settings, find_technique(technique));
   on.run_frame(), off.run_frame();
   EXPECT_TRUE(identical(on.image(), off.image()));
   const LitPairs with = count_listed_pairs(on, read_depth(on.frame()));
@@ -43,6 +44,17 @@ TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
     expect_the_bytes_of_none(scene, view, {.z_bins = 256}, technique);
     expect_the_bytes_of_none(scene, view, {.z_bins = 16, .kernel_shape = KernelShape::group}, technique);
   }
+}
+
+// Where OpenGL has a copy of its own, which light code in OpenCL never asks for.
+TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
+  setenv("LIGHTGRID_BRIDGE", "staged", 1);
+  Devices staged = open_devices("", GlBackend::automatic);
+  unsetenv("LIGHTGRID_BRIDGE");
+  const Scene scene = find_builtin_scene("hall")->make();
+  const View view = default_view(scene, 95, 53);
+  for (const char* technique : in_opencl) expect_the_bytes_of_none(scene, view, {.z_bins = 64}, technique, staged);
+  test_devices().gl->make_current();
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinZBins, testing::Values("hall", "spheres", "terrain", "street"),
