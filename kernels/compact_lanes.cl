@@ -43,7 +43,8 @@ kernel void compact_lanes(global const uint2* bins, global const uint* cell_coun
   global const uint* counts = cell_counts + bin * BIN_SIZE * SLICE_COUNT;
   uint first = (uint)before;
   for (uint quad = 0; quad < BIN_SIZE; quad += 4) {
-    const uint tx0 = bin % p->bins_x * BIN_TILES + tile_x_of_slot(quad), ty0 = bin / p->bins_x * BIN_TILES + tile_y_of_slot(quad);
+    const uint tx0 = bin % p->bins_x * BIN_TILES + tile_x_of_slot(quad);
+    const uint ty0 = bin / p->bins_x * BIN_TILES + tile_y_of_slot(quad);
 #pragma unroll
     for (uint i = 0; i < 4; ++i) {
       const uint tx = tx0 + (i & 1), ty = ty0 + (i >> 1);

@@ -47,7 +47,8 @@ static inline uint select_lights(RegionLights all, BinAsks asks, global uint* id
     global const uint* tiles = all.tiles + (uint)((ulong)all.blocks * run / all.runs) * 16;
     const int count = (int)all.counts[run];
     for (int i = 0; i < count; i += 16, tiles += 16) {
-      const uint bits = mask_bits(meets_bin(vload16(0, tiles), vload16(0, tiles + all.stride), asks) & (i + LANE_INDEX < count));
+      const int16 meets = meets_bin(vload16(0, tiles), vload16(0, tiles + all.stride), asks);
+      const uint bits = mask_bits(meets & (i + LANE_INDEX < count));
       append_uints(ids + n, as_int16(vload16(0, tiles + 2 * all.stride)), bits);
       n += popcount(bits);
     }
@@ -94,7 +95,8 @@ static inline uint narrow(const Candidates* all, uint x, uint y, uint side, cons
 }
 
 // The lights of one cell, written to `list`; `tile` is its tile as VIEW_TILES has it. Returns how many.
-static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, global index_t* list, constant CullParams* p) {
+static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, global index_t* list,
+                             constant CullParams* p) {
   uint n = 0;
   for (uint i = 0; i < few->count; i += 16) {
     global const float* from = few->lights + i;
@@ -210,7 +212,8 @@ kernel void cull_lanes(global const float* records, global const uint* lists, gl
       const uint bx = quad % across * 2 + (i & 1), by = quad / across * 2 + (i >> 1), bin = by * p->bins_x + bx;
       if (bx >= p->bins_x || by >= p->bins_y) continue;
       const uint region = by / p->region_bins * p->regions_x + bx / p->region_bins;
-      const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs, p->light_stride / 16};
+      const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs,
+                                   p->light_stride / 16};
       cull_bin(bx, by, records, lights, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, rooms, pool, staged,
                cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins + bin, counters, p);
     }

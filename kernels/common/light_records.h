@@ -33,11 +33,12 @@ static inline float16 mixed(float8 a, float8 b) {  // a, b, a, b, ...
 
 // The lights ids[0 ... 15].
 static inline LightRecords load_records(global const float* records, global const uint* ids) {
+#define PLACE(lane) (ids[lane] * (size_t)RECORD)
   float16 even[4], odd[4];  // fields 0, 2, 4, 6 and 1, 3, 5, 7 of four lights each
 #pragma unroll
   for (uint i = 0; i < 4; ++i) {
-    const float16 a = {vload8(0, records + ids[4 * i] * (size_t)RECORD), vload8(0, records + ids[4 * i + 1] * (size_t)RECORD)};
-    const float16 b = {vload8(0, records + ids[4 * i + 2] * (size_t)RECORD), vload8(0, records + ids[4 * i + 3] * (size_t)RECORD)};
+    const float16 a = {vload8(0, records + PLACE(4 * i)), vload8(0, records + PLACE(4 * i + 1))};
+    const float16 b = {vload8(0, records + PLACE(4 * i + 2)), vload8(0, records + PLACE(4 * i + 3))};
     even[i] = evens(a, b), odd[i] = odds(a, b);
   }
   const float16 x_first0 = evens(even[0], even[1]), x_first1 = evens(even[2], even[3]);
@@ -52,14 +53,15 @@ static inline LightRecords load_records(global const float* records, global cons
 #pragma unroll
   for (uint i = 0; i < 4; ++i) {
     global const float* c = records + RECORD_CONE;
-    cone[i].lo = (float8)(vload4(0, c + ids[4 * i] * (size_t)RECORD), vload4(0, c + ids[4 * i + 1] * (size_t)RECORD));
-    cone[i].hi = (float8)(vload4(0, c + ids[4 * i + 2] * (size_t)RECORD), vload4(0, c + ids[4 * i + 3] * (size_t)RECORD));
+    cone[i].lo = (float8)(vload4(0, c + PLACE(4 * i)), vload4(0, c + PLACE(4 * i + 1)));
+    cone[i].hi = (float8)(vload4(0, c + PLACE(4 * i + 2)), vload4(0, c + PLACE(4 * i + 3)));
   }
   const float16 x_d0 = evens(cone[0], cone[1]), x_d1 = evens(cone[2], cone[3]);
   const float16 y_cosine0 = odds(cone[0], cone[1]), y_cosine1 = odds(cone[2], cone[3]);
   l.cone.x = evens(x_d0, x_d1), l.cone.d = odds(x_d0, x_d1);
   l.cone.y = evens(y_cosine0, y_cosine1), l.cone.cosine = odds(y_cosine0, y_cosine1);
 #endif
+#undef PLACE
   return l;
 }
 
