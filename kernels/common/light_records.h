@@ -121,10 +121,12 @@ static inline uint16 short_distance(float16 distance, float otherwise) {
 }
 
 // A light's span of distances. It is wider than the sphere's by more than the finer tests' roundings, so that none of them
-// would keep what this drops.
+// would keep what this drops: they compare squares, of which small ones vanish and large ones are infinite, and keep both.
 static inline uint16 span_of(ViewSphere s) {
-  const float16 margin = 1e-6f * (fabs(s.d) + s.r);
-  const uint16 near = short_distance(s.d - s.r - margin, 0.0f), far = short_distance(s.d + s.r + margin, FAR_AWAY);
+  const float16 margin = 1e-6f * (fabs(s.d) + s.r) + 1e-18f, zero = 0.0f, far_away = FAR_AWAY;
+  const int16 bounded = s.r * s.r < (float16)(INFINITY);
+  const uint16 near = short_distance(bounded ? s.d - s.r - margin : zero, 0.0f);
+  const uint16 far = short_distance(bounded ? s.d + s.r + margin : far_away, FAR_AWAY);
   return far | (0x7fffu - near) << 16 | HALF_TOPS;
 }
 
