@@ -56,7 +56,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
   // Least key at or above the cut, and greatest below it. A side without a key is empty; a tile with strange depths
   // keeps its interval.
   local uint cuts[TILES];
-  if (item < TILES) cuts[item] = KEY(as_uint(depth_of_distance(middle, p)));
+  if (item < TILES) cuts[item] = max(KEY(as_uint(depth_of_distance(middle, p))), 1u);  // 0: nothing there
   barrier(CLK_LOCAL_MEM_FENCE);
   const uint cut = cuts[tile];
   uint above = 0xffffffffu, below = 0u;

@@ -146,7 +146,7 @@ kernel void depth_bounds_lanes(global const uint* depth, global float* opaque, g
   const float16 nears = all.near, fars = all.far;
 #if DEPTH_MODE == DEPTH_HALFZ_MODIFIED
   uint cuts[TILES];
-  vstore16(KEY(AS_BITS(depth_of_distance(middle, p))), 0, cuts);
+  vstore16(max(KEY(AS_BITS(depth_of_distance(middle, p))), (uint16)(1u)), 0, cuts);  // 0: nothing there
 #endif
   for (uint t = 0; t < TILES; ++t) {
     found[0][t] = 0xffffffffu, found[1][t] = 0u;
