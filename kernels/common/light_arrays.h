@@ -12,16 +12,9 @@
 #define VIEW_Y 1
 #define VIEW_D 2
 #define VIEW_R 3
-#if LANES == 16
 #define VIEW_TILES 4  // of one bin: bits 0-7 its columns, 8-15 its rows
 #define VIEW_ID 5
 #define VIEW_CONE 6   // four arrays
-#else
-#define VIEW_FIRST 4  // TileRect
-#define VIEW_LAST 5
-#define VIEW_ID 6
-#define VIEW_CONE 7
-#endif
 #ifdef SPOTS
 #define VIEW_ARRAYS (VIEW_CONE + 4)
 #else
