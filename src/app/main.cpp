@@ -3,12 +3,14 @@
 #include <new>
 
 #include "app/commands.h"
+#include "app/environment.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "cl/error.h"
 
 int main(int argc, char** argv) {
   using namespace lightgrid;
+  prepare_environment();
   CommandLine line("lightgrid", "lightgrid: scenes with very many lights, and what each technique's accuracy costs in time");
   for (const auto add : {add_render, add_compare, add_plan, add_capture, add_cull, add_inspect, add_scenes, add_techniques,
                          add_devices, add_bench, add_verify})

@@ -1,41 +1,14 @@
 #include "cl/device.h"
 
-#include <sched.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <mutex>
-#include <string_view>
 
 #include "cl/error.h"
 
 namespace lightgrid {
 namespace {
 
-// PoCL pins worker i to processor i, also where this process may use others only (taskset, a container's
-// cpuset).
-bool may_use_every_processor() {
-  cpu_set_t allowed;
-  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return false;
-  for (long i = 0; i < sysconf(_SC_NPROCESSORS_ONLN); ++i)
-    if (!CPU_ISSET(i, &allowed)) return false;
-  return true;
-}
-
-// PoCL reads these at the first OpenCL call of the process. What the user has set stays.
-void prepare_drivers() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    if (may_use_every_processor()) setenv("POCL_AFFINITY", "1", 0);
-    const char* cache = std::getenv("LIGHTGRID_CL_CACHE");
-    if (cache && std::string_view(cache) == "off") setenv("POCL_KERNEL_CACHE", "0", 0);
-  });
-}
-
 std::vector<cl::Device> all_devices() {
-  prepare_drivers();
   std::vector<cl::Device> devices;
   try {
     std::vector<cl::Platform> platforms;

@@ -2,7 +2,6 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
-#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -30,8 +29,6 @@ struct Egl {
 // Never closed again: drivers' threads do not survive being unloaded.
 const Egl& egl() {
   static const Egl functions = [] {
-    // Mesa warns on stderr about each device it cannot use; what matters is in our own messages.
-    setenv("EGL_LOG_LEVEL", "fatal", 0);
     void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library) throw machine_error("libEGL.so.1 is not installed");
     Egl found;

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "cl/error.h"
 
 namespace lightgrid {
@@ -109,6 +111,25 @@ TEST(ClDevice, TakesNoQueueOutOfOrder) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_THAT(error.what(), HasSubstr("out of order"));
   }
+}
+
+// Only what the program itself sets: drivers add variables of their own.
+std::vector<std::string> environment() {
+  std::vector<std::string> values;
+  for (const char* name : {"POCL_AFFINITY", "POCL_KERNEL_CACHE"}) {
+    const char* value = std::getenv(name);
+    values.push_back(value ? value : "(not set)");
+  }
+  return values;
+}
+
+// A library may not call setenv: another thread of the host program may be reading the environment.
+TEST(ClDevice, LeavesTheEnvironmentOfTheHostProgramAsItIs) {
+  setenv("LIGHTGRID_CL_CACHE", "off", 1);
+  const std::vector<std::string> before = environment();
+  ClDevice made;
+  EXPECT_EQ(environment(), before);
+  unsetenv("LIGHTGRID_CL_CACHE");
 }
 
 TEST(ClErrors, AreNamedWithTheCallAndTheCode) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "gl/gl.h"
@@ -27,6 +28,23 @@ struct GlContextOf : testing::TestWithParam<GlBackend> {
     if (GetParam() == GlBackend::osmesa && !osmesa_is_installed()) GTEST_SKIP() << "OSMesa is not installed";
   }
 };
+
+// Only what the program itself sets: drivers add variables of their own.
+std::vector<std::string> environment() {
+  std::vector<std::string> values;
+  for (const char* name : {"EGL_LOG_LEVEL"}) {
+    const char* value = std::getenv(name);
+    values.push_back(value ? value : "(not set)");
+  }
+  return values;
+}
+
+// A library may not call setenv: another thread of the host program may be reading the environment.
+TEST_P(GlContextOf, LeavesTheEnvironmentOfTheHostProgramAsItIs) {
+  const std::vector<std::string> before = environment();
+  const auto context = GlContext::create(GetParam());
+  EXPECT_EQ(environment(), before);
+}
 
 TEST_P(GlContextOf, IsACoreProfileOfAtLeast45) {
   auto context = GlContext::create(GetParam());
