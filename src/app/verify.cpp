@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/verify_hunt.h"
 #include "base/error.h"
 #include "study/results.h"
 #include "study/verify/run.h"
@@ -18,6 +19,7 @@ namespace {
 struct VerifyCommand {
   std::string device, filter, json, replay;
   bool nightly = false, list = false;
+  HuntCommand hunt;
 };
 
 std::vector<std::unique_ptr<verify::CullEngine>> engines_of(const std::string& device) {
@@ -42,7 +44,15 @@ void print(const verify::VerifyReport& report) {
   fmt::print("{} of {} failed\n", report.failed, report.cases.size());
 }
 
+int hunt(const VerifyCommand& o) {
+  if (!o.replay.empty() || o.nightly || o.list)
+    throw input_error("verify: --hunt {} goes with none of --nightly, --list and --replay", o.hunt.minutes);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  return run_hunt(o.hunt, *verify::device_engine(o.device), o.filter, o.json);
+}
+
 int run(const VerifyCommand& o) {
+  if (o.hunt.asked()) return hunt(o);
   const auto chosen = verify::chosen_cases(o.filter);
   if (!o.replay.empty() && (o.nightly || o.list || !o.filter.empty()))
     throw input_error("verify: --replay {} goes with none of --filter, --nightly and --list", o.replay);
@@ -72,6 +82,7 @@ void add_verify(CommandLine& line) {
   command.option("--replay", o->replay, "a captured frame's folder instead: its grids against a flat C++ program's, bit for bit");
   command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand");
   command.flag("--list", o->list, "the catalogue as a table, and nothing run");
+  add_hunt_options(command, o->hunt);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

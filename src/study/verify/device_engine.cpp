@@ -44,12 +44,14 @@ class DeviceEngine : public CullEngine {
   }
 
  private:
-  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int>;
+  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int, GridLists>;
+  static constexpr size_t most_cullers = 64;  // each has buffers of its own
 
   LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
     o.samples = samples;
     const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend, o.index_bits, o.portable,
-                  o.pixel_centres, o.group_size);
+                  o.pixel_centres, o.group_size, o.lists);
+    if (cullers_.size() >= most_cullers && !cullers_.contains(key)) cullers_.clear();
     auto& culler = cullers_[key];
     if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
     culler->set_view(view);

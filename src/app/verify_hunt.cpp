@@ -1,0 +1,61 @@
+#include "app/verify_hunt.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+#include "app/options.h"
+#include "app/progress.h"
+#include "base/error.h"
+#include "study/verify/hunt.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double most_minutes = 100'000;
+constexpr uint64_t short_hunt = 1'000'000;  // contacts: fewer take less time than the kernels of all settings
+
+double parse_minutes(const std::string& text) {
+  double minutes = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), minutes);
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || !(minutes > 0 && minutes <= most_minutes))
+    throw input_error("--hunt {}: not a number of minutes above 0 and up to {}", text, most_minutes);
+  return minutes;
+}
+
+void print(const verify::HuntReport& report) {
+  const auto row = [](const verify::HuntTally& t) {
+    fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>9.0f}  {}\n", t.name, t.contacts, t.lost, t.views, t.refused,
+               t.shapes_differ, t.contacts ? t.seconds * 1e9 / double(t.contacts) : 0, t.why);
+    if (!t.refusal.empty()) fmt::print("  {:<13} refused: {}\n", t.name, t.refusal);
+  };
+  fmt::print("{}, seed {}\n", report.device, report.seed);
+  fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>9}\n", "class", "contacts", "lost", "views", "refused", "differ",
+             "ns each");
+  for (const verify::HuntTally& tally : report.classes) row(tally);
+  row(report.total());
+  for (const std::string& folder : report.saved) fmt::print("saved {}\n", folder);
+}
+
+}  // namespace
+
+void add_hunt_options(Subcommand& command, HuntCommand& o) {
+  command.option("--hunt", o.minutes, "minutes of random views and lights that reach a pixel by a hair instead, on one device");
+  command.option("--contacts", o.contacts, "with --hunt: until so many contacts are counted, not by the clock; 0: by the clock");
+  command.option("--seed", o.seed, "with --hunt: of its random numbers");
+  command.option("--save", o.save, "with --hunt: a folder for losing views, as captured frames with the fewest lights");
+}
+
+int run_hunt(const HuntCommand& o, verify::CullEngine& engine, const std::string& filter,
+             const std::string& json) {
+  verify::HuntOptions options{.minutes = parse_minutes(o.minutes), .contacts = o.contacts, .seed = o.seed, .filter = filter,
+                              .few_settings = o.contacts > 0 && o.contacts < short_hunt, .save = o.save, .progress = progress_bar()};
+  const verify::HuntReport report = verify::hunt(engine, options);
+  if (!json.empty()) write_json(json, verify::to_json(report).dump(1) + "\n");
+  if (json != "-") print(report);
+  return report.failed() ? 1 : 0;
+}
+
+}  // namespace lightgrid

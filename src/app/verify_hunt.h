@@ -1,0 +1,23 @@
+// lightgrid verify --hunt: the standing hunt for lost lights.
+#pragma once
+
+#include <string>
+
+#include "app/command_line.h"
+#include "study/verify/engine.h"
+
+namespace lightgrid {
+
+struct HuntCommand {
+  std::string minutes, save;
+  uint64_t contacts = 0, seed = 1;
+  bool asked() const { return !minutes.empty(); }
+};
+
+void add_hunt_options(Subcommand& command, HuntCommand& options);
+
+// On one device, of the classes whose name holds `filter`. Returns the exit status: 1 where a light was lost, a view refused or the kernel shapes differed.
+int run_hunt(const HuntCommand& options, verify::CullEngine& engine, const std::string& filter,
+             const std::string& json);
+
+}  // namespace lightgrid

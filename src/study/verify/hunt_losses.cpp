@@ -1,0 +1,58 @@
+#include "study/verify/hunt_losses.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/parallel.h"
+#include "study/verify/check.h"
+
+namespace lightgrid::verify {
+namespace {
+
+constexpr size_t chunk = 4096;
+
+// As shading finds a pixel's list: its tile, and the slice and the z-bin of its stored depth.
+class Finder {
+ public:
+  Finder(const HuntView& view, int tile, const HostGrid& grid)
+      : h_(view), tile_(tile), grid_(grid), slices_(slice_keys(view.view)), z_bins_(z_bin_keys(view.view)),
+        mask_words_(grid.cells.empty() ? 0 : grid.masks.size() / grid.cells.size()) {}
+
+  bool finds(const HuntContact& c) const {
+    const float depth = h_.depth.values[(size_t(c.y) * h_.view.width + c.x) * h_.depth.samples + c.sample];
+    const float key = depth_key(h_.view, depth);
+    const size_t slice = slice_of_key(key, slices_.data());
+    const size_t cell = (slice * grid_.cells_y + c.y / tile_) * grid_.cells_x + c.x / tile_;
+    if (cell >= grid_.cells.size()) return false;
+    const auto list = list_of(grid_, cell);
+    if (!std::binary_search(list.begin(), list.end(), c.light)) return false;
+    if (mask_words_ && !(grid_.masks[cell * mask_words_ + c.light / 32] >> c.light % 32 & 1)) return false;
+    return grid_.z_bins.empty() || bins_hold(grid_.z_bins[c.light], z_bin_of_key(key, z_bins_.data()));
+  }
+
+ private:
+  const HuntView& h_;
+  const int tile_;
+  const HostGrid& grid_;
+  const std::array<float, MOST_SLICES> slices_;
+  const std::array<float, MOST_Z_BINS> z_bins_;
+  const size_t mask_words_;
+};
+
+}  // namespace
+
+std::vector<HuntContact> lost_contacts(const HuntView& view, std::span<const HuntContact> contacts, int tile,
+                                       const HostGrid& grid) {
+  const Finder finder(view, tile, grid);
+  std::vector<std::vector<HuntContact>> parts((contacts.size() + chunk - 1) / chunk);
+  parallel_for(int(parts.size()), [&](int i) {
+    for (size_t k = size_t(i) * chunk; k < std::min(contacts.size(), size_t(i + 1) * chunk); ++k) {
+      if (!finder.finds(contacts[k])) parts[i].push_back(contacts[k]);
+    }
+  });
+  std::vector<HuntContact> lost;
+  for (const auto& part : parts) lost.insert(lost.end(), part.begin(), part.end());
+  return lost;
+}
+
+}  // namespace lightgrid::verify
