@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/paths.h"
+
 namespace {
 
 using testing::HasSubstr;
@@ -23,7 +25,7 @@ struct Ran {
 Ran run_devices(const std::string& arguments, const std::string& environment = "") {
   const std::string errors = testing::TempDir() + "/devices_stderr." + std::to_string(getpid());
   const std::string command =
-      environment + " '" LIGHTGRID_PROGRAM "' devices " + arguments + " 2>'" + errors + "'";
+      environment + " '" + lightgrid::lightgrid_program + "' devices " + arguments + " 2>'" + errors + "'";
   Ran ran;
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> block;

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/paths.h"
 #include "support/run_program.h"
 #include "techniques/technique.h"
 
@@ -21,7 +22,7 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-const fs::path docs = fs::path(LIGHTGRID_SOURCE_DIR) / "docs";
+const fs::path docs = fs::path(source_folder) / "docs";
 
 std::string page_of(const std::string& technique) { return text_of(docs / "techniques" / (technique + ".md")); }
 

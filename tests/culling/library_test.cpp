@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "support/paths.h"
 #include "support/run_command.h"
 #include "support/temp_folder.h"
 
@@ -61,7 +62,7 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
   };
   must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR, prefix));
   must(fmt::format("{} -S {}/docs/examples/cull_depth -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
-                   LIGHTGRID_SOURCE_DIR, build, prefix));
+                   source_folder, build, prefix));
   must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
   if (HasFailure()) return;
   const std::string out = must(build + "/cull_depth");
@@ -98,7 +99,7 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
 TEST(Library, AloneIsConfiguredWithoutThePackagesOfTheProgram) {
   if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
   const TempFolder temp;
-  std::string command = fmt::format("{} -S {} -B {} -DLIGHTGRID_PROGRAM=OFF", LIGHTGRID_CONFIGURE, LIGHTGRID_SOURCE_DIR,
+  std::string command = fmt::format("{} -S {} -B {} -DLIGHTGRID_PROGRAM=OFF", LIGHTGRID_CONFIGURE, source_folder,
                                     temp.path.string());
   for (const char* package : {"CLI11", "draco", "GTest", "meshoptimizer", "nlohmann_json", "OpenGL", "PkgConfig", "PNG",
                               "spdlog", "TinyGLTF", "tinyexr"}) {

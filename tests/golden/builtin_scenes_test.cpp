@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "base/write_file.h"
 #include "scene/builtin.h"
+#include "support/paths.h"
 #include "support/render.h"
 
 namespace lightgrid {
@@ -66,7 +67,7 @@ class GoldenImage : public testing::TestWithParam<const char*> {};
 
 TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
   const std::string name = GetParam();
-  const fs::path golden = fs::path(LIGHTGRID_SOURCE_DIR) / "assets/golden" / (name + ".png");
+  const fs::path golden = fs::path(source_folder) / "assets/golden" / (name + ".png");
   const Scene scene = find_builtin_scene(name)->make();
   const View view = make_view(choose_camera(scene, ""), width, height);
   const Bytes actual = srgb_bytes(render_image(scene, view));
@@ -81,7 +82,7 @@ TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
   const Difference d = difference_of(actual, expected);
   const bool equal = d.mean <= allowed_mean && d.share_off <= allowed_share_off;
   if (!equal) {
-    const fs::path folder = fs::path(LIGHTGRID_TEST_OUTPUT_DIR) / "golden";
+    const fs::path folder = fs::path(test_output_folder) / "golden";
     make_folder(folder);
     write_file(folder / (name + ".actual.png"), actual_png);
     write_file(folder / (name + ".expected.png"), encode_png(width, height, 3, expected));

@@ -3,13 +3,14 @@
 
 #include <sstream>
 
+#include "support/paths.h"
 #include "support/run_command.h"
 
 namespace lightgrid {
 namespace {
 
 CommandOutcome digest(const std::string& before, const std::string& size = "") {
-  return run_command(before + " " LIGHTGRID_GRID_DIGEST " " + size + " 2>&1");
+  return run_command(before + " " + grid_digest_program + " " + size + " 2>&1");
 }
 
 TEST(GridDigest, IsTheSameWithAnyNumberOfThreads) {

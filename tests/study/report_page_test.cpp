@@ -9,6 +9,7 @@
 
 #include "study/report.h"
 #include "study/synthetic_report.h"
+#include "support/paths.h"
 #include "support/run_command.h"
 #include "support/temp_folder.h"
 
@@ -34,9 +35,10 @@ void insert_before(std::string& page, const std::string& mark, const std::string
 }
 
 std::string browser() {
-  auto found =
+  std::string found =
       run_command("command -v chromium || command -v chromium-browser || command -v google-chrome").output;
-  return found.substr(0, found.find('\n'));
+  while (!found.empty() && found.back() == '\n') found.pop_back();
+  return found;
 }
 
 std::string unescaped(std::string text) {
@@ -50,7 +52,7 @@ std::string unescaped(std::string text) {
 json seen_in_browser(const fs::path& folder, const char* window_size) {
   auto page = text_of(folder / "index.html");
   insert_before(page, "<style>", fault_recorder);
-  const auto controls = text_of(fs::path(LIGHTGRID_SOURCE_DIR) / "tests/study/report_page_controls.js");
+  const auto controls = text_of(fs::path(source_folder) / "tests/study/report_page_controls.js");
   insert_before(page, "</body>", "<script>" + controls + "</script>");
   std::ofstream(folder / "tried.html") << page;
   const auto command =

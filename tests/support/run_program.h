@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/paths.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
@@ -37,7 +38,7 @@ inline ProgramRun run_program(std::vector<std::string> arguments, const std::vec
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
 
-  arguments.insert(arguments.begin(), LIGHTGRID_PROGRAM);
+  arguments.insert(arguments.begin(), lightgrid_program);
   std::vector<char*> argv, envp;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -48,7 +49,7 @@ inline ProgramRun run_program(std::vector<std::string> arguments, const std::vec
 
   ProgramRun run;
   pid_t pid = 0;
-  const int failure = posix_spawn(&pid, LIGHTGRID_PROGRAM, &actions, nullptr, argv.data(), envp.data());
+  const int failure = posix_spawn(&pid, lightgrid_program, &actions, nullptr, argv.data(), envp.data());
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) return run;
 

@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "support/paths.h"
+
 namespace lightgrid {
 
 inline std::filesystem::path shared_folder() {
   const char* given = std::getenv("LIGHTGRID_SHARED");
-  return given ? given : LIGHTGRID_SHARED_DIR;
+  return given ? given : default_shared_folder;
 }
 
 }  // namespace lightgrid
