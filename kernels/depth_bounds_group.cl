@@ -77,10 +77,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
   barrier(CLK_LOCAL_MEM_FENCE);
   const float near = nears[tile], far = fars[tile];
   uint slots = 0u;
-  FOR_KEYS(if (key != 0u) slots |= 1u << mask_slot(distance_of_depth(as_float(KEY(key)), p), near, far);)
+  FOR_KEYS(if (key != 0u) slots |= slots_of_key(key, near, far, p);)
   atomic_or(&masks[tile], slots);
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (writes) planes[2] = as_float(high == 0u || high > ONE_BITS ? 0xffffffffu : masks[item]);
+  if (writes) planes[2] = as_float(high == 0u || high > ONE_BITS || all.far == FAR_AWAY ? 0xffffffffu : masks[item]);
 #endif
 #endif
   if (!writes) return;

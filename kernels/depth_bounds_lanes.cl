@@ -99,13 +99,13 @@ static inline uint2 keys_around(global const uint* depth, uint stride, uint rows
   return (uint2)(lowest_lane(above), highest_lane(below));
 }
 
+// The slots of the tile's interval that hold a surface.
 static inline uint occupied_slots(global const uint* depth, uint stride, uint rows, uint columns, float near, float far,
                                   constant CullParams* p) {
   uint16 mask = (uint16)(0u);
 #define OCCUPY(keys)                                                                           \
   const uint16 key = keys;                                                                     \
-  const int16 slot = mask_slot(distance_of_depth(AS_REAL(KEY(key)), p), near, far);            \
-  mask |= key != (uint16)(0u) ? (uint16)(1u) << as_uint16(slot) : (uint16)(0u);
+  mask |= key != (uint16)(0u) ? slots_of_key(key, near, far, p) : (uint16)(0u);
   FOR_KEYS(OCCUPY)
   const uint8 a = mask.lo | mask.hi;
   const uint4 b = a.lo | a.hi;
@@ -156,6 +156,7 @@ kernel void depth_bounds_lanes(global const uint* depth, global float* opaque, g
     const uint2 around = keys_around(first + t * ROW, stride, rows, columns, cuts[t]);
     found[0][t] = around.x, found[1][t] = around.y;
 #else
+    if (planes[1][t] == FAR_AWAY) continue;  // every distance: every slot
     found[0][t] = occupied_slots(first + t * ROW, stride, rows, columns, planes[0][t], planes[1][t], p);
 #endif
   }

@@ -30,8 +30,7 @@ typedef struct TestCell {
 #if DEPTH_MODE == DEPTH_MASK32
 static inline mask_t mask_meets(ViewSphere s, const TestCell* c) {
   const whole low = mask_slot(s.d - s.r, c->mask_near, c->mask_far), high = mask_slot(s.d + s.r, c->mask_near, c->mask_far);
-  const bits_t bits = (((bits_t)(2u) << AS_BITS(high)) - 1u) & ~(((bits_t)(1u) << AS_BITS(low)) - 1u);
-  return (bits & c->mask) != (bits_t)(0u);
+  return (mask_of_slots(low, high) & c->mask) != (bits_t)(0u);
 }
 #endif
 
@@ -50,7 +49,7 @@ static inline mask_t view_light_may_touch(ViewLight light, const TestCell* c, co
     if (INTERVALS > 1 && c->parts[i].near > c->parts[i].far) continue;
     mask_t touch = may_touch(s, &c->parts[i], p);
 #ifdef SPOTS
-    touch &= cone_may_touch(s, light.cone, &c->parts[i]);
+    touch &= cone_may_touch(s, light.cone, &c->parts[i], p);
 #endif
     keep |= touch;
   }

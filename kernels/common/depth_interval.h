@@ -11,6 +11,9 @@
 // docs/hard_cases.md#slack.
 #define WIDEN 4.8e-7f
 #define ONE_BITS 0x3f800000u
+// Lights farther than 1e16 m are scaled towards the eye (docs/hard_cases.md#far-lights), so a tile with a surface past
+// this distance, metres, spans every distance.
+#define FARTHEST_SURFACE 1e15f
 
 #ifdef STANDARD_DEPTH
 #define KEY(bits) (ONE_BITS - (bits))
@@ -65,7 +68,8 @@ static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullPa
 // low: least key that is not 0; high: greatest key, 0 if nothing is there: near > far.
 static inline Interval opaque_interval(bits_t low, bits_t high, constant CullParams* p) {
   Interval i = interval_of_keys(low, high, p);
-  const mask_t strange = high > (bits_t)(ONE_BITS), none = high == (bits_t)(0u);
+  const mask_t none = high == (bits_t)(0u);
+  const mask_t strange = (high > (bits_t)(ONE_BITS)) | (i.far > (real)(FARTHEST_SURFACE));
   i.near = none ? (real)(FAR_AWAY) : (strange ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : i.near);
   i.far = none ? (real)(-FAR_AWAY) : (strange ? (real)(FAR_AWAY) : i.far);
   return i;
@@ -74,10 +78,11 @@ static inline Interval opaque_interval(bits_t low, bits_t high, constant CullPar
 // lowest: least key, 0 where some pixel shows no surface and a blended one may be at any distance.
 static inline Interval blend_interval(bits_t lowest, bits_t high, constant CullParams* p) {
   Interval i = interval_of_keys(lowest, lowest, p);
-  const float near = p->near_distance - WIDEN * fabs(p->near_distance) - (p->orthographic ? WIDEN : 0.0f);
-  const mask_t strange = high > (bits_t)(ONE_BITS);
+  const float margin = p->orthographic ? WIDEN * fabs(p->depth_b * p->depth_a) : 0.0f;
+  const float near = p->near_distance - (WIDEN * fabs(p->near_distance) + margin);
+  const mask_t strange = high > (bits_t)(ONE_BITS), endless = i.far > (real)(FARTHEST_SURFACE);
   i.near = strange ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : (real)(near);
-  i.far = (strange | (lowest == (bits_t)(0u))) ? (real)(FAR_AWAY) : i.far;
+  i.far = (strange | endless | (lowest == (bits_t)(0u))) ? (real)(FAR_AWAY) : i.far;
   return i;
 }
 
@@ -86,4 +91,19 @@ static inline Interval blend_interval(bits_t lowest, bits_t high, constant CullP
 static inline whole mask_slot(real distance, real near, real far) {
   const real scale = far > near ? (real)(32.0f) / (far - near) : (real)(0.0f);
   return TO_WHOLE(lane_min(lane_max((distance - near) * scale, (real)(0.0f)), (real)(31.0f)));
+}
+
+// The bits from slot `low` to slot `high`, low <= high.
+static inline bits_t mask_of_slots(whole low, whole high) {
+  return (((bits_t)(2u) << AS_BITS(high)) - 1u) & ~(((bits_t)(1u) << AS_BITS(low)) - 1u);
+}
+
+// The slots of a tile's interval that a surface may lie in. Its distance is known to a step of the depth format, and in
+// orthographic views only to the rounding of the terms that cancel, which no light's slack covers.
+static inline bits_t slots_of_key(bits_t key, real near, real far, constant CullParams* p) {
+  if (!p->orthographic && p->depth_step == 0.0f) {
+    return (bits_t)(1u) << AS_BITS(mask_slot(distance_of_depth(AS_REAL(KEY(key)), p), near, far));
+  }
+  const Interval i = interval_of_keys(key, key, p);
+  return mask_of_slots(mask_slot(i.near, near, far), mask_slot(i.far, near, far));
 }

@@ -101,13 +101,16 @@ typedef struct ViewCone {
 // degrees; past that a cone is not convex and the test loses cells (12 % of them at 100 degrees), so such a light has no
 // cone here and its sphere decides. The distance from the axis comes from the cross product: |v|^2 - along^2 would
 // cancel near the axis. Asked so that NaN keeps the light: far, wide cells overflow.
-static inline mask_t cone_may_touch(ViewSphere s, ViewCone k, const Cell* c) {
+static inline mask_t cone_may_touch(ViewSphere s, ViewCone k, const Cell* c, constant CullParams* p) {
   const float cx = 0.5f * (c->box_x0 + c->box_x1), cy = 0.5f * (c->box_y0 + c->box_y1), cd = 0.5f * (c->near + c->far);
   const float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hd = c->far - c->near;
   const float half_size = 0.5f * sqrt(hx * hx + hy * hy + hd * hd) * (1.0f + SLACK);
-  const float place = fabs(cx) + fabs(cy) + fabs(cd);
+  // The apex' rounding on upload and that of the tile's sides are no part of the coordinates' roundings.
+  const float sides = p->side_slack * (fabs(c->near) + fabs(c->far)) + (p->side_slack_m + LEAST_RADIUS);
+  const float size = half_size + (sides + p->cone_slack_m);
+  const float centre = fabs(cx) + fabs(cy) + fabs(cd);
   const real x = cx - s.x, y = cy - s.y, d = cd - s.d;
-  const real reach = half_size + 2.0f * SLACK * (fabs(x) + fabs(y) + fabs(d) + fabs(s.x) + fabs(s.y) + fabs(s.d) + place);
+  const real reach = size + 2.0f * SLACK * (fabs(x) + fabs(y) + fabs(d) + fabs(s.x) + fabs(s.y) + fabs(s.d) + centre);
   const real along = x * k.x + y * k.y + d * k.d;
   const real sine = sqrt(lane_max((real)(1.0f) - k.cosine * k.cosine, (real)(0.0f)));
   const real ax = y * k.d - d * k.y, ay = d * k.x - x * k.d, ad = x * k.y - y * k.x;

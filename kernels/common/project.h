@@ -13,8 +13,10 @@
 #define FAR_AWAY 1e18f
 
 // Radii grow by this much of |x| + |y| + |d| + radius before any test; it covers every rounding from the light's world
-// place to the comparison: docs/hard_cases.md#slack.
+// position to the comparison, but for the rounding of tile sides, which is the view's: docs/hard_cases.md#slack.
 #define SLACK (24.0f * 5.9604645e-8f)
+// And by this, metres: squares of smaller numbers underflow.
+#define LEAST_RADIUS 1e-18f
 // Tangents and tile coordinates round to this part of themselves: docs/hard_cases.md#tangents.
 #define TANGENT_SLACK (32.0f * 5.9604645e-8f)
 
@@ -31,7 +33,9 @@ static inline ViewSphere view_sphere(real world_x, real world_y, real world_z, r
   s.x = p->x_axis_x * x + p->x_axis_y * y + p->x_axis_z * z;
   s.y = p->y_axis_x * x + p->y_axis_y * y + p->y_axis_z * z;
   s.d = p->d_axis_x * x + p->d_axis_y * y + p->d_axis_z * z;
-  s.r = radius + SLACK * (fabs(s.x) + fabs(s.y) + fabs(s.d) + radius);
+  const real distance = fabs(s.d) + radius;
+  const float distance_slack = SLACK + p->side_slack, constant_slack = p->side_slack_m + LEAST_RADIUS;
+  s.r = radius + (SLACK * (fabs(s.x) + fabs(s.y)) + distance_slack * distance + constant_slack);
   return s;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "base/error.h"
 #include "culling/two_floats.h"
@@ -18,7 +19,8 @@ std::array<float, most> keys_of(const CullView& view, const std::vector<float>& 
   std::array<float, most> keys;
   keys.fill(std::numeric_limits<float>::infinity());
   for (size_t i = 0; i < edges.size(); ++i) {
-    const double d = edges[i], depth = clip[3][2] - clip[2][2] * d;
+    const double d = edges[i];
+    const double depth = clip[3][2] - clip[2][2] * d;
     keys[i] = depth_key(view, float(is_orthographic(view) ? depth : depth / d));
   }
   return keys;
@@ -67,28 +69,96 @@ double near_distance(const CullView& view) {
   return is_orthographic(view) ? (clip[3][2] - depth) / clip[2][2] : clip[3][2] / (depth + clip[2][2]);
 }
 
-void check_view(const CullView& view, int tile) {
-  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles || (view.height - 1) / tile >= most_tiles) {
-    throw input_error("view: {} x {} pixels is no size that {}-pixel tiles can cover", view.width, view.height, tile);
-  }
+double distance_of_key(const CullView& view, double key) {
   const glm::dmat4& clip = view.clip_from_view;
+  const double depth = has_standard_depth(view) ? key : -key;
+  if (is_orthographic(view)) return (clip[3][2] - depth) / clip[2][2];
+  const double distance = clip[3][2] / (depth + clip[2][2]);
+  return distance >= 0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+namespace {
+
+void check_finite(const CullView& view) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
-      if (!std::isfinite(clip[c][r])) throw input_error("view: clip_from_view[{}][{}] is {}", r, c, clip[c][r]);
-      if (!std::isfinite(view.view_from_world[c][r])) throw input_error("view: view_from_world[{}][{}] is {}", r, c, view.view_from_world[c][r]);
+      const double clip = view.clip_from_view[c][r], world = view.view_from_world[c][r];
+      if (!std::isfinite(clip)) throw input_error("view: clip_from_view[{}][{}] is {}", r, c, clip);
+      if (!std::isfinite(world)) throw input_error("view: view_from_world[{}][{}] is {}", r, c, world);
     }
   }
-  const bool perspective = clip[2][3] == -1 && clip[3][3] == 0, orthographic = clip[2][3] == 0 && clip[3][3] == 1;
-  if (!(clip[0][0] > 0) || !(clip[1][1] > 0) || !(perspective ? clip[3][2] != 0 : orthographic && clip[2][2] != 0)) {
-    throw input_error("view: clip_from_view is neither a perspective nor an orthographic projection along -z");
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(view.eye[a])) throw input_error("view: eye[{}] is {}", a, view.eye[a]);
   }
-  // Kernels take these in float, and slack counts on numbers whose products are finite.
+}
+
+// What must be 0 in a projection along -z, and what it is called where it is not.
+struct ZeroEntry {
+  int row, column;
+  const char* otherwise;
+};
+constexpr ZeroEntry zero_in_both[] = {
+    {0, 1, "a shear: clip x depends on y"},       {1, 0, "a shear: clip y depends on x"},
+    {2, 0, "an oblique near plane"},              {2, 1, "an oblique near plane"},
+    {3, 0, "a tilted w row: w depends on x"},     {3, 1, "a tilted w row: w depends on y"},
+};
+constexpr ZeroEntry zero_in_perspective[] = {
+    {0, 3, "a translation; an off-centre perspective has its offset in clip_from_view[0][2]"},
+    {1, 3, "a translation; an off-centre perspective has its offset in clip_from_view[1][2]"},
+};
+constexpr ZeroEntry zero_in_orthographic[] = {
+    {0, 2, "a shear: clip x depends on z"},
+    {1, 2, "a shear: clip y depends on z"},
+};
+
+void check_zeros(const CullView& view, std::span<const ZeroEntry> entries) {
+  for (const ZeroEntry& entry : entries) {
+    const double value = view.clip_from_view[entry.column][entry.row];
+    if (value != 0) {
+      throw input_error("view: clip_from_view[{}][{}] is {}, not 0: {}, which culling cannot do", entry.row,
+                        entry.column, value, entry.otherwise);
+    }
+  }
+}
+
+void check_projection(const CullView& view) {
+  const glm::dmat4& clip = view.clip_from_view;
+  check_zeros(view, zero_in_both);
+  const bool perspective = clip[2][3] == -1 && clip[3][3] == 0, orthographic = clip[2][3] == 0 && clip[3][3] == 1;
+  if (!perspective && !orthographic) {
+    throw input_error("view: clip_from_view's last row is [{} {} {} {}], neither [0 0 -1 0], a perspective view along "
+                      "-z, nor [0 0 0 1], an orthographic one", clip[0][3], clip[1][3], clip[2][3], clip[3][3]);
+  }
+  check_zeros(view, perspective ? std::span(zero_in_perspective) : std::span(zero_in_orthographic));
+  for (const int axis : {0, 1}) {
+    if (!(clip[axis][axis] > 0)) throw input_error("view: clip_from_view[{0}][{0}] is {1}, not above 0", axis, clip[axis][axis]);
+  }
+  if ((perspective ? clip[3][2] : clip[2][2]) == 0) {
+    throw input_error("view: clip_from_view[2][{}] is 0: depth does not depend on distance", perspective ? 3 : 2);
+  }
+}
+
+// Kernels take these numbers in float, and slack counts on products that are finite and normal.
+void check_range(const CullView& view) {
+  const glm::dmat4& clip = view.clip_from_view;
   for (const double value : {2 / clip[0][0], 2 / clip[1][1], clip[2][0], clip[2][1], clip[3][0], clip[3][1], clip[2][2],
-                             clip[3][2], orthographic ? 1 / clip[2][2] : 0.0, near_distance(view)}) {
+                             clip[3][2], clip[0][0], clip[1][1]}) {
     if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
   }
-  check_edges(view, view.slice_edges, "slice_edges", MOST_SLICES);
-  check_edges(view, view.z_bin_edges, "z_bin_edges", MOST_Z_BINS);
+  const double near = near_distance(view);
+  if (!is_orthographic(view)) {
+    if (!(near > 0)) throw input_error("view: the near plane is at {} m, not in front of the eye", near);
+    if (!(near >= 1e-37 && near <= 1e15)) throw input_error("view: the near plane is at {} m, not between 10^-37 and 10^15 m", near);
+    return;
+  }
+  const double far = near + 1 / std::abs(clip[2][2]);
+  for (const double edge : {near, far, (1 - clip[3][0]) / clip[0][0], (-1 - clip[3][0]) / clip[0][0],
+                            (1 - clip[3][1]) / clip[1][1], (-1 - clip[3][1]) / clip[1][1]}) {
+    if (!(std::abs(edge) <= 1e15)) throw input_error("view: a side of the orthographic view is at {} m, past 10^15 m", edge);
+  }
+}
+
+void check_rigid(const CullView& view) {
   const glm::dmat3 rotation(view.view_from_world);
   const glm::dmat3 error = rotation * glm::transpose(rotation) - glm::dmat3(1);
   for (int c = 0; c < 3; ++c) {
@@ -96,6 +166,20 @@ void check_view(const CullView& view, int tile) {
       if (!(std::abs(error[c][r]) < 1e-5)) throw input_error("view: view_from_world is not rigid");
     }
   }
+}
+
+}  // namespace
+
+void check_view(const CullView& view, int tile) {
+  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles || (view.height - 1) / tile >= most_tiles) {
+    throw input_error("view: {} x {} pixels is no size that {}-pixel tiles can cover", view.width, view.height, tile);
+  }
+  check_finite(view);
+  check_projection(view);
+  check_range(view);
+  check_edges(view, view.slice_edges, "slice_edges", MOST_SLICES);
+  check_edges(view, view.z_bin_edges, "z_bin_edges", MOST_Z_BINS);
+  check_rigid(view);
 }
 
 ViewParams view_params(const CullView& view, int tile) {
@@ -136,7 +220,13 @@ CullParams cull_params(const CullView& view, int tile) {
   p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile), p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
   p.depth_a = v.depth_a, p.depth_b = v.depth_b;
   p.depth_a_rest = v.orthographic ? 0 : two_floats(clip[2][2]).rest;
-  p.near_distance = v.near_distance;
+  // Blended surfaces may lie past the farthest surface, where lights are scaled towards the eye; none comes
+  // nearer than this.
+  p.near_distance = v.orthographic ? v.near_distance : std::min(v.near_distance, 1e12f);
+  // A tile's side p * scale + offset rounds by 3u (|side| + |offset|), in the kernels and again in shading; the
+  // first term is within SLACK. docs/hard_cases.md#slack
+  const float side_slack = 8 * 0x1p-24f * (std::abs(p.slope_x_offset) + std::abs(p.slope_y_offset));
+  (v.orthographic ? p.side_slack_m : p.side_slack) = side_slack;
   p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);
   p.width = v.width, p.height = v.height;
   p.tile_size = v.tile_size, p.tiles_x = v.tiles_x, p.tiles_y = v.tiles_y, p.bins_x = v.bins_x, p.bins_y = v.bins_y;

@@ -33,14 +33,18 @@ struct CullView {
 std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m);
 
 // What shading compares a pixel's depth key with (shared/slices.h): the view's edges as depth keys, ascending, then
-// infinity. Each differs from its edge by one rounding of a depth, for which the kernels' slices are wide enough.
+// infinity. Each differs from its edge by one rounding of a depth; the kernels' slices end where the keys lie.
 std::array<float, MOST_SLICES> slice_keys(const CullView& view);
 std::array<float, MOST_Z_BINS> z_bin_keys(const CullView& view);
+// Metres along the view axis, exact but for roundings in double. Infinite at and past an infinite far plane.
+double distance_of_key(const CullView& view, double key);
 float depth_key(const CullView& view, float depth);
 
-// Throws Error(input) where they make no view: a size below 1 or past 32,000 tiles a side, a
-// matrix that is not finite, no projection of the two kinds, or not rigid; or edges of slices or z-bins that do not ascend,
-// are not finite, not in front of a perspective view's eye, or more than MOST_SLICES - 1 or MOST_Z_BINS - 1.
+// Throws Error(input) that names the number: a size below 1 or past 32,000 tiles a side; a matrix or an eye that is not
+// finite; a projection that is not along -z or that culling cannot do (shear, oblique near plane, tilted w row, perspective
+// with a translation); a perspective near plane nearer than 10^-37 m or farther than 10^15 m, or an orthographic view with a
+// side past 10^15 m; a view_from_world that is not rigid; edges of slices or z-bins that do not ascend, are not finite, are
+// not in front of a perspective view's eye, or are more than MOST_SLICES - 1 or MOST_Z_BINS - 1. docs/hard_cases.md#the-domain
 void check_view(const CullView& view, int tile);
 
 // The view in the numbers of shaders (lights and ambient are left 0) and of kernels, for tiles of `tile` x `tile`

@@ -6,60 +6,122 @@
 namespace lightgrid {
 namespace {
 
-// A light has a place and a radius; what has none is listed nowhere.
+constexpr float endless = std::numeric_limits<float>::infinity();
+constexpr double small_part = 0x1p-8;  // of a radius
+
+// A light has a position and a radius; what lacks either is listed nowhere.
 bool is_light(const CullLight& light) {
   return light.radius_m >= 0 && std::isfinite(light.position.x) && std::isfinite(light.position.y) &&
          std::isfinite(light.position.z);
 }
 
-// An actual coordinate of some light, so that moving all by an exact amount moves it by that amount; in the middle, so
-// that a few lights far off cost the others no precision.
-double middle(std::span<const CullLight> lights, int axis) {
-  std::vector<double> values;
-  values.reserve(lights.size());
-  for (const CullLight& light : lights) {
-    if (is_light(light)) values.push_back(light.position[axis]);
-  }
+bool has_cone(const CullLight& light) { return light.cos_outer >= 0; }
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// 0 for no values.
+double median(std::vector<double> values) {
   if (values.empty()) return 0;
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
   return values[values.size() / 2];
 }
 
+// Coordinates of actual lights, so that moving all lights by an exact amount moves the origin by that amount.
+// Lights parked far off to switch them off do not count, as long as any other is there.
+glm::dvec3 median_position(std::span<const CullLight> lights) {
+  std::vector<const CullLight*> near, far;
+  for (const CullLight& light : lights) {
+    if (is_light(light)) (largest(light.position) < farthest_light ? near : far).push_back(&light);
+  }
+  glm::dvec3 middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const CullLight* light : near.empty() ? far : near) values.push_back(light->position[axis]);
+    middle[axis] = median(std::move(values));
+  }
+  return middle;
+}
+
+// The difference may overflow, its half cannot.
+glm::dvec3 half_offset(const CullLight& light, const glm::dvec3& origin) {
+  return light.position * 0.5 - origin * 0.5;
+}
+
+bool is_far(const CullLight& light, const glm::dvec3& origin) {
+  return largest(half_offset(light, origin)) >= farthest_light / 2;
+}
+
 struct UploadedSphere {
-  glm::vec3 place{0};
+  glm::vec3 position{0};
   float radius = -far_away;  // listed nowhere
 };
 
-// Of its place's rounding the radius makes up. Past what kernels call infinite only a light as large can reach a cell.
-UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin) {
+float rounded_up(double radius) {
+  const float value = float(std::min(radius, 3e38));
+  return value > 0 ? std::nextafter(value, endless) : 0.0f;
+}
+
+// A far light whose sphere stays away from the eye lights only surfaces past farthest_surface, in cells that
+// span every distance. Scaling it towards the eye keeps the directions in which such a cell sees it. The
+// scaling is towards the origin instead; the radius pays for the eye's distance from there.
+UploadedSphere far_sphere(const CullLight& light, const glm::dvec3& origin, double eye_reach) {
+  const glm::dvec3 half = half_offset(light, origin);
+  const double size = largest(half);
+  if (light.radius_m * 0.5 > size / 4) return {glm::vec3(0), endless};
+  return {glm::vec3(half / size * farthest_light),
+          rounded_up(light.radius_m * 0.5 / size * farthest_light + 4 * half_ulp * farthest_light + 2 * eye_reach)};
+}
+
+// The radius is grown by the rounding error of the position.
+UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin, double eye_reach) {
   if (!is_light(light)) return {};
-  const glm::dvec3 place = light.position - origin;
-  const double size = std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
-  if (!(size < far_away)) {
-    return light.radius_m > size / 4 ? UploadedSphere{glm::vec3(0), std::numeric_limits<float>::infinity()} : UploadedSphere{};
-  }
-  const float grown = float(std::min(light.radius_m + half_ulp * size, 3e38));
-  const float radius = std::isinf(light.radius_m) ? std::numeric_limits<float>::infinity()
-                       : grown > 0                ? std::nextafter(grown, std::numeric_limits<float>::infinity())
-                                                  : 0.0f;
-  return {glm::vec3(place), radius};
+  if (std::isinf(light.radius_m)) return {glm::vec3(is_far(light, origin) ? glm::dvec3(0) : light.position - origin), endless};
+  if (is_far(light, origin)) return far_sphere(light, origin, eye_reach);
+  const glm::dvec3 offset = light.position - origin;
+  return {glm::vec3(offset), rounded_up(light.radius_m + half_ulp * sum_of(offset))};
+}
+
+// The cosine of the cone that is uploaded: the cone is wider by the cosine's rounding. 2 where the sphere
+// alone decides.
+float uploaded_cosine(const CullLight& light, const glm::dvec3& origin) {
+  return has_cone(light) && !is_far(light, origin) ? float(std::max(0.0, light.cos_outer - 1e-6)) : 2.0f;
 }
 
 }  // namespace
 
-glm::dvec3 middle_of(std::span<const CullLight> lights) { return {middle(lights, 0), middle(lights, 1), middle(lights, 2)}; }
+LightOrigin choose_origin(std::span<const CullLight> lights) {
+  const glm::dvec3 origin = median_position(lights);
+  size_t count = 0, coarse = 0;
+  double cone_slack = 0;
+  std::vector<double> spot_radii;
+  for (const CullLight& light : lights) {
+    // A light of radius 0 lights nothing.
+    if (!is_light(light) || light.radius_m == 0 || is_far(light, origin)) continue;
+    const double rounding = half_ulp * sum_of(light.position - origin);
+    ++count;
+    if (rounding > small_part * light.radius_m) ++coarse;
+    if (!has_cone(light)) continue;
+    cone_slack = std::max(cone_slack, rounding);
+    spot_radii.push_back(light.radius_m);
+  }
+  if (coarse > count / 64) return {};
+  if (!spot_radii.empty() && cone_slack > small_part * median(std::move(spot_radii))) return {};
+  return {origin, cone_slack};
+}
 
-std::vector<float> light_arrays(std::span<const CullLight> lights, const glm::dvec3& origin, size_t stride) {
+std::vector<float> light_arrays(std::span<const CullLight> lights, const glm::dvec3& origin, double eye_reach,
+                                size_t stride) {
   std::vector<float> values(world_arrays * stride);
   std::fill_n(values.begin() + 3 * stride, stride, -far_away);  // those past the last
   for (size_t i = 0; i < lights.size(); ++i) {
     const CullLight& light = lights[i];
-    const UploadedSphere sphere = uploaded_sphere(light, origin);
-    for (int a = 0; a < 3; ++a) values[a * stride + i] = sphere.place[a];
+    const UploadedSphere sphere = uploaded_sphere(light, origin, eye_reach);
+    for (int a = 0; a < 3; ++a) values[a * stride + i] = sphere.position[a];
     values[3 * stride + i] = sphere.radius;
     for (int a = 0; a < 3; ++a) values[(4 + a) * stride + i] = float(light.direction[a]);
-    // Rounding of the cosine is given to the cone.
-    values[7 * stride + i] = light.cos_outer >= 0 ? float(std::max(0.0, light.cos_outer - 1e-6)) : 2.0f;
+    values[7 * stride + i] = uploaded_cosine(light, origin);
   }
   return values;
 }

@@ -19,6 +19,7 @@ namespace lightgrid {
 namespace {
 
 constexpr float widen = 4.8e-7f;    // as kernels/common/depth_interval.h
+constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr uint lane_count = 16, depth_group = 256, depth_tiles_an_item = 16, mask_group = 64, z_bin_group = 64;
 constexpr uint most_regions = 64, most_region_bins = 16;
 
@@ -27,21 +28,41 @@ int planes_of(DepthBoundsMode mode) {
   return mode == DepthBoundsMode::mask32 ? 3 : 2;
 }
 
+float rounded_up(double value) { return std::nextafter(float(value), infinity); }
+float rounded_down(double value) { return std::nextafter(float(value), -infinity); }
+
 // Where a tile's value of a plane lies: kernels/common/depth_bounds.h.
 size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, uint ty) {
   const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
   return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
 }
 
-// Near and far of each range between two edges, metres, widened by what a distance may round.
-std::vector<cl_float2> widened_ranges(const std::vector<float>& edges, const CullParams& p) {
-  const float margin = p.orthographic ? widen * std::abs(p.depth_b * p.depth_a) : 0.0f;
+// One step of the stored format where it is coarser than slack covers, else 0. 32-bit floats near 1, where
+// standard depth has the distance, are up to 2^-24 apart; near 0, where reversed depth has it, much closer.
+float depth_step(DepthFormat format, bool standard_depth) {
+  if (format == DepthFormat::d16) return 1.0f / 65535;
+  if (format == DepthFormat::d24) return 1.0f / 16777215;
+  return standard_depth ? float(half_ulp) : 0.0f;
+}
+
+// Near and far of each range between two edges, metres. A pixel's range follows from comparing its stored
+// depth with the edges' keys, so a range ends where its key lies, which differs from the edge by the key's own
+// rounding: centimetres in standard depth near 1. One step of the depth format on either side is for the
+// surface's true distance, and rounding for what shading makes of it.
+template <size_t most>
+std::vector<cl_float2> ranges_between(const CullView& view, const std::vector<float>& edges,
+                                      const std::array<float, most>& keys, const CullParams& p) {
+  const double margin = p.orthographic ? widen * std::abs(double(p.depth_b) * p.depth_a) : 0.0;
+  const double step = p.depth_step;
   std::vector<cl_float2> ranges;
   float near = p.orthographic ? -far_away : 0.0f;
-  for (float edge : edges) {
-    const float slack = widen * std::abs(edge) + margin;
-    ranges.push_back({{near, edge + slack}});
-    near = edge - slack;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const double limit = 2.0 * far_away;
+    const double nearest = std::min(distance_of_key(view, keys[i] - step), limit);
+    const double farthest = std::min(distance_of_key(view, keys[i] + step), limit);
+    const double far = farthest + widen * std::abs(farthest) + margin;
+    ranges.push_back({{near, far < far_away ? rounded_up(far) : far_away}});
+    near = rounded_down(std::min(nearest - widen * std::abs(nearest) - margin, double(far_away)));
   }
   ranges.push_back({{near, far_away}});
   return ranges;
@@ -69,11 +90,28 @@ void LightCuller::set_lights(std::span<const CullLight> lights) {
   light_count_ = uint(lights.size());
   light_stride_ = (light_count_ + lane_count - 1) / lane_count * lane_count;
   cones_ = std::any_of(lights.begin(), lights.end(), [](const CullLight& light) { return light.cos_outer >= 0; });
-  if (lights.empty()) return;
-  origin_ = middle_of(lights);
-  const std::vector<float> values = light_arrays(lights, origin_, light_stride_);
+  host_lights_.assign(lights.begin(), lights.end());
+  const LightOrigin origin = choose_origin(lights);
+  fixed_origin_ = origin.fixed;
+  cone_slack_m_ = origin.cone_slack_m;
+  uploaded_origin_.reset();
+  if (fixed_origin_) upload_lights(*fixed_origin_, farthest_surface);
+}
+
+void LightCuller::upload_lights(const glm::dvec3& origin, double eye_reach) {
+  uploaded_origin_ = origin;
+  if (host_lights_.empty()) return;
+  const std::vector<float> values = light_arrays(host_lights_, origin, eye_reach, light_stride_);
   device_.queue().enqueueWriteBuffer(lights_->at_least(device_, values.size() * sizeof(float)), CL_TRUE, 0,
                                      values.size() * sizeof(float), values.data());
+}
+
+// Uploads the positions relative to the eye where no fixed origin serves.
+void LightCuller::follow_eye() {
+  const bool fixed = fixed_origin_ && glm::length(eye_ * 0.5 - *fixed_origin_ * 0.5) < farthest_surface / 2;
+  const glm::dvec3 origin = fixed ? *fixed_origin_ : eye_;
+  params_.cone_slack_m = fixed && cones_ ? rounded_up(cone_slack_m_) : 0.0f;
+  if (uploaded_origin_ != origin) upload_lights(origin, fixed ? farthest_surface : 0);
 }
 
 void LightCuller::set_view(const CullView& view) {
@@ -82,18 +120,15 @@ void LightCuller::set_view(const CullView& view) {
   params_ = cull_params(view, options_.tile);
   params_.pool_blocks = room.pool_blocks, params_.staging_units = room.staging_units;
   params_.inset = options_.pixel_centres && options_.samples == 1 ? 0.5f : 0.0f;
-  if (options_.depth_format == DepthFormat::d16) params_.depth_step = 1.0f / 65535;
-  if (options_.depth_format == DepthFormat::d24) params_.depth_step = 1.0f / 16777215;
-  // 32-bit floats near 1 are 2^-24 apart; near 0, where reversed depth has the distance, closer than slack.
-  if (options_.depth_format == DepthFormat::d32f && params_.standard_depth) params_.depth_step = float(half_ulp);
+  params_.depth_step = depth_step(options_.depth_format, params_.standard_depth);
   eye_ = view.eye;
   const auto upload = [&](cl::Buffer& buffer, const std::vector<cl_float2>& ranges) {
     if (ranges.size() == 1) return;
     buffer = device_buffer(device_, ranges.size() * sizeof ranges[0]);
     device_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, ranges.size() * sizeof ranges[0], ranges.data());
   };
-  upload(slices_, widened_ranges(view.slice_edges, params_));
-  upload(z_bins_, widened_ranges(view.z_bin_edges, params_));
+  upload(slices_, ranges_between(view, view.slice_edges, slice_keys(view), params_));
+  upload(z_bins_, ranges_between(view, view.z_bin_edges, z_bin_keys(view), params_));
   z_bin_count_ = uint(view.z_bin_edges.size() + 1);
   const glm::uvec2 tiles(params_.tiles_x, params_.tiles_y);
   if (tiles != bounds_tiles_ || room.orthographic != params_.orthographic) {
@@ -130,7 +165,8 @@ void LightCuller::upload_params() {
   choose_regions();
   params_.light_count = light_count_, params_.light_stride = light_stride_;
   params_.index_capacity = uint(index_capacity_);
-  const TwoFloats x = two_floats(eye_.x - origin_.x), y = two_floats(eye_.y - origin_.y), z = two_floats(eye_.z - origin_.z);
+  const glm::dvec3 eye = eye_ - uploaded_origin_.value_or(eye_);
+  const TwoFloats x = two_floats(eye.x), y = two_floats(eye.y), z = two_floats(eye.z);
   params_.eye_x = x.value, params_.eye_y = y.value, params_.eye_z = z.value;
   params_.eye_rest_x = x.rest, params_.eye_rest_y = y.rest, params_.eye_rest_z = z.rest;
   if (params_uploads_ && std::memcmp(&uploaded_, &params_, sizeof params_) == 0) return;
@@ -199,6 +235,7 @@ std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
 }
 
 CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
+  follow_eye();
   upload_params();
   CullInputs in{params_, bounds.mode, {}, {}, {}};
   const auto read = [&](const cl::Buffer& buffer, auto& values, size_t count) {
@@ -252,6 +289,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
     device_.queue().finish();
     return grid;
   }
+  follow_eye();
   CullPipeline& kernels = pipeline(bounds.mode);
   params_.pool_blocks = std::max(params_.pool_blocks, 2048 + light_stride_ / 4);
   params_.staging_units = std::max(params_.staging_units, params_.tiles_x * params_.tiles_y * 4);

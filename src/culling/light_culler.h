@@ -7,7 +7,8 @@
 //
 // The method is tiled light culling (Olsson, Assarsson, "Tiled Shading", JGT 2011; Harada, McKee, Yang, "Forward+",
 // Eurographics 2012), in clusters where the view has slices (Olsson, Billeter, Assarsson, "Clustered Deferred and
-// Forward Shading", HPG 2012), coarse to fine. A list may hold a light too many, never one too few: docs/hard_cases.md.
+// Forward Shading", HPG 2012), coarse to fine. A list may hold a light too many, never one too few, for surfaces 10^-15 to
+// 10^15 m from the eye and lights anywhere: docs/hard_cases.md#the-domain has the limits and what happens past them.
 //
 // Errors are of type Error (base/error.h): input where what was given is wrong, machine where the device or its memory
 // does not do. Calls enqueue on the device's one queue; those that return host values, and cull, wait for it. Objects
@@ -195,13 +196,19 @@ class LightCuller {
   cl::Buffer empty_bounds(int planes, float near, float far);
   void choose_regions();
   void upload_params();
+  void upload_lights(const glm::dvec3& origin, double eye_reach);
+  void follow_eye();
 
   ClDevice& device_;
   ProgramCache& programs_;
   CullerOptions options_;
   bool cones_ = false;
   std::optional<bool> avx512_;  // whether the device builds AVX-512 kernels
-  glm::dvec3 origin_{0}, eye_{0};  // world: of the uploaded lights, and of the view
+  std::vector<CullLight> host_lights_;         // to be uploaded again where the origin must follow the eye
+  std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
+  std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: none are there yet
+  double cone_slack_m_ = 0;
+  glm::dvec3 eye_{0};                          // world
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
   size_t index_capacity_ = 0, params_uploads_ = 0;

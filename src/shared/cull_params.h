@@ -26,6 +26,9 @@ typedef struct CullParams {
   float depth_a, depth_a_rest, depth_b;
   float depth_step;             // one step of the depth format, where it is coarser than slack covers; else 0
   float near_distance;
+  // Slack for the rounding of tile sides (docs/hard_cases.md#slack): perspective, of a distance; orthographic, metres.
+  float side_slack, side_slack_m;
+  float cone_slack_m;           // rounding of a spot's uploaded position
   uint orthographic;            // 0 or 1
   uint standard_depth;          // 1: near 0, far 1; 0: reversed
   uint width, height;           // view, pixels

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double u = 0x1p-24;       // one rounding in float
 constexpr double far_away = 1e17;    // kernels have 1e18 for no end
+constexpr double least_radius = 2e-18;  // metres that every light is given
 constexpr double gentle_slope = 2;    // up to it the exact test finds the distance in its three Newton steps
 constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones take no infinite near
 
@@ -77,7 +78,7 @@ std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLig
   std::vector<TrueLight> all;
   for (const CullLight& light : lights) {
     TrueLight t{to_view(view, light.position), glm::dmat3(view.view_from_world) * light.direction, light.radius_m,
-                light.cos_outer, 0, false};
+                light.cos_outer, 0, 0, false};
     const glm::dvec3 place = glm::abs(light.position - middle);
     t.place_error = 2 * u * (place.x + place.y + place.z);
     const double length = glm::length(t.axis);
@@ -87,6 +88,11 @@ std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLig
     t.lists_nothing = !(light.radius_m >= 0) || !std::isfinite(sum);
     all.push_back(t);
   }
+  double cone_error = 0;
+  for (const TrueLight& t : all) {
+    if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.place_error);
+  }
+  for (TrueLight& t : all) t.cone_error = cone_error;
   return all;
 }
 
@@ -125,11 +131,11 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Tr
   // 24 u of slack and 8 u of roundings; the sides' slopes, and the tangents and tile coordinates with their own 32 u.
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + r, steep = steepest_slope(view);
   const double reach_of_slopes = cell.orthographic ? 1 : std::abs(p.z) + r;
-  const double margin = 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
+  const double margin = least_radius + 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
   const double near = cell.near == endless_near ? 0 : std::abs(cell.near);
   const bool endless = cell.far > far_away || cell.near == endless_near;
   const double ends = cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
-  const double box_margin = 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
+  const double box_margin = least_radius + 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
   const Box box = box_of(cell);
   if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
   const bool planes = test == CullTest::planes || test == CullTest::planes_aabb || test == CullTest::exact;
@@ -143,7 +149,7 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Tr
     const double reach = std::hypot(box.x1 - box.x0, box.y1 - box.y0, box.d1 - box.d0) / 2;
     if (glm::length(p - centre) > reach * (1 + 40 * u) + r + box_margin) return false;
   }
-  return light.cos_outer < 0 || endless || cone_possibly_touches(box, light, box_margin + 64 * u * (1 + steep) * sum);
+  return light.cos_outer < 0 || endless || cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
 }
 
 Touching touching_lights(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,

@@ -15,6 +15,7 @@ struct TrueLight {
   glm::dvec3 axis;
   double radius, cos_outer;
   double place_error;  // of its place in float, which the culler keeps relative to the middle of all lights' places
+  double cone_error;   // the largest of these of all spots, which every cone has as slack
   bool lists_nothing;  // radius or place is no number, or the radius is negative
 };
 std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLight> lights);

@@ -52,10 +52,10 @@ void bounds_of_tile(const std::vector<uint>& keys, int mode, const CullParams& p
     planes[0] = nearer.near, planes[1] = nearer.far, planes[2] = farther.near, planes[3] = farther.far;
   }
   if (mode == DEPTH_MASK32) {
-    uint slots = depths ? 0u : 0xffffffffu;
+    const bool bounded = depths && whole_tile.far != FAR_AWAY;
+    uint slots = bounded ? 0u : 0xffffffffu;
     for (const uint key : keys) {
-      if (depths && key != 0)
-        slots |= 1u << mask_slot(distance_of_depth(as_float(KEY(key)), &p), whole_tile.near, whole_tile.far);
+      if (bounded && key != 0) slots |= slots_of_key(key, whole_tile.near, whole_tile.far, &p);
     }
     planes[2] = as_float(slots);
   }
