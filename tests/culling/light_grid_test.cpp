@@ -5,7 +5,7 @@
 
 #include "culling/cell_truth.h"
 #include "base/error.h"
-#include "reference/lit_set.h"
+#include "reference/lit_blocks.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
 
@@ -85,6 +85,23 @@ CullerOptions options_of(CullTest test, KernelShape shape) {
   options.cull_test = test;
   options.shape = shape;
   return options;
+}
+
+constexpr CullTest every_test[] = {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact};
+
+std::string name_of(CullTest test) {
+  switch (test) {
+    case CullTest::sphere:
+      return "sphere";
+    case CullTest::planes:
+      return "planes";
+    case CullTest::aabb:
+      return "aabb";
+    case CullTest::exact:
+      return "exact";
+    default:
+      return "planes_aabb";
+  }
 }
 
 struct LightGridOf : testing::TestWithParam<std::tuple<CullTest, KernelShape>> {
@@ -195,17 +212,10 @@ TEST_P(LightGridOf, StrangeLights) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
-                         testing::Combine(testing::Values(CullTest::sphere, CullTest::planes, CullTest::aabb,
-                                                          CullTest::planes_aabb, CullTest::exact),
+                         testing::Combine(testing::ValuesIn(every_test),
                                           testing::Values(KernelShape::lanes, KernelShape::group)),
                          [](const auto& info) {
-                           const CullTest test = std::get<0>(info.param);
-                           const std::string name = test == CullTest::sphere   ? "sphere"
-                                                    : test == CullTest::planes ? "planes"
-                                                    : test == CullTest::aabb   ? "aabb"
-                                                    : test == CullTest::exact  ? "exact"
-                                                                               : "planes_aabb";
-                           return name +
+                           return name_of(std::get<0>(info.param)) +
                                   (std::get<1>(info.param) == KernelShape::lanes ? "_lanes" : "_group");
                          });
 
@@ -288,43 +298,51 @@ TEST(LightGrid, MoreThanTheDeviceHoldsIsAMachineError) {
   }
 }
 
-// From a depth image to lists, against the lights that reach each pixel's centre.
-TEST(LightGrid, NoPixelLosesALightUnderAnySetting) {
+// Draws a depth image with about a tenth of the pixels empty.
+std::vector<float> scattered_depth(const View& view, uint64_t seed) {
+  Random random(seed);
+  std::vector<float> depth(size_t(view.width) * view.height);
+  for (float& value : depth) {
+    const float surface = view.orthographic ? random.uniform() : std::exp2(-7 * random.uniform()) * 0.5f;
+    value = random.uniform() < 0.1f ? 0.0f : surface;
+  }
+  return depth;
+}
+
+// From a depth image to lists, against the lights that reach each pixel's centre. One test a cull test: two of them
+// that run at once build no kernel of the light lists twice.
+struct LightGridUnder : testing::TestWithParam<CullTest> {};
+
+TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
   for (const NamedView& named : views(127, 73)) {
-    Random random(17);
-    std::vector<float> depth(127 * 73);
-    for (float& value : depth) {
-      const float surface =
-          named.view.orthographic ? random.uniform() : std::exp2(-7 * random.uniform()) * 0.5f;
-      value = random.uniform() < 0.1f ? 0.0f : surface;
-    }
+    const std::vector<float> depth = scattered_depth(named.view, 17);
     const auto lights = scattered_lights(named.view, 400, true, 18);
-    // Every test with every kind of bounds; tile sizes take turns, and the other shape runs with some.
-    for (int combination = 0; combination < 25; ++combination) {
-      const int tile = 8 << combination % 4;
-      CullerOptions options = options_of(CullTest(combination / 5), KernelShape::lanes);
-      options.tile = tile, options.depth_bounds = DepthBoundsMode(combination % 5);
-      SCOPED_TRACE(fmt::format("{} test {} mode {} tile {}", named.name, combination / 5, combination % 5, tile));
+    const LitBlocks lit = find_lit_blocks(named.view, depth, lights);
+    // Every kind of depth bounds. Tile sizes take turns; every sixth setting also runs the other shape.
+    for (int mode = 0; mode < 5; ++mode) {
+      const int combination = 5 * int(GetParam()) + mode, tile = 8 << combination % 4;
+      CullerOptions options = options_of(GetParam(), KernelShape::lanes);
+      options.tile = tile, options.depth_bounds = DepthBoundsMode(mode);
+      SCOPED_TRACE(fmt::format("{} mode {} tile {}", named.name, mode, tile));
       const CulledGrid grid = cull_depth(named.view, lights, depth, options);
+      ASSERT_EQ(grid.cells.size(), tile_count(named.view, tile));
+      expect_well_formed(grid, lights.size());
       if (combination % 6 == 0) {
         options.shape = KernelShape::group;
         EXPECT_EQ(cull_depth(named.view, lights, depth, options), grid);
       }
       ListedLights lists;
-      for (uint y = 0; y < 73; ++y) {
-        for (uint x = 0; x < 127; ++x)
-          lists.cell_of_pixel.push_back(y / tile * grid.params.tiles_x + x / tile);
-      }
-      for (const glm::uvec2 cell : grid.cells)
-        lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+      for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
       lists.indices = grid.indices;
-      const LitPairs pairs = count_pairs(named.view, depth, lights, lists);
-      EXPECT_EQ(pairs.lost, 0u);
-      EXPECT_EQ(pairs.wrong, 0u);
-      EXPECT_GT(pairs.lit, 200u);
+      const ListAccuracy accuracy = measure_lists(lit, tile, lists);
+      EXPECT_EQ(accuracy.lost, 0u);
+      EXPECT_GT(accuracy.lit, 200u);
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kernels, LightGridUnder, testing::ValuesIn(every_test),
+                         [](const auto& info) { return name_of(info.param); });
 
 }  // namespace
 }  // namespace lightgrid
