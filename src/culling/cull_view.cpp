@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "culling/oblique_view.h"
 #include "culling/two_floats.h"
 #include "shared/light_grid.h"
 
@@ -99,7 +100,6 @@ struct ZeroEntry {
 };
 constexpr ZeroEntry zero_in_both[] = {
     {0, 1, "a shear: clip x depends on y"},       {1, 0, "a shear: clip y depends on x"},
-    {2, 0, "an oblique near plane"},              {2, 1, "an oblique near plane"},
     {3, 0, "a tilted w row: w depends on x"},     {3, 1, "a tilted w row: w depends on y"},
 };
 constexpr ZeroEntry zero_in_perspective[] = {
@@ -107,6 +107,8 @@ constexpr ZeroEntry zero_in_perspective[] = {
     {1, 3, "a translation; an off-centre perspective has its offset in clip_from_view[1][2]"},
 };
 constexpr ZeroEntry zero_in_orthographic[] = {
+    {2, 0, "an oblique near plane"},
+    {2, 1, "an oblique near plane"},
     {0, 2, "a shear: clip x depends on z"},
     {1, 2, "a shear: clip y depends on z"},
 };
@@ -129,7 +131,7 @@ void check_projection(const CullView& view) {
     throw input_error("view: clip_from_view's last row is [{} {} {} {}], neither [0 0 -1 0], a perspective view along "
                       "-z, nor [0 0 0 1], an orthographic one", clip[0][3], clip[1][3], clip[2][3], clip[3][3]);
   }
-  check_zeros(view, perspective ? std::span(zero_in_perspective) : std::span(zero_in_orthographic));
+  check_zeros(view, perspective ? std::span<const ZeroEntry>(zero_in_perspective) : std::span<const ZeroEntry>(zero_in_orthographic));
   for (const int axis : {0, 1}) {
     if (!(clip[axis][axis] > 0)) throw input_error("view: clip_from_view[{0}][{0}] is {1}, not above 0", axis, clip[axis][axis]);
   }
@@ -145,7 +147,8 @@ void check_range(const CullView& view) {
                              clip[3][2], clip[0][0], clip[1][1]}) {
     if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
   }
-  const double near = near_distance(view);
+  // The nearest surface that the image can show.
+  const double near = is_oblique(view) ? near_distance(straightened(view, DepthFormat::d32f, 1).view) : near_distance(view);
   if (!is_orthographic(view)) {
     if (!(near > 0)) throw input_error("view: the near plane is at {} m, not in front of the eye", near);
     if (!(near >= 1e-37 && near <= 1e15)) throw input_error("view: the near plane is at {} m, not between 10^-37 and 10^15 m", near);
@@ -177,6 +180,10 @@ void check_view(const CullView& view, int tile) {
   check_finite(view);
   check_projection(view);
   check_range(view);
+  if (is_oblique(view)) {
+    if (!view.slice_edges.empty()) throw input_error("view: {} slice_edges with an oblique near plane", view.slice_edges.size());
+    if (!view.z_bin_edges.empty()) throw input_error("view: {} z_bin_edges with an oblique near plane", view.z_bin_edges.size());
+  }
   check_edges(view, view.slice_edges, "slice_edges", MOST_SLICES);
   check_edges(view, view.z_bin_edges, "z_bin_edges", MOST_Z_BINS);
   check_rigid(view);

@@ -17,7 +17,7 @@ struct CullView {
   // For column vectors, m[column][row] as GLM has it; view space is right-handed and looks along -z; clip depth is zero
   // to one (Vulkan's and Direct3D's, or OpenGL's after glClipControl). Whether the view is orthographic, its depth
   // reversed (near 1, far 0: Reed, "Depth Precision Visualized", 2015) or standard, and its far plane infinite is read
-  // off the matrix; off-centre projections included, oblique near planes not.
+  // off the matrix; off-centre projections and, in perspective, oblique near planes (mirrors, portals) included.
   glm::dmat4 clip_from_view{1};
   glm::dmat4 view_from_world{1};   // rigid; its translation is not used
   glm::dvec3 eye{0};               // world, metres
@@ -41,10 +41,11 @@ double distance_of_key(const CullView& view, double key);
 float depth_key(const CullView& view, float depth);
 
 // Throws Error(input) that names the number: a size below 1 or past 32,000 tiles a side; a matrix or an eye that is not
-// finite; a projection that is not along -z or that culling cannot do (shear, oblique near plane, tilted w row, perspective
-// with a translation); a perspective near plane nearer than 10^-37 m or farther than 10^15 m, or an orthographic view with a
-// side past 10^15 m; a view_from_world that is not rigid; edges of slices or z-bins that do not ascend, are not finite, are
-// not in front of a perspective view's eye, or are more than MOST_SLICES - 1 or MOST_Z_BINS - 1. docs/hard_cases.md#the-domain
+// finite; a projection that is not along -z or that culling cannot do (shear, tilted w row, perspective with a
+// translation, orthographic with an oblique near plane); slices or z-bins with an oblique near plane; a perspective near
+// plane nearer than 10^-37 m or farther than 10^15 m, or an orthographic view with a side past 10^15 m; a view_from_world
+// that is not rigid; edges of slices or z-bins that do not ascend, are not finite, are not in front of a perspective
+// view's eye, or are more than MOST_SLICES - 1 or MOST_Z_BINS - 1. docs/hard_cases.md#the-domain
 void check_view(const CullView& view, int tile);
 
 // The view in the numbers of shaders (lights and ambient are left 0) and of kernels, for tiles of `tile` x `tile`

@@ -12,6 +12,7 @@
 #include "culling/cull_pipeline.h"
 #include "culling/culler_options.h"
 #include "culling/light_arrays.h"
+#include "culling/oblique_view.h"
 #include "culling/two_floats.h"
 #include "shared/light_grid.h"
 
@@ -116,11 +117,15 @@ void LightCuller::follow_eye() {
 
 void LightCuller::set_view(const CullView& view) {
   check_view(view, options_.tile);
+  oblique_.reset();
+  if (is_oblique(view)) {
+    oblique_ = std::make_unique<StraightView>(straightened(view, options_.depth_format, options_.samples));
+  }
   const CullParams room = params_;
-  params_ = cull_params(view, options_.tile);
+  params_ = cull_params(oblique_ ? oblique_->view : view, options_.tile);
   params_.pool_blocks = room.pool_blocks, params_.staging_units = room.staging_units;
   params_.inset = options_.pixel_centres && options_.samples == 1 ? 0.5f : 0.0f;
-  params_.depth_step = depth_step(options_.depth_format, params_.standard_depth);
+  params_.depth_step = oblique_ ? oblique_->depth_step : depth_step(options_.depth_format, params_.standard_depth);
   eye_ = view.eye;
   const auto upload = [&](cl::Buffer& buffer, const std::vector<cl_float2>& ranges) {
     if (ranges.size() == 1) return;
@@ -174,6 +179,18 @@ void LightCuller::upload_params() {
   device_.queue().enqueueWriteBuffer(params_buffer_, CL_FALSE, 0, sizeof uploaded_, &uploaded_);
 }
 
+cl::Buffer LightCuller::straight_depth(const DepthInput& depth, uint first, uint row) {
+  const StraightView& s = *oblique_;
+  if (!straight_depth_) straight_depth_ = std::make_unique<GrowingBuffer>();
+  if (!straighten_kernel_()) straighten_kernel_ = programs_.kernel("straighten_depth", "");
+  const size_t width = size_t(params_.width) * options_.samples;
+  const cl::Buffer& straight = straight_depth_->at_least(device_, width * params_.height * sizeof(float));
+  const cl_float4 plane = {{s.tilt_x, s.tilt_y, s.offset, s.scale}};
+  launch(device_, "straighten_depth", straighten_kernel_, cl::NDRange(width, params_.height), cl::NullRange, depth.values,
+         cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight, params_buffer_);
+  return straight;
+}
+
 DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   if (options_.depth_bounds == DepthBoundsMode::none) {
     const float near = params_.orthographic ? -far_away : 0.0f;
@@ -192,15 +209,18 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
     bounds_kernel_ = programs_.kernel(lanes ? "depth_bounds_lanes" : "depth_bounds_group", defines);
   }
   const uint row = uint(depth.row_pixels > 0 ? depth.row_pixels : int(params_.width));
-  params_.depth_row = row * uint(options_.samples);
-  params_.depth_first = (uint(depth.y) * row + uint(depth.x)) * uint(options_.samples);
+  const uint depth_row = row * uint(options_.samples);
+  const uint depth_first = (uint(depth.y) * row + uint(depth.x)) * uint(options_.samples);
+  params_.depth_row = oblique_ ? params_.width * uint(options_.samples) : depth_row;
+  params_.depth_first = oblique_ ? 0 : depth_first;
   upload_params();
+  const cl::Buffer values_in = oblique_ ? straight_depth(depth, depth_first, depth_row) : depth.values;
   const uint tiles_x = params_.tiles_x, tiles_y = params_.tiles_y;
   // An item, or a group, takes tiles side by side.
   const uint group = lanes ? 1 : depth_group, values = uint(options_.tile * options_.samples);
   const uint tiles = lanes ? depth_tiles_an_item : std::max(depth_group / values, 1u);
   launch(device_, "depth_bounds", bounds_kernel_, cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
-         cl::NDRange(group, 1), depth.values, opaque_, blend_, counters_, params_buffer_);
+         cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, params_buffer_);
   return {{opaque_, options_.depth_bounds}, {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
 }
 
@@ -364,6 +384,7 @@ uint32_t LightCuller::strange_tiles() {
 
 size_t LightCuller::memory_bytes() const {
   size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) + bounds_bytes_ * (options_.blend ? 2 : 1);
+  if (straight_depth_) bytes += straight_depth_->bytes();
   for (const auto& pipeline : pipelines_) bytes += pipeline ? pipeline->memory_bytes() : 0;
   return bytes;
 }

@@ -150,6 +150,7 @@ struct CullInputs {
 
 class CullPipeline;
 class GrowingBuffer;
+struct StraightView;
 
 class LightCuller {
  public:
@@ -198,6 +199,7 @@ class LightCuller {
   void upload_params();
   void upload_lights(const glm::dvec3& origin, double eye_reach);
   void follow_eye();
+  cl::Buffer straight_depth(const DepthInput& depth, uint first, uint row);
 
   ClDevice& device_;
   ProgramCache& programs_;
@@ -213,6 +215,9 @@ class LightCuller {
   uint light_count_ = 0, light_stride_ = 0;
   size_t index_capacity_ = 0, params_uploads_ = 0;
   CullParams uploaded_{};
+  std::unique_ptr<StraightView> oblique_;       // where the view's near plane is oblique
+  std::unique_ptr<GrowingBuffer> straight_depth_;
+  cl::Kernel straighten_kernel_;
   cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
   cl::Buffer params_buffer_, slices_, z_bins_, opaque_, blend_, counters_;

@@ -115,11 +115,11 @@ TEST(CheckView, NamesWhatMakesNoView) {
       {[](CullView& v) { v.width = 32000 * 16 + 1; }, "512001 x 73 pixels"},
       {[&](CullView& v) { v.clip_from_view[3][2] = nan; }, "clip_from_view[2][3] is nan"},
       {[&](CullView& v) { v.view_from_world[1][0] = infinity; }, "view_from_world[0][1] is inf"},
-      {[](CullView& v) { v.clip_from_view[2][3] = 1; }, "neither a perspective nor an orthographic"},  // looks along +z
-      {[](CullView& v) { v.clip_from_view[0][0] = 0; }, "neither a perspective nor an orthographic"},
-      {[](CullView& v) { v.clip_from_view[1][1] = -1; }, "neither a perspective nor an orthographic"},  // upside down
-      {[](CullView& v) { v.clip_from_view[3][2] = 0; }, "neither a perspective nor an orthographic"},   // near 0
-      {[](CullView& v) { v.clip_from_view = glm::dmat4(0); }, "neither a perspective nor an orthographic"},
+      {[](CullView& v) { v.clip_from_view[2][3] = 1; }, "last row is [0 0 1 0], neither"},  // looks along +z
+      {[](CullView& v) { v.clip_from_view[0][0] = 0; }, "clip_from_view[0][0] is 0, not above 0"},
+      {[](CullView& v) { v.clip_from_view[1][1] = -1; }, "clip_from_view[1][1] is -1, not above 0"},  // upside down
+      {[](CullView& v) { v.clip_from_view[3][2] = 0; }, "depth does not depend on distance"},   // near 0
+      {[](CullView& v) { v.clip_from_view = glm::dmat4(0); }, "last row is [0 0 0 0], neither"},
       {[](CullView& v) { v.view_from_world[0][0] = 2; }, "view_from_world is not rigid"},
       {[](CullView& v) { v.view_from_world[2] = v.view_from_world[1]; }, "view_from_world is not rigid"},
   };
