@@ -27,13 +27,13 @@ double parse_minutes(const std::string& text) {
 
 void print(const verify::HuntReport& report) {
   const auto row = [](const verify::HuntTally& t) {
-    fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>9.0f}  {}\n", t.name, t.contacts, t.lost, t.views, t.refused,
-               t.shapes_differ, t.contacts ? t.seconds * 1e9 / double(t.contacts) : 0, t.why);
+    fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>8.0f} {:>8.0f}  {}\n", t.name, t.contacts, t.lost, t.views, t.refused,
+               t.shapes_differ, t.contacts ? t.seconds * 1e9 / double(t.contacts) : 0, t.cpu_ns_each, t.why);
     if (!t.refusal.empty()) fmt::print("  {:<13} refused: {}\n", t.name, t.refusal);
   };
   fmt::print("{}, seed {}\n", report.device, report.seed);
-  fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>9}\n", "class", "contacts", "lost", "views", "refused", "differ",
-             "ns each");
+  fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>8} {:>8}\n", "class", "contacts", "lost", "views", "refused", "differ",
+             "ns each", "cpu ns");
   for (const verify::HuntTally& tally : report.classes) row(tally);
   row(report.total());
   for (const std::string& folder : report.saved) fmt::print("saved {}\n", folder);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
 #include <regex>
 
 #include <nlohmann/json.hpp>
@@ -39,7 +40,7 @@ class Hunt {
     for (const HuntClass hunted : chosen_classes(options.filter)) {
       classes_.push_back(hunted), report_.classes.push_back({.name = name_of(hunted)});
     }
-    saved_.resize(classes_.size());
+    saved_.resize(classes_.size()), cpu_ns_.resize(classes_.size());
   }
 
   HuntReport run() {
@@ -54,6 +55,7 @@ class Hunt {
     }
     if (options_.progress) options_.progress(1, "done");
     report_.seconds = timer_.elapsed_ms() / 1000;
+    for (size_t i = 0; i < classes_.size(); ++i) report_.classes[i].cpu_ns_each = spread_of(cpu_ns_[i]).median;
     return report_;
   }
 
@@ -71,6 +73,7 @@ class Hunt {
   void look(size_t at, HuntSetting setting, uint64_t seed) {
     HuntTally& tally = report_.classes[at];
     const Timer timer;
+    const std::clock_t cpu = std::clock();
     const HuntView view = random_view(classes_[at], setting, seed);
     setting.options.depth_format = view.format;
     const size_t count = setting.both_shapes ? std::min(lights_in_both, options_.lights_a_view) : options_.lights_a_view;
@@ -82,21 +85,24 @@ class Hunt {
       if (tally.refused++ == 0) tally.refusal = error.what();
     }
     tally.seconds += timer.elapsed_ms() / 1000;
+    const double cpu_ns = double(std::clock() - cpu) * 1e9 / CLOCKS_PER_SEC;
+    if (!lights.contacts.empty()) cpu_ns_[at].push_back(cpu_ns / double(lights.contacts.size()));
   }
 
   void ask(HuntTally& tally, int& saved, const HuntView& view, const HuntSetting& setting, const HuntLights& lights,
            uint64_t seed) {
     const std::vector<CullLight> culled = cull_lights(lights.lights);
     const HostGrid grid = engine_.cull_depth(setting.options, view.view, culled, view.depth);
-    const std::vector<HuntContact> lost = lost_contacts(view, lights.contacts, setting.options.tile, grid);
+    const std::vector<HuntLoss> lost = lost_contacts(view, lights.contacts, setting.options.tile, grid);
     tally.contacts += lights.contacts.size(), contacts_ += lights.contacts.size();
     if (setting.both_shapes && engine_.is_the_library()) compare_shapes(tally, view, setting, culled, grid);
     if (lost.empty()) return;
     if (tally.lost == 0) tally.why = words(setting, view, lights, lost[0], seed);
     tally.lost += lost.size();
     if (options_.save.empty() || saved >= most_saved) return;
-    const ShrunkLoss loss = shrink_loss(engine_, setting.options, view, lights, lost[0]);
-    report_.saved.push_back(save_loss(options_.save, setting, view, loss, seed).string()), ++saved;
+    const ShrunkLoss loss = shrink_loss(engine_, setting.options, view, lights.lights, lost[0]);
+    report_.saved.push_back(save_loss(options_.save, setting, view, loss, seed).string());
+    ++saved;
   }
 
   void compare_shapes(HuntTally& tally, const HuntView& view, const HuntSetting& setting, std::span<const CullLight> lights,
@@ -110,12 +116,13 @@ class Hunt {
     }
   }
 
-  static std::string words(const HuntSetting& setting, const HuntView& view, const HuntLights& lights, const HuntContact& c,
+  static std::string words(const HuntSetting& setting, const HuntView& view, const HuntLights& lights, const HuntLoss& loss,
                            uint64_t seed) {
+    const HuntContact& c = loss.contact;
     const Light& light = lights.lights[c.light];
     const glm::dvec3 p = *position_of(view, c), l = to_view(view.view, light.position);
-    return fmt::format("seed {}, {}: pixel {},{} at {:.9g} {:.9g} {:.9g} lost the {} at {:.9g} {:.9g} {:.9g} radius {:.9g}", seed,
-                       to_string(setting), c.x, c.y, p.x, p.y, p.z, light.type == LightType::spot ? "spot" : "point", l.x, l.y,
+    return fmt::format("seed {}, {}: pixel {},{} at {:.9g} {:.9g} {:.9g} lost from its {} the {} at {:.9g} {:.9g} {:.9g} radius {:.9g}",
+                       seed, to_string(setting), c.x, c.y, p.x, p.y, p.z, name_of(loss.from), light.type == LightType::spot ? "spot" : "point", l.x, l.y,
                        l.z, light.radius_m);
   }
 
@@ -125,7 +132,8 @@ class Hunt {
   HuntReport report_;
   uint64_t contacts_ = 0;
   std::vector<HuntClass> classes_;
-  std::vector<int> saved_;  // of each
+  std::vector<int> saved_;                   // of each
+  std::vector<std::vector<double>> cpu_ns_;  // of each, a contact: a value a view
 };
 
 }  // namespace
@@ -153,7 +161,7 @@ nlohmann::ordered_json to_json(const HuntReport& report) {
                                  {"seconds", report.seconds}, {"classes", nlohmann::ordered_json::array()}, {"saved", report.saved}};
   for (const HuntTally& t : report.classes) {
     json["classes"].push_back({{"name", t.name}, {"contacts", t.contacts}, {"lost", t.lost}, {"views", t.views},
-                               {"refused", t.refused}, {"shapes_differ", t.shapes_differ}, {"seconds", t.seconds}, {"why", t.why},
+                               {"refused", t.refused}, {"shapes_differ", t.shapes_differ}, {"seconds", t.seconds}, {"cpu_ns_each", t.cpu_ns_each}, {"why", t.why},
                                {"refusal", t.refusal}});
   }
   return json;

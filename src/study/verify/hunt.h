@@ -31,6 +31,7 @@ struct HuntTally {
   uint64_t refused = 0;       // views that the library refused, although they are inside the domain
   uint64_t shapes_differ = 0; // views of which the two kernel shapes made different grids
   double seconds = 0;
+  double cpu_ns_each = 0;     // processor time a contact, of all threads: the median over the views, which leaves out kernels' builds
   std::string why, refusal;   // the first loss, the first refusal
 };
 

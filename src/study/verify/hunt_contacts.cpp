@@ -131,7 +131,7 @@ class Maker {
     if (!contact) return {};
     const glm::dvec3 p = *position_of(h_, *contact), away = outward(p, corner, random);
     const double size = random_size(p, random);
-    const float wanted = float(std::clamp(size, hunt_least_m, hunt_most_m));
+    const float wanted = float(std::clamp(size, 1e-36, 1e36));
     glm::dvec3 in_view = p + away * (wanted * (1 - hair(random)));
     light.position = h_.view.eye + world_from_view_ * in_view;
     // The light is where its world position, rounded to double, has it.

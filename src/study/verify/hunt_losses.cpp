@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/parallel.h"
 #include "study/verify/check.h"
@@ -18,16 +19,18 @@ class Finder {
       : h_(view), tile_(tile), grid_(grid), slices_(slice_keys(view.view)), z_bins_(z_bin_keys(view.view)),
         mask_words_(grid.cells.empty() ? 0 : grid.masks.size() / grid.cells.size()) {}
 
-  bool finds(const HuntContact& c) const {
+  // None where shading finds the light.
+  std::optional<LostFrom> lost_from(const HuntContact& c) const {
     const float depth = h_.depth.values[(size_t(c.y) * h_.view.width + c.x) * h_.depth.samples + c.sample];
     const float key = depth_key(h_.view, depth);
     const size_t slice = slice_of_key(key, slices_.data());
     const size_t cell = (slice * grid_.cells_y + c.y / tile_) * grid_.cells_x + c.x / tile_;
-    if (cell >= grid_.cells.size()) return false;
+    if (cell >= grid_.cells.size()) return LostFrom::list;
     const auto list = list_of(grid_, cell);
-    if (!std::binary_search(list.begin(), list.end(), c.light)) return false;
-    if (mask_words_ && !(grid_.masks[cell * mask_words_ + c.light / 32] >> c.light % 32 & 1)) return false;
-    return grid_.z_bins.empty() || bins_hold(grid_.z_bins[c.light], z_bin_of_key(key, z_bins_.data()));
+    if (!std::binary_search(list.begin(), list.end(), c.light)) return LostFrom::list;
+    if (mask_words_ && !(grid_.masks[cell * mask_words_ + c.light / 32] >> c.light % 32 & 1)) return LostFrom::mask;
+    const bool held = grid_.z_bins.empty() || bins_hold(grid_.z_bins[c.light], z_bin_of_key(key, z_bins_.data()));
+    return held ? std::nullopt : std::optional(LostFrom::z_bins);
   }
 
  private:
@@ -41,16 +44,20 @@ class Finder {
 
 }  // namespace
 
-std::vector<HuntContact> lost_contacts(const HuntView& view, std::span<const HuntContact> contacts, int tile,
-                                       const HostGrid& grid) {
+const char* name_of(LostFrom from) {
+  return from == LostFrom::list ? "list" : from == LostFrom::mask ? "mask" : "z-bins";
+}
+
+std::vector<HuntLoss> lost_contacts(const HuntView& view, std::span<const HuntContact> contacts, int tile,
+                                    const HostGrid& grid) {
   const Finder finder(view, tile, grid);
-  std::vector<std::vector<HuntContact>> parts((contacts.size() + chunk - 1) / chunk);
+  std::vector<std::vector<HuntLoss>> parts((contacts.size() + chunk - 1) / chunk);
   parallel_for(int(parts.size()), [&](int i) {
     for (size_t k = size_t(i) * chunk; k < std::min(contacts.size(), size_t(i + 1) * chunk); ++k) {
-      if (!finder.finds(contacts[k])) parts[i].push_back(contacts[k]);
+      if (const auto from = finder.lost_from(contacts[k])) parts[i].push_back({contacts[k], *from});
     }
   });
-  std::vector<HuntContact> lost;
+  std::vector<HuntLoss> lost;
   for (const auto& part : parts) lost.insert(lost.end(), part.begin(), part.end());
   return lost;
 }

@@ -36,9 +36,9 @@ Plan mixed_plan(Random& random) {
   p.orthographic = chance(random, 0.25);
   p.half = p.orthographic ? log_between(random, 1e-4, 1e5) : log_between(random, gentlest_half, steepest_half);
   p.standard = chance(random, 0.4), p.finite = p.orthographic || chance(random, 0.5);
-  if (chance(random, 0.3)) p.off = between(random, -1, 1) * (p.orthographic ? 100 * p.half : std::min(100.0, 20 * p.half));
+  if (chance(random, 0.3)) p.off = between(random, -1, 1) * (p.orthographic ? 100 * p.half : std::min(1000.0, 20 * p.half));
   p.placed = chance(random, 0.5);
-  p.unit_m = chance(random, 0.5) ? 1 : log_between(random, 1e-12, 1e9);
+  p.unit_m = chance(random, 0.5) ? 1 : log_between(random, 1e-12, p.orthographic ? 1e6 : 1e12);
   p.eye_m = p.unit_m * log_between(random, 1, 1e6);
   return p;
 }
@@ -146,8 +146,9 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
     const glm::dvec3 eye(std::cos(turn) * std::cos(tilt), std::sin(tilt), std::sin(turn) * std::cos(tilt));
     h.view = placed(h.view, eye * plan.eye_m, between(random, -pi, pi), between(random, -1.5, 1.5));
   }
-  if (setting.slices > 1) h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, h.far);
-  if (setting.z_bins > 1) h.view.z_bin_edges = slice_edges(setting.spacing, setting.z_bins, h.near, h.far);
+  const double last_edge = h.near < hunt_most_edge_m / 2 ? std::min(h.far, hunt_most_edge_m) : 0;
+  if (last_edge > h.near && setting.slices > 1) h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, last_edge);
+  if (last_edge > h.near && setting.z_bins > 1) h.view.z_bin_edges = slice_edges(setting.spacing, setting.z_bins, h.near, last_edge);
   choose_lights_elsewhere(h, random);
   h.depth = random_surfaces(h, setting.options.samples, random);
   return h;

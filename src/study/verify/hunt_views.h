@@ -6,8 +6,8 @@
 
 namespace lightgrid::verify {
 
-// What the promise covers (docs/hard_cases.md#the-domain): distances of surfaces and sizes of lights, metres.
-constexpr double hunt_least_m = 1e-15, hunt_most_m = 1e15;
+// What the promise covers (docs/hard_cases.md#the-domain): distances of surfaces, and edges of slices and z-bins, metres.
+constexpr double hunt_least_m = 1e-15, hunt_most_m = 1e15, hunt_most_edge_m = 1e13;
 
 enum class HuntClass {
   ordinary,      // 5 to 150 degrees, reversed depth without end
@@ -20,7 +20,7 @@ enum class HuntClass {
   finite_far,    // reversed depth with a far plane
   d16,
   d24,           // both depth orders, perspective and orthographic
-  scaled,        // the whole scene by 1e-12 to 1e15, lights down to 1e-15 m
+  scaled,        // the whole scene by 1e-12 to 1e15
   spread,        // most lights are 1e3 to 1e15 m away from the surfaces
   parked,        // one, half or most of the lights at 1e19 m, 1e30 m or FLT_MAX
   mixed,         // any of the above together
