@@ -59,7 +59,7 @@ static inline uint select_lights(RegionLights all, BinAsks asks, global uint* id
 
 // Of the lights `ids` those that may touch the bin's box, in order; *pairs: a bound of the pairs they make with its tiles.
 static inline uint gather(global const uint* ids, uint count, global const float* records, int x, int y, const Cell* bin,
-                          Candidates out, uint* pairs) {
+                          Candidates out, ulong* pairs) {
   uint n = 0;
   int16 sum = 0;
   for (uint i = 0; i < count; i += 16) {
@@ -72,9 +72,10 @@ static inline uint gather(global const uint* ids, uint count, global const float
     n += append_records(out.lights + n, out.stride, l, tiles, ids + i, records, bits);
     sum += keep & pairs_each;
   }
-  const int8 a = sum.lo + sum.hi;
-  const int4 b = a.lo + a.hi;
-  *pairs = (uint)(b.x + b.y + b.z + b.w);
+  const uint16 lanes = as_uint16(sum);  // each below 2^32, with fewer than 2^30 lights
+  const ulong8 a = convert_ulong8(lanes.lo) + convert_ulong8(lanes.hi);
+  const ulong4 b = a.lo + a.hi;
+  *pairs = b.x + b.y + b.z + b.w;
   return n;
 }
 
@@ -108,6 +109,7 @@ static inline uint list_cell(const Candidates* few, int tile, const TestCell* ce
   return n;
 }
 
+#define MOST_UNITS 0x0fffffffu  // of a bin: its indices are counted in 32 bits. With more it has no room, and the host refuses
 #define MANY 256  // candidates from which on blocks pay
 
 // Room for candidates that a work-item keeps from bin to bin: what it wrote for one is still in its cache for the next.
@@ -170,12 +172,12 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   global float* candidates = rooms[1].at;
   Candidates all = {candidates, stride, 0}, some = {candidates + step, stride, 0};
   Candidates few[2] = {{candidates + 2 * step, stride, 0}, {candidates + 3 * step, stride, 0}};
-  uint pairs;
+  ulong pairs;
   all.count = gather(ids, count, records, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
-  const ulong wanted = (ulong)pairs * SLICE_COUNT / 16 + 2;
-  const uint units = wanted > 0x0fffffffu ? 0x0fffffffu : (uint)wanted;
+  const ulong wanted = pairs * SLICE_COUNT / 16 + 2;
+  const uint units = wanted > MOST_UNITS ? MOST_UNITS : (uint)wanted;
   const uint place = atomic_add(counters + 1, units);
-  if ((ulong)place + wanted > p->staging_units) {
+  if (wanted > MOST_UNITS || (ulong)place + units > p->staging_units) {
     counters[3] = 1u;
     return;
   }

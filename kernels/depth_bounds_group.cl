@@ -24,13 +24,14 @@
   }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_group(
-    global const uint* depth, global float* opaque, global float* blend, global volatile uint* counters,
-    constant CullParams* p) {
+    global const uint* depth, global float* opaque, global float* blend, global volatile uint* counters, uint counter,
+    uint next_counter, constant CullParams* p) {
   local uint lows[PLACE(GROUP)], highs[PLACE(GROUP)], lowests[PLACE(GROUP)];
   const uint item = get_local_id(0), tx0 = get_group_id(0) * TILES, tx = tx0 + item, ty = get_group_id(1);
   const bool writes = item < TILES && tx < p->tiles_x;
   const uint last_row = min((uint)TILE, p->height - ty * TILE) - 1u, from = PLACE(item * WIDTH);
   global const uint* strip = depth + p->depth_first + (size_t)ty * TILE * p->depth_row;
+  if (get_global_id(0) == 0 && ty == 0) counters[next_counter] = 0;
   // Least key less 1, so that nothing there (0) goes to the top and is left out; greatest key; least key.
   uint low = 0xffffffffu, high = 0u, lowest = 0xffffffffu;
   FOR_KEYS(low = min(low, key - 1u); high = max(high, key); lowest = min(lowest, key);)
@@ -89,5 +90,5 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
   const Interval in_front = blend_interval(lowest, high, p);
   put_bounds(blend, 2, 0, tx, ty, in_front.near, p), put_bounds(blend, 2, 1, tx, ty, in_front.far, p);
 #endif
-  if (high > ONE_BITS) atomic_inc(counters + 2);
+  if (high > ONE_BITS) atomic_inc(counters + counter);
 }

@@ -3,7 +3,8 @@
 //
 // depth     floats; rows of the view start depth_row apart from depth_first on
 // opaque, blend  as kernels/common/depth_bounds.h says
-// counters  [2] += tiles in which some value is no depth; they span every distance
+// counters  [counter] += tiles in which some value is no depth; they span every distance. [next_counter] = 0, for the
+//           next launch to count in
 #define LANES 16
 #include "kernels/common/depth_bounds.h"
 
@@ -114,10 +115,12 @@ static inline uint occupied_slots(global const uint* depth, uint stride, uint ro
 #endif
 
 kernel void depth_bounds_lanes(global const uint* depth, global float* opaque, global float* blend,
-                               global volatile uint* counters, constant CullParams* p) {
+                               global volatile uint* counters,
+                               uint counter, uint next_counter, constant CullParams* p) {
   const uint tx0 = get_global_id(0) * TILES, ty = get_global_id(1), stride = p->depth_row;
   const uint rows = min((uint)TILE, p->height - ty * TILE), tiles = min((uint)TILES, p->tiles_x - tx0);
   global const uint* first = depth + p->depth_first + (size_t)ty * TILE * stride + tx0 * ROW;
+  if (get_global_id(0) == 0 && ty == 0) counters[next_counter] = 0;
   Keys keys;
   for (uint t = 0; t < TILES; ++t) keys.low1[t] = keys.lowest[t] = keys.high[t] = 0;
   for (uint t = 0; t < tiles;) {
@@ -182,6 +185,6 @@ kernel void depth_bounds_lanes(global const uint* depth, global float* opaque, g
 #ifdef BLEND
     for (uint i = 0; i < 2; ++i) put_bounds(blend, 2, i, tx0 + t, ty, blend_planes[i][t], p);
 #endif
-    if (keys.high[t] > ONE_BITS) atomic_inc(counters + 2);
+    if (keys.high[t] > ONE_BITS) atomic_inc(counters + counter);
   }
 }

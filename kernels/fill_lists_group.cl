@@ -20,7 +20,7 @@ typedef ushort index_t;
 #endif
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void fill_lists_group(
-    global const uint* ids, global const uint4* places, global const uint* totals, global const uint* marks,
+    global const uint* ids, global const uint4* places, global const ulong* totals, global const uint* marks,
     global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
   local uint scratch[APPEND_SCRATCH];
   local ulong sums[GROUP];

@@ -7,7 +7,7 @@
 // ids       the blocks' candidates, in units of 16: how many were asked for is in counters[0]
 // places    uint4 a block: where its candidates lie (in units), how many they are, where its marks lie (in units of 16
 //           words: counters[1]), 0
-// totals    number of indices, a block
+// totals    number of indices, a block, 64 bits
 // marks     a block's cells (BLOCK_SIZE slots, slices each), a word for each 32 candidates
 // cells     uint2 a cell, of which .y: the number of its indices
 //
@@ -26,6 +26,7 @@
 #define MARK_WORDS 32                 // words of candidates, likewise
 #define MARK_STRIDE (MARK_WORDS + 1)  // items that each read their own cell use other banks
 #define SPANS 6
+#define MOST_MARK_UNITS 0x0fffffffu
 
 typedef struct Block {
   int x, y;               // in tiles
@@ -162,12 +163,13 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
     global const float4* views, global const uint* light_marks, global const float* bounds, global const float2* slices,
-    global uint* ids, global uint4* places, global uint* totals, global uint* marks, global uint2* cells,
+    global uint* ids, global uint4* places, global ulong* totals, global uint* marks, global uint2* cells,
     global volatile uint* counters, constant CullParams* p) {
   local uint scratch[APPEND_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
   local float spans[SPANS * BLOCK_SIZE];
   local TestCell made[BLOCK_SIZE];
-  local uint most, ids_at, marks_at, total;
+  local uint most, ids_at, marks_at;
+  local ulong tile_totals[BLOCK_SIZE];
   const uint index = get_group_id(0), item = get_local_id(0), bin = index / BIN_BLOCKS;
   const Block block = {block_x(index, p), block_y(index, p), bin % p->bins_x, bin / p->bins_x, index % BIN_BLOCKS * BLOCK_SIZE,
                        bounds + bin * BOUND_PLANES * BIN_SIZE, slices, made};
@@ -177,7 +179,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
   const uint all_words = (p->light_count + 31) / 32;
   uint seen = 0;
   for (uint w = item; w < all_words; w += GROUP) seen += popcount(column[w] & row[w]);
-  if (item == 0) most = total = 0u;
+  if (item == 0) most = 0u;
   const Cell box = block_box(&block, spans, p);
   const bool some = box.near <= box.far;
   if (seen) atomic_add(&most, seen);
@@ -189,10 +191,15 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
   ids += (size_t)ids_at * 16;
   const uint count = list_candidates(column, row, some && room ? all_words : 0u, views, &box, ids, kept, scratch);
 
-  const uint words = (count + 31) / 32, mark_units = words * (BLOCK_SIZE / 16) * p->slices;
+  // A block's marks are counted in 32-bit words: with more it has no room, and the host refuses.
+  const uint words = (count + 31) / 32;
+  const ulong wanted = (ulong)words * (BLOCK_SIZE / 16) * p->slices;
+  const uint mark_units = (uint)min(wanted, (ulong)MOST_MARK_UNITS);
+  const bool countable = wanted <= MOST_MARK_UNITS;
   uint mark_units_at = 0;
   if (item == 0) mark_units_at = atomic_add(counters + 1, mark_units);
   barrier(CLK_GLOBAL_MEM_FENCE);
+  ulong tile_total = 0;  // of this item's tile: past 2^32 where 2^22 lights are in each of 64 slices
   for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
     uint listed = 0;
     for (uint base = 0; base < words; base += MARK_WORDS) {
@@ -202,7 +209,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
       mark_cells(ids + base * 32, min(n * 32, count - base * 32), views, &block, slice, cell_marks, p);
       if (item == 0) marks_at = mark_units_at;
       barrier(CLK_LOCAL_MEM_FENCE);
-      const bool fits = (ulong)marks_at + mark_units <= p->staging_units;
+      const bool fits = countable && (ulong)marks_at + mark_units <= p->staging_units;
       global uint* to = marks + (size_t)marks_at * 16 + base;
       for (uint i = item; fits && i < BLOCK_SIZE * n; i += GROUP) {
         to[((size_t)(i / n) * p->slices + slice) * words + i % n] = cell_marks[i / n * MARK_STRIDE + i % n];
@@ -212,12 +219,14 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
     }
     uint cell;
     if (item < BLOCK_SIZE && cell_of(index, item, slice, &cell, p)) cells[cell].y = listed;
-    if (item < BLOCK_SIZE) atomic_add(&total, listed);
+    tile_total += listed;
   }
+  if (item < BLOCK_SIZE) tile_totals[item] = tile_total;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item != 0) return;
-  const bool fits = room && (ulong)mark_units_at + mark_units <= p->staging_units;
+  for (uint i = 1; i < BLOCK_SIZE; ++i) tile_total += tile_totals[i];
+  const bool fits = room && countable && (ulong)mark_units_at + mark_units <= p->staging_units;
   places[index] = fits ? (uint4)(ids_at, count, mark_units_at, 0u) : (uint4)(0u);
-  totals[index] = fits ? total : 0u;
+  totals[index] = fits ? tile_total : 0u;
   if (!fits) counters[3] = 1u;
 }

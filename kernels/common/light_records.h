@@ -114,9 +114,9 @@ static inline uint16 tiles_in_region(TileRect rect, int x, int y) {
   return as_uint16(x1 | y1 << 8 | (most - x0) << 16 | (most - y0) << 24) | BYTE_TOPS;
 }
 
-// 0 for all that is negative.
+// +0 for all that is negative or -0; `otherwise` for NaN.
 static inline uint16 short_distance(float16 distance, float otherwise) {
-  const float16 some = distance >= 0.0f ? distance : (distance < 0.0f ? (float16)(0.0f) : (float16)(otherwise));
+  const float16 some = distance > 0.0f ? distance : (distance <= 0.0f ? (float16)(0.0f) : (float16)(otherwise));
   return as_uint16(some) >> 16;
 }
 
@@ -136,7 +136,9 @@ typedef struct BinAsks {
 } BinAsks;
 
 static inline BinAsks asks_of_bin(uint x, uint y, const Cell* bin) {
-  const uint near = as_uint(max(bin->near, 0.0f)) >> 16, far = as_uint(max(bin->far, 0.0f)) >> 16;
+  // Not max(x, 0.0f): for -0.0 it may return either zero, and the sign bit of -0.0 would reject every light.
+  const float first = bin->near > 0.0f ? bin->near : 0.0f, end = bin->far > 0.0f ? bin->far : 0.0f;
+  const uint near = as_uint(first) >> 16, far = as_uint(end) >> 16;
   const uint last = REGION_TILES - BIN_TILES;
   const BinAsks asks = {x | y << 8 | (last - x) << 16 | (last - y) << 24, near | (0x7fffu - far) << 16};
   return asks;

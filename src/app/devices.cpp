@@ -62,7 +62,7 @@ Found find_devices(const DeviceOptions& o) {
     found.problems.push_back(error.what());
   }
   if (found.chosen_cl >= 0 && found.chosen_gl >= 0) {
-    found.bridge = to_string(choose_bridge(ClDevice(o.device), *found.gl[found.chosen_gl].context));
+    found.bridge = to_string(choose_bridge(ClDevice("#" + std::to_string(found.chosen_cl)), *found.gl[found.chosen_gl].context));
   }
   return found;
 }
@@ -72,9 +72,12 @@ void print(const Found& found) {
   fmt::print("OpenCL devices\n");
   for (int i = 0; i < int(found.cl.size()); ++i) {
     const ClDeviceInfo& d = found.cl[i];
-    fmt::print("{} {} {}: {}, {} compute units, {:.1f} GiB, driver {}, {}\n", mark(i == found.chosen_cl),
-               d.platform, d.name, d.cpu ? "CPU" : "GPU", d.compute_units, double(d.global_bytes) / (1 << 30),
+    fmt::print("{} #{} {} {}: {}, {} compute units, {:.1f} GiB, driver {}, {}\n", mark(i == found.chosen_cl), i, d.platform,
+               d.name, d.cpu ? "CPU" : "GPU", d.compute_units, double(d.global_bytes) / (1 << 30),
                d.driver, d.version);
+    if (const std::string why = why_not_the_same_bytes(d); !why.empty()) {
+      fmt::print("    light grids may differ in some bytes from other devices': {}\n", why);
+    }
     if (i != found.chosen_cl || found.tuned.empty()) continue;
     for (const auto& [key, value] : found.tuned) fmt::print("    tuned: {}={}\n", key, value);
     fmt::print("    in {}\n", tuned_sizes_file().string());

@@ -14,9 +14,12 @@ enum class BridgeKind {
   staged,  // two memories: copied through the host at each hand-over
 };
 
-// What these two devices allow: mapped on a CPU OpenCL device beside a software GL.
+// What these two devices allow: mapped on PoCL's CPU beside a software GL.
 // LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison); any other value is an input error.
 BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl);
+
+// OpenCL promises nothing for host memory that is used without map and unmap; PoCL's CPU device keeps one copy.
+bool may_share_memory(const ClDeviceInfo& cl, bool gl_is_software);
 
 const char* to_string(BridgeKind kind);
 
@@ -35,7 +38,8 @@ class SharedBuffer {
   cl::Buffer& cl_buffer() { return cl_buffer_; }
   GLuint gl_buffer() const { return gl_buffer_; }
 
-  // After OpenCL wrote the first `bytes`: waits for the queue and makes them visible to GL.
+  // After OpenCL wrote the first `bytes`: waits for the queue, and for GL's copy of the last time, and makes them visible to
+  // GL.
   void hand_to_gl(size_t bytes);
   // After GL wrote the first `bytes` (a glReadPixels into it, say): waits for GL and makes them visible to
   // OpenCL.
@@ -43,6 +47,7 @@ class SharedBuffer {
 
  private:
   void release();
+  void wait_for_copy();
 
   ClDevice* cl_ = nullptr;  // null once moved from
   BridgeKind kind_ = BridgeKind::staged;
@@ -50,6 +55,7 @@ class SharedBuffer {
   GLuint gl_buffer_ = 0;
   GLuint staging_ = 0;      // staged only: memory that both the host and GL's copies reach
   void* mapped_ = nullptr;  // mapped: the GL buffer's memory; staged: that of `staging_`
+  GLsync copied_ = nullptr; // staged: signalled when OpenGL has read the staging memory; null: it has
   cl::Buffer cl_buffer_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <optional>
 
 #include "cl/error.h"
 
@@ -29,7 +31,7 @@ std::vector<cl::Device> all_devices() {
   return devices;
 }
 
-ClDeviceInfo describe(const cl::Device& device) {
+ClDeviceInfo describe(const cl::Device& device) try {
   // Some drivers end their strings with a zero or blanks that would show in messages and keys.
   auto trimmed = [](std::string text) {
     while (!text.empty() && (text.back() == '\0' || std::isspace(static_cast<unsigned char>(text.back()))))
@@ -47,12 +49,28 @@ ClDeviceInfo describe(const cl::Device& device) {
   info.global_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.local_bytes = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
   info.max_allocation_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.max_group_items = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  const cl_device_fp_config single_precision = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
+  info.exact_division = single_precision & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+  info.denormals = single_precision & CL_FP_DENORM;
   return info;
+} catch (const cl::Error& error) {
+  throw cl_machine_error(error, "an OpenCL device");
 }
 
 bool holds(const std::string& text, const std::string& part) {
   auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+// 2 of "#2".
+std::optional<size_t> index_of(const std::string& text) {
+  size_t index = 0;
+  const char* end = text.data() + text.size();
+  if (text.size() < 2 || text[0] != '#') return {};
+  const auto [rest, error] = std::from_chars(text.data() + 1, end, index);
+  if (error != std::errc() || rest != end) return {};
+  return index;
 }
 
 }  // namespace
@@ -63,17 +81,27 @@ std::vector<ClDeviceInfo> list_cl_devices() {
   return infos;
 }
 
+std::string why_not_the_same_bytes(const ClDeviceInfo& device) {
+  std::string why;
+  if (!device.exact_division) why = "it does not round division and square root correctly";
+  if (!device.denormals) why += why.empty() ? "it flushes denormals" : ", and flushes denormals";
+  return why;
+}
+
 size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::string& substring) {
   if (devices.empty())
     throw machine_error("there is no OpenCL device. The Debian package pocl-opencl-icd makes the CPU one");
+  if (const std::optional<size_t> index = index_of(substring); index && *index < devices.size()) return *index;
   const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const ClDeviceInfo& info) {
     return substring.empty() ? !info.cpu : holds(info.platform + " " + info.name, substring);
   });
   if (chosen != devices.end()) return chosen - devices.begin();
   if (substring.empty()) return 0;
   std::string names;
-  for (const ClDeviceInfo& info : devices) names += fmt::format("\n  {} {}", info.platform, info.name);
-  throw machine_error("--device: no OpenCL device's name holds \"{}\". There are:{}", substring, names);
+  for (size_t i = 0; i < devices.size(); ++i) {
+    names += fmt::format("\n  #{} {} {}", i, devices[i].platform, devices[i].name);
+  }
+  throw machine_error("--device: no OpenCL device's name or number is \"{}\". There are:{}", substring, names);
 }
 
 ClDevice::ClDevice(const std::string& substring) {

@@ -15,13 +15,19 @@ struct ClDeviceInfo {
   bool cpu = false;
   int compute_units = 0;
   size_t global_bytes = 0, local_bytes = 0, max_allocation_bytes = 0;
+  size_t max_group_items = 0;   // work-items of a work-group
+  bool exact_division = false;  // can round division and square root correctly, in single precision
+  bool denormals = false;       // does not flush them, in single precision
 };
+
+// Why this device's light grids may differ from other devices' in some bytes; empty where nothing is known that would.
+std::string why_not_the_same_bytes(const ClDeviceInfo& device);
 
 class ClDevice {
  public:
-  // The first device whose "platform name" holds `substring` (any case); empty: a GPU if there is one, else
-  // the first. Throws Error(machine) that lists the devices there are and, with none, the package that brings
-  // one.
+  // The first device whose "platform name" holds `substring` (any case), or with "#2" the one at that index of
+  // list_cl_devices(), for devices of the same name; empty: a GPU if there is one, else the first. Throws Error(machine)
+  // that lists the devices there are and, with none, the package that brings one.
   explicit ClDevice(const std::string& substring = "");
 
   // What a host program has made already: a device, a context of it, and a queue of both, all three kept alive here.

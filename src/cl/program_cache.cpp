@@ -12,10 +12,9 @@ namespace {
 
 // No -cl-mad-enable and no fast-math, ever: culling is byte-equal on every device
 // (docs/devices.md#same-bits).
-std::string common_options(const cl::Device& device) {
+std::string common_options(const ClDeviceInfo& device) {
   std::string options = "-cl-std=CL1.2";
-  if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
-    options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  if (device.exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   return options;
 }
 
@@ -76,14 +75,14 @@ cl::Kernel ProgramCache::kernel_of_source(const std::string& entry, const std::s
 
 cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& entry,
                                    const std::string& defines, const std::function<std::string()>& source) {
-  cl::Program& program = programs_[key];
-  if (program()) {
-    ++counts_.from_memory;
-  } else {
-    const std::string options = common_options(device_.device()) + (defines.empty() ? "" : " " + defines);
-    program = load_or_build(entry, options, "#pragma OPENCL FP_CONTRACT OFF\n" + source());
-  }
   try {
+    cl::Program& program = programs_[key];
+    if (program()) {
+      ++counts_.from_memory;
+    } else {
+      const std::string options = common_options(device_.info()) + (defines.empty() ? "" : " " + defines);
+      program = load_or_build(entry, options, "#pragma OPENCL FP_CONTRACT OFF\n" + source());
+    }
     return cl::Kernel(program, entry.c_str());
   } catch (const cl::Error& error) {
     throw cl_machine_error(error, "kernels/" + entry + ".cl");

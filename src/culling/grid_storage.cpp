@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cl/error.h"
+#include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
 
@@ -17,33 +18,40 @@ cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
   }
 }
 
+// The old buffer goes first, so that both need not fit at once.
+static void grow(ClDevice& device, size_t bytes, cl::Buffer& buffer, size_t& size) {
+  if (bytes <= size && buffer()) return;
+  buffer = cl::Buffer(), size = 0;
+  buffer = device_buffer(device, bytes), size = bytes;
+}
+
 cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
-  if (bytes > bytes_ || !buffer_()) buffer_ = device_buffer(device, bytes), bytes_ = bytes;
+  grow(device, bytes, buffer_, bytes_);
   return buffer_;
 }
 
 cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
-  if (bytes > size || !buffer()) buffer = device_buffer(device_, bytes), size = bytes;
+  grow(device_, bytes, buffer, size);
   return buffer;
 }
 
 HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage) {
   HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}, {}, {}};
-  host.z_bins.resize(grid.z_bin_bytes / sizeof(cl_uint));
-  if (grid.z_bin_bytes) device.queue().enqueueReadBuffer(storage.z_bins(grid.z_bin_bytes), CL_TRUE, 0, grid.z_bin_bytes, host.z_bins.data());
-  host.masks.resize(grid.mask_bytes / sizeof(cl_uint));
-  if (grid.mask_bytes) device.queue().enqueueReadBuffer(storage.masks(grid.mask_bytes), CL_TRUE, 0, grid.mask_bytes, host.masks.data());
-  host.cells.resize(grid.cell_bytes / sizeof(glm::uvec2));
-  host.indices.resize(grid.index_count);
-  device.queue().enqueueReadBuffer(storage.cells(grid.cell_bytes), CL_TRUE, 0, grid.cell_bytes, host.cells.data());
+  const auto read = [&](const cl::Buffer& from, auto& values, size_t bytes) {
+    values.resize(bytes / sizeof values[0]);
+    read_buffer(device, "reading the light grid", from, values.data(), bytes);
+  };
+  if (grid.z_bin_bytes) read(storage.z_bins(grid.z_bin_bytes), host.z_bins, grid.z_bin_bytes);
+  if (grid.mask_bytes) read(storage.masks(grid.mask_bytes), host.masks, grid.mask_bytes);
+  read(storage.cells(grid.cell_bytes), host.cells, grid.cell_bytes);
   if (grid.index_count == 0) return host;
   if (grid.index_bits == 32) {
-    device.queue().enqueueReadBuffer(storage.indices(grid.index_bytes), CL_TRUE, 0, grid.index_bytes, host.indices.data());
+    read(storage.indices(grid.index_bytes), host.indices, grid.index_bytes);
     return host;
   }
-  std::vector<uint16_t> narrow(grid.index_count);
-  device.queue().enqueueReadBuffer(storage.indices(grid.index_bytes), CL_TRUE, 0, grid.index_bytes, narrow.data());
-  std::copy(narrow.begin(), narrow.end(), host.indices.begin());
+  std::vector<uint16_t> narrow;
+  read(storage.indices(grid.index_bytes), narrow, grid.index_bytes);
+  host.indices.assign(narrow.begin(), narrow.end());
   return host;
 }
 

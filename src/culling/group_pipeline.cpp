@@ -9,19 +9,26 @@ namespace lightgrid {
 namespace {
 
 constexpr size_t project_items = 128, bin_blocks = 4, block_tiles = 4;  // kernels/common/group_grid.h
-constexpr size_t fill_items = 256;                                      // fill_lists_group.cl
-constexpr size_t usual_mark_items = 256;
+constexpr size_t usual_items = 256;  // of kernels whose groups may have any size
+
+// Nothing where it is the kernel's own default.
+std::string group_define(size_t items) { return items == usual_items ? "" : fmt::format(" -DGROUP={}", items); }
 
 class GroupPipeline : public CullPipeline {
  public:
   GroupPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
+    const size_t allowed = device.info().max_group_items;
+    if (allowed < project_items) {
+      throw machine_error("light culling: kernel shape group needs work-groups of {} items, and {} allows {}; use shape lanes",
+                          project_items, device.info().name, allowed);
+    }
     project_ = programs.kernel("project_lights_group", options.light_defines);
-    const size_t allowed = device.device().getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    while (fill_items_ > allowed) fill_items_ /= 2;
     if (options.group_size > 0) mark_items_ = size_t(options.group_size);
     while (mark_items_ > allowed) mark_items_ /= 2;
     mark_cells_ = programs.kernel("mark_cells_group", fmt::format("{} -DGROUP={}", options.defines, mark_items_));
-    fill_ = programs.kernel("fill_lists_group", options.defines);
+    fill_ = programs.kernel("fill_lists_group", options.defines + group_define(fill_items_));
   }
 
   void prepare(const CullParams& p) override {
@@ -32,7 +39,7 @@ class GroupPipeline : public CullPipeline {
     ids_.at_least(device_, size_t(p.pool_blocks) * 16 * candidate_bytes());
     cell_marks_.at_least(device_, size_t(p.staging_units) * 16 * sizeof(cl_uint));
     places_.at_least(device_, blocks(p) * sizeof(cl_uint4));
-    totals_.at_least(device_, blocks(p) * sizeof(cl_uint));
+    totals_.at_least(device_, blocks(p) * sizeof(cl_ulong));
   }
 
   void enqueue(const CullJob& job) override {
@@ -42,7 +49,7 @@ class GroupPipeline : public CullPipeline {
     launch(device_, "mark_cells", mark_cells_, cl::NDRange(blocks(p) * mark_items_), cl::NDRange(mark_items_), views_.get(),
            light_marks_.get(), job.bounds, job.slices, ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells,
            job.counters, job.params_buffer);
-    launch(device_, "fill_lists", fill_, cl::NDRange(blocks(p) * fill_items), cl::NDRange(fill_items), ids_.get(),
+    launch(device_, "fill_lists", fill_, cl::NDRange(blocks(p) * fill_items_), cl::NDRange(fill_items_), ids_.get(),
            places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
 
@@ -57,7 +64,7 @@ class GroupPipeline : public CullPipeline {
   static size_t blocks(const CullParams& p) { return size_t(p.bins_x) * p.bins_y * bin_blocks; }
 
   ClDevice& device_;
-  size_t mark_items_ = usual_mark_items;
+  size_t mark_items_ = usual_items, fill_items_ = usual_items;
   cl::Kernel project_, mark_cells_, fill_;
   GrowingBuffer views_, light_marks_, ids_, cell_marks_, places_, totals_;
 };

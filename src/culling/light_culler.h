@@ -10,9 +10,10 @@
 // Forward Shading", HPG 2012), coarse to fine. A list may hold a light too many, never one too few, for surfaces 10^-15 to
 // 10^15 m from the eye and lights anywhere: docs/hard_cases.md#the-domain has the limits and what happens past them.
 //
-// Errors are of type Error (base/error.h): input where what was given is wrong, machine where the device or its memory
-// does not do. Calls enqueue on the device's one queue; those that return host values, and cull, wait for it. Objects
-// of one device are for one thread at a time.
+// Errors are of type Error (base/error.h) alone: input where an argument is wrong or set_view was not called yet, machine
+// where the device or its memory does not suffice. Calls enqueue on the device's one queue; those that return host values,
+// and cull, wait for it. Nothing that is enqueued reads the culler's own memory: the culler may be changed, moved or
+// destroyed before the queue gets there. Objects of one device are for one thread at a time.
 #pragma once
 
 #include <limits>
@@ -43,8 +44,8 @@ struct CullLight {
 // means that no surface is there. The view may be a part of a larger image.
 struct DepthInput {
   cl::Buffer values;   // of the culler's context; (y + height - 1) * row_pixels + x + width pixels or more
-  int row_pixels = 0;  // pixels from row to row; 0: the view's width
-  int x = 0, y = 0;    // the view's lower left pixel in the image
+  int row_pixels = 0;  // pixels from row to row, x + width or more; 0: the view's width
+  int x = 0, y = 0;    // the view's lower left pixel in the image, 0 or more
 };
 
 // Intervals of distances, one or two a tile, on the device, for views of this size. How they lie there is the kernels'
@@ -160,23 +161,25 @@ class LightCuller {
   ~LightCuller();
   LightCuller(LightCuller&&) noexcept;
 
-  // The lights, in the order their indices mean: uploaded here, once, for any number of views.
+  // The lights, in the order their indices mean: uploaded here, once, for any number of views. Waits. Throws
+  // Error(machine) for 2^30 lights or more.
   void set_lights(std::span<const CullLight> lights);
   // Throws Error(input) as check_view does. Before any of the calls below.
   void set_view(const CullView& view);
 
   // The view's tiles, of which the last ones may be cut, each to the distances of the surfaces in it. `depth` is not
-  // read where options say DepthBoundsMode::none.
+  // read where options say DepthBoundsMode::none. Throws Error(input) where the buffer does not cover the view.
   DepthBounds depth_bounds(const DepthInput& depth);
   // Given intervals instead, one a tile, x fastest, then y from the bottom: at most tiles_x * tiles_y of params();
-  // tiles past the last are empty. They are taken as they are, not widened.
+  // tiles past the last are empty, and more are Error(input). They are taken as they are, not widened.
   TileBounds bounds_of(std::span<const DepthInterval> intervals);
   // One a tile, in that order; of two halves, both together. Waits.
   std::vector<DepthInterval> read_bounds(const TileBounds& bounds);
 
-  // The grid of the lights, the view and the bounds, in `storage`. Memory is sized by what a first pass counts, grows,
-  // and the work is done again where it was short. More than 2^32 - 1 indices or more memory than the device has is
-  // Error(machine); nothing is ever left out.
+  // The grid of the lights, the view and the bounds (of this view), in `storage`. Memory is sized by what a first pass
+  // counts, grows, and the work is done again where it was short. Growth asks for a quarter more than is needed, and for
+  // just that where the device or `storage` throws Error. More than 2^32 - 1 indices or more memory than there is, is
+  // Error(machine), after which the culler is as it was; nothing is ever left out.
   LightGrid cull(const TileBounds& bounds, GridStorage& storage);
 
   // What cull(bounds) would read. Waits.
@@ -184,14 +187,29 @@ class LightCuller {
 
   // Tiles of the last depth_bounds in which some value was no depth: NaN, infinite, negative or past 1. They span every
   // distance. Waits.
-  uint32_t strange_tiles();
+  uint32_t invalid_depth_tiles();
 
   size_t memory_bytes() const;  // of all buffers but the grid's own
   KernelShape shape() const { return options_.shape; }
   const CullParams& params() const { return params_; }  // tiles_x, tiles_y and what else kernels know of the view
 
  private:
+  // Sizes of the buffers between kernels, and of the indices: as CullParams has them.
+  struct Room {
+    uint pool_blocks = 0, staging_units = 0, index_capacity = 0;
+    bool operator==(const Room&) const = default;
+  };
+  Room room() const { return {params_.pool_blocks, params_.staging_units, params_.index_capacity}; }
+  void set_room(const Room& room);
+  Room first_room(size_t index_bytes) const;
+
+  void require_view(const char* call) const;
+  void require_bounds(const TileBounds& bounds, const char* call) const;
+  void read_layout(const DepthInput& depth);
   CullPipeline& pipeline(DepthBoundsMode mode);
+  void cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells);
+  void run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells,
+                   uint32_t (&counters)[8]);
   void make_masks(LightGrid& grid, GridStorage& storage);
   void enqueue_z_bins(LightGrid& grid, GridStorage& storage);
   cl::Buffer empty_bounds(int planes, float near, float far);
@@ -213,15 +231,15 @@ class LightCuller {
   glm::dvec3 eye_{0};                          // world
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
-  size_t index_capacity_ = 0, params_uploads_ = 0;
-  CullParams uploaded_{};
-  std::unique_ptr<StraightView> oblique_;       // where the view's near plane is oblique
+  std::optional<CullParams> uploaded_;  // what params_buffer_ holds when the queue is done
+  std::unique_ptr<StraightView> oblique_;  // where the view's near plane is oblique
   std::unique_ptr<GrowingBuffer> straight_depth_;
   cl::Kernel straighten_kernel_;
   cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
   cl::Buffer params_buffer_, slices_, z_bins_, opaque_, blend_, counters_;
-  uint z_bin_count_ = 1;
+  uint z_bin_count_ = 1, depth_group_ = 0;
+  uint invalid_tiles_counter_ = 0;  // which of counters_ the last depth_bounds counts in; 0: there was none
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
   std::unique_ptr<GrowingBuffer> lights_;

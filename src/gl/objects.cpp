@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "gl/errors.h"
 
 namespace lightgrid {
 namespace {
@@ -43,18 +44,28 @@ template class GlObject<GlKind::vertex_array>;
 template class GlObject<GlKind::program>;
 
 GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags) {
+  check_gl("seen when a buffer was made");
   GLuint name = 0;
   glCreateBuffers(1, &name);
+  GlBuffer buffer(name);
   glNamedBufferStorage(name, GLsizeiptr(std::max<size_t>(bytes, 16)), nullptr, flags | GL_DYNAMIC_STORAGE_BIT);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
+    throw machine_error("OpenGL has no room for a buffer of {} bytes ({})", bytes, gl_error_name(error));
+  }
   if (data && bytes) glNamedBufferSubData(name, 0, GLsizeiptr(bytes), data);
-  return GlBuffer(name);
+  return buffer;
 }
 
 GlTexture make_texture_2d(GLenum format, int width, int height, int levels) {
+  check_gl("seen when a texture was made");
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  GlTexture texture(name);
   glTextureStorage2D(name, levels, format, width, height);
-  return GlTexture(name);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
+    throw machine_error("OpenGL has no room for a texture of {} x {} pixels ({})", width, height, gl_error_name(error));
+  }
+  return texture;
 }
 
 GlTexture make_buffer_texture(GLenum format, GLuint buffer) {

@@ -42,6 +42,7 @@ using GlFramebuffer = GlObject<GlKind::framebuffer>;
 using GlSampler = GlObject<GlKind::sampler>;
 using GlVertexArray = GlObject<GlKind::vertex_array>;
 
+// Both throw Error(machine) with the size where there is no room, and where an earlier call left an error.
 GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags = 0);
 GlTexture make_texture_2d(GLenum format, int width, int height, int levels = 1);
 GlTexture make_buffer_texture(GLenum format, GLuint buffer);

@@ -6,34 +6,42 @@
 namespace lightgrid {
 namespace {
 
-GLuint compile(GLenum stage, const std::string& path, const std::vector<std::string>& defines) {
+class Shader {
+ public:
+  explicit Shader(GLenum stage) : name(glCreateShader(stage)) {}
+  ~Shader() { glDeleteShader(name); }  // one that is attached lives on with its program
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+  const GLuint name;
+};
+
+void compile(const Shader& shader, const std::string& path, const std::vector<std::string>& defines) {
   std::string source = "#version 450 core\n#define LIGHTGRID_GLSL\n";
   for (const std::string& name : defines) source += "#define " + name + "\n";
   source += with_includes(path);
-  const GLuint shader = glCreateShader(stage);
   const char* text = source.c_str();
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
+  glShaderSource(shader.name, 1, &text, nullptr);
+  glCompileShader(shader.name);
   GLint compiled = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  glGetShaderiv(shader.name, GL_COMPILE_STATUS, &compiled);
   if (!compiled) {
     std::string log(16384, '\0');
     GLsizei length = 0;
-    glGetShaderInfoLog(shader, GLsizei(log.size()), &length, log.data());
+    glGetShaderInfoLog(shader.name, GLsizei(log.size()), &length, log.data());
     log.resize(length);
     throw machine_error("OpenGL: {} does not compile on this driver:\n{}", path, log);
   }
-  return shader;
 }
 
 }  // namespace
 
 GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines)
     : object_(glCreateProgram()) {
-  for (const GLuint shader : {compile(GL_VERTEX_SHADER, vertex, defines), compile(GL_FRAGMENT_SHADER, fragment, defines)}) {
-    glAttachShader(name(), shader);
-    glDeleteShader(shader);  // lives on while attached
-  }
+  const Shader vertex_shader(GL_VERTEX_SHADER), fragment_shader(GL_FRAGMENT_SHADER);
+  compile(vertex_shader, vertex, defines);
+  compile(fragment_shader, fragment, defines);
+  glAttachShader(name(), vertex_shader.name);
+  glAttachShader(name(), fragment_shader.name);
   glLinkProgram(name());
   GLint linked = 0;
   glGetProgramiv(name(), GL_LINK_STATUS, &linked);

@@ -201,11 +201,12 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
 void draw_volumes(Frame& f, const LightIndexState& state, const LightVolumes& volumes, const Order& order, GLuint framebuffer) {
   const LightIndexLayout& layout = state.layout;
   const Drawing drawing(f, layout, volumes);
+  const GlProgram& program = f.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, f.view.width, f.view.height);
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
-  glUseProgram(f.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines()).name());
+  glUseProgram(program.name());
   begin_light_indices(layout);
   volumes.begin();
   for (const Batch& batch : order.batches) drawing.draw(batch);
@@ -253,7 +254,7 @@ ListedLights read_light_index(Frame& f) {
   std::vector<uint32_t> lights;
   for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {
     unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(f), lights);
-    lists.first.push_back(uint32_t(lists.indices.size())), lists.count.push_back(uint32_t(lights.size()));
+    lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(lights.size()));
     lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
   }
   return lists;

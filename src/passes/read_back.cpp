@@ -1,22 +1,14 @@
-#include "cl/error.h"
+#include "cl/transfer.h"
 #include "passes/passes.h"
 
 namespace lightgrid {
-
-static void read_from_cl(Frame& f, SharedBuffer& from, Image& image) {
-  try {
-    f.devices.cl->queue().enqueueReadBuffer(from.cl_buffer(), CL_TRUE, 0, image.pixels.size() * 16, image.pixels.data());
-  } catch (const cl::Error& error) {
-    throw cl_machine_error(error, "reading the image back");
-  }
-}
 
 void read_back(Frame& f, const ShadedImage& shaded, Image& image) {
   auto pass = f.timer.pass("read_back", "gl");
   if (image.width != f.view.width || image.height != f.view.height)
     image = Image(f.view.width, f.view.height);
   if (shaded.in_cl) {
-    read_from_cl(f, *shaded.in_cl, image);
+    read_buffer(*f.devices.cl, "reading the image back", shaded.in_cl->cl_buffer(), image.pixels.data(), image.pixels.size() * 16);
   } else {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);

@@ -10,6 +10,7 @@
 //   stencil       Faces behind the surface are counted, back plus one, front minus one; what is not 0 is inside.
 //                 Then the same back faces, where it is not 0, which set it to 0 again.
 #include <algorithm>
+#include <numeric>
 
 #include "passes/frame/draw.h"
 #include "passes/frame/light_defines.h"
@@ -187,16 +188,12 @@ void shade_light_volumes(Frame& f, const GBuffer& gbuffer) {
 ListedLights listed_of_light_volumes(Frame& f) {
   ListedLights lists;
   const size_t pixels = size_t(f.view.width) * f.view.height;
-  lists.first.resize(pixels), lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
+  lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
   if (!f.plan.local_lights) return list_every_light(0);
   visit_pairs(f, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
-  uint32_t sum = 0;
-  for (size_t pixel = 0; pixel < pixels; ++pixel) {
-    lists.cell_of_pixel[pixel] = uint32_t(pixel), lists.first[pixel] = sum;
-    sum += lists.count[pixel];
-  }
-  lists.indices.resize(sum);
-  std::vector<uint32_t> next = lists.first;
+  std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
+  place_lists(lists);
+  std::vector<uint64_t> next = lists.first;
   visit_pairs(f, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
   return lists;
 }

@@ -10,9 +10,14 @@ namespace lightgrid {
 // c = cell_of_pixel[p]; an empty cell_of_pixel means that all pixels walk cell 0.
 struct ListedLights {
   std::vector<uint32_t> cell_of_pixel;  // width * height, row 0 at the bottom
-  std::vector<uint32_t> first, count;   // one a cell
+  std::vector<uint64_t> first;          // one a cell
+  std::vector<uint32_t> count;          // one a cell
   std::vector<uint32_t> indices;        // of point and spot lights in scene order (FramePlan::local)
 };
+
+// Puts lists of these counts one after the other: sets `first`, and sizes `indices`. Throws Error(machine) where that is
+// more than half of the machine's memory.
+void place_lists(ListedLights& lists);
 
 // One cell of lights 0 ... count - 1 for all pixels: what a technique without lists does.
 ListedLights list_every_light(uint32_t count);

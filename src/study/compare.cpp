@@ -18,9 +18,9 @@ struct Entry {
   std::optional<Error> refusal;
 };
 
-// Does `work`; what refuses ends the entry's run, and its reason is kept.
+// Does `work`; a refusal ends the entry's run, unless it is kept, and its reason is recorded.
 template <typename Work>
-void attempt(Entry& entry, const Work& work) {
+void attempt(Entry& entry, const Work& work, bool ends_run = true) {
   if (entry.refusal) return;
   try {
     work();
@@ -31,7 +31,7 @@ void attempt(Entry& entry, const Work& work) {
   } catch (const std::bad_alloc&) {
     entry.refusal = machine_error("out of memory");
   }
-  if (entry.refusal) entry.run.reset();
+  if (entry.refusal && ends_run) entry.run.reset();
 }
 
 std::vector<Entry> make_entries(Devices& devices, const Scene& scene, const View& view,
@@ -76,12 +76,15 @@ RunResult refused_row(const Entry& entry, const RunResult& reference) {
   return row;
 }
 
+// All or nothing: the lists of lights may be more than memory holds.
 void add_row(CompareReport& report, TechniqueRun& run, const Image& reference, const std::vector<float>& depth) {
-  RunResult& row = report.rows.emplace_back(run.result());
+  RunResult row = run.result();
   row.error = compare_images(run.image(), reference);
   LitPairs pairs = count_listed_pairs(run, depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
-  report.images.push_back(run.image());
+  Image image = run.image();
+  report.rows.push_back(std::move(row));
+  report.images.push_back(std::move(image));
   report.listed.push_back(std::move(pairs.listed_of_pixel));
   report.lit = std::move(pairs.lit_of_pixel);
 }
@@ -119,9 +122,9 @@ CompareReport compare_techniques(Devices& devices, const Scene& scene, const Vie
   for (size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries[i];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
-    if (entry.run) {
-      add_row(report, *entry.run, reference->image(), depth);
-    } else {
+    // What refuses here keeps its run: it may be the reference.
+    if (entry.run) attempt(entry, [&] { add_row(report, *entry.run, reference->image(), depth); }, false);
+    if (entry.refusal) {
       report.rows.push_back(refused_row(entry, reference->result()));
       report.images.emplace_back(), report.listed.emplace_back();
     }

@@ -23,8 +23,9 @@ struct CompareOptions {
 
 // Runs the contestants interleaved, frame by frame. The reference is `forward`, run in addition where it is not
 // among them. Error is against its image; pairs are counted on opaque surfaces, by reference/lit_set.h. A contestant
-// that throws Error, or that memory does not hold, becomes a row that is `refused`; the first reason is thrown where
-// none is left, unless all_may_refuse.
+// that throws Error, or that memory does not hold, becomes a row that is `refused`, also where only its lists cannot be
+// read out; the first reason is thrown where no contestant renders, unless all_may_refuse. What the reference itself
+// throws is thrown.
 CompareReport compare_techniques(Devices& devices, const Scene& scene, const View& view,
                                  const std::vector<Contestant>& contestants, const CompareOptions& options);
 

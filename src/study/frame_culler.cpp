@@ -3,6 +3,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "cl/transfer.h"
+#include "culling/cull_pipeline.h"
 #include "passes/frame/frame.h"
 #include "reference/position.h"
 #include "study/frame_lists.h"
@@ -83,8 +85,8 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame) {
 
 cl::Buffer upload_depth(ClDevice& device, const CapturedFrame& frame) {
   const size_t bytes = frame.depth.size() * sizeof(float);
-  cl::Buffer buffer(device.context(), CL_MEM_READ_WRITE, bytes);
-  device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, frame.depth.data());
+  cl::Buffer buffer = device_buffer(device, bytes);
+  write_buffer(device, "depth", buffer, frame.depth.data(), bytes);
   return buffer;
 }
 
@@ -103,7 +105,6 @@ FrameCuller::FrameCuller(ClDevice& device, ProgramCache& programs, const Capture
 void FrameCuller::run() {
   bounds_ = culler_.depth_bounds(depth_);
   grid_ = culler_.cull(bounds_.opaque, storage_);
-  if (grid_.mask_bytes) device_.queue().finish();  // cull leaves them enqueued
 }
 
 FrameGrid FrameCuller::grid() {

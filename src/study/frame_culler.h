@@ -46,7 +46,7 @@ class FrameCuller {
   // Of the last run.
   FrameGrid grid();
   std::vector<DepthInterval> intervals();  // a tile each, x fastest, then y from the bottom
-  uint32_t strange_tiles() { return culler_.strange_tiles(); }
+  uint32_t invalid_depth_tiles() { return culler_.invalid_depth_tiles(); }
 
  private:
   ClDevice& device_;

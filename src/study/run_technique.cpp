@@ -1,5 +1,7 @@
 #include "study/run_technique.h"
 
+#include "gl/errors.h"
+#include "gl/state.h"
 #include "study/metrics.h"
 
 namespace lightgrid {
@@ -8,9 +10,15 @@ TechniqueRun::TechniqueRun(Devices& devices, const Scene& scene, const View& vie
                            const Technique& technique)
     : technique_(technique), frame_(devices, scene, view, plan_frame(scene, view, settings, technique.needs)) {}
 
+void TechniqueRun::render() {
+  reset_gl_state();
+  read_back(frame_, technique_.render(frame_), image_);
+  check_gl(technique_.name);
+}
+
 void TechniqueRun::run_frame(bool warmup) {
   const Timer timer;
-  read_back(frame_, technique_.render(frame_), image_);
+  render();
   if (!warmup) frame_ms_.push_back(timer.elapsed_ms());
 }
 
@@ -18,7 +26,7 @@ void TechniqueRun::run_profiled_frames() {
   const Timer timer;
   frame_.timer.enabled = true;
   for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < 1000); ++i) {
-    read_back(frame_, technique_.render(frame_), image_);
+    render();
   }
   frame_.timer.enabled = false;
 }

@@ -25,6 +25,8 @@ class TechniqueRun {
   RunResult result() const;
 
  private:
+  void render();
+
   const Technique& technique_;
   Frame frame_;
   Image image_;

@@ -71,6 +71,20 @@ TEST(DevicesCommand, ListsAllAndFailsWhereTheNamedDeviceIsNotThere) {
   EXPECT_THAT(ran.err, HasSubstr("\"nosuchdevice\""));
 }
 
+// PoCL makes as many devices of one name as it is told to.
+TEST(DevicesCommand, TellsDevicesOfOneNameApartByTheirNumber) {
+  const char* two = "POCL_DEVICES='pthread pthread'";
+  for (const int chosen : {0, 1}) {
+    const Ran ran = run_devices("--json - --device '#" + std::to_string(chosen) + "'", two);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto json = nlohmann::json::parse(ran.out);
+    if (json["cl"].size() != 2) GTEST_SKIP() << "this machine's OpenCL does not heed POCL_DEVICES";
+    EXPECT_EQ(json["cl"][0]["name"], json["cl"][1]["name"]);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(json["cl"][i]["chosen"], i == chosen);
+  }
+  EXPECT_THAT(run_devices("", two).out, HasSubstr("  #1 "));
+}
+
 TEST(DevicesCommand, RefusesAnUnknownBackend) {
   const Ran ran = run_devices("--gl glx");
   EXPECT_EQ(ran.status, 2);

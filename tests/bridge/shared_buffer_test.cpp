@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include <cstring>
+#include <functional>
 #include <numeric>
 
 #include "cl/launch.h"
@@ -197,6 +198,72 @@ TEST_P(SharedBufferOf, MayBeEmpty) {
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
+// An OpenGL that copies late, as a GPU does: copies wait until somebody waits for them.
+struct LateCopies {
+  LateCopies() {
+    copy = glCopyNamedBufferSubData, wait = glClientWaitSync, finish = glFinish;
+    pending.clear();
+    glCopyNamedBufferSubData = [](GLuint from, GLuint to, GLintptr a, GLintptr b, GLsizeiptr bytes) {
+      pending.push_back([=] { copy(from, to, a, b, bytes); });
+    };
+    glClientWaitSync = [](GLsync sync, GLbitfield flags, GLuint64 time) {
+      run();
+      return wait(sync, flags, time);
+    };
+    glFinish = [] { run(), finish(); };
+  }
+  ~LateCopies() {
+    run();
+    glCopyNamedBufferSubData = copy, glClientWaitSync = wait, glFinish = finish;
+  }
+  static void run() {
+    for (const auto& late : pending) late();
+    pending.clear();
+  }
+  static inline std::vector<std::function<void()>> pending;
+  static inline PFNGLCOPYNAMEDBUFFERSUBDATAPROC copy;
+  static inline PFNGLCLIENTWAITSYNCPROC wait;
+  static inline PFNGLFINISHPROC finish;
+};
+
+// Handing over a second time may not overwrite what the first copy has still to read.
+TEST_P(SharedBufferOf, WaitsForTheLastCopyBeforeItHandsOverAgain) {
+  constexpr cl_uint count = 16;
+  SharedBuffer buffer(cl, kind, count * 4);
+  std::vector<cl_uint> first_frame(count);
+  {
+    const LateCopies late;
+    write_squares(buffer, count, 1);
+    buffer.hand_to_gl(count * 4);
+    // What OpenGL has once the first copy is made.
+    LateCopies::pending.push_back([&] {
+      glGetNamedBufferSubData(buffer.gl_buffer(), 0, count * 4, first_frame.data());
+    });
+    write_squares(buffer, count, 1000);
+    buffer.hand_to_gl(count * 4);
+  }
+  if (kind == BridgeKind::staged) {
+    EXPECT_EQ(first_frame, squares(count, 1));
+  }
+  EXPECT_EQ(read_in_gl(buffer, count, copy_shader), squares(count, 1000));
+}
+
+// What failed before is not blamed on the buffer. Debug builds abort at the call itself.
+TEST_P(SharedBufferOf, DoesNotTakeAnEarlierErrorForItsOwn) {
+#ifndef NDEBUG
+  GTEST_SKIP() << "this build aborts at the first OpenGL error";
+#endif
+  glEnable(GL_TEXTURE_2D + 0xdead);
+  try {
+    SharedBuffer buffer(cl, kind, 64);
+    FAIL() << "made";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("GL_INVALID_ENUM of a call before"));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("no room")));
+  }
+  SharedBuffer buffer(cl, kind, 64);
+}
+
 INSTANTIATE_TEST_SUITE_P(Pairs, SharedBufferOf,
                          testing::Combine(testing::Values(GlBackend::osmesa, GlBackend::egl),
                                           testing::Values(BridgeKind::mapped, BridgeKind::staged)),
@@ -213,9 +280,18 @@ struct BridgeChoice : testing::Test {
 };
 
 TEST_F(BridgeChoice, IsMappedExactlyWhereBothSidesAreTheCpu) {
-  EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, cl.info().cpu && gl->software);
+  EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, may_share_memory(cl.info(), gl->software));
   gl->software = false;
   EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
+}
+
+TEST(SharedMemory, IsForPoclsCpuBesideASoftwareGlAlone) {
+  ClDeviceInfo info{.platform = "Portable Computing Language", .cpu = true};
+  EXPECT_TRUE(may_share_memory(info, true));
+  EXPECT_FALSE(may_share_memory(info, false));
+  info.platform = "Intel(R) OpenCL";
+  EXPECT_FALSE(may_share_memory(info, true));
+  EXPECT_FALSE(may_share_memory({.platform = "Portable Computing Language", .cpu = false}, true));
 }
 
 TEST_F(BridgeChoice, CanBeForcedToStaged) {

@@ -35,6 +35,31 @@ TEST(ClDeviceChoice, TakesTheFirstWhosePlatformAndNameHoldTheSubstringInAnyCase)
   EXPECT_EQ(choose_cl_device(three, "language PTHREAD"), 0u);
 }
 
+// Devices of the same name, as of a machine with several GPUs of one kind.
+TEST(ClDeviceChoice, TakesTheOneAtAnIndexAfterAHash) {
+  const std::vector<ClDeviceInfo> equal = {three[0], three[1], three[1]};
+  EXPECT_EQ(choose_cl_device(equal, "H200"), 1u);
+  EXPECT_EQ(choose_cl_device(equal, "#2"), 2u);
+  EXPECT_EQ(choose_cl_device(equal, "#0"), 0u);
+  for (const char* none : {"#3", "#", "#-1", "#1x", "#99999999999999999999"}) {
+    try {
+      choose_cl_device(equal, none);
+      ADD_FAILURE() << none << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("#2 NVIDIA CUDA NVIDIA H200"));
+    }
+  }
+}
+
+TEST(ClDeviceInfo, SaysWhyItsBytesMayDiffer) {
+  EXPECT_EQ(why_not_the_same_bytes({.exact_division = true, .denormals = true}), "");
+  EXPECT_EQ(why_not_the_same_bytes({.exact_division = false, .denormals = true}),
+            "it does not round division and square root correctly");
+  EXPECT_EQ(why_not_the_same_bytes({.exact_division = true, .denormals = false}), "it flushes denormals");
+  EXPECT_EQ(why_not_the_same_bytes({}),
+            "it does not round division and square root correctly, and flushes denormals");
+}
+
 TEST(ClDeviceChoice, ThatMatchesNothingNamesTheSubstringAndTheDevices) {
   try {
     choose_cl_device(three, "radeon");

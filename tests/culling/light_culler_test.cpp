@@ -125,6 +125,34 @@ TEST(LightCuller, GivesTheSameGridWithAnyGroupSize) {
   }
 }
 
+// As on a device whose work-groups are smaller than usual.
+TEST(LightCuller, FitsItsGroupsToTheDevice) {
+  const View view = view_of(127, 73, 60);
+  const std::vector<CullLight> lights = cull_lights_of(some_lights(300, false, 8));
+  const std::vector<float> depth(127 * 73, 0.02f);
+  const auto grid_with = [&](size_t most_items) {
+    ClDevice device;
+    ProgramCache programs(device);
+    const_cast<ClDeviceInfo&>(device.info()).max_group_items = most_items;
+    const cl::Buffer values(device.context(), CL_MEM_COPY_HOST_PTR, depth.size() * sizeof(float), const_cast<float*>(depth.data()));
+    LightCuller culler(device, programs, {.shape = KernelShape::group});
+    culler.set_lights(lights);
+    culler.set_view(cull_view_of(view));
+    ClGridStorage storage(device);
+    return read_grid(device, culler.cull(culler.depth_bounds({values}).opaque, storage), storage);
+  };
+  const HostGrid usual = grid_with(1024);
+  EXPECT_FALSE(usual.indices.empty());
+  EXPECT_TRUE(grid_with(128) == usual);
+  try {
+    grid_with(64);
+    FAIL() << "work-groups of 64";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_THAT(error.what(), testing::HasSubstr("work-groups of 128 items"));
+  }
+}
+
 // So many tiles that 64 regions would be wider than the 128 tiles which a byte can tell apart (light_records.h).
 TEST(LightCuller, FindsSmallLightsAmongTwoMillionTiles) {
   const View view = view_of(16400, 8300, 60);

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <new>
+
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -40,6 +42,21 @@ TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
   EXPECT_TRUE(row["memory_bytes"]["total"].is_null());
   EXPECT_TRUE(row["pairs"].is_null());
   EXPECT_FALSE(to_json(report.rows[1]).contains("refused"));
+}
+
+// The picture is there, and memory runs out when its lists are read.
+ListedLights out_of_memory(Frame&) { throw std::bad_alloc(); }
+
+TEST(CompareTechniques, MakesARefusedRowOfListsThatMemoryDoesNotHold) {
+  Technique many = find_technique("forward");  // the reference, too
+  many.listed = out_of_memory;
+  const CompareReport report = compared({{&many, {}}, {&find_technique("forward_plus"), {}}});
+  ASSERT_EQ(report.rows.size(), 2u);
+  EXPECT_EQ(report.rows[0].refused, "out of memory");
+  EXPECT_EQ(report.rows[1].refused, "");
+  EXPECT_EQ(report.rows[1].pairs->lost, 0u);
+  EXPECT_EQ(report.images.size(), 2u);
+  EXPECT_EQ(report.listed.size(), 2u);
 }
 
 TEST(CompareTechniques, KeepTheReferencesPictureWhereItIsNoRow) {

@@ -54,7 +54,7 @@ TEST(FrameCuller, LosesNothingBesideDepthsThatAreNone) {
     for (size_t i = 0; i < frame.depth.size(); i += 97) frame.depth[i] = strange[i / 97 % 4];
     FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, {});
     culler.run();
-    EXPECT_GT(culler.strange_tiles(), 20u);
+    EXPECT_GT(culler.invalid_depth_tiles(), 20u);
     FrameGrid grid = culler.grid();
     for (size_t i = 0; i < frame.depth.size(); i += 97)
       frame.depth[i] = standard ? 1 : 0;  // nothing to ask there

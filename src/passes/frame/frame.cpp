@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "cl/transfer.h"
 #include "passes/frame/light_texels.h"
 
 namespace lightgrid {
@@ -10,7 +11,6 @@ namespace {
 
 cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
-    shared.texture = GlTexture();
     GLint texels = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
     const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
@@ -18,6 +18,8 @@ cl::Buffer& grown(Devices& devices, SharedTexture& shared, size_t bytes, GLenum 
       throw machine_error("light grid: {} bytes are more than the {} texels that a buffer texture may have in this OpenGL; use "
                           "larger tiles, fewer slices or fewer lights", bytes, texels);
     }
+    shared.texture = GlTexture();
+    shared.buffer.reset();  // first, so that both need not fit at once
     shared.buffer.emplace(*devices.cl, devices.bridge, bytes);
     shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
   }
@@ -101,7 +103,7 @@ Frame::Frame(Devices& devices, const Scene& scene, const View& view, FramePlan p
       params(params_of(view, plan, scene.ambient)),
       timer([this](const std::string& on) {
         if (on == "cl") {
-          this->devices.cl->queue().finish();
+          finish_queue(*this->devices.cl, "timing a pass");
         } else {
           glFinish();
         }

@@ -1,6 +1,6 @@
 #include "study/bench/culling_run.h"
 
-#include "passes/frame/frame.h"
+#include "cl/transfer.h"
 
 namespace lightgrid {
 
@@ -20,19 +20,18 @@ CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedF
 
 void CullingRun::run() {
   grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_);
-  if (grid_.mask_bytes) device_.queue().finish();  // cull leaves them enqueued
 }
 
 void CullingRun::upload_lights() {
   culler_->set_lights(lights_);
-  device_.queue().finish();
+  finish_queue(device_, "lights");
 }
 
 void CullingRun::download_grid() {
   host_.resize(grid_.cell_bytes + grid_.index_bytes + grid_.mask_bytes + grid_.z_bin_bytes);
   char* to = host_.data();
   const auto read = [&](const cl::Buffer& buffer, size_t bytes) {
-    if (bytes) device_.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, to);
+    read_buffer(device_, "grid", buffer, to, bytes);
     to += bytes;
   };
   read(storage_.cells(0), grid_.cell_bytes);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cl/transfer.h"
+
 namespace lightgrid {
 namespace {
 
@@ -35,7 +37,7 @@ Spread repeat(int runs, auto&& run) {
 Spread copy_ms(ClDevice& device, const cl::Buffer& from, size_t bytes, int runs) {
   const cl::Buffer to = device_buffer(device, bytes);
   return repeat(runs, [&] {
-    device.queue().enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, device.profiler().event("limits_copy"));
+    copy_buffer(device, "limits_copy", from, to, bytes);
     return device_ms(device);
   });
 }
@@ -56,7 +58,7 @@ Spread flops_ms(ClDevice& device, ProgramCache& programs, int runs, double& oper
 double launches_ms(ClDevice& device, cl::Kernel& empty, const cl::Buffer& unused, int count) {
   const Timer timer;
   for (int i = 0; i < count; ++i) launch(device, "limits_empty", empty, 1, 1, unused);
-  device.queue().finish();
+  finish_queue(device, "limits");
   return timer.elapsed_ms();
 }
 
@@ -76,18 +78,18 @@ void measure_transfers(ClDevice& device, int runs, Limits& limits) {
   std::vector<char> host(depth_bytes, 1);
   limits.to_device = repeat(runs, [&] {
     const Timer timer;
-    device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, depth_bytes, host.data());
+    write_buffer(device, "limits", buffer, host.data(), depth_bytes);
     return timer.elapsed_ms();
   });
   limits.to_host = repeat(runs, [&] {
     const Timer timer;
-    device.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, depth_bytes, host.data());
+    read_buffer(device, "limits", buffer, host.data(), depth_bytes);
     return timer.elapsed_ms();
   });
 }
 
 Spread read_ms(ClDevice& device, PlainRead& read, const cl::Buffer& buffer, size_t bytes, int runs) {
-  device.queue().enqueueFillBuffer(buffer, cl_uint(1), 0, bytes);  // pages that were never written read too fast
+  fill_buffer(device, "limits", buffer, 1, bytes);  // pages that were never written read too fast
   read.fit(buffer, bytes, bytes > depth_bytes ? 2 : 5);
   return repeat(runs, [&] { return read.run(buffer, bytes); });
 }

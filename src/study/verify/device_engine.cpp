@@ -1,17 +1,31 @@
 #include <map>
 #include <tuple>
 
+#include "cl/transfer.h"
+#include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
 #include "study/verify/engine.h"
 
 namespace lightgrid::verify {
 namespace {
 
+// With its number where another device has the same name.
+std::string name_of_device(const std::string& substring) {
+  const std::vector<ClDeviceInfo> devices = list_cl_devices();
+  const size_t chosen = choose_cl_device(devices, substring);
+  const auto name = [&](size_t i) { return devices[i].platform + " " + devices[i].name; };
+  for (size_t i = 0; i < devices.size(); ++i) {
+    if (i != chosen && name(i) == name(chosen)) return name(chosen) + " #" + std::to_string(chosen);
+  }
+  return name(chosen);
+}
+
 class DeviceEngine : public CullEngine {
  public:
-  explicit DeviceEngine(const std::string& substring) : device_(substring), programs_(device_), storage_(device_) {}
+  explicit DeviceEngine(const std::string& substring)
+      : device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
 
-  std::string name() const override { return device_.info().platform + " " + device_.info().name; }
+  std::string name() const override { return name_; }
   bool is_the_library() const override { return true; }
 
   HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
@@ -61,8 +75,8 @@ class DeviceEngine : public CullEngine {
   TileBounds bounds_from(LightCuller& culler, const DepthImage& depth, bool blend) {
     DepthInput input{.row_pixels = depth.row_pixels, .x = depth.x, .y = depth.y};
     const size_t bytes = depth.values.size() * sizeof(float);
-    input.values = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes);
-    device_.queue().enqueueWriteBuffer(input.values, CL_TRUE, 0, bytes, depth.values.data());
+    input.values = device_buffer(device_, bytes);
+    write_buffer(device_, "depth", input.values, depth.values.data(), bytes);
     const DepthBounds bounds = culler.depth_bounds(input);
     return blend ? bounds.blend : bounds.opaque;
   }
@@ -70,6 +84,7 @@ class DeviceEngine : public CullEngine {
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;
+  std::string name_;
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
 };
 

@@ -1,0 +1,60 @@
+#include "cl/transfer.h"
+
+#include <cassert>
+
+#include "cl/error.h"
+
+namespace lightgrid {
+namespace {
+
+template <typename Call>
+void checked(const char* what, const Call& call) {
+  try {
+    call();
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, what);
+  }
+}
+
+constexpr size_t largest_pattern = 128;  // OpenCL's limit for a fill: the widest vector type
+
+}  // namespace
+
+void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, void* to, size_t bytes, size_t offset) {
+  if (bytes == 0) return;
+  checked(what, [&] { device.queue().enqueueReadBuffer(from, CL_TRUE, offset, bytes, to); });
+}
+
+void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
+  if (bytes == 0) return;
+  checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, 0, bytes, from); });
+}
+
+// A fill takes its pattern when it is enqueued; a write that does not wait reads the host's memory at some later time.
+// A pattern's size is a power of two and divides the offset.
+void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
+  assert(bytes % 4 == 0);
+  for (size_t offset = 0, size = largest_pattern; offset < bytes; size /= 2) {
+    for (; offset + size <= bytes; offset += size) {
+      const cl_int code = clEnqueueFillBuffer(device.queue()(), to(), static_cast<const char*>(from) + offset, size,
+                                              offset, size, 0, nullptr, nullptr);
+      if (code != CL_SUCCESS) throw cl_machine_error(cl::Error(code, "clEnqueueFillBuffer"), what);
+    }
+  }
+}
+
+void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, cl_uint value, size_t bytes) {
+  if (bytes == 0) return;
+  checked(what, [&] { device.queue().enqueueFillBuffer(buffer, value, 0, bytes); });
+}
+
+void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, const cl::Buffer& to, size_t bytes) {
+  if (bytes == 0) return;
+  checked(what, [&] { device.queue().enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, device.profiler().event(what)); });
+}
+
+void finish_queue(ClDevice& device, const char* what) {
+  checked(what, [&] { device.queue().finish(); });
+}
+
+}  // namespace lightgrid
