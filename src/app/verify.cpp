@@ -13,13 +13,14 @@
 #include "app/verify_hunt.h"
 #include "base/error.h"
 #include "study/results.h"
-#include "study/verify/run.h"
+#include "study/verify/replay.h"
 
 namespace lightgrid {
 namespace {
 
 struct VerifyCommand {
   std::string device, filter, json, replay;
+  std::vector<std::string> set;
   bool nightly = false, list = false;
   HuntCommand hunt;
 };
@@ -45,8 +46,8 @@ void print(const verify::VerifyReport& report) {
     if (result.device != device) fmt::print("{}\n", device = result.device);
     const verify::Outcome& o = result.outcome;
     const char* verdicts[] = {"pass", "FAIL", "skip"};
-    fmt::print("  {} {:<42} {:>9} trials  {:>6} lost  {:>7}{}{}\n", verdicts[int(o.verdict)],
-               fmt::format("{}/{}", result.hard_case->group, result.hard_case->name), o.trials, o.lost,
+    fmt::print("  {} {:<42} {:>9} contacts  {:>9} trials  {:>6} lost  {:>7}{}{}\n", verdicts[int(o.verdict)],
+               fmt::format("{}/{}", result.hard_case->group, result.hard_case->name), o.contacts, o.trials, o.lost,
                o.excess_ratio ? fmt::format("× {:.2f}", *o.excess_ratio) : "", o.why.empty() ? "" : "  ", o.why);
   }
   fmt::print("{} of {} failed\n", report.failed, report.cases.size());
@@ -59,11 +60,18 @@ int hunt(const VerifyCommand& o) {
   return run_hunt(o.hunt, *verify::device_engine(o.device), o.filter, o.json);
 }
 
+verify::VerifyReport replay(const VerifyCommand& o, const std::vector<std::unique_ptr<verify::CullEngine>>& engines,
+                            const CapturedFrame& frame) {
+  const std::optional<FrameGrid> own = read_frame_grid(o.replay, frame);
+  return verify::replay_frame(engines, frame, {verify::replayed_views(frame, own, o.set), progress_bar()});
+}
+
 int run(const VerifyCommand& o) {
   if (o.hunt.asked()) return hunt(o);
   const auto chosen = verify::chosen_cases(o.filter);
   if (!o.replay.empty() && (o.nightly || o.list || !o.filter.empty()))
     throw input_error("verify: --replay {} goes with none of --filter, --nightly and --list", o.replay);
+  if (o.replay.empty() && !o.set.empty()) throw input_error("verify: --set {} goes with --replay alone", o.set[0]);
   if (o.list) {
     for (const std::string& row : verify::catalogue_rows(chosen)) fmt::print("{}\n", row);
     return 0;
@@ -73,8 +81,7 @@ int run(const VerifyCommand& o) {
   if (o.nightly) options.adversarial_lights = 10'000'000;
   const CapturedFrame frame = o.replay.empty() ? CapturedFrame() : read_frame(o.replay);
   const auto engines = engines_of(o.device);
-  const verify::VerifyReport report =
-      o.replay.empty() ? verify::run_cases(engines, options) : verify::replay_frame(engines, frame, options.progress);
+  const verify::VerifyReport report = o.replay.empty() ? verify::run_cases(engines, options) : replay(o, engines, frame);
   if (!o.json.empty()) write_json(o.json, verify::to_json(report).dump(1) + "\n");
   if (o.json != "-") print(report);
   return report.failed ? 1 : 0;
@@ -87,7 +94,8 @@ void add_verify(CommandLine& line) {
   Subcommand command = line.add("verify", "the hard cases of culling on this machine's devices", [o] { return run(*o); });
   command.option("--filter", o->filter, "only cases whose GROUP/NAME holds this regular expression");
   command.option("--device", o->device, "only the OpenCL device whose platform and name hold this text; else all");
-  command.option("--replay", o->replay, "a captured frame's folder instead: its grids against a flat C++ program's, bit for bit");
+  command.option("--replay", o->replay, "a captured frame's folder instead: its lists against the oracle, and bit for bit against a flat C++ program's");
+  command.list("--set", o->set, "with --replay: slices=N, z-bins=N, slice-spacing=… to replay beside the frame's own; may be repeated");
   command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand");
   command.flag("--list", o->list, "the catalogue as a table, and nothing run");
   add_hunt_options(command, o->hunt);

@@ -82,6 +82,7 @@ void add_row(CompareReport& report, TechniqueRun& run, const Image& reference, c
   row.error = compare_images(run.image(), reference);
   LitPairs pairs = count_listed_pairs(run, depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  if (run.technique().limited_lists) row.overflow = pairs.lost;
   Image image = run.image();
   report.rows.push_back(std::move(row));
   report.images.push_back(std::move(image));

@@ -34,6 +34,7 @@ extern const Technique lidr{
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack", "lidr-order", "volume-mesh",
                  "depth-bounds", "tile"},
     .render = render,
-    .listed = listed};
+    .listed = listed,
+    .limited_lists = true};
 
 }  // namespace lightgrid

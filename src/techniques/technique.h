@@ -20,6 +20,8 @@ struct Technique {
   // What the last frame shaded each pixel of its opaque surfaces with. Null: the frame's light grid or, without one,
   // every light.
   ListedLights (*listed)(Frame& f) = nullptr;
+  // A pixel has places for a limited number of lights; those past it are left out.
+  bool limited_lists = false;
 };
 
 // The recipe of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended surfaces.

@@ -53,14 +53,24 @@ struct FuzzInput {
 // Sizes and settings in their range; every number may be anything.
 inline FuzzInput fuzz_input(Bytes bytes) {
   FuzzInput in;
-  // Few settings, as each builds kernels of its own: three of each kind that differ in all.
-  constexpr struct { CullTest test; DepthBoundsMode mode; DepthFormat format; int tile, samples; } kinds[] = {
-      {CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1},
-      {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1},
-      {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4}};
+  // Few settings, as each builds kernels of its own: four kinds that differ in all.
+  constexpr struct {
+    CullTest test;
+    DepthBoundsMode mode;
+    DepthFormat format;
+    int tile, samples, index_bits;
+    GridLists lists;
+    bool portable, blend;
+  } kinds[] = {
+      {CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1, 0, GridLists::lists, false, false},
+      {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1, 32, GridLists::masks, false, true},
+      {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4, 16, GridLists::lists, true, false},
+      {CullTest::aabb, DepthBoundsMode::halfz, DepthFormat::d32f, 32, 1, 16, GridLists::masks, true, true}};
   CullerOptions& o = in.options;
-  const auto& kind = kinds[bytes.up_to(2)];
+  const auto& kind = kinds[bytes.up_to(3)];
   o.cull_test = kind.test, o.depth_bounds = kind.mode, o.depth_format = kind.format, o.tile = kind.tile;
+  o.samples = kind.samples, o.index_bits = kind.index_bits, o.lists = kind.lists;
+  o.portable = kind.portable, o.blend = kind.blend;
   Lens lens;
   lens.half_x = bytes.number(0.01, 3), lens.half_y = bytes.number(0.01, 3);
   lens.near = bytes.number(0.01, 1), lens.far = bytes.up_to(1) ? no_end : bytes.number(2, 1000);
@@ -71,6 +81,8 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   if (bytes.up_to(3) == 0) in.view = placed(in.view, {bytes.number(-1e7, 1e7), 0, 1}, bytes.number(-3, 3), bytes.number(-1, 1));
   float edge = 0;
   for (int slices = bytes.up_to(3); slices > 0; --slices) in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
+  edge = 0;
+  for (int bins = bytes.up_to(7); bins > 0; --bins) in.view.z_bin_edges.push_back(edge += 0.1f * float(1 + bytes.up_to(99)));
   for (size_t i = tile_count(in.view, o.tile); i > 0; --i)
     in.bounds.push_back({float(bytes.number(0, 20)), float(bytes.number(5, 100))});
   in.depth.samples = kind.samples;
@@ -90,25 +102,52 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   return in;
 }
 
-// Empty, or what is wrong.
-inline std::string fuzz_once(CullEngine& engine, const uint8_t* data, size_t size) {
-  FuzzInput in = fuzz_input(Bytes(data, size));
-  const auto grids = [&](KernelShape shape) {
-    in.options.shape = shape;
-    return std::pair(engine.cull(in.options, in.view, in.lights, in.bounds),
-                     engine.cull_depth(in.options, in.view, in.lights, in.depth));
-  };
-  try {
-    const auto lanes = grids(KernelShape::lanes), group = grids(KernelShape::group);
-    for (const HostGrid* grid : {&lanes.first, &lanes.second, &group.first, &group.second}) {
-      const std::string wrong = malformed(*grid, in.lights.size());
-      if (!wrong.empty()) return wrong;
+// Empty, or where a mask says something other than its list.
+inline std::string masks_differ(const HostGrid& grid) {
+  if (grid.masks.empty()) return "";
+  const size_t words = grid.masks.size() / grid.cells.size();
+  for (size_t cell = 0; cell < grid.cells.size(); ++cell) {
+    std::vector<uint32_t> named;
+    for (uint32_t i = 0; i < 32 * words; ++i) {
+      if (grid.masks[cell * words + i / 32] >> i % 32 & 1) named.push_back(i);
     }
-    if (lanes.first != group.first) return "lanes and group differ over given bounds";
-    if (lanes.second != group.second) return "lanes and group differ from depth on";
-  } catch (const Error&) {  // said in a line: that is allowed
+    if (!std::ranges::equal(named, list_of(grid, cell))) return fmt::format("the mask of cell {} is not its list", cell);
   }
   return "";
+}
+
+// Every grid that the input's settings have, in one kernel shape: over given bounds, from depth, of blended surfaces.
+inline std::vector<HostGrid> fuzz_grids(CullEngine& engine, const FuzzInput& in, KernelShape shape) {
+  CullerOptions options = in.options;
+  options.shape = shape;
+  std::vector<HostGrid> grids = {engine.cull(options, in.view, in.lights, in.bounds),
+                                 engine.cull_depth(options, in.view, in.lights, in.depth)};
+  if (options.blend) grids.push_back(engine.cull_depth(options, in.view, in.lights, in.depth, true));
+  return grids;
+}
+
+// Empty, or what is wrong. `refused` says whether the input was refused in a line, which is allowed.
+inline std::string fuzz_once(CullEngine& engine, const FuzzInput& in, bool* refused = nullptr) {
+  try {
+    const std::vector<HostGrid> lanes = fuzz_grids(engine, in, KernelShape::lanes);
+    const std::vector<HostGrid> group = fuzz_grids(engine, in, KernelShape::group);
+    constexpr const char* names[] = {"over given bounds", "from depth on", "of blended surfaces"};
+    for (size_t i = 0; i < lanes.size(); ++i) {
+      for (const HostGrid* grid : {&lanes[i], &group[i]}) {
+        for (const std::string& wrong : {malformed(*grid, in.lights.size()), masks_differ(*grid)})
+          if (!wrong.empty()) return fmt::format("{}: {}", names[i], wrong);
+        if (grid->z_bins.size() != (in.view.z_bin_edges.empty() ? 0 : in.lights.size())) return "a word of z-bins for each light";
+      }
+      if (lanes[i] != group[i]) return fmt::format("lanes and group differ {}", names[i]);
+    }
+  } catch (const Error&) {
+    if (refused) *refused = true;
+  }
+  return "";
+}
+
+inline std::string fuzz_once(CullEngine& engine, const uint8_t* data, size_t size, bool* refused = nullptr) {
+  return fuzz_once(engine, fuzz_input(Bytes(data, size)), refused);
 }
 
 }  // namespace lightgrid::verify

@@ -24,7 +24,8 @@ std::vector<Caught> faults() {
       {"cross_product_planes", Fault::cross_product_planes, {"camera/field_of_a_tenth", "lights/adversarial"}},
       {"box_ends_swapped", Fault::box_ends_swapped, {"camera/beside_the_axis", "camera/field_of_170", "camera/off_centre"}},
       {"symmetric_frustum", Fault::symmetric_frustum,
-       {"camera/off_centre", "camera/beside_the_axis", "camera/orthographic_off_centre"}},
+       {"camera/off_centre", "camera/beside_the_axis", "camera/orthographic_off_centre", "camera/pixels_in_their_tiles",
+        "camera/jittered"}},
       {"sky_in_maximum", Fault::sky_in_maximum, {"depth/all_sky", "depth/sky_beside_surface"}},
       {"strange_depth_ignored", Fault::strange_depth_ignored,
        {"depth/nan_depth", "depth/infinite_depth", "depth/negative_depth", "depth/depth_above_one"}},
@@ -35,7 +36,7 @@ std::vector<Caught> faults() {
       {"first_sample_only", Fault::first_sample_only, {"depth/several_samples"}},
       {"viewport_ignored", Fault::viewport_ignored, {"depth/viewport"}},
       {"format_ignored", Fault::format_ignored,
-       {"depth/depth_of_16_bits", "depth/depth_of_24_bits", "depth/depth_of_floats"}},
+       {"depth/depth_of_16_bits", "depth/depth_of_24_bits", "depth/depth_of_floats", "depth/position_from_depth"}},
       {"standard_depth_as_reversed", Fault::standard_depth_as_reversed,
        {"depth/reversed_against_standard", "depth/finite_far"}},
       {"empty_interval_as_range", Fault::empty_interval_as_range, {"depth/empty_interval", "depth/all_sky"}},
@@ -59,12 +60,22 @@ std::vector<Caught> faults() {
       {"world_direction", Fault::world_direction, {"camera/turned"}},
       {"z_bin_of_centre", Fault::z_bin_of_centre, {"agreement/z_bins_of_lights"}},
       {"last_z_bin_closed", Fault::last_z_bin_closed, {"agreement/z_bins_of_lights"}},
+      {"cones_without_place_error", Fault::cones_without_place_error, {"lights/spread_out"}},
+      {"dropped_by_the_median", Fault::dropped_by_the_median, {"lights/parked"}},
+      {"edges_not_widened", Fault::edges_not_widened, {"agreement/on_slice_edges", "agreement/on_z_bin_edges"}},
+      {"mask_of_stored_depth", Fault::mask_of_stored_depth, {"depth/depth_of_16_bits", "depth/depth_of_24_bits"}},
+      {"mask_in_float", Fault::mask_in_float, {"depth/mask_around_the_eye"}},
+      {"slopes_in_float", Fault::slopes_in_float, {"camera/fields_to_179_9"}},
+      {"squares_underflow", Fault::squares_underflow, {"lights/outside_of_the_domain"}},
+      {"projections_unchecked", Fault::projections_unchecked, {"camera/other_projections"}},
+      {"totals_of_32_bits", Fault::totals_of_32_bits, {"lists/past_32_bits"}},
   };
 }
 
 TEST(HardCases, ARightCullerPasses) {
   NaiveCuller culler(Fault::none);
   for (const HardCase& c : hard_cases()) {
+    SCOPED_TRACE(c.name);
     const Outcome outcome = run_case(c, culler, few_adversarial_lights);
     EXPECT_EQ(outcome.verdict, Verdict::pass) << c.group << "/" << c.name << ": " << outcome.why;
     EXPECT_EQ(outcome.lost, 0u);

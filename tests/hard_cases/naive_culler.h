@@ -6,47 +6,17 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
+#include "base/error.h"
 #include "base/parallel.h"
+#include "culling/cull_view.h"
+#include "hard_cases/faults.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
 #include "study/verify/truth.h"
 
 namespace lightgrid::verify {
-
-enum class Fault {
-  none,
-  float_without_slack,        // planes and box in float, the radius as it is
-  cross_product_planes,       // side planes as cross products of rays through the corners, in float
-  box_ends_swapped,           // the box from x0 * near and x1 * far whatever their signs
-  symmetric_frustum,          // slopes from the field of view alone
-  sky_in_maximum,             // what nothing covers counts as far
-  strange_depth_ignored,      // NaN, infinite, negative depth passed over
-  signed_minimum,             // the least depth by its bits as a signed integer
-  last_pixel_forgotten,       // of each tile
-  partial_tiles_dropped,
-  first_sample_only,
-  viewport_ignored,
-  format_ignored,             // no widening by the format's step
-  standard_depth_as_reversed, // the sky's value alone tells which it is
-  empty_interval_as_range,    // near and far sorted
-  mask_bin_32,                // 32 bins, the last value past them; no bin at all where zmin = zmax
-  eight_bit_counts,
-  zero_means_none,
-  capacity_of_256,
-  sixteen_bit_indices,
-  order_by_chance,
-  centres_only,               // lights whose centre is behind the eye or past far
-  projected_rectangle,        // radius / distance around the projected centre
-  float_world,                // world positions as float
-  radius_squared,             // -r as r
-  no_cones_past_90,           // the cone-sphere test, at any angle
-  last_slice_closed,
-  first_slice_from_near,      // from half its edge
-  world_direction,            // cone axes not turned into view space
-  z_bin_of_centre,            // a light in the z-bin of its centre alone
-  last_z_bin_closed,
-};
 
 class NaiveCuller : public CullEngine {
  public:
@@ -56,11 +26,13 @@ class NaiveCuller : public CullEngine {
 
   HostGrid cull(const CullerOptions& o, const CullView& view, std::span<const CullLight> lights,
                 std::span<const DepthInterval> bounds) override {
+    check(o, view, lights.size());
     return cull_masked(o, view, lights, bounds, {});
   }
 
   std::vector<DepthInterval> depth_bounds(const CullerOptions& o, const CullView& view, const DepthImage& depth,
                                        bool blend) override {
+    check(o, view, 0);
     std::vector<DepthInterval> bounds;
     for (size_t tile = 0; tile < tile_count(view, o.tile); ++tile) bounds.push_back(scan(o, view, depth, tile, blend));
     return bounds;
@@ -72,7 +44,9 @@ class NaiveCuller : public CullEngine {
     if (o.depth_bounds == DepthBoundsMode::none)
       std::fill(bounds.begin(), bounds.end(), DepthInterval{is_orthographic(view) ? -1e18f : 0.0f, 1e18f});
     std::vector<Mask> masks;
-    if (fault_ == Fault::mask_bin_32 && o.depth_bounds == DepthBoundsMode::mask32) {
+    const bool masked = fault_ == Fault::mask_bin_32 || fault_ == Fault::mask_of_stored_depth || fault_ == Fault::mask_in_float;
+    check(o, view, lights.size());
+    if (masked && o.depth_bounds == DepthBoundsMode::mask32) {
       for (size_t tile = 0; tile < bounds.size(); ++tile) masks.push_back(mask_of(o, view, depth, tile));
     }
     return cull_masked(o, view, lights, bounds, masks);
@@ -81,6 +55,25 @@ class NaiveCuller : public CullEngine {
  private:
   static float down(double x) { return std::nextafter(float(x), -1e30f); }
   static float up(double x) { return std::nextafter(float(x), 1e30f); }
+
+  // Projections other than the two kinds, and more list entries than 32 bits count.
+  void check(const CullerOptions& o, const CullView& view, size_t lights) const {
+    if (fault_ != Fault::totals_of_32_bits && lights * tile_count(view, o.tile) * (view.slice_edges.size() + 1) >> 32)
+      throw machine_error("more list entries than 32 bits count");
+    if (fault_ == Fault::projections_unchecked) return;
+    const bool orthographic = is_orthographic(view);
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) {
+        const bool used = (c == r && c < 3) || (c == 3 && r == 2) || (r < 2 && c == (orthographic ? 3 : 2)) ||
+                          (r == 3 && c == (orthographic ? 3 : 2));
+        if (!used && view.clip_from_view[c][r] != 0) throw input_error("clip_from_view[{}][{}] is not 0", r, c);
+      }
+    }
+  }
+
+  struct DepthInterval64 {
+    double near, far;
+  };
 
   struct Mask {
     double near = no_end, far = -no_end;
@@ -106,7 +99,7 @@ class NaiveCuller : public CullEngine {
   }
 
   DepthInterval scan(const CullerOptions& o, const CullView& view, const DepthImage& depth, size_t tile, bool blend) const {
-    double near = no_end, far = -no_end;
+    double near = no_end, far = -no_end, farthest = 0;
     bool strange = false, sky = false;
     int32_t least = std::numeric_limits<int32_t>::max();
     for_each_value(o, view, depth, tile, [&](float value) {
@@ -120,11 +113,12 @@ class NaiveCuller : public CullEngine {
         if (fault_ == Fault::signed_minimum && std::signbit(value)) least = std::min(least, bits);
       } else {
         widen(o, view, value, near, far);
+        farthest = std::max(farthest, distance_at(view, value));
         least = std::min(least, bits);
       }
     });
     if (fault_ == Fault::signed_minimum && least < 0) return {down(near), down(near)};
-    if (strange) return {is_orthographic(view) ? -1e18f : 0.0f, 1e18f};
+    if (strange || farthest > 1e15) return {is_orthographic(view) ? -1e18f : 0.0f, 1e18f};
     if (sky && fault_ == Fault::sky_in_maximum) far = 1e18, near = std::min(near, 1e18);
     if (blend) return {0, sky || near > far ? 1e18f : up(std::min(far, 1e18))};
     if (near > far) return {1e18f, -1e18f};
@@ -151,11 +145,15 @@ class NaiveCuller : public CullEngine {
     std::vector<double> distances;
     for_each_value(o, view, depth, tile, [&](float value) {
       if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) return;
-      distances.push_back(distance_at(view, value));
+      const glm::dmat4& clip = view.clip_from_view;
+      const bool in_float = fault_ == Fault::mask_in_float && is_orthographic(view);
+      const float a = float(1 / clip[2][2]), b = float(clip[3][2] / clip[2][2]);
+      distances.push_back(in_float ? double(b - value * a) : distance_at(view, value));
+      if (fault_ == Fault::mask_of_stored_depth) widen(o, view, value, mask.near, mask.far);
       mask.near = std::min(mask.near, distances.back()), mask.far = std::max(mask.far, distances.back());
     });
     for (const double d : distances) {
-      const double bin = mask.bin(d);
+      const double bin = fault_ == Fault::mask_bin_32 ? mask.bin(d) : std::min(mask.bin(d), 31.0);
       if (bin >= 0 && bin < 32) mask.bits |= 1u << int(bin);
     }
     return mask;
@@ -163,27 +161,83 @@ class NaiveCuller : public CullEngine {
 
   std::vector<TrueLight> view_lights(const CullView& view, std::span<const CullLight> lights) const {
     std::vector<TrueLight> all = true_lights(view, lights);
+    const glm::dvec3 middle = median(lights);
     for (size_t i = 0; i < all.size(); ++i) {
       TrueLight& light = all[i];
       if (fault_ == Fault::float_world)
         light.position = glm::mat3(view.view_from_world) * (glm::vec3(lights[i].position) - glm::vec3(view.eye));
       if (fault_ == Fault::radius_squared) light.radius = std::abs(light.radius), light.lists_nothing = false;
       if (fault_ == Fault::world_direction) light.axis = lights[i].direction;
+      const glm::dvec3 from_middle = lights[i].position - middle;
+      if (fault_ == Fault::cones_without_place_error) {
+        light.position = to_view(view, middle + glm::dvec3(glm::vec3(from_middle)));
+        light.radius += 2 * light.place_error;
+      }
+      const double far = glm::length(from_middle);
+      if (fault_ == Fault::dropped_by_the_median && far > 1e18 && light.radius < far / 4) light.lists_nothing = true;
     }
     return all;
+  }
+
+  static glm::dvec3 median(std::span<const CullLight> lights) {
+    glm::dvec3 middle(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> places;
+      for (const CullLight& light : lights)
+        if (std::isfinite(light.position[axis])) places.push_back(light.position[axis]);
+      if (places.empty()) continue;
+      std::nth_element(places.begin(), places.begin() + places.size() / 2, places.end());
+      middle[axis] = places[places.size() / 2];
+    }
+    return middle;
+  }
+
+  // The distances that a slice's edge may stand for: shading compares depths with the edge's depth, which is rounded, and
+  // the surface's own depth was rounded to the format.
+  DepthInterval64 edge_range(const CullerOptions& o, const CullView& view, double edge) const {
+    DepthInterval64 range{edge, edge};
+    if (fault_ != Fault::edges_not_widened) widen(o, view, float(depth_at(view, edge)), range.near, range.far);
+    return range;
   }
 
   Cell cell(const CullerOptions& o, CullView view, size_t index, DepthInterval b) const {
     if (fault_ == Fault::empty_interval_as_range && b.near > b.far) std::swap(b.near, b.far);
     if (fault_ == Fault::symmetric_frustum)
       for (const int i : {0, 1}) view.clip_from_view[2][i] = view.clip_from_view[3][i] = 0;
-    Cell c = cell_of(view, o.tile, index, b, o.pixel_centres);
-    const size_t slice = index / tile_count(view, o.tile);
-    if (fault_ == Fault::last_slice_closed && slice && slice == view.slice_edges.size())
-      c.far = std::min(c.far, 2.0 * view.slice_edges.back());
-    if (fault_ == Fault::first_slice_from_near && !view.slice_edges.empty() && slice == 0)
-      c.near = std::max(c.near, view.slice_edges[0] / 2.0);
+    const std::vector<float> edges = std::exchange(view.slice_edges, {});
+    const size_t tiles = tile_count(view, o.tile), slice = index / tiles;
+    Cell c = cell_of(view, o.tile, index % tiles, b, o.pixel_centres);
+    if (slice > 0) c.near = std::max(c.near, edge_range(o, view, edges[slice - 1]).near);
+    if (slice < edges.size()) c.far = std::min(c.far, edge_range(o, view, edges[slice]).far);
+    if (fault_ == Fault::slopes_in_float) round_slopes(o, view, index % tiles, c);
+    if (fault_ == Fault::last_slice_closed && slice && slice == edges.size()) c.far = std::min(c.far, 2.0 * edges.back());
+    if (fault_ == Fault::first_slice_from_near && !edges.empty() && slice == 0) c.near = std::max(c.near, edges[0] / 2.0);
     return c;
+  }
+
+  static void round_slopes(const CullerOptions& o, const CullView& view, size_t tile, Cell& c) {
+    const ViewParams p = view_params(view, o.tile);
+    const float inset = o.pixel_centres ? 0.5f : 0.0f;
+    const int x = int(tile % tiles_x(view, o.tile)) * o.tile, y = int(tile / tiles_x(view, o.tile)) * o.tile;
+    const auto slope = [](float scale, float pixel, float offset) { return float(scale * pixel) + offset; };
+    c.x0 = slope(p.slope_x_scale, float(x) + inset, p.slope_x_offset);
+    c.x1 = slope(p.slope_x_scale, float(std::min(x + o.tile, view.width)) - inset, p.slope_x_offset);
+    c.y0 = slope(p.slope_y_scale, float(y) + inset, p.slope_y_offset);
+    c.y1 = slope(p.slope_y_scale, float(std::min(y + o.tile, view.height)) - inset, p.slope_y_offset);
+  }
+
+  static double with_slack(const TrueLight& l) {
+    return l.radius + 24 * 0x1p-24 * (std::abs(l.position.x) + std::abs(l.position.y) + std::abs(l.position.z) + l.radius);
+  }
+
+  // The squared distance to the cell's box against the squared radius, in float.
+  static bool box_in_float(const Cell& c, const TrueLight& l) {
+    const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, 1e18));
+    const glm::dvec3& p = l.position;
+    const float bx = float(std::max({std::min(c.x0 * s0, c.x0 * s1) - p.x, p.x - std::max(c.x1 * s0, c.x1 * s1), 0.0}));
+    const float by = float(std::max({std::min(c.y0 * s0, c.y0 * s1) - p.y, p.y - std::max(c.y1 * s0, c.y1 * s1), 0.0}));
+    const float bz = float(std::max({c.near + p.z, -p.z - c.far, 0.0})), r = float(with_slack(l));
+    return bx * bx + by * by + bz * bz <= r * r;
   }
 
   // Planes and box in float, as kernels have them but for the slack.
@@ -231,7 +285,9 @@ class NaiveCuller : public CullEngine {
       const glm::dvec3& p = l.position;
       const double bx = std::max({c.x0 * s1 - p.x, p.x - c.x1 * s1, 0.0}), by = std::max({c.y0 * s0 - p.y, p.y - c.y1 * s0, 0.0});
       if (std::hypot(bx, by) > l.radius || !sphere_touches_cell(c, p, l.radius)) return false;
-    } else if (!sphere_touches_cell(c, l.position, l.radius)) {
+    } else if (fault_ == Fault::squares_underflow) {
+      if (!sphere_touches_cell(c, l.position, with_slack(l)) || !box_in_float(c, l)) return false;
+    } else if (!sphere_touches_cell(c, l.position, fault_ == Fault::slopes_in_float ? with_slack(l) : l.radius)) {
       return false;
     }
     if (fault_ == Fault::no_cones_past_90 && l.cos_outer > -1) return cone_sphere(c, l);
@@ -239,16 +295,22 @@ class NaiveCuller : public CullEngine {
     return l.cos_outer <= -1 || cone_touches_cell(c, l.position, l.axis, l.cos_outer, l.radius) != Touch::no;
   }
 
-  std::vector<uint32_t> z_bins(const CullView& view, const std::vector<TrueLight>& lights) const {
+  std::vector<uint32_t> z_bins(const CullerOptions& o, const CullView& view, const std::vector<TrueLight>& lights) const {
     const std::vector<float>& edges = view.z_bin_edges;
+    std::vector<double> nearest, farthest;  // of what each edge may stand for
+    for (const float edge : edges) {
+      const DepthInterval64 range = edge_range(o, view, edge);
+      nearest.push_back(range.near), farthest.push_back(range.far);
+    }
+    const auto reached = [](const std::vector<double>& ends, double to) {
+      return uint32_t(std::upper_bound(ends.begin(), ends.end(), to) - ends.begin());
+    };
     std::vector<uint32_t> words;
     for (const TrueLight& l : lights) {
-      const double d = -l.position.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
-      const double reach = fault_ == Fault::z_bin_of_centre ? 0 : l.radius + 1e-6 * (glm::length(l.position) + l.radius + ends);
-      const auto reached = [&](double to) { return uint32_t(std::upper_bound(edges.begin(), edges.end(), to) - edges.begin()); };
-      uint32_t end = reached(d + reach) + 1;
+      const double d = -l.position.z, reach = fault_ == Fault::z_bin_of_centre ? 0 : l.radius;
+      uint32_t end = reached(nearest, d + reach) + 1;
       if (fault_ == Fault::last_z_bin_closed && d - reach > 2 * edges.back()) end = 0;
-      words.push_back(l.lists_nothing ? 0 : reached(d - reach) | end << 16);
+      words.push_back(l.lists_nothing ? 0 : reached(farthest, d - reach) | end << 16);
     }
     return words;
   }
@@ -259,6 +321,10 @@ class NaiveCuller : public CullEngine {
     HostGrid grid;
     grid.cells_x = tiles_x(view, o.tile), grid.cells_y = int(bounds.size()) / grid.cells_x;
     grid.slices = int(view.slice_edges.size()) + 1;
+    if (lights.size() * bounds.size() * grid.slices >> 32) {  // wrapped: nothing is left
+      grid.cells.resize(bounds.size() * grid.slices);
+      return grid;
+    }
     std::vector<std::vector<uint32_t>> lists(bounds.size() * grid.slices);
     parallel_for(int(lists.size()), [&](int i) {
       const DepthInterval& b = bounds[size_t(i) % bounds.size()];
@@ -284,7 +350,7 @@ class NaiveCuller : public CullEngine {
       grid.cells.emplace_back(grid.indices.size(), list.size());
       grid.indices.insert(grid.indices.end(), list.begin(), list.end());
     }
-    if (!view.z_bin_edges.empty()) grid.z_bins = z_bins(view, all);
+    if (!view.z_bin_edges.empty()) grid.z_bins = z_bins(o, view, all);
     return grid;
   }
 

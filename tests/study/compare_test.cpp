@@ -59,6 +59,24 @@ TEST(CompareTechniques, MakesARefusedRowOfListsThatMemoryDoesNotHold) {
   EXPECT_EQ(report.listed.size(), 2u);
 }
 
+// 40 lights in one place where lidr has room for 4: what it leaves out is counted as overflow, and elsewhere nothing is.
+TEST(CompareTechniques, CountsLightsThatATechniqueHasNoPlaceFor) {
+  SmallScene s = small_scene();
+  for (int i = 0; i < 40; ++i) add_point(s.scene, "lamp", {0.01f * i, 0.4f, -3.5f}, {1, 1, 1}, 1, 2);
+  const CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+  const Technique& lidr = find_technique("lidr");
+  const CompareReport report =
+      compare_techniques(software_devices(), s.scene, small_view(17, 9),
+                         {{&lidr, {.lidr_overlap = 4}}, {&find_technique("forward_plus"), {}}}, options);
+  ASSERT_EQ(report.rows.size(), 2u);
+  EXPECT_GT(report.rows[0].overflow, 0u);
+  EXPECT_EQ(report.rows[0].overflow, report.rows[0].pairs->lost);
+  EXPECT_EQ(to_json(report.rows[0])["overflow"], report.rows[0].overflow);
+  EXPECT_EQ(report.rows[1].overflow, 0u);
+  // Few enough lights: all have a place.
+  EXPECT_EQ(compared({{&lidr, {}}}).rows[0].overflow, 0u);
+}
+
 TEST(CompareTechniques, KeepTheReferencesPictureWhereItIsNoRow) {
   const CompareReport report = compared({{&find_technique("forward_plus"), {}}});
   ASSERT_EQ(report.reference_image.width, 17);

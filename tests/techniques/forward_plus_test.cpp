@@ -58,18 +58,24 @@ TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 127, 73);
   const Image forward = render(scene, view, "forward");
-  for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb}) {
+  for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
     for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
       SCOPED_TRACE(fmt::format("test {} shape {}", int(test), int(shape)));
       expect_exact(scene, view, {.cull_test = test, .kernel_shape = shape}, forward);
     }
   }
-  for (const int tile : {8, 16, 32, 64}) {
+  constexpr DepthBoundsMode modes[] = {DepthBoundsMode::minmax, DepthBoundsMode::none, DepthBoundsMode::halfz,
+                                       DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32};
+  for (const DepthBoundsMode mode : modes) {
+    for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+      SCOPED_TRACE(fmt::format("bounds {} shape {}", int(mode), int(shape)));
+      expect_exact(scene, view, {.depth_bounds = mode, .kernel_shape = shape}, forward);
+    }
+  }
+  for (const int tile : {8, 32, 64}) {
     for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
-      for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
-        SCOPED_TRACE(fmt::format("tile {} bounds {} shape {}", tile, int(mode), int(shape)));
-        expect_exact(scene, view, {.depth_bounds = mode, .tile = tile, .kernel_shape = shape}, forward);
-      }
+      SCOPED_TRACE(fmt::format("tile {} bounds {}", tile, int(mode)));
+      expect_exact(scene, view, {.depth_bounds = mode, .tile = tile}, forward);
     }
   }
 }

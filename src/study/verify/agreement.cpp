@@ -121,36 +121,69 @@ CullView sliced(CullView view, int slices) {
   return view;
 }
 
-// 32 slices in a box, and before an eye.
+// 32 slices in a box, and before an eye with reversed and standard depth.
 std::vector<CullView> sliced_views() {
-  CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 64, 48);
+  CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 48, 32);
   for (int i = 1; i < 32; ++i) box.slice_edges.push_back(float(4 * i));
-  return {box, sliced(field_of_view(60, 64, 48), 32)};
+  const CullView standard = view_through({.near = 0.1, .far = 1000, .order = DepthOrder::standard}, 48, 32);
+  return {box, sliced(field_of_view(60, 48, 32), 32), sliced(standard, 32)};
 }
 
-// Surfaces exactly on the edges, and one ulp to either side, each with a light of almost no size at its place.
+// Surfaces on the edges and some `step`s of depth to either side, each with a light of almost no size at its place and
+// two that just reach it along the view axis, where slices part.
 struct OnEdges {
   DepthImage depth;
   std::vector<CullLight> lights;
 };
+void add_lights(const CullView& view, OnEdges& on) {
+  for (const CullLight& at : lights_at_surfaces(view, on.depth, 1e-6)) {
+    on.lights.push_back(at);
+    const double r = 0.01 * std::max(0.01, -at.position.z);
+    for (const double side : {-1.0, 1.0})
+      on.lights.push_back(point(at.position + glm::dvec3(0, 0, side * r), r * (1 + 0x1p-30)));
+  }
+}
+
 OnEdges on_edges(const CullView& view, const std::vector<float>& edges) {
-  const View v = oracle_view(view);
   OnEdges on;
   for (int i = 0; i < view.width * view.height; ++i) {
     float value = float(depth_at(view, edges[size_t(i) % edges.size()]));
     if (i % 3) value = std::nextafter(value, i % 3 == 1 ? 0.0f : 1.0f);
     on.depth.values.push_back(value);
-    const glm::dvec3 p = position_from_depth(v, i % view.width, i / view.width, value);
-    on.lights.push_back(point(p, 1e-6 * std::max(1.0, -p.z)));
   }
+  add_lights(view, on);
   return on;
 }
 
-void on_slice_edges(Check& c) {
-  for (const CullView& view : sliced_views()) {
-    const OnEdges on = on_edges(view, view.slice_edges);
-    c.pixels(view, on.lights, on.depth, c.every_test());
+// The same rounded to a format: the surfaces' own distances are up to half a step off what the buffer says.
+OnEdges on_edges_of_format(const CullView& view, const std::vector<float>& edges, double steps) {
+  Random random(60);
+  OnEdges on;
+  for (int i = 0; i < view.width * view.height; ++i) {
+    const double exact = depth_at(view, edges[size_t(i) % edges.size()]) + random.uniform(-1, 1) / steps;
+    const double depth = std::clamp(exact, 1 / steps, 1 - 1 / steps);
+    on.depth.distances.push_back(distance_at(view, depth));
+    on.depth.values.push_back(float(std::round(depth * steps) / steps));
   }
+  add_lights(view, on);
+  return on;
+}
+
+// On the edges as floats keep depth, and as D24 and D16 do.
+void on_edges_of_every_format(Check& c, const CullView& view, const std::vector<float>& edges,
+                              const std::vector<CullerOptions>& settings) {
+  const OnEdges in_floats = on_edges(view, edges);
+  c.pixels(view, in_floats.lights, in_floats.depth, settings);
+  for (const auto& [format, steps] : {std::pair(DepthFormat::d24, 16777215.0), {DepthFormat::d16, 65535.0}}) {
+    CullerOptions options;
+    options.depth_format = format;
+    const OnEdges on = on_edges_of_format(view, edges, steps);
+    c.pixels(view, on.lights, on.depth, {options});
+  }
+}
+
+void on_slice_edges(Check& c) {
+  for (const CullView& view : sliced_views()) on_edges_of_every_format(c, view, view.slice_edges, c.every_test());
 }
 
 CullView with_z_bins(CullView view) {
@@ -162,8 +195,7 @@ CullView with_z_bins(CullView view) {
 void on_z_bin_edges(Check& c) {
   for (const CullView& sliced_view : sliced_views()) {
     const CullView view = with_z_bins(sliced_view);
-    const OnEdges on = on_edges(view, view.z_bin_edges);
-    c.pixels(view, on.lights, on.depth, {CullerOptions{}});
+    on_edges_of_every_format(c, view, view.z_bin_edges, {CullerOptions{}});
   }
 }
 
@@ -178,7 +210,12 @@ void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLig
     for (size_t bin = 0; bin <= edges.size(); ++bin) {
       if (!bins_hold(grid.z_bins[i], uint(bin))) continue;
       const double near = bin > 0 ? edges[bin - 1] : -no_end, far = bin < edges.size() ? edges[bin] : no_end;
-      const double more = 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * truth[i].place_error;
+      // What a depth's rounding moves the bin's ends by.
+      const auto step = [&](double edge) {
+        const double depth = depth_at(view, edge);
+        return std::isfinite(edge) ? std::abs(distance_at(view, depth + 0x1p-24 * std::abs(depth)) - edge) : 0.0;
+      };
+      const double more = step(near) + step(far) + 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * truth[i].place_error;
       c.that(!truth[i].lists_nothing && d + r >= near - more && d - r <= far + more,
              "bin {} from {} to {} holds a light from {} to {}", bin, near, far, d - r, d + r);
     }
@@ -235,9 +272,10 @@ std::vector<HardCase> agreement_cases() {
   return {
       {g, "pixel_finds_its_tile", "a tiny light at each pixel's centre, in every tile size", "shading rounds the tile otherwise than culling",
        "the cell that shading finds lists it", pixel_finds_its_tile},
-      {g, "on_slice_edges", "surfaces on slice edges and an ulp beside", "a second log() in the shader: 0.7 to 85 in a million differ",
-       "the slice that shading finds lists the light there", on_slice_edges},
-      {g, "on_z_bin_edges", "surfaces on the edges of z-bins and an ulp beside, a tiny light at each",
+      {g, "on_slice_edges", "surfaces on slice edges and a step beside, reversed and standard, D32F, D24, D16; lights that just reach them",
+       "a second log() in the shader: 0.7 to 85 in a million differ", "the slice that shading finds by the stored depth lists the light",
+       on_slice_edges},
+      {g, "on_z_bin_edges", "the same on the edges of z-bins",
        "bins of lights and of pixels round otherwise", "the pixel's bin holds the light", on_z_bin_edges},
       {g, "z_bins_of_lights", "lights across near, behind, past the last edge, endless, of no size, in every view",
        "a light in the bin of its centre alone; a last bin that ends", "every lit pixel's bin holds the light, no bin one that is out of it",
@@ -262,7 +300,8 @@ std::vector<HardCase> agreement_cases() {
 const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases;
-    for (const auto& group : {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(), agreement_cases()})
+    for (const auto& group : {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
+                              light_cases(), light_place_cases(), list_cases(), agreement_cases()})
       cases.insert(cases.end(), group.begin(), group.end());
     return cases;
   }();

@@ -1,4 +1,5 @@
 // Hard cases of the camera: projections, and where lights are from it.
+#include <algorithm>
 #include <cmath>
 
 #include "reference/position.h"
@@ -45,17 +46,25 @@ void beside_the_axis(Check& c) {
     lights_of_all_kinds(c, view_through({.half_x = 0.5, .half_y = 0.3, .shift_x = shift, .shift_y = shift}, 127, 73));
 }
 
+// A tiny light at each pixel's own place: the tile that shading finds for the pixel lists it.
 void pixels_in_their_tiles(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const View v = oracle_view(named.view);
-    for (int y = 0; y < 73; ++y) {
-      for (int x = 0; x < 127; ++x) {
-        const uint tile = cell_of_pixel(uint(x), uint(y), 16, 8);
-        const Cell cell = cell_of(named.view, 16, tile, every_distance, true);
-        const double px = view_x_of_pixel(v, x + 0.5), py = view_y_of_pixel(v, y + 0.5);
-        c.that(cell.x0 <= px && px <= cell.x1 && cell.y0 <= py && py <= cell.y1, "{}: pixel {} {} is outside of tile {}",
-               named.name, x, y, tile);
+    std::vector<CullLight> lights;
+    for (int y = 0; y < 73; ++y)
+      for (int x = 0; x < 127; ++x) lights.push_back(point(position_at(v, x, y, 5), 1e-6));
+    move_to_world(named.view, lights);
+    CullerOptions options;
+    for (const CullTest test : {CullTest::planes, CullTest::exact}) {
+      options.cull_test = test;
+      const HostGrid grid = c.grid_of_known_answer(named.view, lights, {{5, 5}}, options);
+      for (uint i = 0; i < lights.size(); ++i) {
+        const auto list = list_of(grid, cell_of_pixel(i % 127, i / 127, 16, uint(grid.cells_x)));
+        c.trials(1);
+        if (!std::binary_search(list.begin(), list.end(), i))
+          c.lost("{}: {}: pixel {} {} is not in its tile", named.name, to_string(options), i % 127, i / 127);
       }
+      c.contacts(test == CullTest::planes ? lights.size() : 0);
     }
   }
 }
@@ -65,9 +74,17 @@ Lens box(double half, double near, double far) {
 }
 
 void orthographic_near_zero(Check& c) {
-  const CullView view = view_through(box(5, 0, 100), 127, 73);
+  CullView view = view_through(box(5, 0, 100), 127, 73);
   lights_of_all_kinds(c, view);
   scattered_pixels(c, view, 22);
+  // Slices and z-bins from that near plane, as frames have them.
+  for (const SliceSpacing spacing : {SliceSpacing::exponential, SliceSpacing::linear}) {
+    view.slice_edges = slice_edges(spacing, 24, near_distance(view), 100);
+    view.z_bin_edges = slice_edges(spacing, 64, near_distance(view), 100);
+    for (const float edge : view.slice_edges) c.that(std::isfinite(edge) && edge > 0 && edge < 100, "a slice ends at {} m", edge);
+    const auto [depth, lights] = scattered_over_depth(view, 100, true, 22);
+    c.pixels(view, lights, depth, {CullerOptions{}});
+  }
 }
 
 void orthographic_behind_the_eye(Check& c) {
@@ -207,9 +224,9 @@ std::vector<HardCase> camera_cases() {
       {g, "off_centre", "the image's centre off the axis", "symmetric planes: wrong sides", "nothing lost", off_centre},
       {g, "beside_the_axis", "the axis outside of the image, slopes of one sign up to 20", "min and max of x · near and x · far swapped",
        "nothing lost", beside_the_axis},
-      {g, "pixels_in_their_tiles", "every pixel of eight kinds of view", "planes from the field of view, pixels from the matrix",
-       "a pixel's centre is inside its tile's cell", pixels_in_their_tiles},
-      {g, "orthographic_near_zero", "orthographic, near = 0", "log 0, division by 0 (Bevy #3316, #9614)", "nothing lost",
+      {g, "pixels_in_their_tiles", "a tiny light at every pixel's place, in eight kinds of view", "planes from the field of view, pixels from the matrix",
+       "the tile that shading finds for a pixel lists its light", pixels_in_their_tiles},
+      {g, "orthographic_near_zero", "orthographic, near = 0; exponential and linear slices and z-bins from there", "log 0, division by 0 (Bevy #3316, #9614)", "nothing lost",
        orthographic_near_zero},
       {g, "orthographic_behind_the_eye", "orthographic, near = -50", "negative distances taken for empty or clamped",
        "nothing lost", orthographic_behind_the_eye},

@@ -187,9 +187,13 @@ HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights,
   Touching touching;
   int tile = 0;
   const bool one_for_all = bounds.size() == 1;
+  const DepthInterval one = one_for_all ? bounds[0] : DepthInterval();
   for (const CullerOptions& options : settings) {
-    if (one_for_all) bounds.assign(tile_count(view, options.tile), bounds[0]);
-    if (options.tile != tile) touching = touching_lights(view, truth, bounds, options.tile, options.pixel_centres);
+    if (one_for_all) bounds.assign(tile_count(view, options.tile), one);
+    if (options.tile != tile) {
+      touching = touching_lights(view, truth, bounds, options.tile, options.pixel_centres);
+      for (const auto& cell : touching) contacts(cell.size());
+    }
     tile = options.tile;
     HostGrid grid = same_in_every_way(view, lights, bounds, options);
     hold_between(view, truth, bounds, touching, options, grid, &options == &settings[0]);
@@ -200,7 +204,10 @@ HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights,
 
 HostGrid Check::grid_of_known_answer(const CullView& view, const std::vector<CullLight>& lights,
                                      std::vector<DepthInterval> bounds, const CullerOptions& options) {
-  if (bounds.size() == 1) bounds.assign(tile_count(view, options.tile), bounds[0]);
+  if (bounds.size() == 1) {
+    const DepthInterval one = bounds[0];
+    bounds.assign(tile_count(view, options.tile), one);
+  }
   return same_in_every_way(view, lights, bounds, options);
 }
 
@@ -257,15 +264,19 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
   parallel_for(view.height, [&](int y) {
     for (int x = 0; x < view.width; ++x) {
       for (int s = 0; s < depth.samples; ++s) {
-        const float value = depth.values[(size_t(y + depth.y) * row + x + depth.x) * depth.samples + s];
+        const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples + s;
+        const float value = depth.values[at];
         if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) continue;
-        const glm::dvec3 position = position_from_depth(v, x, y, value);
+        const glm::dvec3 position =
+            depth.distances.empty() ? position_from_depth(v, x, y, value) : position_at(v, x, y, depth.distances[at]);
         for (uint32_t light = 0; light < truth.size(); ++light) {
           if (lights_it(truth[light], position)) rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
         }
       }
     }
   });
+  for (const auto& lit : rows) contacts(lit.size());
+  const auto slices = slice_keys(view);
   HostGrid first;
   for (const CullerOptions& options : settings) {
     HostGrid lanes;
@@ -286,8 +297,7 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
         if (passed_over(pair))
           lost("z-bins: pixel {} {} at {:.9g} m passes over light {}", pair.x, pair.y, pair.distance, pair.light);
         size_t cell = cell_of_pixel(pair.x, pair.y, uint(options.tile), uint(lanes.cells_x));
-        size_t slice = 0;
-        while (slice < view.slice_edges.size() && pair.distance >= view.slice_edges[slice]) ++slice;
+        const size_t slice = slice_of_key(depth_key(view, pair.depth), slices.data());
         cell += slice * lanes.cells_x * lanes.cells_y;
         const auto list = list_of(lanes, cell);
         if (std::binary_search(list.begin(), list.end(), pair.light)) continue;
@@ -307,7 +317,10 @@ void Check::same_as_twin(const CullView& view, const std::vector<CullLight>& lig
     if (!run) return;
     const CullInputs& in = run->inputs;
     const auto bounds = twin_bounds(in.params, options.depth_bounds, blend, depth.samples, depth.values);
-    const std::string bounds_off = difference(bounds, in.bounds), grid_off = difference(twin_grid(in, options.cull_test), run->grid);
+    HostGrid grid = run->grid;
+    grid.masks.clear();  // the twin makes lists alone
+    grid.z_bins.clear();
+    const std::string bounds_off = difference(bounds, in.bounds), grid_off = difference(twin_grid(in, options.cull_test), grid);
     that(bounds_off.empty(), "{}: bounds are not the float twin's: {}", to_string(shaped), bounds_off);
     that(grid_off.empty(), "{}: lists are not the float twin's: {}", to_string(shaped), grid_off);
     trials(run->grid.cells.size() * lights.size());

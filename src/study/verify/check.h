@@ -37,8 +37,10 @@ class Check {
   std::vector<DepthInterval> bounds(const CullView& view, const DepthImage& depth, const CullerOptions& options,
                                  bool tight = true);
 
-  // From depth to lists: every light that lights a pixel's centre is listed for it, and held by its z-bin where the view
-  // has some. Returns the first setting's grid.
+  // From depth to lists: every light that lights a pixel's surface, at the pixel's centre, is in the list that shading
+  // reads for it (its slice and z-bin found from the stored depth, as shared/slices.h does), and held by its z-bin where
+  // the view has some. Where `depth` knows the surfaces' distances these count, not what its values say. Returns the
+  // first setting's grid.
   HostGrid pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                   const std::vector<CullerOptions>& settings);
 
@@ -56,9 +58,14 @@ class Check {
   }
   template <typename... Args>
   void lost(fmt::format_string<Args...> format, Args&&... args) {
-    ++outcome_.lost;
+    lost_pairs(1, format, std::forward<Args>(args)...);
+  }
+  template <typename... Args>
+  void lost_pairs(uint64_t pairs, fmt::format_string<Args...> format, Args&&... args) {
+    outcome_.lost += pairs;
     fail(fmt::format(format, std::forward<Args>(args)...));
   }
+  void contacts(uint64_t more) { outcome_.contacts += more; }
   void trials(uint64_t more) { outcome_.trials += more; }
   void fail(const std::string& why);
   void skip(const std::string& why);

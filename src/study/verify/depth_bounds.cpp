@@ -1,4 +1,4 @@
-// Hard cases of depth bounds: every kind of them, formats of few bits, several samples, blended surfaces.
+// Hard cases of depth bounds: every kind of them, several samples, blended surfaces. depth_formats.cpp has formats.
 #include <cmath>
 
 #include "study/verify/depth_images.h"
@@ -6,26 +6,11 @@
 namespace lightgrid::verify {
 namespace {
 
-// A light the size of a thousandth of its distance at every pixel's surface.
-std::vector<CullLight> light_at_each(const CullView& view, const DepthImage& depth, double share) {
-  std::vector<CullLight> lights;
-  const Cell image = cell_of(view, std::max(view.width, view.height), 0, every_distance, true);
-  const auto along = [](double a, double b, int i, int n) { return n > 1 ? a + (b - a) * i / (n - 1) : a; };
-  for (int i = 0; i < view.width * view.height; ++i) {
-    if (depth.values[i] == depth_of_nothing(view)) continue;
-    const double d = distance_at(view, depth.values[i]), scale = image.scale_at(d);
-    const double x = along(image.x0, image.x1, i % view.width, view.width) * scale;
-    const double y = along(image.y0, image.y1, i / view.width, view.height) * scale;
-    lights.push_back(point({x, y, -d}, share * std::max(d, 0.01)));
-  }
-  return lights;
-}
-
 // Before and behind the surface of every seventh pixel, just reaching it.
 std::vector<CullLight> lights_reaching(const CullView& view, const DepthImage& depth) {
   std::vector<CullLight> lights;
   int seen = 0;
-  for (const CullLight& on : light_at_each(view, depth, 1)) {
+  for (const CullLight& on : lights_at_surfaces(view, depth, 1)) {
     if (seen++ % 7) continue;
     for (const double side : {-1.0, 1.0}) {
       const double d = -on.position.z, r = d * std::exp2(-2.0 * (1 + lights.size() % 6));
@@ -49,8 +34,8 @@ void on_mask_edges(Check& c) {
   const CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
   for (const CullView& view : {box, sixty_degrees()}) {
     const DepthImage depth = depth_of(view, [](int x, int y) { return 1.0 + (x + 7 * y) % 33; });
-    c.pixels(view, light_at_each(view, depth, 1e-6), depth, every_mode());
-    c.pixels(view, light_at_each(view, depth, 1e-6), depth, every_mode(8));
+    c.pixels(view, lights_at_surfaces(view, depth, 1e-6), depth, every_mode());
+    c.pixels(view, lights_at_surfaces(view, depth, 1e-6), depth, every_mode(8));
   }
 }
 
@@ -68,7 +53,7 @@ void on_half_z(Check& c) {
     for (size_t i = 0; i < depth.values.size(); i += 5) {
       if (depth.values[i] == middle) depth.values[i] = std::nextafter(middle, i % 2 ? 0.0f : 1.0f);
     }
-    c.pixels(view, light_at_each(view, depth, 1e-6), depth, every_mode());
+    c.pixels(view, lights_at_surfaces(view, depth, 1e-6), depth, every_mode());
   }
 }
 
@@ -76,7 +61,7 @@ void on_half_z(Check& c) {
 void two_layers(Check& c) {
   const DepthImage depth = depth_of(sixty_degrees(), [](int x, int) { return x % 16 < 4 ? 2.0 : 30.0; });
   Random random(6);
-  std::vector<CullLight> lights = light_at_each(sixty_degrees(), depth, 1e-4);
+  std::vector<CullLight> lights = lights_at_surfaces(sixty_degrees(), depth, 1e-4);
   for (int i = 0; i < 400; ++i) {
     const double d = random.uniform(6, 26);
     lights.push_back(point({random.uniform(-0.5f, 0.5f) * d, random.uniform(-0.4f, 0.4f) * d, -d}, 0.5));
@@ -92,47 +77,6 @@ void two_layers(Check& c) {
   for (const DepthBoundsMode mode : {DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32})
     c.that(listed_by(mode) < minmax, "mode {} lists as much as min/max does: {}", int(mode), minmax);
 }
-
-// Depth as a format of `steps` steps holds it (0: floats), near a surface whose true distance is known.
-void low_precision(Check& c, const CullView& view, DepthFormat format, double steps) {
-  Random random(7);
-  std::vector<double> truth;
-  DepthImage depth = depth_of(view, [&](int, int) {
-    truth.push_back(std::exp2(random.uniform(-1, 9.9f)));
-    return truth.back();
-  });
-  for (size_t i = 0; i < truth.size(); ++i) {
-    const double exact = depth_at(view, truth[i]);
-    depth.values[i] = float(steps > 0 ? std::round(exact * steps) / steps : exact);
-    if (depth.values[i] == depth_of_nothing(view)) truth[i] = 0;  // rounded away: nothing is there
-  }
-  CullerOptions options;
-  options.depth_format = format;
-  for (const int tile : {8, 16}) {
-    options.tile = tile;
-    const auto found = c.engine.depth_bounds(options, view, depth);
-    for (size_t i = 0; i < truth.size(); ++i) {
-      if (truth[i] == 0) continue;
-      const DepthInterval b = found[i / view.width / tile * tiles_x(view, tile) + i % view.width / tile];
-      c.trials(1);
-      if (b.near <= truth[i] && truth[i] <= b.far) continue;
-      c.lost("tile {}: a surface at {:.9g} m is outside of [{:.9g}, {:.9g}]", tile, truth[i], b.near, b.far);
-    }
-  }
-}
-
-void every_lens(Check& c, DepthFormat format, double steps) {
-  for (const DepthOrder order : {DepthOrder::reversed, DepthOrder::standard}) {
-    low_precision(c, view_through({.near = 0.1, .far = 1000, .order = order}, 127, 73), format, steps);
-    low_precision(c, view_through({.near = 0.1, .order = order}, 127, 73), format, steps);
-    low_precision(c, view_through({.half_x = 9, .half_y = 9, .near = 0, .far = 1000, .orthographic = true,
-                                   .order = order}, 127, 73), format, steps);
-  }
-}
-
-void depth_of_16_bits(Check& c) { every_lens(c, DepthFormat::d16, 65535); }
-void depth_of_24_bits(Check& c) { every_lens(c, DepthFormat::d24, 16777215); }
-void depth_of_floats(Check& c) { every_lens(c, DepthFormat::d32f, 0); }
 
 void several_samples(Check& c) {
   for (const int samples : {2, 4, 8}) {
@@ -227,10 +171,6 @@ std::vector<HardCase> depth_bounds_cases() {
        "nothing lost in any mode", on_half_z},
       {g, "two_layers", "a post before a wall, lights in the gap", "one interval holds the gap",
        "nothing lost; modified half-z and mask list fewer than min/max", two_layers},
-      {g, "depth_of_16_bits", "D16, reversed and standard, perspective and orthographic", "a step is 180 m at 1 km",
-       "bounds hold the true distance", depth_of_16_bits},
-      {g, "depth_of_24_bits", "D24, the same", "a step is 0.6 m at 1 km", "bounds hold the true distance", depth_of_24_bits},
-      {g, "depth_of_floats", "D32F, the same", "standard depth: as D24", "bounds hold the true distance", depth_of_floats},
       {g, "several_samples", "2, 4, 8 samples with a silhouette through each pixel", "one sample stands for all",
        "bounds hold every sample", several_samples},
       {g, "one_pixel_shows", "one surface a tile, in each of its pixels in turn", "a reduction that forgets a lane or an item",

@@ -19,6 +19,9 @@ struct DepthImage {
   int row_pixels = 0;  // 0: the view's width
   int x = 0, y = 0;
   int samples = 1;     // a pixel's samples lie side by side
+  // Of each value the surface's own distance along the view axis, before a depth format rounded it. Empty: what the
+  // values say. Culling never sees them.
+  std::vector<double> distances{};
 };
 
 // A cull from depth with all that went in, for the float twin.

@@ -25,16 +25,25 @@ const std::vector<HardCase>& hard_cases();
 
 std::vector<HardCase> depth_cases();
 std::vector<HardCase> depth_bounds_cases();
+std::vector<HardCase> depth_format_cases();
 std::vector<HardCase> camera_cases();
+std::vector<HardCase> projection_cases();
 std::vector<HardCase> light_cases();
+std::vector<HardCase> light_place_cases();
 std::vector<HardCase> list_cases();
 std::vector<HardCase> agreement_cases();
 
 enum class Verdict { pass, fail, skip };
 
 struct Outcome {
-  uint64_t trials = 0;  // (cell, light) pairs, tiles or pixels asked about
-  uint64_t lost = 0;    // certainly in and not listed
+  // Answers looked at: of each setting the entries of its lists and the pairs that must be among them, and each other
+  // condition. One pair counts once for each setting, so that trials say how much was compared, not how many inputs
+  // there were.
+  uint64_t trials = 0;
+  // Distinct inputs: (cell, light) pairs that certainly touch and (pixel, light) pairs that are certainly lit, each once
+  // for a view, its lights and its depth, however many settings were asked about it.
+  uint64_t contacts = 0;
+  uint64_t lost = 0;  // certainly in and not listed, over all settings
   std::optional<double> excess_ratio;  // listed / truly touching, default settings
   Verdict verdict = Verdict::pass;
   std::string why;      // the first fault, or why it was skipped

@@ -121,16 +121,20 @@ void other_sizes_between(Check& c) {
   c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}), "what came between changes the grid");
 }
 
+// Enough tiles for many work-groups, which finish in another order each time; between two runs another frame.
 void hundred_runs(Check& c) {
+  const CullView view = field_of_view(60, 640, 360);
   Random random(43);
-  const auto bounds = scattered_bounds(sixty(), 16, random);
-  const auto lights = scattered_lights(sixty(), 500, true, random);
+  const auto bounds = scattered_bounds(view, 16, random);
+  const auto lights = scattered_lights(view, 500, true, random);
   CullerOptions options;
-  const HostGrid first = c.grid(sixty(), lights, bounds, {options});
+  const HostGrid first = c.grid(view, lights, bounds, {options});
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     options.shape = shape;
-    for (int run = 0; run < 100; ++run)
-      c.that(first == c.engine.cull(options, sixty(), lights, bounds), "run {} gives another grid", run);
+    for (int run = 0; run < 100; ++run) {
+      if (run % 10 == 9) c.engine.cull(options, sixty(), {lights.data(), size_t(5 * run)}, {bounds.data(), tile_count(sixty(), 16)});
+      c.that(first == c.engine.cull(options, view, lights, bounds), "run {} gives another grid", run);
+    }
   }
 }
 
@@ -172,6 +176,24 @@ void many_cells(Check& c) {
   for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
   Random random(46);
   c.grid(view, scattered_lights(view, 60, true, random), {every_distance}, {tile_of(8)});
+}
+
+// 16 tiles x 64 slices x 2^22 lights that reach everywhere: 2^32 entries in the one block of tiles that there is.
+void past_32_bits(Check& c) {
+  CullView view = field_of_view(60, 32, 32);
+  for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
+  const std::vector<CullLight> lights(size_t(1) << 22, point({0, 0, -5}, no_end));
+  for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+    CullerOptions options = tile_of(8);
+    options.shape = shape;
+    const std::vector<DepthInterval> bounds(tile_count(view, 8), every_distance);
+    try {
+      const HostGrid grid = c.engine.cull(options, view, lights, bounds);
+      c.that(grid.indices.size() == grid.cells.size() * lights.size(), "{}: {} of 2^32 entries", to_string(options), grid.indices.size());
+    } catch (const Error& error) {
+      c.that(error.kind() == ErrorKind::machine, "{}: {}", to_string(options), error.what());
+    }
+  }
 }
 
 // Lights tangent to the very cells, where a coarse step's rounding could drop what the fine one keeps. Every test in
@@ -224,13 +246,15 @@ std::vector<HardCase> list_cases() {
        longer_than_expected},
       {g, "other_sizes_between", "a large and an empty frame between two equal ones", "what was left in buffers is read",
        "the same bytes", other_sizes_between},
-      {g, "hundred_runs", "one frame a hundred times in each kernel shape", "atomics: another order each run", "the same bytes",
+      {g, "hundred_runs", "one frame of 920 tiles a hundred times in each kernel shape, others between", "atomics: another order each run", "the same bytes",
        hundred_runs},
       {g, "turned_round", "the lights in the opposite order", "lists depend on neighbours", "the same lights", turned_round},
       {g, "in_32_bits", "16- and 32-bit indices", "one of the two untested", "the same lists", in_32_bits},
       {g, "lists_past_16_bits", "160,000 entries", "16-bit offsets", "lists lie side by side without a gap", lists_past_16_bits},
-      {g, "many_cells", "64 slices × 920 tiles", "cells × lights in 32 bits; one list's range overlaps the next", "nothing lost, no overlap",
+      {g, "many_cells", "64 slices × 920 tiles", "one list's range overlaps the next", "nothing lost, no overlap",
        many_cells},
+      {g, "past_32_bits", "16 tiles × 64 slices × 2²² endless lights", "cells × lights in 32 bits", "a machine error, or every entry",
+       past_32_bits},
       {g, "float_twin", "lights tangent to the cells of random surfaces, under every test and every kind of bounds",
        "a coarse step drops what the fine one keeps; one device rounds otherwise",
        "bounds and lists have the bytes of a flat C++ program", float_twin},

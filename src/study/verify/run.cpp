@@ -7,8 +7,6 @@
 #include "base/error.h"
 #include "base/timer.h"
 #include "cl/error.h"
-#include "passes/frame/frame.h"
-#include "study/frame_culler.h"
 #include "study/verify/check.h"
 
 namespace lightgrid::verify {
@@ -35,8 +33,6 @@ std::vector<const HardCase*> chosen_cases(const std::string& filter) {
   return chosen;
 }
 
-namespace {
-
 Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights) {
   Check check(engine, adversarial_lights);
   try {
@@ -49,36 +45,8 @@ Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, u
   return check.outcome();
 }
 
-const HardCase replayed{"replay", "float_twin", "a captured frame, under every test and every kind of bounds", "", "", nullptr};
-
-}  // namespace
-
 Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_lights) {
   return outcome_of(hard_case.run, engine, adversarial_lights);
-}
-
-VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engines, const CapturedFrame& frame,
-                          const std::function<void(double, const std::string&)>& progress) {
-  const CullView view = cull_view(frame.view);
-  const std::vector<CullLight> lights = cull_lights_of(frame);
-  const DepthImage depth{.values = frame.depth};
-  VerifyReport report;
-  for (const auto& engine : engines) {
-    report.devices.push_back(engine->name());
-    const Timer timer;
-    const Outcome outcome = outcome_of([&](Check& c) {
-      for (int i = 0; i < 25; ++i) {
-        CullerOptions options;
-        options.tile = frame.tile, options.cull_test = CullTest(i / 5), options.depth_bounds = DepthBoundsMode(i % 5);
-        if (progress) progress(i / 25.0, to_string(options));
-        c.same_as_twin(view, lights, depth, options);
-      }
-    }, *engine, 0);
-    report.cases.push_back({&replayed, engine->name(), outcome, timer.elapsed_ms()});
-    report.failed += outcome.verdict == Verdict::fail;
-  }
-  if (progress) progress(1, "done");
-  return report;
 }
 
 VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, const VerifyOptions& options) {
@@ -105,8 +73,9 @@ nlohmann::ordered_json to_json(const VerifyReport& report) {
     const Outcome& o = result.outcome;
     nlohmann::ordered_json row = {{"group", result.hard_case->group}, {"name", result.hard_case->name},
                                   {"device", result.device},          {"trials", o.trials},
-                                  {"lost", o.lost},                   {"excess_ratio", nullptr},
-                                  {"result", name_of(o.verdict)},     {"why", o.why}};
+                                  {"contacts", o.contacts},           {"lost", o.lost},
+                                  {"excess_ratio", nullptr},          {"result", name_of(o.verdict)},
+                                  {"why", o.why}};
     if (o.excess_ratio) row["excess_ratio"] = *o.excess_ratio;
     json["cases"].push_back(row);
   }

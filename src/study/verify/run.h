@@ -5,7 +5,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "study/frame_file.h"
 #include "study/verify/engine.h"
 #include "study/verify/hard_case.h"
 
@@ -37,10 +36,8 @@ Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversa
 
 VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, const VerifyOptions& options);
 
-// A captured frame's bounds and lists against the float twin's (float_twin.h), bit for bit, under every test and every
-// kind of bounds in both kernel shapes: one case a device.
-VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engines, const CapturedFrame& frame,
-                          const std::function<void(double done, const std::string& step)>& progress = {});
+// What `run` asks of the engine. An exception that the engine throws fails the case.
+Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights);
 
 nlohmann::ordered_json to_json(const VerifyReport& report);
 

@@ -126,6 +126,58 @@ std::vector<CullLight> tangent_spots(const CullView& view, std::span<const Depth
   return lights;
 }
 
+std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y) {
+  const int row = depth.row_pixels ? depth.row_pixels : view.width;
+  const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples;
+  const float value = depth.values[at];
+  if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) return {};
+  const View v = oracle_view(view);
+  return depth.distances.empty() ? position_from_depth(v, x, y, value) : position_at(v, x, y, depth.distances[at]);
+}
+
+std::vector<CullLight> lights_at_surfaces(const CullView& view, const DepthImage& depth, double share) {
+  std::vector<CullLight> lights;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const auto surface = surface_at(view, depth, x, y);
+      if (surface) lights.push_back(point(*surface, share * std::max(-surface->z, 0.01)));
+    }
+  }
+  return lights;
+}
+
+std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots, Random& random,
+                                      const PixelRange& of, double relative) {
+  const auto pick = [&](double low, double high, int size) {
+    return std::clamp(int((low + (high - low) * random.uniform()) * size), 0, size - 1);
+  };
+  std::vector<CullLight> lights;
+  for (size_t tries = 0; lights.size() < count && tries < 100 * count; ++tries) {
+    const int x = pick(of.x0, of.x1, view.width), y = pick(of.y0, of.y1, view.height);
+    const std::optional<glm::dvec3> surface = surface_at(view, depth, x, y);
+    if (!surface) continue;
+    const glm::dvec3 q = *surface;
+    const double size = glm::length(q) * std::exp2(15 * random.uniform() - 12);
+    const double hair = relative * std::exp2(-10 * random.uniform());
+    const glm::dvec3 away = any_direction(random), place = q + size * away;
+    const double distance = glm::length(place - q);
+    if (!(distance > 0)) continue;
+    if (!spots || lights.size() % 2 == 0) {
+      lights.push_back(point(place, distance * (1 + hair)));
+      continue;
+    }
+    // The axis is off the direction to the surface by a little less than the half-angle.
+    const double angle = std::exp2(-10 * random.uniform()) * pi / 2, off = angle * (1 - hair);
+    const glm::dvec3 side = glm::normalize(glm::cross(away, any_direction(random)) + 1e-9);
+    const glm::dvec3 across = glm::normalize(side - away * glm::dot(side, away));
+    CullLight light = point(place, 4 * distance);
+    light.direction = glm::normalize(-away * std::cos(off) + across * std::sin(off));
+    light.cos_outer = std::max(0.0, std::cos(angle));
+    lights.push_back(light);
+  }
+  return lights;
+}
+
 std::vector<CullLight> scattered_lights(const CullView& view, size_t count, bool spots, Random& random) {
   const View v = oracle_view(view);
   constexpr double angles[] = {0.1, 10, 30, 60, 89.9, 90, 100, 120, 180};

@@ -4,6 +4,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "reference/position.h"
+
 namespace lightgrid::verify {
 namespace {
 
@@ -66,6 +68,12 @@ double depth_at(const CullView& view, double distance) {
 double distance_at(const CullView& view, double depth) {
   const glm::dmat4& clip = view.clip_from_view;
   return is_orthographic(view) ? (clip[3][2] - depth) / clip[2][2] : clip[3][2] / (depth + clip[2][2]);
+}
+
+glm::dvec3 position_at(const View& view, int px, int py, double distance) {
+  const double x = view_x_of_pixel(view, px + 0.5), y = view_y_of_pixel(view, py + 0.5);
+  const double scale = view.orthographic ? 1 : distance;
+  return {x * scale, y * scale, -distance};
 }
 
 int tiles_x(const CullView& view, int tile) { return (view.width + tile - 1) / tile; }

@@ -30,6 +30,8 @@ View oracle_view(const CullView& view);
 float depth_of_nothing(const CullView& view);       // 0 reversed, 1 standard
 double depth_at(const CullView& view, double distance);     // z/w in double
 double distance_at(const CullView& view, double depth);
+// View space: the point of pixel (px, py)'s centre that is `distance` along the view axis. `view` is oracle_view's.
+glm::dvec3 position_at(const View& view, int px, int py, double distance);
 int tiles_x(const CullView& view, int tile);
 size_t tile_count(const CullView& view, int tile);
 

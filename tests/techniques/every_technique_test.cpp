@@ -1,0 +1,62 @@
+// Every technique that there is, a new one included, draws forward's picture: lists of techniques are the registry's.
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+struct EveryTechnique : testing::TestWithParam<const Technique*> {};
+
+// What a technique that sums in another order may differ by, of the brightest channel.
+constexpr double other_order = 1e-5;
+
+void expect_forwards_picture(const Scene& scene, const View& view, const Technique& technique) {
+  const Image forward = render(scene, view, "forward");
+  ASSERT_GT(brightest_channel(forward), 0.01f) << "a dark picture shows nothing";
+  expect_close(scene, view, {}, forward, technique.name, other_order);
+}
+
+TEST_P(EveryTechnique, DrawsForwardsPictureOfABuiltinScene) {
+  const Scene scene = find_builtin_scene("hall")->make();
+  expect_forwards_picture(scene, default_view(scene, 79, 45), *GetParam());
+}
+
+// Point, spot and directional lights, glass and every other effect at once.
+TEST_P(EveryTechnique, DrawsForwardsPictureWithEveryEffect) {
+  for (const Effect& effect : effects()) {
+    SmallScene s = small_scene();
+    effect.add(s);
+    SCOPED_TRACE(effect.name);
+    expect_forwards_picture(s.scene, small_view(47, 31), *GetParam());
+  }
+}
+
+// The image moved by parts of a pixel, as temporal antialiasing does: all passes must have the one matrix.
+TEST_P(EveryTechnique, DrawsForwardsPictureThroughAJitteredMatrix) {
+  const Scene scene = small_scene().scene;
+  View view = small_view(47, 31);
+  const Image still = render(scene, view, "forward");
+  view.clip_from_view[2][0] += 2 * 0.375 / view.width, view.clip_from_view[2][1] -= 2 * 0.25 / view.height;
+  ASSERT_FALSE(same_bytes(render(scene, view, "forward"), still)) << "the jitter is not seen at all";
+  expect_forwards_picture(scene, view, *GetParam());
+}
+
+// 2,000 lights that each add a two-thousandth: a sum kept in half precision stalls, and one in 8 bits never begins.
+TEST_P(EveryTechnique, SumsManyDimLightsAsOneOfTheirSum) {
+  if (GetParam()->limited_lists) GTEST_SKIP() << "has places for few lights";
+  constexpr int count = 2000;
+  SmallScene s = small_scene(false);
+  const View view = small_view(17, 9);
+  add_point(s.scene, "lamp", {0, 0.5f, -3.2f}, {1, 1, 1}, 4, 1.5f);
+  const Image one = render(s.scene, view, "forward");
+  s.scene.lights[0].intensity /= count;
+  s.scene.lights.resize(count, s.scene.lights[0]);
+  // Each of the sum's terms may round once.
+  EXPECT_LT(compare_images(render(s.scene, view, GetParam()->name), one).max_rel, count * 0x1p-24);
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, EveryTechnique, testing::ValuesIn(techniques()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+}  // namespace
+}  // namespace lightgrid
