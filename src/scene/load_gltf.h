@@ -19,7 +19,7 @@ struct GltfLimits {
 
 // Loads .gltf or .glb by content, scene `scene` of the file or its default one at -1.
 // Throws Error(input) in one line that names the file, the field and the value. What is optional and not
-// supported (an extension, skin, morph target, animation) is one warning on stderr each; rest pose is used.
+// supported (an extension, skin, animation) is one warning on stderr each; rest pose is used.
 // Reads only regular files in the file's own folder and below. Deterministic.
 Scene load_gltf(const std::filesystem::path& path, int scene = -1, const GltfLimits& limits = {});
 

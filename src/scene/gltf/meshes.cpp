@@ -1,5 +1,8 @@
 #include "scene/gltf/meshes.h"
 
+#include <tuple>
+
+#include "scene/gltf/morph.h"
 #include "scene/gltf/skin.h"
 
 namespace lightgrid::gltf {
@@ -15,7 +18,9 @@ class MeshReader {
     if (node.mesh < 0) return;
     checked(doc_, doc_.model.meshes, node.mesh, node_label(doc_, placed.node), "mesh");
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, node_label(doc_, placed.node), "skin");
-    for (const Drawn& drawn : meshes_of(node.mesh, node.skin)) {
+    const std::vector<double> weights =
+        default_weights(doc_, node, doc_.model.meshes[node.mesh], node_label(doc_, placed.node));
+    for (const Drawn& drawn : meshes_of(node.mesh, node.skin, weights)) {
       // A mesh flattened to a plane, line or point has no normals that could be lit.
       if (!drawn.in_world && glm::determinant(glm::dmat3(placed.world_from_node)) == 0) {
         doc_.warn("flattened", "{}: is scaled to no volume and left out", node_label(doc_, placed.node));
@@ -37,19 +42,20 @@ class MeshReader {
     bool in_world;  // skinned: its vertices are in world space
   };
 
-  const std::vector<Drawn>& meshes_of(int mesh, int skin) {
-    const auto [known, is_new] = drawn_.try_emplace({mesh, skin});
-    if (is_new) known->second = read(mesh, skin);
+  const std::vector<Drawn>& meshes_of(int mesh, int skin, const std::vector<double>& weights) {
+    const auto [known, is_new] = drawn_.try_emplace({mesh, skin, weights});
+    if (is_new) known->second = read(mesh, skin, weights);
     return known->second;
   }
 
-  std::vector<Drawn> read(int mesh, int skin) {
+  std::vector<Drawn> read(int mesh, int skin, const std::vector<double>& weights) {
     const tinygltf::Mesh& in = doc_.model.meshes[mesh];
     std::vector<Drawn> out;
     for (size_t i = 0; i < in.primitives.size(); ++i) {
       const std::string place = fmt::format("{} primitive {}", label("mesh", mesh, in.name), i);
       auto primitive = read_primitive(doc_, in.primitives[i], scene_.materials, budget_, place);
       if (!primitive) continue;
+      apply_morph_targets(doc_, in.primitives[i], weights, place, primitive->mesh);
       const bool skinned = skin >= 0 && primitive->skin.sets > 0;
       if (skinned) {
         doc_.warn("skin", "skins are drawn in their rest pose");
@@ -73,7 +79,8 @@ class MeshReader {
   const std::vector<PlacedNode>& nodes_;
   Scene& scene_;
   Budget budget_;
-  std::map<std::pair<int, int>, std::vector<Drawn>> drawn_;  // by the file's mesh and skin
+  // By the file's mesh, skin and weights of morph targets.
+  std::map<std::tuple<int, int, std::vector<double>>, std::vector<Drawn>> drawn_;
   std::map<int, std::vector<glm::dmat4>> joints_;
 };
 

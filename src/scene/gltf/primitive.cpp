@@ -125,8 +125,6 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
                                         const std::vector<Material>& materials, Budget& budget,
                                         const std::string& place) {
   if (!is_drawn(doc, primitive, place)) return {};
-  if (!primitive.targets.empty())
-    doc.warn("morph target", "morph targets are left out: the base shape is used");
 
   std::optional<DracoGeometry> draco;
   if (const auto* extension = find_extension(primitive.extensions, "KHR_draco_mesh_compression"))

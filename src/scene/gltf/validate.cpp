@@ -45,6 +45,9 @@ void check_meshes(const tinygltf::Model& model, Checker& check) {
       check.optional(primitive.material, model.materials.size(), "material");
       for (const auto& [name, accessor] : primitive.attributes)
         check.required(accessor, model.accessors.size(), name.c_str());
+      for (const auto& target : primitive.targets)
+        for (const auto& [name, accessor] : target)
+          check.required(accessor, model.accessors.size(), ("target " + name).c_str());
     }
   }
 }
