@@ -53,6 +53,7 @@ void main() {
   }
 #endif
 #ifdef BLEND
+  if (s.alpha == 0.0) discard;  // shows nothing; infinite radiance times 0 would be NaN
   radiance = vec4(color * s.alpha, s.alpha);
 #elif defined(ADDED)
   radiance = vec4(color, 0.0);

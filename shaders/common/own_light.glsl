@@ -6,7 +6,7 @@
 vec3 own_light(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
   // Precise: a compiler that fuses multiplications with additions would round by what else the program holds.
-  precise vec3 own = s.emissive + ambient * (p.diffuse * SHADING_PI + p.f0) * s.occlusion;
+  precise vec3 own = s.emissive + ambient * (p.diffuse * (SHADING_PI / (1.0 - DIELECTRIC_F0)) + p.f0) * s.occlusion;
   vec3 color = own;
 #ifdef DIRECTIONAL
   color += directional_light_sum(p);

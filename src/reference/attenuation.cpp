@@ -8,7 +8,7 @@ double attenuation(const ViewLight& light, const glm::dvec3& position, bool wind
   if (light.type == LightType::directional) return 1;
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
-  double result = 1 / std::max(distance * distance, 1e-4);
+  double result = 1 / std::max(distance * distance, std::numeric_limits<double>::min());
   if (window && std::isfinite(light.radius_m)) {
     if (!(distance < light.radius_m)) return 0;  // before the ratio, which is 0 / 0 for a light of radius 0
     const double ratio = distance / light.radius_m;

@@ -15,8 +15,18 @@ namespace {
 
 using glm::dvec3;
 
-dvec3 diffuse_color(const Surface& s) { return s.base_color * (1 - s.metallic); }
-dvec3 normal_reflectance(const Surface& s) { return glm::mix(dvec3(0.04), s.base_color, s.metallic); }
+constexpr double dielectric_f0 = 0.04;  // an index of refraction of 1.5
+
+// Schlick 1994.
+template <typename Reflectance>
+Reflectance fresnel(const Reflectance& f0, double v_dot_h) {
+  return f0 + (1.0 - f0) * std::pow(1 - std::abs(v_dot_h), 5);
+}
+
+// What a surface reflects of constant radiance from all sides: this program's own simplification, without Fresnel.
+dvec3 ambient_reflectance(const Surface& s) {
+  return s.base_color * (1 - s.metallic) + glm::mix(dvec3(dielectric_f0), s.base_color, s.metallic);
+}
 
 // GGX (Walter et al. 2007) with |N x H|^2 in place of 1 - (N.H)^2, which cancels at small roughness.
 double ggx_distribution(const dvec3& normal, const dvec3& half, double alpha) {
@@ -64,20 +74,22 @@ dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, B
   const double roughness = std::max(surface.roughness, 0.045), alpha = roughness * roughness;
   const double n_dot_v = std::max(glm::dot(surface.normal, to_eye), 1e-4);
   const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
-  const dvec3 f0 = normal_reflectance(surface);
-  const dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1 - std::abs(glm::dot(to_eye, half)), 5);
   const double specular =
       lobe == Brdf::blinn ? blinn_lobe(surface.normal, half, alpha)
                           : smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(surface.normal, half, alpha);
-  return (1.0 - fresnel) * diffuse_color(surface) * std::numbers::inv_pi + fresnel * specular;
+  // The specification's own form: two materials, mixed.
+  const double v_dot_h = glm::dot(to_eye, half);
+  const dvec3 diffuse = surface.base_color * std::numbers::inv_pi;
+  const dvec3 dielectric = glm::mix(diffuse, dvec3(specular), fresnel(dielectric_f0, v_dot_h));
+  const dvec3 metal = fresnel(surface.base_color, v_dot_h) * specular;
+  return glm::mix(dielectric, metal, surface.metallic);
 }
 
 dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
             const std::vector<ViewLight>& lights, const ShadeSettings& settings) {
   if (surface.unlit) return surface.base_color;
   const dvec3 to_eye = orthographic ? dvec3(0, 0, 1) : glm::normalize(-position);
-  dvec3 radiance =
-      settings.ambient * (diffuse_color(surface) + normal_reflectance(surface)) * surface.occlusion;
+  dvec3 radiance = settings.ambient * ambient_reflectance(surface) * surface.occlusion;
   radiance += surface.emissive;
   for (const ViewLight& light : lights) {
     radiance += light_radiance(surface, position, to_eye, light, settings);

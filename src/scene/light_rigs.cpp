@@ -97,7 +97,7 @@ Light scatter_one(const Surface& surface, uint64_t seed, int index, float min_ra
   Light light;
   light.radius_m = random.uniform(min_radius, max_radius);
   light.color = color_of_hue(6 * random.uniform());
-  light.intensity = light.radius_m * light.radius_m / 8;
+  light.intensity = float(double(light.radius_m) * light.radius_m / 8);
 
   const Triangle t = surface.pick(share);
   const glm::dvec3 normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
@@ -126,6 +126,10 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
     const WorldBox box = world_box(scene);
     const double bounded = std::min(radius, glm::length(box.max - box.min) / 4);
     min_radius = float(0.6 * bounded), max_radius = float(1.4 * bounded);
+  }
+  // Intensity is radius^2 / 8 (scatter_one).
+  if (!(double(max_radius) * max_radius / 8 <= double(std::numeric_limits<float>::max()))) {
+    throw input_error("--light-radius {:g}: the intensity of a light that wide passes the largest float", max_radius);
   }
   std::vector<Light> lights;
   lights.reserve(settings.count);

@@ -178,6 +178,9 @@ Light plain_light(const Fields& fields) {
   if (light.type != LightType::point) light.direction = direction(fields);
   if (fields.has("color")) light.color = glm::vec3(fields.vector("color", 0, max_float));
   light.intensity = float(fields.number("intensity", 1, 0, max_float));
+  if (intensity_overflows(light)) {
+    throw fields.error("intensity", fmt::format("times color passes the largest float, {:g}", max_float), light.intensity);
+  }
   light.radius_m = float(fields.number("radius", light.radius_m, 0, max_float));
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
   const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));

@@ -20,8 +20,8 @@ inline constexpr double metres_per_redeclipse_unit = 0.125;
 //   direction of spot and directional. Other keys are ignored.
 // A light with "rgb255" is one of a Red Eclipse map: a point with colour rgb255 / 255 and radiant intensity
 //   (radius / 2)^2 candela, 1 lux half the radius away; with radius 0 as one of 16 m has it.
-// Throws Error(input) that names the file, the light and the field: NaN, numbers beyond a float's range, a
-// negative radius, colour or intensity, a zero direction and cones outside 0 <= inner < outer <= pi are
+// Throws Error(input) that names the file, the light and the field: NaN, numbers beyond a float's range (colour
+// times intensity too), a negative radius, colour or intensity, a zero direction and cones outside 0 <= inner < outer <= pi are
 // errors; so is a file above max_lights_file_bytes.
 std::vector<Light> load_lights_file(const std::filesystem::path& path);
 

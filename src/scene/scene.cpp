@@ -1,6 +1,14 @@
 #include "scene/scene.h"
 
+#include <algorithm>
+
 namespace lightgrid {
+
+bool intensity_overflows(const Light& light) {
+  const glm::dvec3 intensity = glm::dvec3(light.color) * double(light.intensity);
+  const double largest = std::max({intensity.r, intensity.g, intensity.b});
+  return !(largest <= double(std::numeric_limits<float>::max()));
+}
 
 WorldBox world_box(const Scene& scene) {
   constexpr double inf = std::numeric_limits<double>::infinity();

@@ -32,7 +32,15 @@ struct Mesh {
 };
 
 enum class Wrap { repeat, clamp, mirror };
-enum class Filter { nearest, linear, nearest_mip, linear_mip };  // linear_mip is trilinear
+// glTF's minification filters (9728, 9729, 9984 to 9987): within a level, then between levels.
+enum class Filter {
+  nearest,
+  linear,
+  nearest_mipmap_nearest,
+  linear_mipmap_nearest,
+  nearest_mipmap_linear,
+  linear_mipmap_linear
+};
 
 struct Bitmap {
   std::string name;
@@ -44,7 +52,7 @@ struct Texture {
   int bitmap = -1;
   bool srgb = false;  // colours are stored through the sRGB curve, data is not
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  Filter min_filter = Filter::linear_mip;
+  Filter min_filter = Filter::linear_mipmap_linear;
   bool mag_linear = true;
 };
 
@@ -92,6 +100,10 @@ struct Light {
   float inner_cone_rad = 0;                                 // half-angles, 0 <= inner < outer; only spots
   float outer_cone_rad = 0.78539816f;
 };
+
+// Whether colour times intensity passes the largest float in some channel. Shaders could not hold such a light: whatever
+// reads lights refuses it.
+bool intensity_overflows(const Light& light);
 
 struct Camera {
   std::string name;

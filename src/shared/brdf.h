@@ -1,4 +1,5 @@
-// The BRDF of this program: Lambert, and a specular lobe of one of two models, under Schlick's Fresnel.
+// The BRDF of this program, glTF 2.0, appendix B: mix(dielectric, metal, metallic), where the dielectric is Lambert under a
+// specular lobe of f0 = 0.04 and the metal a specular lobe of f0 = base colour; Schlick's Fresnel.
 //   BLINN: Blinn-Phong in place of GGX.
 #pragma once
 
@@ -20,8 +21,8 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
   p.position = position;
   p.normal = normal;
   p.to_viewer = to_viewer;
-  p.diffuse = scale3(base_color, (1.0f - metallic) * (1.0f / SHADING_PI));
-  real dielectric = 0.04f * (1.0f - metallic);
+  p.diffuse = scale3(base_color, (1.0f - metallic) * ((1.0f - DIELECTRIC_F0) / SHADING_PI));
+  real dielectric = DIELECTRIC_F0 * (1.0f - metallic);
   p.f0 = real3(dielectric + base_color.x * metallic, dielectric + base_color.y * metallic,
                dielectric + base_color.z * metallic);
   real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));
@@ -34,13 +35,8 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
 
 // What a surface reflects of constant radiance from all sides, without occlusion.
 SHARED_FUNCTION Real3 reflected_ambient(ShadingPoint p, real r, real g, real b) {
-  Real3 reflected_part = add3(scale3(p.diffuse, REAL(SHADING_PI)), p.f0);
+  Real3 reflected_part = add3(scale3(p.diffuse, REAL(SHADING_PI / (1.0f - DIELECTRIC_F0))), p.f0);
   return real3(r * reflected_part.x, g * reflected_part.y, b * reflected_part.z);
-}
-
-SHARED_FUNCTION real reflected_channel(real diffuse, real f0, real grazing5, real specular) {
-  real fresnel = f0 + (1.0f - f0) * grazing5;
-  return diffuse + fresnel * (specular - diffuse);
 }
 
 // BRDF times the cosine at the surface. to_light is a unit vector.
@@ -57,9 +53,13 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   real grazing = max_real(1.0f - 0.5f * sqrt_real(h_squared), REAL(0.0f));
   real grazing2 = grazing * grazing;
   real grazing5 = grazing2 * grazing2 * grazing;
-  return scale3(real3(reflected_channel(p.diffuse.x, p.f0.x, grazing5, specular),
-                      reflected_channel(p.diffuse.y, p.f0.y, grazing5, specular),
-                      reflected_channel(p.diffuse.z, p.f0.z, grazing5, specular)), n_dot_l);
+  // Schlick's Fresnel is linear in f0, so the mix of the dielectric's and the metal's specular parts is one term with the
+  // mixed f0: f0 + (1 - f0) g = f0 (1 - g) + g. The diffuse part belongs to the dielectric alone, under its own Fresnel:
+  // 1 - (0.04 + 0.96 g) = 0.96 (1 - g), of which p.diffuse has the 0.96. The two share the factor 1 - g.
+  real facing = n_dot_l * (1.0f - grazing5);
+  real rim = n_dot_l * grazing5 * specular;
+  return real3((p.diffuse.x + p.f0.x * specular) * facing + rim, (p.diffuse.y + p.f0.y * specular) * facing + rim,
+               (p.diffuse.z + p.f0.z * specular) * facing + rim);
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

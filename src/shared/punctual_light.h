@@ -1,4 +1,5 @@
-// One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its range.
+// One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its range. Never NaN:
+// attenuation and BRDF are finite, and their product with the intensity may overflow to infinity.
 //   SPOTS: some light has a cone.
 #pragma once
 
@@ -8,8 +9,13 @@
 namespace lightgrid {
 #endif
 
+// 1 / distance^2 grows no further, 3e-16 m from the light. That is below any length for which lights are listed
+// (docs/hard_cases.md), and the most that keeps its product with the BRDF finite: GGX reaches 2e7 at the roughness floor.
+// Without that, infinity would meet a colour or a cosine of 0.
+#define LARGEST_ATTENUATION 1e31f
+
 SHARED_STRUCT(PunctualLight) {
-  Float4 place;  // view space, and 1 / radius^2 (0: no range)
+  Float4 place;  // view space, and 1 / radius^2 (next to 0: no range)
   Float4 color;  // radiant intensity
 #ifdef SPOTS
   Float4 cone;   // axis times scale, and offset: 1 inside, 0 outside
@@ -26,12 +32,13 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   Real3 to_light = real3(light.place.x - position.x, light.place.y - position.y, light.place.z - position.z);
   real distance_squared = dot3(to_light, to_light);
   real ratio = distance_squared * light.place.w;
-  real inverse_distance = inverse_sqrt_real(max_real(distance_squared, REAL(1e-12f)));
+  // At the light itself there is no direction, and nothing is reflected.
+  real inverse_distance = inverse_sqrt_real(max_real(distance_squared, REAL(1.2e-38f)));
   Arrival arrival;
   arrival.to_light = scale3(to_light, inverse_distance);
-  // No branch on the range: what is past it is multiplied by an exact zero.
+  // No branch on the range: what is past it is multiplied by an exact zero. All factors are finite, so that it stays 0.
   real window = max_real(1.0f - ratio * ratio, REAL(0.0f));
-  arrival.attenuation = window * min_real(inverse_distance * inverse_distance, REAL(1e4f));
+  arrival.attenuation = window * min_real(inverse_distance * inverse_distance, REAL(LARGEST_ATTENUATION));
 #ifdef SPOTS
   real along = light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y + light.cone.z * arrival.to_light.z;
   real angular = min_real(max_real(light.cone.w - along, REAL(0.0f)), REAL(1.0f));
@@ -41,9 +48,8 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
 }
 
 SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight light) {
-  Real3 back = reflected(p, arrival.to_light);
-  return real3(back.x * (light.color.x * arrival.attenuation), back.y * (light.color.y * arrival.attenuation),
-               back.z * (light.color.z * arrival.attenuation));
+  Real3 back = scale3(reflected(p, arrival.to_light), arrival.attenuation);
+  return real3(back.x * light.color.x, back.y * light.color.y, back.z * light.color.z);
 }
 
 SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {

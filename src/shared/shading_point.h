@@ -9,12 +9,13 @@ namespace lightgrid {
 #endif
 
 #define SHADING_PI 3.14159265358979f
+#define DIELECTRIC_F0 0.04f  // reflectance at normal incidence for an index of refraction of 1.5
 #define ROUGHNESS_FLOOR 0.045f  // below it GGX's peak leaves the range in which float keeps its shape
 
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal, to_viewer;
-  Real3 diffuse;  // albedo / pi
-  Real3 f0;
+  Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi
+  Real3 f0;       // mix(0.04, base colour, metallic)
   real alpha, alpha_squared;
   real n_dot_v;
   real lobe;  // what the specular lobe needs of viewer and roughness (lobe_of)

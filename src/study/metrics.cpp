@@ -19,6 +19,8 @@ double channel_error(float a, float b) {
 
 bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
+bool has_nan(const glm::vec4& pixel) { return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b); }
+
 // The smallest value that at least 99 of 100 samples do not exceed.
 double p99_of(std::vector<double>& samples) {
   const size_t index = (samples.size() * 99 + 99) / 100 - 1;
@@ -63,8 +65,12 @@ ImageError compare_images(const Image& image, const Image& reference) {
 }
 
 uint64_t count_nan_pixels(const Image& image) {
+  return std::count_if(image.pixels.begin(), image.pixels.end(), has_nan);
+}
+
+uint64_t count_inf_pixels(const Image& image) {
   return std::count_if(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& pixel) {
-    return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b);
+    return !has_nan(pixel) && (std::isinf(pixel.r) || std::isinf(pixel.g) || std::isinf(pixel.b));
   });
 }
 

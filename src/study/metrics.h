@@ -12,6 +12,9 @@ ImageError compare_images(const Image& image, const Image& reference);
 
 uint64_t count_nan_pixels(const Image& image);
 
+// Pixels with an infinite colour channel and no NaN: radiance past the largest float.
+uint64_t count_inf_pixels(const Image& image);
+
 // The largest finite colour channel; 0 where there is none above it.
 float brightest_channel(const Image& image);
 

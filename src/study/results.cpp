@@ -93,6 +93,7 @@ json to_json(const RunResult& result) {
               {"pairs", result.pairs ? to_json(*result.pairs) : json()},
               {"error", result.error ? to_json(*result.error) : json()},
               {"nan_pixels", result.nan_pixels},
+              {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},
               {"skipped", skipped}};
   if (!result.refused.empty()) out["refused"] = result.refused;

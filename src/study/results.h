@@ -50,7 +50,7 @@ struct RunResult {
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
   std::optional<PairCounts> pairs;  // absent where no oracle was asked for
   std::optional<ImageError> error;  // technique error: this image against the float image with every light
-  uint64_t nan_pixels = 0, overflow = 0;
+  uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
 };
 

@@ -45,6 +45,7 @@ RunResult TechniqueRun::result() const {
   result.memory_light_grid = frame_.light_grid_bytes();
   result.memory_gbuffer = frame_.targets.bytes(TargetUse::gbuffer);
   result.nan_pixels = count_nan_pixels(image_);
+  result.inf_pixels = count_inf_pixels(image_);
   for (const Decision& decision : frame_.plan.decisions) {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
   }

@@ -29,7 +29,7 @@ std::vector<std::string> keys(const nlohmann::json& object) {
 // A row as docs/results_json.md has it.
 void expect_row(const nlohmann::json& row) {
   EXPECT_THAT(keys(row), IsSupersetOf({"technique", "settings", "lights", "frame_ms", "passes", "memory_bytes", "pairs",
-                                       "error", "nan_pixels", "overflow", "skipped"}));
+                                       "error", "nan_pixels", "inf_pixels", "overflow", "skipped"}));
   EXPECT_THAT(keys(row["lights"]), IsSupersetOf({"total", "in_view"}));
   EXPECT_THAT(keys(row["frame_ms"]), IsSupersetOf({"min", "median", "max", "runs"}));
   EXPECT_THAT(keys(row["memory_bytes"]), IsSupersetOf({"total", "light_grid", "gbuffer"}));

@@ -26,10 +26,11 @@ TEST(Attenuation, EndsAtTheRadiusOnlyWithItsWindow) {
   EXPECT_DOUBLE_EQ(attenuation(light, {2, 0, 0}, false), 0.25);
 }
 
-TEST(Attenuation, StopsGrowingWithinACentimetre) {
-  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0, 0}, true), 1e4);
-  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0.01, 0}, true), 1e4);
+TEST(Attenuation, GrowsWithTheSquareDownToTheLightAndStaysFinite) {
   EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0.1, 0}, true), 100);
+  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 0.001, 0}, true), 1e6);
+  EXPECT_DOUBLE_EQ(attenuation({.radius_m = infinity}, {0, 1e-30, 0}, true), 1e60);
+  EXPECT_TRUE(std::isfinite(attenuation({.radius_m = infinity}, {0, 0, 0}, true)));
 }
 
 TEST(Attenuation, RadiusZeroIsDarkEvenAtTheLight) {

@@ -47,6 +47,19 @@ TEST(Brdf, RoughDielectricLitAtSixtyDegrees) {
   expect_near(brdf({}, {0, 0, 1}, to_light), dvec3(0.9733057089 / pi), 1e-10);
 }
 
+TEST(Brdf, PartialMetalIsTheMixOfADielectricAndAMetal) {
+  // N = V = L = H, alpha 1: the lobe is 1 / (4 pi). Dielectric: 0.96 base / pi + 0.04 / (4 pi); metal: base / (4 pi).
+  // For base 1, 0.5, 0 and a metalness of a quarter, times pi: 3/4 (0.97, 0.49, 0.01) + 1/4 (0.25, 0.125, 0).
+  const Surface surface{.base_color = {1, 0.5, 0}, .metallic = 0.25};
+  expect_near(brdf(surface, {0, 0, 1}, {0, 0, 1}), dvec3(0.79, 0.39875, 0.0075) / pi, 1e-15);
+  // At grazing angles Fresnel is next to 1: nothing diffuse is left, whatever the metal.
+  const dvec3 to_eye(1, 0, 1e-3), to_light(-1, 0, 1e-3);
+  const double f = std::pow(1 - glm::normalize(to_eye).z, 5);
+  const double white = brdf({.metallic = 1}, glm::normalize(to_eye), glm::normalize(to_light)).x;
+  EXPECT_NEAR(brdf({.metallic = 0.5}, glm::normalize(to_eye), glm::normalize(to_light)).x,
+              white * (0.5 + 0.5 * (0.04 + 0.96 * f)) + 0.5 * 0.96 * (1 - f) / pi, 1e-12 * white);
+}
+
 TEST(Brdf, BlinnPhongByHand) {
   // Roughness 0.5: alpha 1/4, n = 2 * 16 - 2 = 30. From straight above: 32 / (8 pi) = 4 / pi, as GGX.
   const Surface gold{.base_color = {1, 0.5, 0}, .metallic = 1, .roughness = 0.5};

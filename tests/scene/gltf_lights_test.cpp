@@ -150,6 +150,8 @@ TEST(GltfLights, what_the_extension_forbids_is_refused_by_name) {
               HasSubstr("light 0: intensity is -1"));
   EXPECT_THAT(with_light({{"type", "point"}, {"intensity", 1e39}}).refusal(),
               HasSubstr("light 0: intensity is 1e+39"));
+  EXPECT_THAT(with_light({{"type", "directional"}, {"color", {1, 1e9, 0}}, {"intensity", 1e30}}).refusal(),
+              HasSubstr("light 0: intensity 1e+30 times color passes the largest float, 3.40282e+38"));
   EXPECT_THAT(with_light({{"type", "point"}, {"color", {1, 1}}}).refusal(), HasSubstr("color has 2 numbers"));
   EXPECT_THAT(with_light({{"type", "lamp"}}).refusal(), HasSubstr("light 0: type is \"lamp\""));
 }

@@ -157,13 +157,13 @@ TEST(GltfMaterial, samplers_are_read_and_their_values_checked) {
   EXPECT_FALSE(set.mag_linear);
   const Texture& plain = scene.textures[scene.materials[0].occlusion_map.texture];
   EXPECT_EQ(plain.wrap_u, Wrap::repeat);
-  EXPECT_EQ(plain.min_filter, Filter::linear_mip);
+  EXPECT_EQ(plain.min_filter, Filter::linear_mipmap_linear);
   EXPECT_TRUE(plain.mag_linear);
   const std::pair<int, Filter> filters[] = {{9729, Filter::linear},
-                                            {9984, Filter::nearest_mip},
-                                            {9985, Filter::linear_mip},
-                                            {9986, Filter::nearest_mip},
-                                            {9987, Filter::linear_mip}};
+                                            {9984, Filter::nearest_mipmap_nearest},
+                                            {9985, Filter::linear_mipmap_nearest},
+                                            {9986, Filter::nearest_mipmap_linear},
+                                            {9987, Filter::linear_mipmap_linear}};
   for (const auto& [value, filter] : filters) {
     made.root["samplers"][0]["minFilter"] = value;
     EXPECT_EQ(made.load().textures[0].min_filter, filter) << value;

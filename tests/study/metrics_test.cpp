@@ -105,6 +105,15 @@ TEST(CountNanPixels, CountsAPixelOnceAndLeavesInfinityOut) {
   EXPECT_EQ(count_nan_pixels(image), 2u);
 }
 
+TEST(CountInfPixels, CountsAPixelOnceAndLeavesNanOut) {
+  auto image = filled(4, 1, glm::vec3(1));
+  image.at(0, 0) = glm::vec4(infinity);
+  image.at(1, 0).b = infinity;
+  image.at(2, 0) = {infinity, nan_value, 0, 1};
+  image.at(3, 0).a = infinity;
+  EXPECT_EQ(count_inf_pixels(image), 2u);
+}
+
 TEST(DifferenceImage, ShowsEqualBlackAndTheDecadesFromBlueToRed) {
   const auto reference = filled(17, 9, glm::vec3(2));
   EXPECT_THAT(first_colour(difference_image(reference, reference)), ElementsAre(0, 0, 0));

@@ -38,6 +38,7 @@ RunResult small_result() {
   result.pairs = PairCounts{9, 8, 7, 6};
   result.error = ImageError{0.5, 0.25, 0.125, 0.0625, {}, false};
   result.nan_pixels = 11;
+  result.inf_pixels = 13;
   result.overflow = 12;
   result.skipped = {{"shadows", "no light casts one"}};
   return result;
@@ -53,7 +54,7 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
     "memory_bytes": {"total": 3, "light_grid": 2, "gbuffer": 1},
     "pairs": {"listed": 9, "lit": 8, "lost": 7, "wrong": 6},
     "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false},
-    "nan_pixels": 11, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
+    "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
   EXPECT_EQ(to_json(small_result()), expected);
 }
 

@@ -55,9 +55,13 @@ GLint min_filter_of(Filter filter) {
       return GL_NEAREST;
     case Filter::linear:
       return GL_LINEAR;
-    case Filter::nearest_mip:
+    case Filter::nearest_mipmap_nearest:
       return GL_NEAREST_MIPMAP_NEAREST;
-    case Filter::linear_mip:
+    case Filter::linear_mipmap_nearest:
+      return GL_LINEAR_MIPMAP_NEAREST;
+    case Filter::nearest_mipmap_linear:
+      return GL_NEAREST_MIPMAP_LINEAR;
+    case Filter::linear_mipmap_linear:
       return GL_LINEAR_MIPMAP_LINEAR;
   }
   return GL_LINEAR;
@@ -165,7 +169,7 @@ void GpuScene::upload_materials(const Scene& scene, const FramePlan& plan) {
 void GpuScene::upload_texture(const Scene& scene, int index) {
   const Texture& texture = scene.textures[index];
   const Bitmap& bitmap = scene.bitmaps[texture.bitmap];
-  const bool mips = texture.min_filter == Filter::linear_mip || texture.min_filter == Filter::nearest_mip;
+  const bool mips = texture.min_filter != Filter::nearest && texture.min_filter != Filter::linear;
   int levels = 1;
   while (mips && (std::max(bitmap.width, bitmap.height) >> levels) > 0) ++levels;
   const bool decoded = texture.srgb && decode_srgb_once_;

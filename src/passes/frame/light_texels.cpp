@@ -1,16 +1,22 @@
 #include "passes/frame/light_texels.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lightgrid {
+
+constexpr double max_float = std::numeric_limits<float>::max();
 
 LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& plan) {
   const std::vector<ViewLight> lights = lights_in_view(scene, view);
   LightTexels texels;
   for (int i : plan.local) {
     const ViewLight& light = lights[i];
-    const double inverse_radius_squared = std::min(1.0 / (light.radius_m * light.radius_m), 3e38);
-    texels.places.emplace_back(glm::vec3(light.position), float(inverse_radius_squared));
+    // A light without a range has one of 7e18 m. Past it the square of the distance leaves float's range, and the window is
+    // 0 there, not infinity times 0.
+    const double inverse_radius_squared = std::clamp(1.0 / (light.radius_m * light.radius_m), 2e-38, 3e38);
+    const glm::dvec3 position = glm::clamp(light.position, -max_float, max_float);
+    texels.places.emplace_back(glm::vec3(position), float(inverse_radius_squared));
     // A light without extent lights nothing, also not the point it is at.
     texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
     if (!plan.spots) continue;

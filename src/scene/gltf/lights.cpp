@@ -43,6 +43,9 @@ Light read_light(const Document& doc, const tinygltf::Light& in, bool has_range,
   for (size_t i = 0; i < in.color.size(); ++i)
     out.color[i] = checked_amount(doc, in.color[i], place, "color");
   out.intensity = checked_amount(doc, in.intensity, place, "intensity");
+  if (intensity_overflows(out))
+    throw doc.error("{}: intensity {} times color passes the largest float, {:g}", place, in.intensity,
+                    std::numeric_limits<float>::max());
   if (has_range && out.type != LightType::directional) {
     out.radius_m = checked_amount(doc, in.range, place, "range");
     if (out.radius_m == 0) throw doc.error("{}: range is {}; it must be more than 0", place, in.range);

@@ -21,7 +21,6 @@ Wrap read_wrap(const Document& doc, int value, const std::string& place, const c
   }
 }
 
-// Two of GL's mip filters have no equal in Filter; each becomes the one that samples a level as it does.
 Filter read_min_filter(const Document& doc, int value, const std::string& place) {
   switch (value) {
     case TINYGLTF_TEXTURE_FILTER_NEAREST:
@@ -29,12 +28,14 @@ Filter read_min_filter(const Document& doc, int value, const std::string& place)
     case TINYGLTF_TEXTURE_FILTER_LINEAR:
       return Filter::linear;
     case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
-    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
-      return Filter::nearest_mip;
-    case -1:
+      return Filter::nearest_mipmap_nearest;
     case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+      return Filter::linear_mipmap_nearest;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+      return Filter::nearest_mipmap_linear;
+    case -1:
     case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
-      return Filter::linear_mip;
+      return Filter::linear_mipmap_linear;
     default:
       throw doc.error("{}: minFilter is {}", place, value);
   }

@@ -99,6 +99,7 @@ function techniqueCard(view, row) {
     milliseconds(row.frame_ms.median ?? 0) + " a frame",
     !isReference && ratio !== null && `${shortNumber(ratio)} times the speed of ${reference}`,
     isReference ? "the reference" : row.error && errorInWords(row.error),
+    row.inf_pixels > 0 && `${wholeNumber(row.inf_pixels)} pixels pass the largest float`,
     row.overflow > 0 && `${wholeNumber(row.overflow)} list entries did not fit`,
   ];
   const figures = [];

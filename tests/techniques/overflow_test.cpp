@@ -1,0 +1,68 @@
+// Light past float's range: pixels are infinite and counted, and none is NaN.
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+// Lights of the largest float, one with black channels, whose ranges and cones end within the picture, one of
+// them at the wall itself, one behind it; and a light from far off, on a scene with a pane of glass.
+Scene blinding_scene() {
+  SmallScene s = small_scene(false);
+  effects()[0].add(s);
+  for (int i = 0; i < 3; ++i)
+    add_point(s.scene, "lamp", {i - 1.0f, 0.1f, -3.9f}, {1, 0.9f, 0}, 3.4e38f, 0.5f);
+  add_point(s.scene, "at the wall", {0.2f, 0.5f, -4}, {1, 1, 1}, 3.4e38f, 0.3f);
+  add_point(s.scene, "behind", {-1, 0.5f, -4.1f}, {1, 1, 1}, 3.4e38f, 0.3f);
+  add_spot(s.scene, "torch", {1.2f, 0.5f, -3.5f}, {1.5f, 0.5f, -4}, {1, 1, 0}, 3.4e38f, 1, 10, 25);
+  add_point(s.scene, "parked", {3e38f, 0, 0}, {1, 1, 1}, 3.4e38f, 1);
+  s.scene.materials[s.ball_material].base_color = {0, 0, 0, 1};
+  const int clear = add_material(s.scene, "clear", {1, 1, 1}, 0, 0.5f);
+  s.scene.materials[clear].base_color.a = 0;
+  s.scene.materials[clear].alpha_mode = AlphaMode::blend;
+  add_instance(s.scene, "clear", add_mesh(s.scene, wall_mesh({0, 0, -3.8f}, 0.7f, clear, "clear")));
+  return s.scene;
+}
+
+TEST(Overflow, IsInfiniteNeverNanInEachKindOfTechnique) {
+  const Scene scene = blinding_scene();
+  const View view = small_view(127, 73);
+  const Image forward = render(scene, view, "forward");
+  EXPECT_GT(count_inf_pixels(forward), 20u);
+  EXPECT_LT(count_inf_pixels(forward), 127u * 73 / 2) << "ranges end";
+  EXPECT_EQ(count_nan_pixels(forward), 0u);
+  for (const char* technique :
+       {"forward_plus", "forward_plus_compute", "deferred", "deferred_tiled", "clustered", "lidr"}) {
+    TechniqueRun run(test_devices(), scene, view, {}, find_technique(technique));
+    run.run_frame();
+    EXPECT_EQ(count_nan_pixels(run.image()), 0u) << technique;
+    EXPECT_EQ(run.result().inf_pixels, count_inf_pixels(forward)) << technique;
+  }
+  EXPECT_TRUE(identical(render(scene, view, "forward_plus"), forward));
+}
+
+TEST(Overflow, ALightWithoutARangeFromBeyondTheSquareOfFloatAddsNothing) {
+  SmallScene s = small_scene();
+  const View view = small_view(127, 73);
+  const Image without = render(s.scene, view, "forward");
+  for (const double far : {1e20, 3e38}) {
+    Light& light = s.scene.lights.emplace_back();
+    light.name = "parked", light.position = {far, -far, 1}, light.intensity = 10;
+  }
+  const Image with = render(s.scene, view, "forward");
+  EXPECT_EQ(count_nan_pixels(with), 0u);
+  EXPECT_TRUE(identical(with, without));
+}
+
+TEST(Overflow, ALightAtTheSurfaceItselfIsDarkThereAlone) {
+  SmallScene s = small_scene(false);
+  s.scene.ambient = glm::vec3(0);
+  s.scene.instances.pop_back();  // the wall alone
+  // In the middle pixel of an odd number, where the axis meets the wall at z = -4 exactly.
+  add_point(s.scene, "in the wall", {0, 0, -4}, {1, 1, 1}, 1, 1);
+  const Image image = render(s.scene, small_view(33, 17), "forward");
+  EXPECT_EQ(count_nan_pixels(image) + count_inf_pixels(image), 0u);
+}
+
+}  // namespace
+}  // namespace lightgrid
