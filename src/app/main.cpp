@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/environment.h"
+#include "app/temporary_cache.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "cl/error.h"
@@ -11,12 +12,14 @@
 int main(int argc, char** argv) {
   using namespace lightgrid;
   prepare_environment();
+  const TemporaryCache cache;
   CommandLine line("lightgrid", "lightgrid: scenes with very many lights, and what each technique's accuracy costs in time");
   for (const auto add : {add_render, add_compare, add_plan, add_capture, add_cull, add_inspect, add_scenes, add_techniques,
                          add_devices, add_bench, add_verify})
     add(line);
   const Command command = line.parse(argc, argv);
   if (line.quiet()) set_log_level(LogLevel::quiet);
+  cache.tell();
   try {
     return command();
   } catch (const Error& error) {

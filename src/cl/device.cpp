@@ -5,6 +5,7 @@
 #include <charconv>
 #include <optional>
 
+#include "cl/cache_folder.h"
 #include "cl/error.h"
 
 namespace lightgrid {
@@ -89,8 +90,15 @@ std::string why_not_the_same_bytes(const ClDeviceInfo& device) {
 }
 
 size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::string& substring) {
-  if (devices.empty())
-    throw machine_error("there is no OpenCL device. The Debian package pocl-opencl-icd makes the CPU one");
+  if (devices.empty()) {
+    const std::filesystem::path cache = pocl_cache_folder();
+    const std::string why = why_not_writable(cache);
+    if (why.empty()) throw machine_error("there is no OpenCL device. The Debian package pocl-opencl-icd makes the CPU one");
+    throw machine_error(
+        "there is no OpenCL device. PoCL offers none where it cannot write {}: {}; set POCL_CACHE_DIR to a folder that can be "
+        "written. If it is not installed, the Debian package pocl-opencl-icd makes the CPU a device",
+        cache.string(), why);
+  }
   if (const std::optional<size_t> index = index_of(substring); index && *index < devices.size()) return *index;
   const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const ClDeviceInfo& info) {
     return substring.empty() ? !info.cpu : holds(info.platform + " " + info.name, substring);
