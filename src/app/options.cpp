@@ -116,7 +116,7 @@ View choose_view(Scene& scene, const SceneOptions& o) {
   } else if (o.lights >= 0) {
     scatter_over(scene, o);
   }
-  const View view = make_view(choose_camera(scene, camera), size.width, size.height);
+  const View view = make_view(choose_camera(scene, camera, double(size.width) / size.height), size.width, size.height);
   if (scene.lights.empty() && o.lights < 0 && o.lights_file.empty()) {
     log_info("{}: no lights; adding a key and a fill light from beside the camera (--lights 0 for none)", o.scene);
     DefaultLights added = default_lights(view);

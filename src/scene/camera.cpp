@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "scene/overview_camera.h"
 
 namespace lightgrid {
 namespace {
@@ -81,26 +82,6 @@ glm::dmat4 orthographic(const Camera& camera, double aspect) {
 double size_of(const WorldBox& box) {
   const double size = box.empty() ? 0 : glm::length(box.max - box.min);
   return size > 0 && std::isfinite(size) ? size : 1;
-}
-
-Camera overview(const WorldBox& box) {
-  const glm::dvec3 center = box.empty() ? glm::dvec3(0) : (box.min + box.max) / 2.0;
-  Camera camera = look_at(center + glm::dvec3(0.62, 0.45, 0.78), center);
-  // As near as keeps all eight corners inside a square field.
-  const double slope = std::tan(camera.fov_y_rad / 2);
-  const glm::dmat3 view_from_world = glm::transpose(glm::dmat3(camera.world_from_view));
-  double distance = size_of(box) / 2;
-  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
-    const glm::dvec3 world(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                           corner & 4 ? box.max.z : box.min.z);
-    const glm::dvec3 p = view_from_world * (world - center);
-    distance = std::max(distance, p.z + std::max(std::abs(p.x), std::abs(p.y)) / slope);
-  }
-  camera.name = "overview";
-  camera.near_m = 1e-3 * size_of(box);
-  camera.world_from_view[3] =
-      glm::dvec4(center + glm::dvec3(camera.world_from_view[2]) * (1.05 * distance), 1);
-  return camera;
 }
 
 double parse_number(std::string_view text, const std::string& wish) {
@@ -220,7 +201,7 @@ glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_objec
   return result;
 }
 
-Camera choose_camera(const Scene& scene, const std::string& wish) {
+Camera choose_camera(const Scene& scene, const std::string& wish, double aspect) {
   if (wish.empty() && !scene.cameras.empty()) return scene.cameras.front();
   if (!wish.empty() && !wish.starts_with("eye:") && !wish.starts_with("target:"))
     return find_camera(scene, wish);
@@ -228,7 +209,7 @@ Camera choose_camera(const Scene& scene, const std::string& wish) {
   const WorldBox box = world_box(scene);
   Camera camera;
   if (wish.empty()) {
-    camera = overview(box);
+    camera = overview_camera(scene, aspect);
   } else {
     const LookAtWish parsed = parse_look_at(wish);
     camera = look_at(parsed.eye, parsed.target);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "base/error.h"
 #include "scene/builtin.h"
 #include "scene/view_lights.h"
@@ -197,7 +199,12 @@ TEST(ChooseCamera, SaysWhatIsWrong) {
 TEST(ChooseCamera, DefaultSeesTheWholeScene) {
   for (const double size : {1e-3, 1.0, 1e6}) {
     Scene scene;
-    scene.meshes.emplace_back().bounds = {{-1, 0, -3}, {1, 2, 3}};
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.bounds = {{-1, 0, -3}, {1, 2, 3}};
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+      mesh.positions.emplace_back(corner & 1 ? 1 : -1, corner & 2 ? 2 : 0, corner & 4 ? 3 : -3);
+      for (int i = 0; i < 3; ++i) mesh.indices.push_back(corner);
+    }
     glm::dmat4 matrix(size);
     matrix[3] = glm::dvec4(100, -20, 7, 1);
     scene.instances.push_back({"box", 0, matrix});
@@ -215,6 +222,55 @@ TEST(ChooseCamera, DefaultSeesTheWholeScene) {
       EXPECT_LT(screen.z, 1);
     }
   }
+}
+
+// A box's corners as triangles that meet in its middle: what is seen of it is not its box.
+Scene tripod(const glm::dmat4& matrix) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {9, 9, 9}};  // the last one belongs to no triangle
+  mesh.indices = {0, 1, 2, 0, 2, 3, 0, 3, 1};
+  for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
+  scene.instances.push_back({"tripod", 0, matrix});
+  return scene;
+}
+
+TEST(ChooseCamera, DefaultFillsTheImage) {
+  glm::dmat4 turned = glm::rotate(glm::dmat4(1), 2.0, glm::normalize(glm::dvec3(1, 2, 3)));
+  for (const double size : {1e-6, 1.0, 1e9}) {
+    for (const glm::dmat4& rotation : {glm::dmat4(1), turned, glm::scale(turned, {1, 1e-3, 40}), glm::scale(turned, {1e-9, 1, 1e-9})}) {
+      for (const glm::ivec2 image : {glm::ivec2(1280, 720), glm::ivec2(100, 100), glm::ivec2(90, 700)}) {
+        const Scene scene = tripod(glm::translate(glm::dmat4(1), glm::dvec3(5, -3, 8) * size) * rotation * glm::dmat4(glm::dmat3(size)));
+        const View view = make_view(choose_camera(scene, "", double(image.x) / image.y), image.x, image.y);
+        glm::dvec2 low(2), high(-2);
+        for (const uint32_t i : scene.meshes[0].indices) {
+          const glm::dvec4 world = scene.instances[0].world_from_object * glm::dvec4(glm::dvec3(scene.meshes[0].positions[i]), 1);
+          const glm::dvec3 screen = ndc(view, glm::dmat3(view.view_from_world) * (glm::dvec3(world) - view.eye));
+          low = glm::min(low, glm::dvec2(screen)), high = glm::max(high, glm::dvec2(screen));
+          EXPECT_GT(screen.z, 0);
+          EXPECT_LT(screen.z, 1);
+        }
+        EXPECT_GT(low.x, -0.95);
+        EXPECT_GT(low.y, -0.95);
+        EXPECT_LT(high.x, 0.95);
+        EXPECT_LT(high.y, 0.95);
+        EXPECT_GT(std::max(high.x - low.x, high.y - low.y) / 2, 0.85) << size << " " << image.x;
+      }
+    }
+  }
+}
+
+// A line towards the eye has no extent in the image: it is seen from some way off.
+TEST(ChooseCamera, DefaultKeepsItsDistanceFromALine) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{0, 0, 0}, {0.62f, 0.45f, 0.78f}, {0.62f, 0.45f, 0.78f}};
+  mesh.indices = {0, 1, 2};
+  for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
+  scene.instances.push_back({"line", 0, glm::dmat4(1)});
+  const Camera camera = choose_camera(scene, "");
+  const View view = make_view(camera, 10, 10);
+  EXPECT_GT(-(view.view_from_world * glm::dvec4(0.62, 0.45, 0.78, 1)).z, 2 * camera.near_m);
 }
 
 TEST(ChooseCamera, EmptySceneStillHasAView) {
