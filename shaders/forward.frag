@@ -1,7 +1,8 @@
 // Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS for its
 // masks, LIGHTS_LIDR for light index images, LIGHTS_OBJECT for some of those that reach the object, else every light.
 // BLEND: output is multiplied by coverage and laid over what is there.
-// ADDED: only what these lights add to what is there.
+// FIRST_OF_DRAWS, ADDED: of an object's draws, the first, and a further one that only adds light. What alpha is for:
+// src/passes/shade_objects.cpp.
 
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
@@ -27,6 +28,9 @@
 #include "shaders/common/own_light.glsl"
 
 layout(location = 0) out vec4 radiance;
+#ifdef FIRST_OF_DRAWS
+uniform float alpha;
+#endif
 
 void main() {
   Surface s = surface_here();
@@ -56,7 +60,9 @@ void main() {
   if (s.alpha == 0.0) discard;  // shows nothing; infinite radiance times 0 would be NaN
   radiance = vec4(color * s.alpha, s.alpha);
 #elif defined(ADDED)
-  radiance = vec4(color, 0.0);
+  radiance = vec4(color, 1.0);
+#elif defined(FIRST_OF_DRAWS)
+  radiance = vec4(color, alpha);
 #else
   radiance = vec4(color, 1.0);
 #endif

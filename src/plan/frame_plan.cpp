@@ -183,6 +183,7 @@ std::vector<std::string> defines_of(uint32_t features) {
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs) {
   FramePlan plan;
   plan.settings = settings;
+  plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil || (needs.light_volumes && settings.volume_culling == VolumeCulling::stencil);
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   plan_surfaces(scene, view, plan);

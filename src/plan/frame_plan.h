@@ -45,6 +45,7 @@ struct TechniqueNeeds {
   bool lists = false;    // whose light code reads lists alone, not masks
   bool z_bins = false;   // whose shading passes over lights by z-bins, where the setting says so
   bool light_volumes = false;  // lights drawn one by one: with stencil where volume-culling asks for it
+  bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
 };
 
 struct FramePlan {
@@ -63,6 +64,7 @@ struct FramePlan {
   bool own_light = false;      // some opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
   bool stencil = false;        // 8 bits beside depth
+  bool reversed_triangles = false;
   int index_bits = 16;
   int z_bins = 1;              // 1: none
   int slices = 1;              // cells a tile,

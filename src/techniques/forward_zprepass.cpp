@@ -18,7 +18,7 @@ extern const Technique forward_zprepass{
     .name = "forward_zprepass",
     .summary = "depth first, then up to eight lights a draw",
     .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-    .needs = {},
+    .needs = {.reversed_triangles = true},
     .settings = {"brdf", "depth-bounds", "tile"},
     .render = render,
     .listed = listed_of_objects};

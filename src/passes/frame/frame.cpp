@@ -195,7 +195,7 @@ size_t Frame::light_grid_bytes() const {
 }
 
 size_t Frame::memory_bytes() const {
-  size_t bytes = gpu.geometry_bytes() + gpu.texture_bytes() + targets.bytes() + light_bytes_;
+  size_t bytes = gpu.geometry_bytes() + gpu.reversed_triangle_bytes() + gpu.texture_bytes() + targets.bytes() + light_bytes_;
   for (const auto& [type, kept] : kept_) bytes += kept->memory_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (depth_copy_) bytes += depth_copy_->size();

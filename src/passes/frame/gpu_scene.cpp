@@ -1,5 +1,6 @@
 #include "passes/frame/gpu_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -79,6 +80,15 @@ std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
   return linear;
 }
 
+// The corners of a triangle keep their order: rasterised from other corners, its depths would round differently.
+void append_reversed_triangles(std::vector<uint32_t>& indices) {
+  const size_t count = indices.size();
+  indices.resize(2 * count);
+  for (size_t i = 0; i < count; i += 3) {
+    std::copy_n(indices.begin() + i, 3, indices.end() - i - 3);
+  }
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene, const FramePlan& plan, bool software_gl)
@@ -133,8 +143,13 @@ void GpuScene::upload_meshes(const Scene& scene, const FramePlan& plan, const st
   if (plan.features & feature_uv1) stream(4, &Mesh::uv1, glm::vec2(0), false);
   if (plan.features & feature_vertex_color) stream(5, &Mesh::colors, glm::vec4(-1), false);
 
-  buffers_.push_back(make_buffer(indices.size() * sizeof(uint32_t), indices.data()));
+  index_count_ = uint32_t(indices.size());
   geometry_bytes_ += indices.size() * sizeof(uint32_t);
+  if (plan.reversed_triangles) {
+    reversed_triangle_bytes_ = indices.size() * sizeof(uint32_t);
+    append_reversed_triangles(indices);
+  }
+  buffers_.push_back(make_buffer(indices.size() * sizeof(uint32_t), indices.data()));
   glVertexArrayElementBuffer(positions_only_.name(), buffers_.back().name());
   glVertexArrayElementBuffer(all_streams_.name(), buffers_.back().name());
 }

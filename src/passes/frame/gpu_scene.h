@@ -38,7 +38,12 @@ class GpuScene {
   // Binds the material's uniform block and the textures of `features`.
   void bind_material(int material, uint32_t features) const;
 
-  size_t geometry_bytes() const { return geometry_bytes_; }
+  // Where the plan has reversed triangles, the index buffer holds all triangles once more, last to first, each with its
+  // corners in the same order: the indices [a, b) are there as [2 index_count() - b, 2 index_count() - a).
+  uint32_t index_count() const { return index_count_; }
+
+  size_t geometry_bytes() const { return geometry_bytes_; }  // without reversed triangles
+  size_t reversed_triangle_bytes() const { return reversed_triangle_bytes_; }
   size_t texture_bytes() const { return texture_bytes_; }
 
  private:
@@ -58,7 +63,8 @@ class GpuScene {
   std::vector<Slots> slots_;             // texture index per map, -1: none
   std::vector<GlTexture> textures_;
   std::vector<GlSampler> samplers_;
-  size_t geometry_bytes_ = 0, texture_bytes_ = 0;
+  uint32_t index_count_ = 0;
+  size_t geometry_bytes_ = 0, reversed_triangle_bytes_ = 0, texture_bytes_ = 0;
 };
 
 }  // namespace lightgrid

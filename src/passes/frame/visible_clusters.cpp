@@ -116,4 +116,16 @@ IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters
   return ranges;
 }
 
+IndexRanges in_reverse(const IndexRanges& ranges, const GpuScene& gpu) {
+  IndexRanges reversed;
+  for (size_t i = ranges.counts.size(); i-- > 0;) {
+    const size_t end = size_t(ranges.offsets[i]) + size_t(ranges.counts[i]) * sizeof(uint32_t);
+    const size_t first = 2 * size_t(gpu.index_count()) * sizeof(uint32_t) - end;
+    reversed.counts.push_back(ranges.counts[i]);
+    reversed.offsets.push_back(reinterpret_cast<const void*>(first));
+    reversed.base_vertices.push_back(ranges.base_vertices[i]);
+  }
+  return reversed;
+}
+
 }  // namespace lightgrid

@@ -38,4 +38,7 @@ struct IndexRanges {
 
 IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters);
 
+// The same triangles, last to first. For plans with reversed triangles.
+IndexRanges in_reverse(const IndexRanges& ranges, const GpuScene& gpu);
+
 }  // namespace lightgrid
