@@ -47,7 +47,6 @@ static inline Texels load_texel(global const channel_t* at) {
 // As lit_surface of shaders/common/gbuffer.glsl, from stored integers in place of normalised ones.
 #if BUFFER_BITS == 32
 #define OF_ONE(x) (x)
-#define OF_NORMAL(x) (x)
 #elif BUFFER_BITS == 16
 #define OF_ONE(x) ((x) / 65535.0f)
 #define OF_NORMAL(x) (((x) - 32768.0f) / 32767.0f)
@@ -57,10 +56,16 @@ static inline Texels load_texel(global const channel_t* at) {
 #endif
 
 static inline ShadingPoint point_of_texels(Real3 position, Real3 to_viewer, Texels first, Texels second) {
+#if BUFFER_BITS == 32
+  const Real3 normal = real3(first.x, first.y, first.z);
+  const real roughness = first.w, metallic = second.w - 1.0f;
+#else
   const Real3 normal = normal_of_octahedral(OF_NORMAL(first.x), OF_NORMAL(first.y));
+  const real roughness = OF_ONE(first.z), metallic = OF_ONE(first.w);
+#endif
   Real3 color = real3(OF_ONE(second.x), OF_ONE(second.y), OF_ONE(second.z));
 #if BUFFER_BITS == 8
   color = real3(color.x * color.x, color.y * color.y, color.z * color.z);
 #endif
-  return shading_point(position, to_viewer, normal, color, OF_ONE(first.w), OF_ONE(first.z));
+  return shading_point(position, to_viewer, normal, color, metallic, roughness);
 }

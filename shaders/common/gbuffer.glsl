@@ -1,7 +1,10 @@
 // The geometry buffer: two images of four channels, the position left to depth (src/passes/gbuffer.h).
 //   GBUFFER_8, GBUFFER_16: channels of 0 to 1 in that many bits; else 32-bit float
-//   first   octahedral normal (2), perceptual roughness, metallic
-//   second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
+//   8 and 16 bits  first   octahedral normal (2), perceptual roughness, metallic
+//                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
+//   32 bits        first   normal (3), perceptual roughness
+//                  second  base color (3), 1 + metallic; negative for unlit surfaces, 0 where nothing is
+// In 32 bits the normal is kept as it is: the two roundings of an octahedral one show in the lobes of polished surfaces.
 
 #include "shared/octahedral.h"
 
@@ -32,13 +35,21 @@ vec2 octahedral(vec3 n) {
   return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;
 }
 
+#ifndef NORMAL_STEPS
+GBufferTexels gbuffer_texels(LitSurface s) {
+  return GBufferTexels(vec4(s.normal, s.roughness), vec4(s.base_color, (s.lit ? 1.0 : -1.0) * (1.0 + s.metallic)));
+}
+
+LitSurface lit_surface(GBufferTexels t) {
+  return LitSurface(t.normal_roughness_metallic.xyz, t.base_color_lit.rgb, max(abs(t.base_color_lit.a) - 1.0, 0.0),
+                    t.normal_roughness_metallic.w, t.base_color_lit.a > 0.5);
+}
+#else
 GBufferTexels gbuffer_texels(LitSurface s) {
   vec2 normal = octahedral(s.normal);
   vec3 color = s.base_color;
-#ifdef NORMAL_STEPS
   // Rounded here: drivers convert to fixed point in ways of their own.
   normal = floor(normal * NORMAL_STEPS + (NORMAL_STEPS + 1.5)) / (2.0 * NORMAL_STEPS + 1.0);
-#endif
 #ifdef GBUFFER_8
   color = sqrt(color);  // spends the 256 steps as an eye would
 #endif
@@ -48,12 +59,11 @@ GBufferTexels gbuffer_texels(LitSurface s) {
 LitSurface lit_surface(GBufferTexels t) {
   vec2 normal = t.normal_roughness_metallic.xy;
   vec3 color = t.base_color_lit.rgb;
-#ifdef NORMAL_STEPS
   normal = (normal * (2.0 * NORMAL_STEPS + 1.0) - (NORMAL_STEPS + 1.0)) / NORMAL_STEPS;
-#endif
 #ifdef GBUFFER_8
   color *= color;
 #endif
   return LitSurface(normal_of_octahedral(normal.x, normal.y), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
                     t.base_color_lit.a > 0.5);
 }
+#endif

@@ -28,6 +28,7 @@ struct CompareCommand {
   TimingOptions timing;
   std::string output = "out/compare", json;
   std::vector<std::string> techniques = {"forward", "forward_plus"}, compare;
+  std::string reference = "auto";
   int page_mb = 30;
 };
 
@@ -112,6 +113,13 @@ int parse_lights(const std::string& text) {
   return count;
 }
 
+ReferencePixels parse_reference(const std::string& text) {
+  if (text == "auto") return ReferencePixels::automatic;
+  if (text == "full") return ReferencePixels::full;
+  if (text == "sampled") return ReferencePixels::sampled;
+  throw input_error("--reference {}: not full, sampled or auto", text);
+}
+
 // Every scene at every size with every number of lights.
 std::vector<SceneOptions> chosen_views(const CompareCommand& o) {
   std::vector<int> counts;
@@ -171,13 +179,12 @@ void run_views(Devices& devices, const std::vector<LoadedView>& views, const std
   const auto bar = progress_bar();
   for (size_t i = 0; i < views.size(); ++i) {
     const LoadedView& view = views[i];
-    CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup, .all_may_refuse = views.size() > 1};
+    CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup, .reference = parse_reference(o.reference),
+                           .seed = o.scene.seed, .all_may_refuse = views.size() > 1};
     const double cost = cost_of(view);
-    options.progress = [&](double done, const std::string& step) {
-      if (!bar) return;
-      const std::string which = views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
-      bar((before + done * cost) / total, which + step);
-    };
+    const std::string which = views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
+    options.progress = [&](double done, const std::string& step) { bar((before + done * cost) / total, which + step); };
+    options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
     view.scene->lights = view.lights, view.scene->ambient = view.ambient;
     found(compare_techniques(devices, *view.scene, view.view, contestants, options));
     before += cost;
@@ -233,6 +240,7 @@ int compare_several(const CompareCommand& o, Devices& devices, const std::vector
 
 int compare(const CompareCommand& o) {
   const std::vector<Contestant> contestants = chosen_contestants(o);
+  parse_reference(o.reference);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   const std::vector<LoadedView> views = load_views(chosen_views(o));
   if (!o.json.empty()) check_output_file("--json", o.json);
@@ -254,6 +262,7 @@ void add_compare(CommandLine& line) {
   add_timing_options(command, o->timing);
   command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between; names are " + technique_names(), ',');
   command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads it with each; may be repeated");
+  command.option("--reference", o->reference, "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
   command.option("-o,--output", o->output, "folder of the report");
   command.option("--page-mb", o->page_mb, "of several views: most MiB of pictures in the page", 1, 1000);
   command.option("--json", o->json, "results.json once more, into a file, - for stdout");

@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/environment.h"
+#include "app/progress.h"
 #include "app/temporary_cache.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   const Command command = line.parse(argc, argv);
   if (line.quiet()) set_log_level(LogLevel::quiet);
   cache.tell();
+  const ProgressLines lines(argc > 1 ? argv[1] : "");
   try {
     return command();
   } catch (const Error& error) {

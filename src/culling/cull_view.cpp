@@ -80,6 +80,19 @@ double distance_of_key(const CullView& view, double key) {
 
 namespace {
 
+// Lights past farthest_light (1e16 m) are scaled towards the eye, and what they light with them: not nearer than this
+// much of the direction's length along the axis. A slice that begins farther off could miss them.
+void check_edge_distance(const CullView& view, const std::vector<float>& edges, const char* name) {
+  if (edges.empty() || is_orthographic(view)) return;
+  const glm::dmat4& clip = view.clip_from_view;
+  const double x = (1 + std::abs(clip[2][0])) / clip[0][0], y = (1 + std::abs(clip[2][1])) / clip[1][1];
+  const double most = 2e15 / std::sqrt(1 + x * x + y * y);
+  if (!(edges.back() <= most)) {
+    throw input_error("view: {}[{}] is {} m, past {} m, the farthest that this field of view can have", name, edges.size() - 1,
+                      edges.back(), most);
+  }
+}
+
 void check_finite(const CullView& view) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
@@ -186,6 +199,8 @@ void check_view(const CullView& view, int tile) {
   }
   check_edges(view, view.slice_edges, "slice_edges", MOST_SLICES);
   check_edges(view, view.z_bin_edges, "z_bin_edges", MOST_Z_BINS);
+  check_edge_distance(view, view.slice_edges, "slice_edges");
+  check_edge_distance(view, view.z_bin_edges, "z_bin_edges");
   check_rigid(view);
 }
 

@@ -16,9 +16,13 @@ struct GBufferImage {
 };
 
 // Channels, in both orders of bits (shaders/common/gbuffer.glsl):
+//   8 and 16 bits
 //   [0]  octahedral normal u, v in view space; perceptual roughness; metallic
 //   [1]  base color red, green, blue, as their square roots in 8 bits; 1 where lights reach, else 0
-// As float, u and v are -1 to 1. In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
+//   32 bits
+//   [0]  normal x, y, z in view space; perceptual roughness
+//   [1]  base color red, green, blue; 1 + metallic, negative for unlit surfaces, 0 where nothing is
+// In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
 struct GBufferLayout {
   int bits;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <mutex>
+#include <numeric>
 
-#include "base/parallel.h"
 #include "reference/attenuation.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
@@ -56,15 +56,15 @@ uint32_t length_of_list(const ListedLights& lists, uint32_t cell) {
   return cell < lists.count.size() ? lists.count[cell] : 0;
 }
 
-Tally tally_tile(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
-                 const ListedLights& lists, std::vector<uint32_t> pixels, LitPairs& out) {
-  std::stable_sort(pixels.begin(), pixels.end(),
-                   [&](uint32_t a, uint32_t b) { return cell_of(lists, a) < cell_of(lists, b); });
+Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered, const std::vector<ViewLight>& lights,
+                 const ListedLights& lists, LitPairs& out) {
+  std::vector<size_t> order(tile.places.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  const auto cell_at = [&](size_t i) { return cell_of(lists, covered[tile.places[i]]); };
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return cell_at(a) < cell_at(b); });
+  std::vector<uint32_t> pixels;
   std::vector<glm::dvec3> positions;
-  for (uint32_t p : pixels) {
-    positions.push_back(position_from_depth(view, p % view.width, p / view.width, depth[p]));
-  }
-  const std::vector<uint32_t> near = lights_within_reach(lights, positions);
+  for (const size_t i : order) pixels.push_back(covered[tile.places[i]]), positions.push_back(tile.positions[i]);
 
   Tally tally;
   Membership listed(lights.size());
@@ -74,7 +74,7 @@ Tally tally_tile(const View& view, const std::vector<float>& depth, const std::v
     tally.wrong += listed.read(lists, cell) * (end - begin);
     tally.listed += uint64_t(length_of_list(lists, cell)) * (end - begin);
     for (size_t i = begin; i < end; ++i) out.listed_of_pixel[pixels[i]] = length_of_list(lists, cell);
-    for (uint32_t light : near) {
+    for (uint32_t light : tile.lights) {
       uint64_t lit = 0;
       for (size_t i = begin; i < end; ++i) {
         const bool reaches = is_lit(lights[light], positions[i]);
@@ -114,12 +114,10 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
   const std::vector<uint32_t> none(depth.size(), 0);
   LitPairs out{none, none, none};
   const std::vector<uint32_t> covered = covered_pixels(depth);
-  const auto tiles = group_by_tile(view.width, covered);
   std::mutex adding;
-  parallel_for(int(tiles.size()), [&](int i) {
-    std::vector<uint32_t> pixels;
-    for (uint32_t slot : tiles[i]) pixels.push_back(covered[slot]);
-    const Tally tally = tally_tile(view, depth, lights, lists, std::move(pixels), out);
+  const auto position_of = [&](uint32_t p) { return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]); };
+  for_each_tile(view.width, covered, position_of, lights, [&](const TileOfPixels& tile) {
+    const Tally tally = tally_tile(tile, covered, lights, lists, out);
     std::lock_guard lock(adding);
     out.listed += tally.listed, out.lit += tally.lit, out.lost += tally.lost, out.wrong += tally.wrong;
   });

@@ -1,13 +1,15 @@
 #include "reference/pixel_tiles.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 
+#include "base/parallel.h"
 #include "reference/attenuation.h"
 
 namespace lightgrid {
 
-std::vector<std::vector<uint32_t>> group_by_tile(int width, const std::vector<uint32_t>& pixels) {
-  constexpr uint32_t side = 16;
+std::vector<std::vector<uint32_t>> group_by_tile(int width, const std::vector<uint32_t>& pixels, uint32_t side) {
   const uint32_t across = (width + side - 1) / side;
   std::vector<std::vector<uint32_t>> tiles;
   for (uint32_t i = 0; i < pixels.size(); ++i) {
@@ -20,20 +22,63 @@ std::vector<std::vector<uint32_t>> group_by_tile(int width, const std::vector<ui
   return tiles;
 }
 
-std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights,
-                                          const std::vector<glm::dvec3>& positions) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-  for (const glm::dvec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
-  std::vector<uint32_t> near;
-  for (uint32_t i = 0; i < lights.size(); ++i) {
-    const glm::dvec3& c = lights[i].position;
+namespace {
+
+struct Box {
+  explicit Box(const std::vector<glm::dvec3>& positions) {
+    for (const glm::dvec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+  }
+
+  bool is_within_reach_of(const ViewLight& light) const {
+    const glm::dvec3& c = light.position;
     const double x = std::max({low.x - c.x, c.x - high.x, 0.0});
     const double y = std::max({low.y - c.y, c.y - high.y, 0.0});
     const double z = std::max({low.z - c.z, c.z - high.z, 0.0});
-    if (lights[i].type == LightType::directional || length_of(x, y, z) < lights[i].radius_m)
-      near.push_back(i);
+    return light.type == LightType::directional || length_of(x, y, z) < light.radius_m;
+  }
+
+  glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
+};
+
+}  // namespace
+
+std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights,
+                                          const std::vector<glm::dvec3>& positions) {
+  const Box box(positions);
+  std::vector<uint32_t> near;
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    if (box.is_within_reach_of(lights[i])) near.push_back(i);
   }
   return near;
+}
+
+std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights, const std::vector<uint32_t>& among,
+                                          const std::vector<glm::dvec3>& positions) {
+  const Box box(positions);
+  std::vector<uint32_t> near;
+  std::copy_if(among.begin(), among.end(), std::back_inserter(near), [&](uint32_t i) { return box.is_within_reach_of(lights[i]); });
+  return near;
+}
+
+void for_each_tile(int width, const std::vector<uint32_t>& pixels, const std::function<glm::dvec3(uint32_t pixel)>& position_of,
+                   const std::vector<ViewLight>& lights, const std::function<void(const TileOfPixels&)>& body) {
+  const auto regions = group_by_tile(width, pixels, 128);
+  parallel_for(int(regions.size()), [&](int r) {
+    const std::vector<uint32_t>& of_region = regions[size_t(r)];
+    std::vector<uint32_t> pixels_here;
+    std::vector<glm::dvec3> positions;
+    for (const uint32_t place : of_region) {
+      pixels_here.push_back(pixels[place]);
+      positions.push_back(position_of(pixels[place]));
+    }
+    const std::vector<uint32_t> near = lights_within_reach(lights, positions);
+    for (const std::vector<uint32_t>& of_tile : group_by_tile(width, pixels_here)) {
+      TileOfPixels tile;
+      for (const uint32_t i : of_tile) tile.places.push_back(of_region[i]), tile.positions.push_back(positions[i]);
+      tile.lights = lights_within_reach(lights, near, tile.positions);
+      body(tile);
+    }
+  });
 }
 
 }  // namespace lightgrid

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.h"
 #include "reference/attenuation.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
@@ -103,21 +102,15 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
                                 const std::vector<uint32_t>& pixels) {
   assert(depth.size() == size_t(view.width) * view.height);
   std::vector<dvec3> radiance(pixels.size());
-  const auto tiles = group_by_tile(view.width, pixels);
-  parallel_for(int(tiles.size()), [&](int i) {
-    std::vector<dvec3> positions;
-    for (uint32_t slot : tiles[i]) {
-      const uint32_t p = pixels[slot];
-      positions.push_back(position_from_depth(view, p % view.width, p / view.width, depth[p]));
-    }
+  const auto position_of = [&](uint32_t p) { return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]); };
+  // Without a window every light reaches everything: there is nothing to look for.
+  const std::vector<ViewLight> none;
+  for_each_tile(view.width, pixels, position_of, settings.window ? lights : none, [&](const TileOfPixels& tile) {
     std::vector<ViewLight> near;
-    if (settings.window) {
-      for (uint32_t light : lights_within_reach(lights, positions)) near.push_back(lights[light]);
-    }
-    for (size_t k = 0; k < positions.size(); ++k) {
-      const uint32_t slot = tiles[i][k];
-      radiance[slot] = shade(surface_at(pixels[slot]), positions[k], view.orthographic,
-                             settings.window ? near : lights, settings);
+    for (const uint32_t light : tile.lights) near.push_back(lights[light]);
+    for (size_t k = 0; k < tile.places.size(); ++k) {
+      const uint32_t place = tile.places[k];
+      radiance[place] = shade(surface_at(pixels[place]), tile.positions[k], view.orthographic, settings.window ? near : lights, settings);
     }
   });
   return radiance;

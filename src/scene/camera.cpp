@@ -206,16 +206,11 @@ Camera choose_camera(const Scene& scene, const std::string& wish, double aspect)
   if (!wish.empty() && !wish.starts_with("eye:") && !wish.starts_with("target:"))
     return find_camera(scene, wish);
 
-  const WorldBox box = world_box(scene);
-  Camera camera;
-  if (wish.empty()) {
-    camera = overview_camera(scene, aspect);
-  } else {
-    const LookAtWish parsed = parse_look_at(wish);
-    camera = look_at(parsed.eye, parsed.target);
-    camera.fov_y_rad = parsed.fov_deg * (std::numbers::pi / 180);
-  }
-  camera.near_m = 1e-3 * size_of(box);
+  if (wish.empty()) return overview_camera(scene, aspect);
+  const LookAtWish parsed = parse_look_at(wish);
+  Camera camera = look_at(parsed.eye, parsed.target);
+  camera.fov_y_rad = parsed.fov_deg * (std::numbers::pi / 180);
+  camera.near_m = 1e-3 * size_of(world_box(scene));
   return camera;
 }
 

@@ -35,8 +35,8 @@ glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_objec
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
 
 // NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg" (fov vertical, 60 where absent). Empty: the scene's first
-// camera, or, without one, a camera that sees the whole scene in an image of this aspect (scene/overview_camera.h). Near is a thousandth of the scene's size, for
-// the "eye:" form 0.1 m at most; far is infinite. Throws Error(input) for a name or form unknown, a number
+// camera, or, without one, a camera that sees the whole scene in an image of this aspect
+// (scene/overview_camera.h). Near is at most a thousandth of the scene's size; far is infinite. Throws Error(input) for a name or form unknown, a number
 // that is none, a field outside 0..180 degrees, and a target at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish, double aspect = 1);
 

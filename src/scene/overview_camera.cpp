@@ -52,9 +52,10 @@ Camera overview_camera(const Scene& scene, double aspect) {
   const double size = box.empty() ? 1 : glm::length(box.max - box.min);
   glm::dvec3 eye = fit.eye();
   if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z)) eye = {0, 0, std::isfinite(size) ? size : 1};
-  // A scene that shows no extent from here, such as a line towards the eye, stays behind the near plane, which is a
-  // thousandth of the box's size away (choose_camera).
-  eye.z = std::max(eye.z, std::isfinite(fit.nearest) ? fit.nearest + 0.003 * (size > 0 ? size : 1) : eye.z);
+  // The pyramid's tip may touch the model, whose corner then fills the image and hides the rest: keep a distance.
+  const double scale = size > 0 && std::isfinite(size) ? size : 1;
+  if (std::isfinite(fit.nearest)) eye.z = std::max(eye.z, fit.nearest + 0.05 * scale);
+  camera.near_m = 1e-3 * scale;
   camera.world_from_view[3] = glm::dvec4(center + world_from_view * eye, 1);
   return camera;
 }

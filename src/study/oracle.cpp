@@ -3,6 +3,7 @@
 #include "reference/position.h"
 #include "shared/light_grid.h"
 #include "study/metrics.h"
+#include "study/oracle_sample.h"
 #include "study/grid_lists.h"
 
 namespace lightgrid {
@@ -114,26 +115,18 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) 
   return count_pairs(run.frame().view, depth, local_lights(run.frame()), listed_lights(run, depth));
 }
 
-ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,
-                                         size_t samples) {
-  const SurfaceImages surfaces = read_surfaces(f);
-  ReferenceErrors errors;
-  std::vector<uint32_t> pixels;
-  for (uint32_t pixel : covered_pixels(depth)) {
-    surfaces.blended[pixel] ? void(++errors.pixels_left_out) : pixels.push_back(pixel);
-  }
-  pixels = sample_pixels(pixels, samples);
-  const auto surface_at = [&](uint32_t pixel) { return surface_of(surfaces, pixel); };
-  const std::vector<ViewLight> lights = lights_in_view(f.scene, f.view);
-  ShadeSettings settings{.brdf = f.plan.settings.brdf, .ambient = f.scene.ambient, .window = true};
-  const Image with_window = as_image(shade_pixels(f.view, depth, surface_at, lights, settings, pixels));
-  settings.window = false;
-  const Image without = as_image(shade_pixels(f.view, depth, surface_at, lights, settings, pixels));
+ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
+                                         const std::vector<uint32_t>& pixels) {
+  const Image with_window = as_image(oracle.shade(pixels, true)), without = as_image(oracle.shade(pixels, false));
   Image in_float(int(pixels.size()), 1);
   for (size_t i = 0; i < pixels.size(); ++i) in_float.pixels[i] = every_light.pixels[pixels[i]];
-  errors.model = compare_images(with_window, without);
-  errors.precision = compare_images(in_float, with_window);
-  return errors;
+  return {compare_images(with_window, without), compare_images(in_float, with_window), oracle.pixels_left_out()};
+}
+
+ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,
+                                         size_t samples) {
+  const SurfaceOracle oracle(f, depth);
+  return measure_reference_errors(oracle, every_light, sample_pixels(oracle.pixels(), samples));
 }
 
 }  // namespace lightgrid

@@ -29,6 +29,13 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 // Those against the lights that truly reach each pixel.
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth);
 
+class SurfaceOracle;
+
+// Model and precision errors at `pixels`, which the oracle can shade. `every_light` is the float image of the technique
+// `forward`, of which only these pixels are read.
+ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
+                                         const std::vector<uint32_t>& pixels);
+
 // Model and precision errors at up to `samples` pixels that no blended surface covers: shades the surfaces that
 // OpenGL saw, in double. `every_light` is the float image of the technique `forward`.
 ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,

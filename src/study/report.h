@@ -64,11 +64,15 @@ std::vector<std::string> file_stems(const std::vector<std::string>& names);  // 
 // a report lacks what a line needs.
 std::vector<std::string> telling_figures(const CompareReport& report);
 
-// Of the reference's brightest channel: an image within it counts as exact. Float sums in another order stay below.
+// An image is exact where it is at most so many times as far from the oracle as the reference's own, at the same pixels.
+// What float rounds in a few steps is granted to both (exact_floor, of the brightest channel).
+inline constexpr double exact_factor = 1.5, exact_floor = 0x1p-22;
+// The same without an oracle, and where it cannot shade: the greatest difference from the reference.
 inline constexpr double exact_max_rel = 1e-5;
 
 bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN; and it ran
-bool is_exact(const RunResult& row);      // and its image is exact, or none was compared
+bool is_exact(const ImageError& error);
+bool is_exact(const RunResult& row);      // passes, and its image is exact, or none was compared
 
 // Which technique is the fastest exact one, and why; then which are faster, and what they pay for it: a lossy image or a
 // failed gate.

@@ -37,12 +37,19 @@ json value_of(const std::string& setting) {
 }
 
 json to_json(const ImageError& error) {
+  json oracle;
+  if (error.oracle) {
+    oracle = {{"max_rel", finite_or_null(error.oracle->max_rel)},
+              {"rmse_rel", finite_or_null(error.oracle->rmse_rel)},
+              {"of_reference_max_rel", finite_or_null(error.oracle->of_reference_max_rel)}};
+  }
   return {{"max_abs", finite_or_null(error.max_abs)},
           {"max_rel", finite_or_null(error.max_rel)},
           {"rmse", finite_or_null(error.rmse)},
           {"p99", finite_or_null(error.p99)},
           {"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
-          {"bit_identical", error.bit_identical}};
+          {"bit_identical", error.bit_identical},
+          {"oracle", oracle}};
 }
 
 json to_json(const PairCounts& pairs) {
@@ -112,7 +119,7 @@ json to_json(const CompareReport& report) {
           {"size", {report.width, report.height}},
           {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
           {"commit", report.commit},
-          {"reference", report.reference},
+          {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},
           {"reference_errors", reference_errors},
           {"rows", rows}};
 }

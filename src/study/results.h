@@ -26,7 +26,14 @@ struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
 };
 
-// Linear light, over all pixels and the three colour channels.
+// An image and the reference's, each against the double-precision oracle at the same pixels: a sample of the view and
+// the pixels at which the two differ most. Over the reference's brightest channel.
+struct OracleError {
+  double max_rel = 0, rmse_rel = 0;
+  double of_reference_max_rel = 0;
+};
+
+// Linear light, over all pixels and the three colour channels; where the reference is a sample, over its pixels.
 struct ImageError {
   double max_abs = 0;
   double max_rel = 0;  // max_abs over the reference's brightest channel
@@ -34,6 +41,7 @@ struct ImageError {
   double p99 = 0;  // of absolute error per pixel, its largest channel
   std::optional<double> flip_mean;
   bool bit_identical = true;
+  std::optional<OracleError> oracle;  // absent where none was asked for
 };
 
 struct SkippedEffect {
@@ -76,6 +84,7 @@ struct CompareReport {
   int width = 0, height = 0;
   std::string cl_device, gl_device, commit;
   std::string reference;  // the technique the images are compared with
+  uint64_t reference_pixels = 0;  // at how many pixels: all, or a sample where all would take too long
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear
   Image reference_image;                      // needed only where no row is the reference

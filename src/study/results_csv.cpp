@@ -13,7 +13,8 @@ const Fields heading = {"commit",     "cl",         "gl",           "scene",    
                         "in_view",    "technique",  "settings",     "row",        "refused",    "min_ms",
                         "median_ms",  "max_ms",     "runs",         "memory",     "light_grid", "gbuffer",
                         "listed",     "lit",        "lost",         "wrong",      "max_abs",    "max_rel",
-                        "rmse",       "p99",        "bit_identical", "nan_pixels", "overflow"};
+                        "rmse",       "p99",        "bit_identical", "nan_pixels", "overflow",
+                        "oracle_max_rel", "oracle_rmse_rel", "oracle_of_reference_max_rel", "reference_pixels"};
 
 std::string quoted(const std::string& field) {
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
@@ -40,6 +41,14 @@ void add_error(Fields& fields, const std::optional<ImageError>& error) {
                                number(error.has_value(), e.bit_identical)});
 }
 
+void add_oracle(Fields& fields, const std::optional<ImageError>& error) {
+  const bool there = error && error->oracle;
+  const OracleError o = there ? *error->oracle : OracleError{};
+  for (const double value : {o.max_rel, o.rmse_rel, o.of_reference_max_rel}) {
+    fields.push_back(number(there && std::isfinite(value), value));
+  }
+}
+
 Fields fields_of(const CompareReport& report, const RunResult& row, const std::string& name) {
   const bool ran = row.refused.empty(), timed = row.frame_ms.runs > 0;
   std::vector<std::string> settings;
@@ -56,6 +65,8 @@ Fields fields_of(const CompareReport& report, const RunResult& row, const std::s
   add_error(fields, row.error);
   fields.push_back(number(ran, row.nan_pixels));
   fields.push_back(number(ran, row.overflow));
+  add_oracle(fields, row.error);
+  fields.push_back(number(true, report.reference_pixels));
   return fields;
 }
 

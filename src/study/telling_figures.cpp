@@ -165,7 +165,7 @@ std::string winner_clause(const CompareReport& report, const RunResult& row, con
 
 // The fastest of those that fail a gate.
 std::string failing_clause(const CompareReport& report, const RunResult& row) {
-  const bool visible = row.error && row.error->max_rel > exact_max_rel;
+  const bool visible = row.error && !is_exact(*row.error);
   return fmt::format(". {} is quicker still ({} ms) but has {}{}", name_of(report, row), short_number(row.frame_ms.median),
                      failed_gates(row), visible ? ", and its image " + error_in_words(row) : "");
 }
@@ -183,11 +183,17 @@ bool passes_gates(const RunResult& row) {
   return row.refused.empty() && row.nan_pixels == 0 && (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
 }
 
-bool is_exact(const RunResult& row) {
-  return passes_gates(row) && (!row.error || row.error->max_rel <= exact_max_rel);
+bool is_exact(const ImageError& error) {
+  if (error.bit_identical) return true;
+  if (!error.oracle) return error.max_rel <= exact_max_rel;
+  const double of_reference = error.oracle->of_reference_max_rel;
+  const double most = exact_factor * std::max(of_reference, exact_floor);
+  return error.oracle->max_rel <= most && error.max_rel <= std::max(exact_max_rel, of_reference + most);
 }
 
-const RunResult* fastest_exact(const CompareReport& report) { return fastest(report, is_exact); }
+bool is_exact(const RunResult& row) { return passes_gates(row) && (!row.error || is_exact(*row.error)); }
+
+const RunResult* fastest_exact(const CompareReport& report) { return fastest(report, [](const RunResult& row) { return is_exact(row); }); }
 
 const RunResult* fastest_lossy(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });

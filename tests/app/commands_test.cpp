@@ -134,17 +134,45 @@ TEST(CompareCommand, WritesAPageImagesAndResults) {
   EXPECT_THAT(keys(results), IsSupersetOf({"scene", "size", "devices", "commit", "reference", "rows"}));
   EXPECT_THAT(keys(results["devices"]), IsSupersetOf({"cl", "gl"}));
   EXPECT_EQ(results["size"], nlohmann::json({64, 36}));
-  EXPECT_EQ(results["reference"], "forward");
+  EXPECT_EQ(results["reference"], nlohmann::json({{"technique", "forward"}, {"pixels", 64 * 36}}));
   ASSERT_EQ(results["rows"].size(), 2u);
   EXPECT_EQ(results["rows"][1]["settings"]["tile"], 32);
   for (const auto& row : results["rows"]) {
     expect_row(row);
     EXPECT_THAT(keys(row["pairs"]), IsSupersetOf({"listed", "lit", "lost", "wrong"}));
-    EXPECT_THAT(keys(row["error"]), IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean", "bit_identical"}));
+    EXPECT_THAT(keys(row["error"]), IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean", "bit_identical", "oracle"}));
+    EXPECT_THAT(keys(row["error"]["oracle"]), IsSupersetOf({"max_rel", "rmse_rel", "of_reference_max_rel"}));
+    EXPECT_GT(row["error"]["oracle"]["of_reference_max_rel"], 0);
     EXPECT_EQ(row["pairs"]["lost"], 0);
     EXPECT_EQ(row["pairs"]["wrong"], 0);
     EXPECT_GT(row["pairs"]["lit"], 0);
   }
+}
+
+TEST(CompareCommand, ShadesTheReferenceAtASampleOfPixelsWhereAskedTo) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"compare", "spheres", "--size", "640x360", "--lights", "200", "--frames", "1", "--warmup", "0",
+                                      "-t", "forward,forward_plus", "--reference", "sampled", "-o", folder.path});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the reference is forward at 65,536 of 230,400 pixels"));
+  const auto results = nlohmann::json::parse(file_bytes(folder.path / "results.json"));
+  EXPECT_EQ(results["reference"], nlohmann::json({{"technique", "forward"}, {"pixels", 65536}}));
+  EXPECT_THAT(results["rows"][0]["refused"].get<std::string>(), HasSubstr("--reference full"));
+  EXPECT_EQ(results["rows"][1]["error"]["max_abs"], 0);
+  EXPECT_EQ(results["rows"][1]["pairs"]["lost"], 0);
+}
+
+TEST(Progress, IsALineNowAndThenWithoutATerminal) {
+  const TempFolder folder;
+  const std::vector<std::string> compare = {"compare", "spheres", "--size", "64x36", "-t", "forward_plus", "-o", folder.path};
+  const ProgramRun run = run_program(compare, {"LIGHTGRID_PROGRESS_S=0.05"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, testing::ContainsRegex("after 1 s.*: (compare|forward_plus|reference: forward|oracle)"));
+  std::vector<std::string> quiet = compare;
+  quiet.insert(quiet.begin(), "--quiet");
+  const ProgramRun silent = run_program(quiet, {"LIGHTGRID_PROGRESS_S=0.05"});
+  ASSERT_EQ(silent.status, 0) << silent.err;
+  EXPECT_EQ(silent.err, "");
 }
 
 TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {

@@ -30,6 +30,27 @@ inline Hue hue_of(const glm::vec3& c) {
   return hues[high];
 }
 
+// The file's first camera; without one, one before the corner of the scene's box that keeps its eight corners in a square
+// image. The program's own default fills the image better; places in these pictures are told for this one.
+inline Camera camera_at_the_corner(const Scene& scene) {
+  if (!scene.cameras.empty()) return scene.cameras.front();
+  const WorldBox box = world_box(scene);
+  const glm::dvec3 center = (box.min + box.max) / 2.0;
+  Camera camera = look_at(center + glm::dvec3(0.62, 0.45, 0.78), center);
+  const glm::dmat3 view_from_world = glm::transpose(glm::dmat3(camera.world_from_view));
+  const double size = glm::length(box.max - box.min);
+  double distance = size / 2;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 world(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                           corner & 4 ? box.max.z : box.min.z);
+    const glm::dvec3 p = view_from_world * (world - center);
+    distance = std::max(distance, p.z + std::max(std::abs(p.x), std::abs(p.y)) / std::tan(camera.fov_y_rad / 2));
+  }
+  camera.near_m = 1e-3 * size;
+  camera.world_from_view[3] = glm::dvec4(center + glm::dvec3(camera.world_from_view[2]) * (1.05 * distance), 1);
+  return camera;
+}
+
 struct Picture {
   View view;
   Image image;
@@ -76,7 +97,7 @@ inline Picture picture_of(Scene scene, const Camera& camera, int width = 320, in
 }
 
 inline Picture picture_of(const Scene& scene, const std::string& camera = "") {
-  return picture_of(scene, choose_camera(scene, camera));
+  return picture_of(scene, camera.empty() ? camera_at_the_corner(scene) : choose_camera(scene, camera));
 }
 
 // Along -z at a plane z = 0, `height_m` of which fill the picture.

@@ -72,9 +72,14 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   o.samples = kind.samples, o.index_bits = kind.index_bits, o.lists = kind.lists;
   o.portable = kind.portable, o.blend = kind.blend;
   Lens lens;
-  lens.half_x = bytes.number(0.01, 3), lens.half_y = bytes.number(0.01, 3);
-  lens.near = bytes.number(0.01, 1), lens.far = bytes.up_to(1) ? no_end : bytes.number(2, 1000);
-  lens.shift_x = bytes.number(-1, 1), lens.shift_y = bytes.number(-1, 1);
+  // One strange number in a projection is mostly refused, and nothing else is then tried.
+  const bool strange_lens = bytes.up_to(3) == 0;
+  const auto number = [&](double low, double high) {
+    return strange_lens ? bytes.number(low, high) : low + (high - low) * (bytes.take<uint16_t>() / 65535.0);
+  };
+  lens.half_x = number(0.01, 3), lens.half_y = number(0.01, 3);
+  lens.near = number(0.01, 1), lens.far = bytes.up_to(1) ? no_end : number(2, 1000);
+  lens.shift_x = number(-1, 1), lens.shift_y = number(-1, 1);
   lens.orthographic = bytes.up_to(3) == 0, lens.order = DepthOrder(bytes.up_to(1));
   if (lens.orthographic && std::isinf(lens.far)) lens.far = 1000;
   in.view = view_through(lens, 1 + bytes.up_to(40), 1 + bytes.up_to(24));

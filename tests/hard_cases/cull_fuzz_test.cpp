@@ -3,12 +3,13 @@
 
 #include "hard_cases/fuzz_files.h"
 #include "scene/random.h"
+#include "support/paths.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid::verify {
 namespace {
 
-constexpr uint64_t inputs = 800;
+constexpr uint64_t inputs = 80;
 
 std::vector<uint8_t> random_bytes(uint64_t seed) {
   Random random(seed);
@@ -34,7 +35,7 @@ TEST(CullFuzz, RandomInputsGiveWholeGridsThatBothShapesAgreeOn) {
 // near_plane_at_3e-53_m: the cut of halfz-modified is where nothing is.
 TEST(CullFuzz, InputsThatOnceFailed) {
   const auto engine = device_engine("");
-  const std::filesystem::path folder = LIGHTGRID_SOURCE_DIR "/tests/hard_cases/fuzz_inputs";
+  const std::filesystem::path folder = std::filesystem::path(source_folder) / "tests/hard_cases/fuzz_inputs";
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     EXPECT_EQ(fuzz_once(*engine, read_fuzz_input(entry.path())), "") << entry.path();

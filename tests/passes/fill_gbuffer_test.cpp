@@ -63,19 +63,18 @@ double angle_deg(const glm::vec4& a, const glm::vec4& b) {
   return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
-// Cigolle et al. (2014) give 0.95 degrees for 16 bits in all and 0.0037 for 32. Float: 2^-24 is 3.4e-6
-// degrees, and there are some six roundings on the way.
+// Cigolle et al. (2014) give 0.95 degrees for 16 bits in all and 0.0037 for 32. Float keeps normals as they are.
 TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
   const Scene scene = wall_of_all_normals(200);
-  for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, 2e-5)}) {
+  for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, 0.0)}) {
     const Surfaces s = surfaces_of(scene, wide_view(400, 400), bits);
     double largest = 0;
     for (size_t i = 0; i < s.drawn.normal_roughness.pixels.size(); ++i) {
       largest =
           std::max(largest, angle_deg(s.kept.normal_roughness.pixels[i], s.drawn.normal_roughness.pixels[i]));
     }
-    EXPECT_LT(largest, bound_deg) << bits;
-    EXPECT_GT(largest, 0.5 * bound_deg) << bits << ": the bound is the encoding's own";
+    EXPECT_LE(largest, bound_deg) << bits;
+    EXPECT_GE(largest, 0.5 * bound_deg) << bits << ": the bound is the encoding's own";
     RecordProperty("largest_deg_" + std::to_string(bits), std::to_string(largest));
   }
 }

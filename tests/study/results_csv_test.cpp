@@ -57,6 +57,9 @@ TEST(ResultsCsv, HoldALineARowAndView) {
   EXPECT_EQ(table[1].at("listed"), std::to_string(views[0].report.rows[1].pairs->listed));
   EXPECT_EQ(table[4].at("lost"), "812");
   EXPECT_EQ(table[4].at("bit_identical"), "false");
+  EXPECT_EQ(std::stod(table[4].at("oracle_max_rel")), views[0].report.rows[4].error->oracle->max_rel);
+  EXPECT_EQ(std::stod(table[4].at("oracle_of_reference_max_rel")), 4e-7);
+  EXPECT_EQ(table[4].at("reference_pixels"), "153");
   EXPECT_EQ(table[13].at("scene"), "hall");
 }
 
@@ -66,7 +69,7 @@ TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
   const auto row = table_of(results_csv(views)).back();
   EXPECT_EQ(row.at("technique"), "light_prepass");
   EXPECT_EQ(row.at("refused"), "blending rounds <0.5 of a step> here");
-  for (const char* field : {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels"}) {
+  for (const char* field : {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels", "oracle_max_rel"}) {
     EXPECT_EQ(row.at(field), "") << field;
   }
 }

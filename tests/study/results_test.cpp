@@ -36,7 +36,7 @@ RunResult small_result() {
   result.memory_light_grid = 2;
   result.memory_gbuffer = 1;
   result.pairs = PairCounts{9, 8, 7, 6};
-  result.error = ImageError{0.5, 0.25, 0.125, 0.0625, {}, false};
+  result.error = ImageError{0.5, 0.25, 0.125, 0.0625, {}, false, OracleError{0.75, 0.375, 0.875}};
   result.nan_pixels = 11;
   result.inf_pixels = 13;
   result.overflow = 12;
@@ -53,7 +53,8 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
     "passes": [{"name": "depth_prepass", "on": "gl", "median_ms": 0.5, "bytes_read": 10, "bytes_written": 20}],
     "memory_bytes": {"total": 3, "light_grid": 2, "gbuffer": 1},
     "pairs": {"listed": 9, "lit": 8, "lost": 7, "wrong": 6},
-    "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false},
+    "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false,
+              "oracle": {"max_rel": 0.75, "rmse_rel": 0.375, "of_reference_max_rel": 0.875}},
     "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
   EXPECT_EQ(to_json(small_result()), expected);
 }
@@ -83,6 +84,7 @@ TEST(Results, OfAReportHoldTheDocumentedKeys) {
   EXPECT_EQ(keys_of(value), (std::set<std::string>{"scene", "size", "devices", "commit", "reference",
                                                    "reference_errors", "rows"}));
   EXPECT_EQ(value["size"], json::parse("[17, 9]"));
+  EXPECT_EQ(value["reference"], json::parse(R"({"technique": "forward", "pixels": 153})"));
   EXPECT_EQ(keys_of(value["devices"]), (std::set<std::string>{"cl", "gl"}));
   EXPECT_EQ(keys_of(value["reference_errors"]),
             (std::set<std::string>{"model", "precision", "pixels_left_out"}));
@@ -93,6 +95,9 @@ TEST(Results, WithoutAnOracleHaveNoReferenceErrors) {
   auto report = synthetic_report(17, 9);
   report.reference_errors.reset();
   EXPECT_TRUE(to_json(report)["reference_errors"].is_null());
+  auto result = small_result();
+  result.error->oracle.reset();
+  EXPECT_TRUE(to_json(result)["error"]["oracle"].is_null());
 }
 
 TEST(Results, AreTextEvenWhereANameIsNotUtf8) {

@@ -100,6 +100,22 @@ TEST(Verdict, ToldApartAreTheFastestExactAndAFasterLossyTechnique) {
   EXPECT_THAT(telling_figures(with_faster_row(2e-3))[0], HasSubstr("forward_plus is 11.3 times"));
 }
 
+// Against the oracle, at pixels where forward is off by `of_reference`.
+bool exact_at(double max_rel, double of_oracle, double of_reference) {
+  return is_exact(ImageError{max_rel, max_rel, max_rel, 0, {}, false, OracleError{of_oracle, of_oracle, of_reference}});
+}
+
+TEST(Verdict, ExactIsAtMostHalfAsFarAgainFromTheOracleAsTheReference) {
+  EXPECT_TRUE(exact_at(1e-4, 1.5e-4, 1e-4));
+  EXPECT_FALSE(exact_at(1e-4, 1.6e-4, 1e-4));
+  EXPECT_TRUE(exact_at(1e-6, 3e-7, 0)) << "a few roundings";
+  EXPECT_FALSE(exact_at(1e-6, 4e-7, 0));
+  EXPECT_FALSE(exact_at(3e-4, 1e-4, 1e-4)) << "differs where the oracle cannot shade";
+  EXPECT_FALSE(exact_at(std::numeric_limits<double>::infinity(), 1e-4, 1e-4));
+  EXPECT_FALSE(exact_at(1e-4, std::numeric_limits<double>::infinity(), 1e-4));
+  EXPECT_TRUE(is_exact(ImageError{})) << "the same bits, without an oracle";
+}
+
 TEST(Verdict, SaysWhatAFailedGateDoesToTheImage) {
   auto report = with_faster_row(0.2);
   report.rows[2].pairs->wrong = 7;

@@ -27,9 +27,11 @@ struct ProgramRun {
   std::string out, err;
 };
 
-// `environment`: NAME=VALUE each, beside the test's own.
-inline ProgramRun run_program(std::vector<std::string> arguments, const std::vector<std::string>& environment = {},
+// `environment`: NAME=VALUE each, beside the test's own. Lines of progress, which depend on the machine's speed, are off
+// unless it asks for them.
+inline ProgramRun run_program(std::vector<std::string> arguments, std::vector<std::string> environment = {},
                               std::chrono::seconds limit = std::chrono::seconds(120)) {
+  environment.emplace_back("LIGHTGRID_PROGRESS_S=86400");
   const TempFolder folder;
   const std::string out = folder.path / "stdout", err = folder.path / "stderr";
   posix_spawn_file_actions_t actions;
@@ -43,7 +45,7 @@ inline ProgramRun run_program(std::vector<std::string> arguments, const std::vec
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   // The last of two of one name would not be found: ours stand first.
-  for (const std::string& variable : environment) envp.push_back(const_cast<char*>(variable.c_str()));
+  for (std::string& variable : environment) envp.push_back(variable.data());
   for (char** variable = environ; *variable; ++variable) envp.push_back(*variable);
   envp.push_back(nullptr);
 

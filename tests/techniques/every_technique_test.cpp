@@ -17,7 +17,8 @@ void expect_forwards_picture(const Scene& scene, const View& view, const Techniq
 }
 
 TEST_P(EveryTechnique, DrawsForwardsPictureOfABuiltinScene) {
-  const Scene scene = find_builtin_scene("hall")->make();
+  Scene scene = find_builtin_scene("hall")->make();
+  if (GetParam()->limited_lists) scene.lights.resize(12);  // no pixel has more than it has places for
   expect_forwards_picture(scene, default_view(scene, 79, 45), *GetParam());
 }
 

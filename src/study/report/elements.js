@@ -50,6 +50,12 @@ function errorInWords(error) {
   return `at most ${errorNumber(error.max_abs)}, which is ${errorNumber(error.max_rel)} of the brightest channel; RMSE ${errorNumber(error.rmse)}`;
 }
 
+// Both images against the oracle in double, at the same pixels.
+function oracleInWords(oracle, reference) {
+  if (!oracle || oracle.max_rel === null || oracle.of_reference_max_rel === null) return "";
+  return `; off the oracle by ${errorNumber(oracle.max_rel)} of the brightest channel, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
+}
+
 // Twenty colors that keep apart on light and dark paper; the first ten more than the rest.
 const COLORS = ["#3b6fb6", "#d9822b", "#3f9b58", "#b5475d", "#7d5bb0", "#2a9aa0", "#a5762c", "#c25aa0", "#6b8e23", "#4e5fa8",
   "#8c564b", "#17a2d4", "#c7a008", "#e2664f", "#5aa17f", "#9467bd", "#7f8f2e", "#d66fa8", "#5b7f95", "#b07d62"];

@@ -2,7 +2,7 @@
 
 const pictureUrl = (number) => page.pictures[number];
 const nameOf = (view, row) => view.page.rows[view.results.rows.indexOf(row)].name;
-const referenceOf = (view) => view.results.rows.find((row) => row.technique === view.results.reference && !row.refused);
+const referenceOf = (view) => view.results.rows.find((row) => row.technique === view.results.reference.technique && !row.refused);
 const ranRows = (view) => view.results.rows.filter((row) => !row.refused);
 
 function speedUp(view, row) {
@@ -18,7 +18,7 @@ function showPictures(view) {
   const choicesOf = (pick, suffix, note) =>
     rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note }));
   const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view) }] : [];
-  const name = view.results.reference;
+  const name = view.results.reference.technique;
   const groups = [
     { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference) }]), ...choicesOf((row) => row.image, "")] },
     { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },
@@ -40,6 +40,7 @@ const columnsOf = (view) => [
   { title: "Wrong pairs", value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (row) => row.nan_pixels, text: wholeNumber, gate: true },
   { title: "Max error, of brightest", value: (row) => row.error?.max_rel ?? null, text: errorNumber },
+  { title: "Off the oracle", value: (row) => row.error?.oracle?.max_rel ?? null, text: errorNumber },
   { title: "RMSE", value: (row) => row.error?.rmse ?? null, text: errorNumber },
   { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
   { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },
@@ -58,8 +59,10 @@ function showErrors(view) {
   add("Model", `A light's range ends; in nature it does not. With the range window against without, both in double precision: ${shared ? errorInWords(shared.model) : unknown}.`);
   add("Precision", `Every light, in float against double: ${shared ? errorInWords(shared.precision) : unknown}.`);
   const measured = ranRows(view).filter((row) => row.error && row !== referenceOf(view));
-  add("Technique", `This picture against ${view.results.reference}, which shades every light in float:`,
-    ...measured.map((row) => `${nameOf(view, row)}: ${errorInWords(row.error)}.`),
+  const { technique, pixels } = view.results.reference, all = view.results.size[0] * view.results.size[1];
+  const where = pixels < all ? ` at ${wholeNumber(pixels)} of ${wholeNumber(all)} pixels` : "";
+  add("Technique", `This picture against ${technique}${where}, which shades every light in float:`,
+    ...measured.map((row) => `${nameOf(view, row)}: ${errorInWords(row.error)}${oracleInWords(row.error.oracle, technique)}.`),
     ...(measured.length === 0 ? [unknown + "."] : []));
   if (shared?.pixels_left_out > 0) {
     add("Left out", `${wholeNumber(shared.pixels_left_out)} pixels that blended surfaces cover: the oracle does not shade those.`);
@@ -93,7 +96,7 @@ function heatFigure(view, heat, what) {
 }
 
 function techniqueCard(view, row) {
-  const pictures = view.page.rows[view.results.rows.indexOf(row)], reference = view.results.reference;
+  const pictures = view.page.rows[view.results.rows.indexOf(row)], reference = view.results.reference.technique;
   const isReference = row === referenceOf(view), ratio = speedUp(view, row);
   const summary = [
     milliseconds(row.frame_ms.median ?? 0) + " a frame",
@@ -140,7 +143,7 @@ function showView(view) {
   byId("view-title").textContent = view.page.title;
   byId("verdict").textContent = view.page.verdict;
   byId("figures").replaceChildren(...view.page.figures.map((line) => make("li", {}, line)));
-  for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference;
+  for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference.technique;
   showPictures(view);
   showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : ""));
   showErrors(view);

@@ -65,7 +65,7 @@ struct NamedMatrix {
 void other_projections(Check& c) {
   constexpr NamedMatrix changes[] = {
       {"shear of x by y", 1, 0, 0.3, false},         {"shear of y by x", 0, 1, -0.4, false},
-      {"oblique near plane in x", 0, 2, 0.02, false}, {"oblique near plane in y", 1, 2, -0.02, false},
+      {"oblique near plane in x", 0, 2, 0.004, false}, {"oblique near plane in y", 1, 2, -0.004, false},
       {"w depends on x", 0, 3, 0.3, false},          {"w depends on y", 1, 3, -0.2, false},
       {"x moved", 3, 0, 0.5, false},                 {"y moved", 3, 1, -0.5, false},
       {"x depends on z", 2, 0, 0.05, true},          {"shear of x by y", 1, 0, 0.3, true},

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double u = 0x1p-24;       // one rounding in float
 constexpr double far_away = 1e17;    // kernels have 1e18 for no end
+constexpr double farthest = 1e30;    // where boxes of endless cells end, past all lights and surfaces
 constexpr double least_radius = 2e-18;  // metres that every light is given
 constexpr double gentle_slope = 2;    // up to it the exact test finds the distance in its three Newton steps
 constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones take no infinite near
@@ -24,7 +25,7 @@ struct Box {
 };
 
 Box box_of(const Cell& c) {
-  const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, 1e18));
+  const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, farthest));
   return {std::min(c.x0 * s0, c.x0 * s1), std::max(c.x1 * s0, c.x1 * s1), std::min(c.y0 * s0, c.y0 * s1),
           std::max(c.y1 * s0, c.y1 * s1), c.near, c.far};
 }
