@@ -16,7 +16,8 @@ struct HuntCommand {
 
 void add_hunt_options(Subcommand& command, HuntCommand& options);
 
-// On one device, of the classes whose name holds `filter`. Returns the exit status: 1 where a light was lost, a view refused or the kernel shapes differed.
+// On one device, of the classes whose name holds `filter`. Returns the exit status: 1 where a light was lost, a view
+// refused or the kernel shapes differed.
 int run_hunt(const HuntCommand& options, verify::CullEngine& engine, const std::string& filter,
              const std::string& json);
 

@@ -36,8 +36,9 @@ Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
 
 // NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg" (fov vertical, 60 where absent). Empty: the scene's first
 // camera, or, without one, a camera that sees the whole scene in an image of this aspect
-// (scene/overview_camera.h). Near is at most a thousandth of the scene's size; far is infinite. Throws Error(input) for a name or form unknown, a number
-// that is none, a field outside 0..180 degrees, and a target at the eye.
+// (scene/overview_camera.h). Near is at most a thousandth of the scene's size; far is infinite. Throws
+// Error(input) for a name or form unknown, a number that is none, a field outside 0..180 degrees, and a target
+// at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish, double aspect = 1);
 
 }  // namespace lightgrid
