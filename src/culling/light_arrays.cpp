@@ -58,7 +58,7 @@ struct UploadedSphere {
   float radius = -far_away;  // listed nowhere
 };
 
-float rounded_up(double radius) {
+float radius_rounded_up(double radius) {
   const float value = float(std::min(radius, 3e38));
   return value > 0 ? std::nextafter(value, endless) : 0.0f;
 }
@@ -71,7 +71,7 @@ UploadedSphere far_sphere(const CullLight& light, const glm::dvec3& origin, doub
   const double size = largest(half);
   if (light.radius_m * 0.5 > size / 4) return {glm::vec3(0), endless};
   return {glm::vec3(half / size * farthest_light),
-          rounded_up(light.radius_m * 0.5 / size * farthest_light + 4 * half_ulp * farthest_light + 2 * eye_reach)};
+          radius_rounded_up(light.radius_m * 0.5 / size * farthest_light + 4 * half_ulp * farthest_light + 2 * eye_reach)};
 }
 
 // The radius is grown by the rounding error of the position.
@@ -80,7 +80,7 @@ UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin,
   if (std::isinf(light.radius_m)) return {glm::vec3(is_far(light, origin) ? glm::dvec3(0) : light.position - origin), endless};
   if (is_far(light, origin)) return far_sphere(light, origin, eye_reach);
   const glm::dvec3 offset = light.position - origin;
-  return {glm::vec3(offset), rounded_up(light.radius_m + half_ulp * sum_of(offset))};
+  return {glm::vec3(offset), radius_rounded_up(light.radius_m + half_ulp * sum_of(offset))};
 }
 
 // The cosine of the cone that is uploaded: the cone is wider by the cosine's rounding. 2 where the sphere

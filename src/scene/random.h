@@ -2,7 +2,10 @@
 // numbers on every machine, which the distributions of the standard library do not promise.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+
+#include <glm/glm.hpp>
 
 namespace lightgrid {
 
@@ -26,5 +29,14 @@ class Random {
  private:
   uint64_t state_;
 };
+
+// Uniform over the unit sphere.
+inline glm::dvec3 any_direction(Random& random) {
+  for (;;) {
+    const glm::dvec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const double length2 = glm::dot(v, v);
+    if (length2 > 1e-4 && length2 <= 1) return v / std::sqrt(length2);
+  }
+}
 
 }  // namespace lightgrid

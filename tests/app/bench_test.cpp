@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "support/read_files.h"
 #include "support/run_program.h"
 
 namespace lightgrid {
@@ -32,12 +33,6 @@ std::filesystem::path write_small_frame(const std::filesystem::path& folder) {
   }
   lights << "]}";
   return frame;
-}
-
-std::vector<std::string> keys(const nlohmann::json& object) {
-  std::vector<std::string> names;
-  for (const auto& [key, value] : object.items()) names.push_back(key);
-  return names;
 }
 
 nlohmann::json bench_of_small_frame(const std::vector<std::string>& more) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "support/read_files.h"
 #include "support/run_program.h"
 
 namespace lightgrid {
@@ -14,17 +15,6 @@ namespace {
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::StartsWith;
-
-std::string file_bytes(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<std::string> keys(const nlohmann::json& object) {
-  std::vector<std::string> names;
-  for (const auto& [key, value] : object.items()) names.push_back(key);
-  return names;
-}
 
 // A row as docs/results_json.md has it.
 void expect_row(const nlohmann::json& row) {

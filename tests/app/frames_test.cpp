@@ -9,6 +9,7 @@
 
 #include "base/image.h"
 #include "study/metrics.h"
+#include "support/read_files.h"
 #include "support/run_program.h"
 
 namespace lightgrid {
@@ -18,11 +19,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::StartsWith;
-
-std::string file_bytes(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::vector<std::string> names_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;

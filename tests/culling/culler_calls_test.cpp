@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "culling/culled_grid.h"
+#include "culling/constants.h"
 #include "culling/projections.h"
 
 namespace lightgrid {
@@ -16,7 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr KernelShape shapes[] = {KernelShape::lanes, KernelShape::group};
 
 // Message of the Error that `call` throws; fails where it throws none, or another kind.
 template <typename Call>
@@ -115,7 +115,7 @@ TEST_P(Pending, CallsOutliveTheCullerOrItsMove) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Pending, testing::ValuesIn(shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, Pending, testing::ValuesIn(kernel_shapes),
                          [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
 
 TEST(CullerCalls, BeforeSetViewAreRefusedByName) {
@@ -202,7 +202,7 @@ TEST(CullerCalls, ThrowOpenClsErrorsAsOurs) {
 TEST(CullerCalls, CountInvalidDepthTilesOfTheLastDepthBounds) {
   std::vector<float> strange = same_depth;
   strange[0] = NAN, strange[40] = 2;
-  for (const KernelShape shape : shapes) {
+  for (const KernelShape shape : kernel_shapes) {
     LightCuller culler(test_device(), test_programs(), {.shape = shape});
     culler.set_view(view_with_near(0.1));
     const cl::Buffer good = buffer_of(same_depth), bad = buffer_of(strange);

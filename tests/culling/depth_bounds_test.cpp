@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "culling/culled_grid.h"
+#include "culling/constants.h"
 #include "reference/position.h"
 #include "scene/random.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr float far_away = 1e18f;  // metres; stands for infinity, and for all that is past it
 constexpr double ulp = 0x1p-23;
 // Widening by 4 units in the last place, and the roundings that it contains and adds: see depth_interval.h.
 constexpr double loosest = 8 * ulp;

@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "culling/culled_grid.h"
+#include "culling/constants.h"
 #include "culling/projections.h"
 #include "scene/random.h"
 
 namespace lightgrid {
 namespace {
-
-constexpr KernelShape shapes[] = {KernelShape::lanes, KernelShape::group};
 
 std::vector<DepthInterval> bounds_in(const CullView& view, const DepthInput& depth, const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
@@ -35,7 +34,7 @@ TEST(DepthInput, ThatIsPartOfALargerImageGivesTheBoundsOfThatPart) {
     std::copy_n(part.begin() + y * size.x, size.x, whole.begin() + (corner.y + y) * image.x + corner.x);
   }
   const CullView view = view_through(projections()[0], size.x, size.y);
-  for (const KernelShape shape : shapes) {
+  for (const KernelShape shape : kernel_shapes) {
     const CullerOptions options{.shape = shape};
     const auto expected = bounds_in(view, {buffer_of(part)}, options);
     EXPECT_TRUE(bounds_in(view, {buffer_of(whole), image.x, corner.x, corner.y}, options) == expected);
@@ -53,7 +52,7 @@ TEST(DepthInput, OfSeveralSamplesGivesBoundsOfAll) {
   const size_t pixels = size_t(width) * height;
   for (const auto& [tile, samples] : {std::pair(16, 2), std::pair(16, 4), std::pair(64, 8)}) {
     const std::vector<float> depth = random_depth(pixels * samples, 2 + samples);
-    for (const KernelShape shape : shapes) {
+    for (const KernelShape shape : kernel_shapes) {
       std::vector<DepthInterval> expected;
       for (int s = 0; s < samples; ++s) {
         std::vector<float> one(pixels);
@@ -98,7 +97,7 @@ TEST(DepthInput, OfFewBitsGivesBoundsThatHoldTheTrueDistance) {
   for (const Projection& made : projections()) {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
       SCOPED_TRACE(made.name + (format == DepthFormat::d16 ? ", 16 bits" : ", 24 bits"));
-      for (const KernelShape shape : shapes) EXPECT_EQ(missed(made, format, format, shape), 0);
+      for (const KernelShape shape : kernel_shapes) EXPECT_EQ(missed(made, format, format, shape), 0);
       // The format does matter.
       if (format == DepthFormat::d16) {
         EXPECT_GT(missed(made, format, DepthFormat::d32f, KernelShape::lanes), 100);
@@ -123,7 +122,7 @@ TEST(DepthInput, InStandardDepthGivesTheGridOfReversedDepth) {
     lights.push_back({{random.uniform(-1, 1) * d, random.uniform(-1, 1) * d, -d}, 0.1 * d});
   }
   for (const bool orthographic : {false, true}) {
-    for (const KernelShape shape : shapes) {
+    for (const KernelShape shape : kernel_shapes) {
       std::vector<HostGrid> grids;
       for (const bool is_standard : {false, true}) {
         const Projection made = orthographic ? projection("", true, is_standard, 0, 32, -8, 8, -5, 5)
@@ -143,7 +142,7 @@ TEST(DepthInput, InStandardDepthGivesTheGridOfReversedDepth) {
 
 TEST(DepthInput, TilesWithValuesThatAreNoDepthAreCountedOnce) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const KernelShape shape : shapes) {
+  for (const KernelShape shape : kernel_shapes) {
     LightCuller culler(test_device(), test_programs(), {.shape = shape});
     culler.set_view(view_through(projections()[0], 64, 32));  // 4 x 2 tiles
     std::vector<float> depth(64 * 32, 0.5f);

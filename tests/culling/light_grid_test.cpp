@@ -5,6 +5,7 @@
 
 #include "culling/cell_truth.h"
 #include "base/error.h"
+#include "culling/constants.h"
 #include "reference/lit_blocks.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
@@ -12,8 +13,6 @@
 namespace lightgrid {
 namespace {
 
-constexpr float far_away = 1e18f;  // stands for infinity in the kernels
-const float infinity = std::numeric_limits<float>::infinity();
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double half_angles_deg[] = {0.1, 30, 60, 89.9, 90, 120};
 
@@ -80,7 +79,7 @@ std::vector<glm::vec2> scattered_intervals(size_t tiles, uint64_t seed) {
   return intervals;
 }
 
-CullerOptions options_of(CullTest test, KernelShape shape) {
+CullerOptions grid_options(CullTest test, KernelShape shape) {
   CullerOptions options;
   options.cull_test = test;
   options.shape = shape;
@@ -105,7 +104,7 @@ std::string name_of(CullTest test) {
 }
 
 struct LightGridOf : testing::TestWithParam<std::tuple<CullTest, KernelShape>> {
-  CullerOptions options = options_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  CullerOptions options = grid_options(std::get<0>(GetParam()), std::get<1>(GetParam()));
 };
 
 TEST_P(LightGridOf, ListsWhatCertainlyTouchesAndLittleElse) {
@@ -222,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
 TEST(LightGrid, SameBytesInBothShapesAndIndexWidthsAndInEveryRun) {
   const View view = view_of(319, 181, 60);
   const auto lights = scattered_lights(view, 1000, true, 13);
-  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::lanes);
+  CullerOptions options = grid_options(CullTest::planes_aabb, KernelShape::lanes);
   const auto intervals = scattered_intervals(tile_count(view, options.tile), 14);
   const CulledGrid first = cull_cells(view, lights, intervals, options);
   EXPECT_GT(first.indices.size(), 1000u);
@@ -239,7 +238,7 @@ TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
   const View view = view_of(127, 73, 60);
   const auto lights = scattered_lights(view, 300, false, 15);
   const auto intervals = scattered_intervals(tile_count(view, 8), 16);
-  CullerOptions options = options_of(CullTest::planes_aabb, KernelShape::automatic);
+  CullerOptions options = grid_options(CullTest::planes_aabb, KernelShape::automatic);
   options.tile = 8;
   const CulledGrid first = cull_cells(view, lights, intervals, options);
   LightCuller culler(test_device(), test_programs(), options);
@@ -262,7 +261,7 @@ TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
 TEST(LightGrid, GrowsToWhatTheCountsSay) {
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     const View view = view_of(321, 181, 60);
-    CullerOptions options = options_of(CullTest::planes_aabb, shape);
+    CullerOptions options = grid_options(CullTest::planes_aabb, shape);
     options.tile = 8;
     const size_t tiles = tile_count(view, options.tile), count = 2000;
     const std::vector<ViewLight> lights(count, point_light({0, 0, -5}, infinity));
@@ -299,7 +298,7 @@ TEST(LightGrid, MoreThanTheDeviceHoldsIsAMachineError) {
 }
 
 // Draws a depth image with about a tenth of the pixels empty.
-std::vector<float> scattered_depth(const View& view, uint64_t seed) {
+std::vector<float> depth_with_gaps(const View& view, uint64_t seed) {
   Random random(seed);
   std::vector<float> depth(size_t(view.width) * view.height);
   for (float& value : depth) {
@@ -315,13 +314,13 @@ struct LightGridUnder : testing::TestWithParam<CullTest> {};
 
 TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
   for (const NamedView& named : views(127, 73)) {
-    const std::vector<float> depth = scattered_depth(named.view, 17);
+    const std::vector<float> depth = depth_with_gaps(named.view, 17);
     const auto lights = scattered_lights(named.view, 400, true, 18);
     const LitBlocks lit = find_lit_blocks(named.view, depth, lights);
     // Every kind of depth bounds. Tile sizes take turns; every sixth setting also runs the other shape.
     for (int mode = 0; mode < 5; ++mode) {
       const int combination = 5 * int(GetParam()) + mode, tile = 8 << combination % 4;
-      CullerOptions options = options_of(GetParam(), KernelShape::lanes);
+      CullerOptions options = grid_options(GetParam(), KernelShape::lanes);
       options.tile = tile, options.depth_bounds = DepthBoundsMode(mode);
       SCOPED_TRACE(fmt::format("{} mode {} tile {}", named.name, mode, tile));
       const CulledGrid grid = cull_depth(named.view, lights, depth, options);

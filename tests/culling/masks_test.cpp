@@ -3,14 +3,13 @@
 
 #include "base/error.h"
 #include "culling/cell_truth.h"
+#include "culling/constants.h"
 #include "scene/random.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr float far_away = 1e18f;
-
-std::vector<ViewLight> some_lights(int count) {
+std::vector<ViewLight> mask_lights(int count) {
   Random random(3);
   std::vector<ViewLight> lights;
   for (int i = 0; i < count; ++i) {
@@ -35,10 +34,10 @@ TEST(Masks, SayWhatTheListsSay) {
       SCOPED_TRACE(fmt::format("{} lights, {} edges", count, edges.size()));
       CullerOptions options;
       options.index_bits = bits;
-      const CulledGrid lists = cull_cells(view, some_lights(count), intervals, options, edges);
+      const CulledGrid lists = cull_cells(view, mask_lights(count), intervals, options, edges);
       EXPECT_TRUE(lists.masks.empty());
       options.lists = GridLists::masks;
-      const CulledGrid grid = cull_cells(view, some_lights(count), intervals, options, edges);
+      const CulledGrid grid = cull_cells(view, mask_lights(count), intervals, options, edges);
       EXPECT_EQ(grid, lists);
       ASSERT_EQ(grid.grid.mask_words, size_t(count + 31) / 32);
       ASSERT_EQ(grid.masks.size(), grid.cells.size() * grid.grid.mask_words);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "culling/cell_truth.h"
+#include "culling/constants.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
 #include "shared/light_grid.h"
@@ -14,7 +15,6 @@ namespace {
 
 using testing::ElementsAre;
 
-constexpr float infinity = std::numeric_limits<float>::infinity(), far_away = 1e18f;
 
 CullView sliced(const View& view, const std::vector<float>& edges) { return cull_view_of(view, edges); }
 

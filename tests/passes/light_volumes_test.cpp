@@ -57,7 +57,7 @@ TEST(LightMeshes, AreClosedAndConvexAndTurnedOutwards) {
   }
 }
 
-View random_view(Random& random) {
+View any_view(Random& random) {
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   const double kind = random.uniform();
   camera.near_m = std::exp(random.uniform(-5, 1));
@@ -67,7 +67,7 @@ View random_view(Random& random) {
   return make_view(camera, 640, 360);
 }
 
-ViewLight random_light(Random& random) {
+ViewLight any_volume_light(Random& random) {
   ViewLight light;
   light.type = random.uniform() < 0.5 ? LightType::point : LightType::spot;
   const double distance = std::exp(random.uniform(-4, 8));
@@ -103,8 +103,8 @@ TEST(LightVolumes, ContainTheirBallsAndConesWithSlack) {
   Random random(4);
   size_t drawn = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
-    const View view = random_view(random);
-    const ViewLight light = random_light(random);
+    const View view = any_view(random);
+    const ViewLight light = any_volume_light(random);
     for (const VolumeMeshes meshes : {VolumeMeshes::automatic, VolumeMeshes::icosahedron, VolumeMeshes::box}) {
       const auto volumes = light_volumes(view, {&light, 1}, meshes, subpixel_bits);
       if (volumes.empty()) continue;
@@ -124,8 +124,8 @@ TEST(LightVolumes, AreThereWhereALightReachesAPixel) {
   Random random(5);
   size_t seen = 0;
   for (int trial = 0; trial < 200'000; ++trial) {
-    const View view = random_view(random);
-    const ViewLight light = random_light(random);
+    const View view = any_view(random);
+    const ViewLight light = any_volume_light(random);
     glm::dvec3 offset(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     offset *= light.radius_m / std::max(1.0, glm::length(offset));
     if (light.type == LightType::spot && glm::dot(offset, light.direction) <= light.cos_outer * glm::length(offset)) continue;

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/infinity.h"
+
 namespace lightgrid {
 namespace {
 
 using glm::dvec3;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Attenuation, WindowAtHalfTheRadiusIsFifteenSixteenths) {
   // 1 - (1/2)^4 = 15/16, over a distance of 1.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "reference/test_cell.h"
 #include "reference/position.h"
 #include "reference/test_views.h"
 
@@ -13,10 +14,6 @@ namespace lightgrid {
 namespace {
 
 using glm::dvec3;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// Square pyramid of slopes -1 to 1, from 1 m to 2 m: corners (+-1, +-1, -1) and (+-2, +-2, -2).
-const Cell pyramid{-1, 1, -1, 1, 1, 2};
 
 TEST(DistanceToCell, InsideAndOnTheBoundaryIsZero) {
   for (const dvec3& p :

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "reference/test_cell.h"
+
 namespace lightgrid {
 
 void PrintTo(Touch touch, std::ostream* out) {
@@ -16,11 +18,7 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double degree = pi / 180;
-
-// Corners (+-1, +-1, -1) and (+-2, +-2, -2).
-const Cell pyramid{-1, 1, -1, 1, 1, 2};
 
 Touch touch(const Cell& cell, const dvec3& apex, const dvec3& axis, double half_angle, double radius) {
   return cone_touches_cell(cell, apex, glm::normalize(axis), std::cos(half_angle), radius);

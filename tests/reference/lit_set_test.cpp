@@ -6,6 +6,7 @@
 #include <random>
 
 #include "reference/attenuation.h"
+#include "reference/infinity.h"
 #include "reference/position.h"
 #include "reference/test_views.h"
 
@@ -13,7 +14,6 @@ namespace lightgrid {
 namespace {
 
 using glm::dvec3;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 ViewLight point(dvec3 position, double radius) { return {.position = position, .radius_m = radius}; }
 

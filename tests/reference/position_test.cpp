@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/infinity.h"
 #include "reference/test_views.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Position, PerspectiveByHand) {
   // Two pixels across slopes -1 .. 1: the right one's centre has slope 1/2. One row: slope 0.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "reference/infinity.h"
 #include "reference/position.h"
 #include "reference/test_views.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void expect_near(const dvec3& got, const dvec3& want, double tolerance) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], want[i], tolerance) << "channel " << i;

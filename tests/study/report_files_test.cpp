@@ -8,17 +8,13 @@
 #include "base/error.h"
 #include "study/report.h"
 #include "study/synthetic_report.h"
+#include "support/read_files.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::set<std::string> names_in(const fs::path& folder) {
   std::set<std::string> names;
@@ -43,7 +39,7 @@ TEST(WriteReport, ComparesWithAReferenceThatIsNoRow) {
   report.reference_image = report.images[0];
   const TempFolder folder;
   write_report(folder.path, report);
-  EXPECT_EQ(text_of(folder.path / "exact.png"), text_of(folder.path / "forward.png"));
+  EXPECT_EQ(file_bytes(folder.path / "exact.png"), file_bytes(folder.path / "forward.png"));
   EXPECT_TRUE(fs::exists(folder.path / "lidr.difference.png"));
   EXPECT_FALSE(fs::exists(folder.path / "exact.difference.png"));
 }
@@ -53,7 +49,7 @@ TEST(WriteReport, IsTheSameEachTime) {
   write_report(first.path, synthetic_report(17, 9));
   write_report(second.path, synthetic_report(17, 9));
   for (const auto& name : names_in(first.path))
-    EXPECT_EQ(text_of(first.path / name), text_of(second.path / name)) << name;
+    EXPECT_EQ(file_bytes(first.path / name), file_bytes(second.path / name)) << name;
 }
 
 TEST(WriteReport, TakesARunThatFailedHalfway) {
@@ -68,7 +64,7 @@ TEST(WriteReport, TakesARunThatFailedHalfway) {
   EXPECT_TRUE(fs::exists(folder.path / "forward_plus-cull-test=planes+aabb.difference.png"));
   EXPECT_FALSE(fs::exists(folder.path / "clustered.png"));
   EXPECT_FALSE(fs::exists(folder.path / "lit.heat.png"));
-  EXPECT_EQ(nlohmann::json::parse(text_of(folder.path / "results.json")), to_json(report));
+  EXPECT_EQ(nlohmann::json::parse(file_bytes(folder.path / "results.json")), to_json(report));
 }
 
 TEST(ViewsReport, MakesAFolderAViewAndOnePageForAll) {
@@ -80,7 +76,7 @@ TEST(ViewsReport, MakesAFolderAViewAndOnePageForAll) {
                                                           "my-hall-17x9-60", "my-hall-17x9-60-2"}));
   const auto pictures = names_in(folder.path / "my-hall-17x9-15");
   EXPECT_TRUE(pictures.count("forward.png") && pictures.count("lidr.difference.png") && pictures.count("lit.heat.png"));
-  const auto json = nlohmann::json::parse(text_of(folder.path / "results.json"));
+  const auto json = nlohmann::json::parse(file_bytes(folder.path / "results.json"));
   ASSERT_EQ(json["views"].size(), 3u);
   EXPECT_EQ(json["views"][1], to_json(synthetic_view("scenes/my hall.glb", 17, 9, 60)));
 }
@@ -117,7 +113,7 @@ TEST(WriteReport, LetsNoNameEndTheScript) {
   report.scene = "a</script><img src=x onerror=alert(1)>{{style}}.glb";
   const TempFolder folder;
   write_report(folder.path, report);
-  const auto page = text_of(folder.path / "index.html");
+  const auto page = file_bytes(folder.path / "index.html");
   EXPECT_EQ(page.find("a</script>"), page.npos);
   EXPECT_NE(page.find("{{style}}.glb"), page.npos);
 }

@@ -10,6 +10,7 @@
 #include "study/report.h"
 #include "study/synthetic_report.h"
 #include "support/paths.h"
+#include "support/read_files.h"
 #include "support/run_command.h"
 #include "support/temp_folder.h"
 
@@ -24,11 +25,6 @@ constexpr const char* fault_recorder =
     "<script>window.faults = [];"
     "addEventListener('error', (event) => faults.push(event.message || 'a resource failed to load'), true);"
     "</script>";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void insert_before(std::string& page, const std::string& mark, const std::string& text) {
   page.insert(page.find(mark), text);
@@ -50,9 +46,9 @@ std::string unescaped(std::string text) {
 
 // What the interactions saw in a window of that size, or null and a failure.
 json seen_in_browser(const fs::path& folder, const char* window_size) {
-  auto page = text_of(folder / "index.html");
+  auto page = file_bytes(folder / "index.html");
   insert_before(page, "<style>", fault_recorder);
-  const auto controls = text_of(fs::path(source_folder) / "tests/study/report_page_controls.js");
+  const auto controls = file_bytes(fs::path(source_folder) / "tests/study/report_page_controls.js");
   insert_before(page, "</body>", "<script>" + controls + "</script>");
   std::ofstream(folder / "tried.html") << page;
   const auto command =
@@ -65,7 +61,7 @@ json seen_in_browser(const fs::path& folder, const char* window_size) {
   const std::string open = "<pre id=\"outcome\">";
   const size_t start = dump.rfind(open), end = dump.find("</pre>", start);
   if (start == dump.npos || end == dump.npos) {
-    ADD_FAILURE() << "the page wrote no outcome; the browser said: " << text_of(folder / "browser.log");
+    ADD_FAILURE() << "the page wrote no outcome; the browser said: " << file_bytes(folder / "browser.log");
     return nullptr;
   }
   return json::parse(unescaped(dump.substr(start + open.size(), end - start - open.size())));
@@ -96,7 +92,7 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   const auto seen = seen_in_browser(folder.path, "1280,900");
   ASSERT_TRUE(seen.is_object());
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
-  EXPECT_EQ(seen["results"], json::parse(text_of(folder.path / "results.json")));
+  EXPECT_EQ(seen["results"], json::parse(file_bytes(folder.path / "results.json")));
   EXPECT_EQ(seen["verdict"], verdict(report));
   EXPECT_EQ(seen["title"], "hall.glb \u2013 lightgrid compare");
 
@@ -152,7 +148,7 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
   EXPECT_EQ(seen["overviewHidden"], false);
   EXPECT_EQ(seen["brokenImages"], 0);
   EXPECT_THAT(strings(seen["loaded"]), IsEmpty()) << "the page is one file";
-  const json results = json::parse(text_of(folder.path / "results.json"));
+  const json results = json::parse(file_bytes(folder.path / "results.json"));
   EXPECT_EQ(seen["results"], results);
   const json& several = seen["several"];
   EXPECT_EQ(strings(several["sentences"]), views.sentences());
@@ -258,7 +254,7 @@ void expect_no_other_place(const std::string& page) {
 TEST(ReportPageText, NamesNoOtherPlace) {
   const TempFolder folder;
   write_report(folder.path, synthetic_report(17, 9));
-  expect_no_other_place(text_of(folder.path / "index.html"));
+  expect_no_other_place(file_bytes(folder.path / "index.html"));
 }
 
 TEST(ReportPageText, OfSeveralViewsNamesNoOtherPlace) {
@@ -266,7 +262,7 @@ TEST(ReportPageText, OfSeveralViewsNamesNoOtherPlace) {
   ViewsReport views(folder.path, 2, 1 << 20);
   for (int lights : {15, 60}) views.add(synthetic_view("hall", 17, 9, lights));
   views.write();
-  expect_no_other_place(text_of(folder.path / "index.html"));
+  expect_no_other_place(file_bytes(folder.path / "index.html"));
 }
 
 }  // namespace

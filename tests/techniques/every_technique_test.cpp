@@ -1,14 +1,12 @@
 // Every technique that there is, a new one included, draws forward's picture: lists of techniques are the registry's.
 #include "support/small_scene.h"
+#include "techniques/lidr_scenes.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
 namespace {
 
 struct EveryTechnique : testing::TestWithParam<const Technique*> {};
-
-// What a technique that sums in another order may differ by, of the brightest channel.
-constexpr double other_order = 1e-5;
 
 void expect_forwards_picture(const Scene& scene, const View& view, const Technique& technique) {
   const Image forward = render(scene, view, "forward");

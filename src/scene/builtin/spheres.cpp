@@ -10,7 +10,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr int sphere_count = 600, light_count = 1024;
+constexpr int sphere_count = 600, lights_of_spheres = 1024;
 constexpr float nearest_m = 2, farthest_m = 90;
 constexpr float slope_y = 0.62f, slope_x = 1.08f;  // a little beyond a field of 60 degrees at 16:9
 
@@ -65,7 +65,7 @@ Scene make_spheres() {
     add_instance(scene, "sphere " + std::to_string(i), i % look_count * 2 + (apparent > 0.028f),
                  placed(center, 360.0 * random.uniform(), radius));
   }
-  for (int i = 0; i < light_count; ++i) {
+  for (int i = 0; i < lights_of_spheres; ++i) {
     const glm::vec3 position = in_frustum(random);
     const float radius = -position.z * random.uniform(0.08f, 0.2f) + 0.4f;
     // A light lights half its radius away as brightly whatever its size.

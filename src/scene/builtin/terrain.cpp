@@ -15,7 +15,7 @@ namespace {
 
 constexpr int cells = 142;  // 2 * 142^2 = 40,328 triangles
 constexpr float side_m = 120, height_m = 17;
-constexpr int light_count = 255;
+constexpr int lights_of_terrain = 255;
 
 class Hills {
  public:
@@ -103,7 +103,7 @@ Scene make_terrain() {
     lamps.push_back(add_mesh(scene, shapes::finished(std::move(mesh), "lamp", lamp)));
   }
   Random random(5);
-  for (int i = 0; i < light_count; ++i) {
+  for (int i = 0; i < lights_of_terrain; ++i) {
     // One in each cell of a 16 by 16 grid, somewhere in it: no clumps, no rows.
     const float x = side_m * ((i % 16 + random.uniform(0.1f, 0.9f)) / 16 - 0.5f) * 0.97f;
     const float z = side_m * ((i / 16 + random.uniform(0.1f, 0.9f)) / 16 - 0.5f) * 0.97f;

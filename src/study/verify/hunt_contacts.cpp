@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/parallel.h"
 #include "reference/lit_set.h"
+#include "study/verify/views.h"
 
 namespace lightgrid::verify {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr size_t chunk = 2048;  // lights from one sequence of random numbers
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using std::numbers::pi;
+constexpr size_t lights_at_once = 2048;  // lights from one sequence of random numbers
 
-glm::dvec3 any_direction(Random& random) {
-  for (;;) {
-    const glm::dvec3 v(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
-    const double length2 = glm::dot(v, v);
-    if (length2 > 1e-4 && length2 <= 1) return v / std::sqrt(length2);
-  }
-}
-
-// What lights are made of in one view, and chunk after chunk of them.
+// What lights are made of in one view, and a part of them at a time.
 class Maker {
  public:
   Maker(const HuntView& view, const HuntSetting& setting, uint64_t seed)
@@ -139,9 +132,9 @@ class Maker {
     const glm::dvec3 way = p - in_view;
     const double distance = glm::length(way);
     light.radius_m = distance < wanted ? wanted : float(distance * (1 + hair(random)));
-    while (!(distance < light.radius_m)) light.radius_m = std::nextafter(light.radius_m, infinity);
+    while (!(distance < light.radius_m)) light.radius_m = std::nextafter(light.radius_m, float(no_end));
     if (setting_.spots && chance(random, 0.5)) make_spot(light, way, outward(p, corner, random), random);
-    if (!(light.radius_m < infinity) || !is_lit_there(h_, light, p)) return {};
+    if (!(light.radius_m < float(no_end)) || !is_lit_there(h_, light, p)) return {};
     return contact;
   }
 
@@ -163,7 +156,7 @@ class Maker {
     const double off = std::atan2(glm::length(glm::cross(axis, to)), glm::dot(axis, to));
     float outer = float(std::min(off * (1 + hair(random)), pi));
     const double cosine = glm::dot(axis, to);
-    while (outer < 3.14159f && !(std::cos(double(outer)) < cosine)) outer = std::nextafter(outer, infinity);
+    while (outer < 3.14159f && !(std::cos(double(outer)) < cosine)) outer = std::nextafter(outer, float(no_end));
     light.outer_cone_rad = std::min(outer, 3.1415925f), light.inner_cone_rad = light.outer_cone_rad / 2;
   }
 
@@ -181,10 +174,10 @@ HuntLights random_contacts(const HuntView& view, const HuntSetting& setting, siz
   const Maker maker(view, setting, seed);
   HuntLights made;
   made.lights.resize(count);
-  std::vector<std::vector<HuntContact>> parts((count + chunk - 1) / chunk);
+  std::vector<std::vector<HuntContact>> parts((count + lights_at_once - 1) / lights_at_once);
   parallel_for(int(parts.size()), [&](int i) {
-    parts[i].reserve(chunk);
-    maker.fill(made, parts[i], size_t(i) * chunk, std::min(count, size_t(i + 1) * chunk));
+    parts[i].reserve(lights_at_once);
+    maker.fill(made, parts[i], size_t(i) * lights_at_once, std::min(count, size_t(i + 1) * lights_at_once));
   });
   for (const auto& part : parts) made.contacts.insert(made.contacts.end(), part.begin(), part.end());
   return made;

@@ -10,7 +10,7 @@
 namespace lightgrid::verify {
 namespace {
 
-constexpr size_t chunk = 4096;
+constexpr size_t contacts_at_once = 4096;
 
 // As shading finds a pixel's list: its tile, and the slice and the z-bin of its stored depth.
 class Finder {
@@ -51,9 +51,9 @@ const char* name_of(LostFrom from) {
 std::vector<HuntLoss> lost_contacts(const HuntView& view, std::span<const HuntContact> contacts, int tile,
                                     const HostGrid& grid) {
   const Finder finder(view, tile, grid);
-  std::vector<std::vector<HuntLoss>> parts((contacts.size() + chunk - 1) / chunk);
+  std::vector<std::vector<HuntLoss>> parts((contacts.size() + contacts_at_once - 1) / contacts_at_once);
   parallel_for(int(parts.size()), [&](int i) {
-    for (size_t k = size_t(i) * chunk; k < std::min(contacts.size(), size_t(i + 1) * chunk); ++k) {
+    for (size_t k = size_t(i) * contacts_at_once; k < std::min(contacts.size(), size_t(i + 1) * contacts_at_once); ++k) {
       if (const auto from = finder.lost_from(contacts[k])) parts[i].push_back({contacts[k], *from});
     }
   });

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "study/verify/hunt_depth.h"
 
 namespace lightgrid::verify {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double steepest_half = 1145.9;   // tan(179.9 / 2 degrees)
 constexpr double gentlest_half = 0.0087;   // tan(1 / 2 degree)
 

@@ -1,22 +1,15 @@
 #include "study/verify/tangent_lights.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "reference/position.h"
+#include "study/verify/views.h"
 
 namespace lightgrid::verify {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr double pi = 3.14159265358979323846;
-
-glm::dvec3 any_direction(Random& random) {
-  for (;;) {
-    const glm::dvec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    const double length = glm::length(v);
-    if (length > 0.01 && length <= 1) return v / length;
-  }
-}
+using std::numbers::pi;
 
 // A point on the cell: on `ends` of its three extents at an end, on the others anywhere between.
 glm::dvec3 contact_point(const Cell& cell, Contact contact, Random& random) {
@@ -39,7 +32,7 @@ glm::dvec3 contact_point(const Cell& cell, Contact contact, Random& random) {
 }
 
 float stepped(float value, int steps) {
-  for (; steps > 0; --steps) value = std::nextafter(value, infinity);
+  for (; steps > 0; --steps) value = std::nextafter(value, float(no_end));
   for (; steps < 0; ++steps) value = std::nextafter(value, 0.0f);
   return value;
 }
@@ -97,7 +90,7 @@ std::vector<CullLight> tangent_lights(const CullView& view, std::span<const Dept
     const double distance = distance_to_cell(cell, centre);
     if (!(distance > 1e-30)) continue;
     float radius = float(distance);
-    if (radius < distance) radius = std::nextafter(radius, infinity);
+    if (radius < distance) radius = std::nextafter(radius, float(no_end));
     lights.push_back(point(centre, stepped(radius, ulps ? int(random.next() % (2 * ulps + 1)) - ulps : 0)));
   }
   return lights;

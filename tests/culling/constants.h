@@ -1,0 +1,14 @@
+// What the tests of this folder share.
+#pragma once
+
+#include <limits>
+
+#include "culling/culler_options.h"
+#include "culling/light_arrays.h"  // far_away
+
+namespace lightgrid {
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr KernelShape kernel_shapes[] = {KernelShape::lanes, KernelShape::group};
+
+}  // namespace lightgrid

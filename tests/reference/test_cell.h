@@ -1,0 +1,12 @@
+// The cell that tests of this folder know by heart.
+#pragma once
+
+#include "reference/cell.h"
+#include "reference/infinity.h"
+
+namespace lightgrid {
+
+// Square pyramid of slopes -1 to 1, from 1 m to 2 m: corners (+-1, +-1, -1) and (+-2, +-2, -2).
+inline const Cell pyramid{-1, 1, -1, 1, 1, 2};
+
+}  // namespace lightgrid
