@@ -26,9 +26,9 @@ int capture(const CaptureOptions& o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   make_folder(o.output);
-  Devices devices = open_devices(o.devices.device, backend);
+  Renderer devices(o.devices.device, backend);
   const CapturedFrame frame = capture_frame(devices, chosen.scene, chosen.view, settings);
-  FrameCuller culler(*devices.cl, *devices.programs, frame, settings, needs);
+  FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, needs);
   culler.run();
   const FrameGrid grid = culler.grid();
   write_frame(o.output, frame);

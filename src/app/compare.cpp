@@ -172,7 +172,7 @@ double cost_of(const LoadedView& view) {
 
 // Runs the views in turn, with one progress bar over all; found() is given each report.
 template <typename Found>
-void run_views(Devices& devices, const std::vector<LoadedView>& views, const std::vector<Contestant>& contestants,
+void run_views(Renderer& devices, const std::vector<LoadedView>& views, const std::vector<Contestant>& contestants,
                const CompareCommand& o, const Found& found) {
   double total = 0, before = 0;
   for (const LoadedView& view : views) total += cost_of(view);
@@ -208,7 +208,7 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
 
 std::string page_path(const CompareCommand& o) { return (std::filesystem::path(o.output) / "index.html").string(); }
 
-int compare_one(const CompareCommand& o, Devices& devices, const std::vector<LoadedView>& views,
+int compare_one(const CompareCommand& o, Renderer& devices, const std::vector<LoadedView>& views,
                 const std::vector<Contestant>& contestants) {
   CompareReport report;
   run_views(devices, views, contestants, o, [&](CompareReport found) { report = std::move(found); });
@@ -221,7 +221,7 @@ int compare_one(const CompareCommand& o, Devices& devices, const std::vector<Loa
   return tell_failures(report, "") ? 1 : 0;
 }
 
-int compare_several(const CompareCommand& o, Devices& devices, const std::vector<LoadedView>& views,
+int compare_several(const CompareCommand& o, Renderer& devices, const std::vector<LoadedView>& views,
                     const std::vector<Contestant>& contestants) {
   ViewsReport report(o.output, views.size(), size_t(o.page_mb) << 20);
   bool failed = false;
@@ -245,7 +245,7 @@ int compare(const CompareCommand& o) {
   const std::vector<LoadedView> views = load_views(chosen_views(o));
   if (!o.json.empty()) check_output_file("--json", o.json);
   make_folder(o.output);
-  Devices devices = open_devices(o.devices.device, backend);
+  Renderer devices(o.devices.device, backend);
   return views.size() == 1 ? compare_one(o, devices, views, contestants) : compare_several(o, devices, views, contestants);
 }
 

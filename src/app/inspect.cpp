@@ -85,15 +85,19 @@ Subject load_subject(const SceneOptions& o) {
   return {load_chosen_scene(o), {}, chosen_settings(o)};
 }
 
-Devices open_devices_for(Subject& subject, const std::string& cl, GlBackend backend) {
+struct OpenCl {
+  std::unique_ptr<ClDevice> cl;
+  std::unique_ptr<ProgramCache> kernels;
+};
+
+// A scene is captured first, which takes OpenGL too.
+OpenCl open_devices_for(Subject& subject, const std::string& cl, GlBackend backend) {
   if (subject.scene) {
-    Devices devices = open_devices(cl, backend);
-    subject.frame = capture_frame(devices, subject.scene->scene, subject.scene->view, subject.settings);
-    return devices;
+    Renderer renderer(cl, backend);
+    subject.frame = capture_frame(renderer, subject.scene->scene, subject.scene->view, subject.settings);
   }
-  Devices devices;
-  devices.cl = std::make_unique<ClDevice>(cl);
-  devices.programs = std::make_unique<ProgramCache>(*devices.cl);
+  OpenCl devices{std::make_unique<ClDevice>(cl), nullptr};
+  devices.kernels = std::make_unique<ProgramCache>(*devices.cl);
   return devices;
 }
 
@@ -128,12 +132,12 @@ int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGr
 }
 
 // Each combination's lists against one answer of the oracle.
-int compare_settings(const InspectOptions& o, const Subject& subject, Devices& devices) {
+int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& devices) {
   const LitBlocks truth = find_lit_blocks(subject.frame);
   std::vector<AccuracyRow> rows;
   uint64_t lost = 0;
   for (const BenchContestant& c : culling_contestants(subject.settings, o.compare, most_compared)) {
-    FrameCuller culler(*devices.cl, *devices.programs, subject.frame, c.settings, grid_needs(o.technique, c.settings));
+    FrameCuller culler(*devices.cl, *devices.kernels, subject.frame, c.settings, grid_needs(o.technique, c.settings));
     culler.run();
     const FrameGrid grid = culler.grid();
     if (grid.lists.slices != 1 || !grid.z_bin_edges.empty()) {
@@ -163,9 +167,9 @@ int inspect(const InspectOptions& o) {
   subject.needs = needs;
   if (place) check_place(*place, subject.view());
   if (!o.output.empty()) make_folder(o.output);
-  Devices devices = open_devices_for(subject, o.devices.device, backend);
+  OpenCl devices = open_devices_for(subject, o.devices.device, backend);
   if (!one_grid) return compare_settings(o, subject, devices);
-  FrameCuller culler(*devices.cl, *devices.programs, subject.frame, subject.settings, subject.needs);
+  FrameCuller culler(*devices.cl, *devices.kernels, subject.frame, subject.settings, subject.needs);
   culler.run();
   const FrameGrid grid = culler.grid();
   int status = 0;

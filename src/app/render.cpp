@@ -26,7 +26,7 @@ int render(const RenderOptions& o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   const ChosenScene chosen = load_chosen_scene(o.scene);
-  Devices devices = open_devices(o.devices.device, backend);
+  Renderer devices(o.devices.device, backend);
   TechniqueRun run(devices, chosen.scene, chosen.view, settings, technique);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "passes/frame/draw.h"
-#include "passes/frame/light_defines.h"
+#include "passes/light_source.h"
+#include "renderer/draw.h"
 
 namespace lightgrid {
 namespace {
@@ -19,72 +19,65 @@ size_t written_bytes(const GBuffer& gbuffer) {
   return gbuffer.layout->bytes() + (gbuffer.own_light == OwnLight::in_image ? 16 : 0);
 }
 
-void clear(Frame& f, const GBuffer& gbuffer) {
-  const float background[4] = {f.scene.background.r, f.scene.background.g, f.scene.background.b, 1};
+void clear(RenderView& v, const GBuffer& gbuffer) {
+  const float background[4] = {v.scene.background.r, v.scene.background.g, v.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
   if (gbuffer.own_light == OwnLight::in_image) glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
   for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
 }
 
-void draw_surfaces(Frame& f, const GBuffer& gbuffer, const TileDistances* distances) {
+void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfaces) {
   glBindFramebuffer(GL_FRAMEBUFFER, gbuffer.framebuffer);
-  glViewport(0, 0, f.view.width, f.view.height);
-  clear(f, gbuffer);
+  glViewport(0, 0, v.view.width, v.view.height);
+  clear(v, gbuffer);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  f.bind_lights();
-  draw_instances(
-      f, f.plan.opaque, DrawStreams::all,
-      [&](uint32_t features) -> const GlProgram& {
-        std::vector<std::string> defines = own_light_defines(f, features);
-        if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
-        if (gbuffer.own_light == OwnLight::in_image) defines.emplace_back("OWN_LIGHT");
-        return f.program("shaders/scene.vert", "shaders/gbuffer.frag", defines);
-      },
-      distances);
+  LightSource source = base_lighting(v);
+  if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
+  if (gbuffer.own_light == OwnLight::in_image) source.defines.emplace_back("OWN_LIGHT");
+  source.bind(v);
+  draw_list(v, surfaces, DrawStreams::all, v.programs("shaders/scene.vert", "shaders/gbuffer.frag", source.defines));
 }
 
 }  // namespace
 
-GBuffer gbuffer_of(Frame& f, OwnLight own_light) {
+GBuffer gbuffer_of(RenderView& v, OwnLight own_light) {
   GBuffer g;
   g.own_light = own_light;
-  g.layout = &layout_of(f.plan.settings);
+  g.layout = &layout_of(v.plan.settings);
   for (int i = 0; i < 2; ++i) {
     g.textures[i] =
-        f.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
+        v.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
   }
-  g.depth = f.targets.depth();
-  const GLuint image = f.targets.texture("color", GL_RGBA32F);
-  g.framebuffer = own_light == OwnLight::in_image ? f.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
-                                                  : f.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
-  g.depth_image = {f.depth_framebuffer()};
-  g.image = {f.color_framebuffer()};
+  g.depth = v.targets.depth();
+  const GLuint image = v.targets.texture("color", GL_RGBA32F);
+  g.framebuffer = own_light == OwnLight::in_image ? v.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
+                                                  : v.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
+  g.depth_image = {v.depth_framebuffer()};
+  g.image = {v.color_framebuffer()};
   return g;
 }
 
-GBuffer fill_gbuffer(Frame& f, OwnLight own_light) {
-  auto pass = f.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(f, own_light);
+GBuffer fill_gbuffer(RenderView& v, OwnLight own_light) {
+  auto pass = v.timer.pass("fill_gbuffer", "gl");
+  const GBuffer gbuffer = gbuffer_of(v, own_light);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as where others shade at equal depth
   glDepthMask(GL_TRUE);
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
-  draw_surfaces(f, gbuffer, nullptr);
-  const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(f.gpu.geometry_bytes(), pixels * (4 + written_bytes(gbuffer)));
+  draw_surfaces(v, gbuffer, v.opaque);
+  pass.moves(v.gpu.geometry_bytes(), v.pixels() * (4 + written_bytes(gbuffer)));
   return gbuffer;
 }
 
-GBuffer fill_gbuffer(Frame& f, const TileDistances& distances, OwnLight own_light) {
-  auto pass = f.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(f, own_light);
+GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, OwnLight own_light) {
+  auto pass = v.timer.pass("fill_gbuffer", "gl");
+  const GBuffer gbuffer = gbuffer_of(v, own_light);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
-  draw_surfaces(f, gbuffer, &distances);
-  const size_t pixels = size_t(f.view.width) * f.view.height;
-  pass.moves(f.gpu.geometry_bytes() + pixels * 4, pixels * written_bytes(gbuffer));
+  draw_surfaces(v, gbuffer, surfaces);
+  pass.moves(v.gpu.geometry_bytes() + v.pixels() * 4, v.pixels() * written_bytes(gbuffer));
   return gbuffer;
 }
 

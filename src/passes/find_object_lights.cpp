@@ -20,26 +20,30 @@ std::vector<uint32_t> lights_reaching(const ViewBox& box, const std::vector<Ligh
 
 }  // namespace
 
-void ObjectLights::update(Frame& f, const std::vector<int>& instances, DrawOrder order,
-                          const TileDistances* distances) {
-  objects_.clear(), lights_.clear(), reaches_.clear();
-  const std::vector<ViewLight> all = lights_in_view(f.scene, f.view);
-  for (const int i : f.plan.local) reaches_.emplace_back(all[size_t(i)]);
+void ObjectLights::update(const RenderView& v, const DrawList& list) {
+  objects_.clear();
+  lights_.clear();
+  reaches_.clear();
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
+  for (const int i : v.plan.local) reaches_.emplace_back(all[size_t(i)]);
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
-  for (const VisiblePart& part : visible_parts(f, instances, order, distances)) {
-    const ViewBox whole =
-        box_in_view(part.view_from_object, f.scene.meshes[f.scene.instances[part.instance].mesh].bounds);
-    add_part(f, part, lights_reaching(whole, reaches_, every_light));
+  for (const DrawItem& item : list) {
+    const Aabb& bounds = v.scene.meshes[v.scene.instances[item.instance].mesh].bounds;
+    const ViewBox whole = box_in_view(v.transforms[item.instance].view_from_object, bounds);
+    add_item(v, item, lights_reaching(whole, reaches_, every_light));
+  }
+  for (Object& object : objects_) {
+    object.ranges = index_ranges(v.gpu.mesh(v.scene.instances[object.instance].mesh), object.clusters);
   }
   upload();
 }
 
-void ObjectLights::add_part(Frame& f, const VisiblePart& part, const std::vector<uint32_t>& candidates) {
-  const GpuMesh& mesh = f.gpu.mesh(f.scene.instances[part.instance].mesh);
+void ObjectLights::add_item(const RenderView& v, const DrawItem& item, const std::vector<uint32_t>& candidates) {
+  const GpuMesh& mesh = v.gpu.mesh(v.scene.instances[item.instance].mesh);
   const size_t first_object = objects_.size();
-  for (const uint32_t cluster : part.clusters) {
-    const ViewBox box = box_in_view(part.view_from_object, mesh.clusters[cluster].bounds);
+  for (const uint32_t cluster : item.clusters) {
+    const ViewBox box = box_in_view(v.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
     const std::vector<uint32_t> lights = lights_reaching(box, reaches_, candidates);
     if (objects_.size() > first_object) {
       Object& last = objects_.back();
@@ -48,7 +52,7 @@ void ObjectLights::add_part(Frame& f, const VisiblePart& part, const std::vector
         continue;
       }
     }
-    objects_.push_back({part.instance, {cluster}, uint32_t(lights_.size()), uint32_t(lights.size())});
+    objects_.push_back({item.instance, {cluster}, uint32_t(lights_.size()), uint32_t(lights.size()), {}});
     lights_.insert(lights_.end(), lights.begin(), lights.end());
   }
 }
@@ -72,25 +76,25 @@ void ObjectLights::upload() {
   }
 }
 
-static void count_bytes(const Frame& f, const ObjectLights& objects, PassTimer::Scope& pass) {
-  pass.moves(f.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
+static void count_bytes(const RenderView& v, const ObjectLights& objects, PassTimer::Scope& pass) {
+  pass.moves(v.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
              objects.lights().size() * sizeof(uint32_t));
 }
 
-const ObjectLights& find_object_lights(Frame& f, const TileDistances& distances) {
-  auto pass = f.timer.pass("find_object_lights", "cpu");
-  ObjectLights& objects = f.kept<ObjectLights>();
-  objects.update(f, f.plan.opaque, DrawOrder::front_to_back, &distances);
-  count_bytes(f, objects, pass);
+const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces) {
+  auto pass = v.timer.pass("find_object_lights", "cpu");
+  ObjectLights& objects = v.state<ObjectLights>();
+  objects.update(v, surfaces);
+  count_bytes(v, objects, pass);
   return objects;
 }
 
-const ObjectLights& find_blended_object_lights(Frame& f) {
-  ObjectLights& objects = f.kept<BlendedObjectLights>();
-  if (!f.plan.blend) return objects;
-  auto pass = f.timer.pass("find_blended_object_lights", "cpu");
-  objects.update(f, f.plan.blended, DrawOrder::as_given, nullptr);
-  count_bytes(f, objects, pass);
+const ObjectLights& find_blended_object_lights(RenderView& v) {
+  ObjectLights& objects = v.state<BlendedObjectLights>();
+  if (!v.plan.blend) return objects;
+  auto pass = v.timer.pass("find_blended_object_lights", "cpu");
+  objects.update(v, v.blended);
+  count_bytes(v, objects, pass);
   return objects;
 }
 

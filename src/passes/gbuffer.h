@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "passes/passes.h"
+#include "passes/frame.h"
 
 namespace lightgrid {
 
@@ -61,13 +61,13 @@ struct GBuffer {
 };
 
 // The view's geometry buffer as the setting buffer-bits lays it out, drawn or not.
-GBuffer gbuffer_of(Frame& f, OwnLight own_light = OwnLight::in_image);
+GBuffer gbuffer_of(RenderView& v, OwnLight own_light = OwnLight::in_image);
 
 // Opaque surfaces with their depth, in one pass over the geometry.
-GBuffer fill_gbuffer(Frame& f, OwnLight own_light = OwnLight::in_image);
+GBuffer fill_gbuffer(RenderView& v, OwnLight own_light = OwnLight::in_image);
 
-// The same at the depth that a prepass left. What `distances` shows to be hidden is not drawn.
-GBuffer fill_gbuffer(Frame& f, const TileDistances& distances, OwnLight own_light = OwnLight::in_image);
+// These surfaces alone, at the depth that a prepass left.
+GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, OwnLight own_light = OwnLight::in_image);
 
 // The defines of shaders that read the geometry buffer, which bind_gbuffer makes it ready for
 // (shaders/common/read_gbuffer.glsl).

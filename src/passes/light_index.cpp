@@ -3,10 +3,10 @@
 #include <numeric>
 #include <tuple>
 
-#include "passes/frame/light_groups.h"
-#include "passes/frame/light_index_probe.h"
-#include "passes/frame/light_index_state.h"
-#include "passes/frame/light_volumes.h"
+#include "passes/light_index/light_groups.h"
+#include "passes/light_index/blending_probe.h"
+#include "passes/light_index/gl_state.h"
+#include "passes/light_volumes/light_volumes.h"
 #include "passes/passes.h"
 
 namespace lightgrid {
@@ -28,17 +28,20 @@ struct Order {
   std::vector<Batch> batches;
 };
 
-class LightIndexState : public Kept {
+class LightIndexState : public PassState {
  public:
-  explicit LightIndexState(Frame& f)
-      : layout(light_index_layout(f.plan.settings, f.plan.local.size())), group_of_light(f.plan.local.size(), no_group) {
-    require_exact_blending(f, layout);
-    const std::vector<ViewLight> lights = lights_in_view(f.scene, f.view);
-    for (int i : f.plan.local) {
-      const glm::dvec3& i_rgb = lights[i].radiant_intensity;
-      // The integral of intensity / distance^2 over the ball, but for a factor.
-      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
-    }
+  explicit LightIndexState(RenderView& v)
+      : layout(light_index_layout(v.plan.settings, v.plan.local.size())), group_of_light(v.plan.local.size(), no_group) {
+    require_exact_blending(v, layout);
+    find_influence(v);
+  }
+
+  // Lights that come into view need groups too.
+  bool follow(RenderView& v) override {
+    if (group_of_light.size() != v.plan.local.size()) return false;
+    grouped = false;
+    find_influence(v);
+    return true;
   }
 
   LightIndexLayout layout;
@@ -46,11 +49,22 @@ class LightIndexState : public Kept {
   std::vector<uint32_t> group_of_light;   // where no camera changes it
   bool grouped = false;
   Order order;
+
+ private:
+  void find_influence(const RenderView& v) {
+    influence.clear();
+    const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view);
+    for (int i : v.plan.local) {
+      const glm::dvec3& i_rgb = lights[i].radiant_intensity;
+      // The integral of intensity / distance^2 over the ball, but for a factor.
+      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
+    }
+  }
 };
 
 // Most influence first, where the setting asks; else as in the scene.
-void put_in_order(const Frame& f, const LightIndexState& state, std::vector<LightVolume>& volumes) {
-  if (f.plan.settings.lidr_order == LidrOrder::scene) return;
+void put_in_order(const RenderView& v, const LightIndexState& state, std::vector<LightVolume>& volumes) {
+  if (v.plan.settings.lidr_order == LidrOrder::scene) return;
   std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) {
     return state.influence[a.light] > state.influence[b.light];
   });
@@ -61,8 +75,8 @@ LightExtent extent_on_screen(const LightVolume& v) { return {glm::dvec3(v.low_px
 
 // Sort: what finds no group is left out. Inside volumes, lights apart in space are apart in the image, and that stays so for
 // whatever camera; behind front faces, those apart on the screen.
-void put_in_groups(const Frame& f, LightIndexState& state, std::vector<LightVolume>& volumes) {
-  const bool on_screen = f.plan.settings.lidr_volumes == LidrVolumes::front_faces;
+void put_in_groups(const RenderView& v, LightIndexState& state, std::vector<LightVolume>& volumes) {
+  const bool on_screen = v.plan.settings.lidr_volumes == LidrVolumes::front_faces;
   if (on_screen || !state.grouped) {
     std::vector<LightExtent> extents;
     for (const LightVolume& v : volumes) extents.push_back(on_screen ? extent_on_screen(v) : extent_in_space(v));
@@ -77,19 +91,19 @@ void put_in_groups(const Frame& f, LightIndexState& state, std::vector<LightVolu
 
 // Rounds in which no two volumes share a pixel, so that the stencil holds one at a time; or, where nothing is marked and each
 // draw knows its channels, all in one.
-std::vector<uint32_t> rounds_of(const Frame& f, const LightIndexLayout& layout, const std::vector<LightVolume>& volumes) {
-  const bool sorted = layout.packing == LidrPacking::sort, marked = f.plan.settings.lidr_volumes == LidrVolumes::stencil;
+std::vector<uint32_t> rounds_of(const RenderView& v, const LightIndexLayout& layout, const std::vector<LightVolume>& volumes) {
+  const bool sorted = layout.packing == LidrPacking::sort, marked = v.plan.settings.lidr_volumes == LidrVolumes::stencil;
   if (!marked && (sorted || layout.groups == 1)) return std::vector<uint32_t>(volumes.size(), 0);
   std::vector<LightExtent> extents;
   for (const LightVolume& v : volumes) extents.push_back(extent_on_screen(v));
   return draw_rounds(extents);
 }
 
-Order order_of(const Frame& f, LightIndexState& state, std::vector<LightVolume> volumes) {
+Order order_of(const RenderView& v, LightIndexState& state, std::vector<LightVolume> volumes) {
   const bool sorted = state.layout.packing == LidrPacking::sort;
-  put_in_order(f, state, volumes);
-  if (sorted) put_in_groups(f, state, volumes);
-  const std::vector<uint32_t> rounds = rounds_of(f, state.layout, volumes);
+  put_in_order(v, state, volumes);
+  if (sorted) put_in_groups(v, state, volumes);
+  const std::vector<uint32_t> rounds = rounds_of(v, state.layout, volumes);
   // Within a round of a group any order is as good: one that takes few calls. Where all is one round, the order tells who
   // stays where there is no room.
   const auto batch_of = [&](uint32_t i) {
@@ -97,7 +111,7 @@ Order order_of(const Frame& f, LightIndexState& state, std::vector<LightVolume> 
   };
   std::vector<uint32_t> order(volumes.size());
   std::iota(order.begin(), order.end(), 0u);
-  const bool any_order = sorted || f.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
+  const bool any_order = sorted || v.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
   if (any_order) std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
   Order out;
   for (size_t i = 0; i < order.size(); ++i) {
@@ -112,8 +126,8 @@ Order order_of(const Frame& f, LightIndexState& state, std::vector<LightVolume> 
 
 class Drawing {
  public:
-  Drawing(const Frame& f, const LightIndexLayout& layout, const LightVolumes& volumes)
-      : layout_(layout), volumes_(volumes), inside_(f.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
+  Drawing(const RenderView& v, const LightIndexLayout& layout, const LightVolumes& volumes)
+      : layout_(layout), volumes_(volumes), inside_(v.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
 
   void draw(const Batch& batch) const {
     const bool counted = layout_.packing != LidrPacking::sort;
@@ -183,10 +197,10 @@ class Drawing {
   bool inside_;
 };
 
-std::vector<GLuint> index_images(Frame& f, const LightIndexLayout& layout) {
+std::vector<GLuint> index_images(RenderView& v, const LightIndexLayout& layout) {
   std::vector<GLuint> images;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
-    images.push_back(f.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
+    images.push_back(v.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
   }
   return images;
 }
@@ -198,12 +212,12 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
   glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
 }
 
-void draw_volumes(Frame& f, const LightIndexState& state, const LightVolumes& volumes, const Order& order, GLuint framebuffer) {
+void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolumes& volumes, const Order& order, GLuint framebuffer) {
   const LightIndexLayout& layout = state.layout;
-  const Drawing drawing(f, layout, volumes);
-  const GlProgram& program = f.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
+  const Drawing drawing(v, layout, volumes);
+  const GlProgram& program = v.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, f.view.width, f.view.height);
+  glViewport(0, 0, v.view.width, v.view.height);
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
   glUseProgram(program.name());
@@ -216,44 +230,44 @@ void draw_volumes(Frame& f, const LightIndexState& state, const LightVolumes& vo
   glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
 }
 
-bool may_repeat(const Frame& f) { return f.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
+bool may_repeat(const RenderView& v) { return v.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
 
 }  // namespace
 
-LightIndexImages light_index(Frame& f) {
-  LightIndexState& state = f.kept<LightIndexState>();
-  LightVolumes& volumes = f.kept<LightVolumes>();
-  const std::vector<GLuint> images = index_images(f, state.layout);
-  const GLuint framebuffer = f.targets.framebuffer(images, f.targets.depth());
+LightIndexImages light_index(RenderView& v) {
+  LightIndexState& state = v.state<LightIndexState>();
+  LightVolumes& volumes = v.state<LightVolumes>();
+  const std::vector<GLuint> images = index_images(v, state.layout);
+  const GLuint framebuffer = v.targets.framebuffer(images, v.targets.depth());
   {
-    auto pass = f.timer.pass("light_volumes", "gl");
-    Order order = order_of(f, state, volumes.update(f, f.plan.settings.volume_mesh));
+    auto pass = v.timer.pass("light_volumes", "gl");
+    Order order = order_of(v, state, volumes.update(v, v.plan.settings.volume_mesh));
     volumes.upload(order.volumes);
     state.order = std::move(order);
   }
-  auto pass = f.timer.pass("light_index", "gl");
-  draw_volumes(f, state, volumes, state.order, framebuffer);
-  const size_t pixels = size_t(f.view.width) * f.view.height;
+  auto pass = v.timer.pass("light_index", "gl");
+  draw_volumes(v, state, volumes, state.order, framebuffer);
+  const size_t pixels = size_t(v.view.width) * v.view.height;
   pass.moves(pixels * 5 + volumes.memory_bytes(), pixels * (state.layout.pixel_bytes() + 1));
 
   std::vector<std::string> defines = state.layout.defines();
   defines.emplace_back("LIGHTS_LIDR");
-  if (f.plan.settings.lidr_unpack == LidrUnpack::floats) defines.emplace_back("LIDR_FLOAT");
-  if (may_repeat(f)) defines.emplace_back("LIDR_REPEATS");
-  return {images, std::move(defines), pixels * state.layout.pixel_bytes()};
+  if (v.plan.settings.lidr_unpack == LidrUnpack::floats) defines.emplace_back("LIDR_FLOAT");
+  if (may_repeat(v)) defines.emplace_back("LIDR_REPEATS");
+  return {images, std::move(defines), v.targets.bytes(TargetUse::light_index)};
 }
 
-ListedLights read_light_index(Frame& f) {
-  const LightIndexLayout& layout = f.kept<LightIndexState>().layout;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, f.targets.framebuffer(index_images(f, layout), f.targets.depth()));
-  const std::vector<uint16_t> channels = read_channels(layout, f.view.width, f.view.height);
+ListedLights read_light_index(RenderView& v) {
+  const LightIndexLayout& layout = v.state<LightIndexState>().layout;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, v.targets.framebuffer(index_images(v, layout), v.targets.depth()));
+  const std::vector<uint16_t> channels = read_channels(layout, v.view.width, v.view.height);
   const size_t stride = layout.targets() * 4;
   ListedLights lists;
   lists.cell_of_pixel.resize(channels.size() / stride);
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   std::vector<uint32_t> lights;
   for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {
-    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(f), lights);
+    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(v), lights);
     lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(lights.size()));
     lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
   }

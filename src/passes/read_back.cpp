@@ -3,12 +3,12 @@
 
 namespace lightgrid {
 
-void read_back(Frame& f, const ShadedImage& shaded, Image& image) {
-  auto pass = f.timer.pass("read_back", "gl");
-  if (image.width != f.view.width || image.height != f.view.height)
-    image = Image(f.view.width, f.view.height);
+void read_back(RenderView& v, const ShadedImage& shaded, Image& image) {
+  auto pass = v.timer.pass("read_back", "gl");
+  if (image.width != v.view.width || image.height != v.view.height)
+    image = Image(v.view.width, v.view.height);
   if (shaded.in_cl) {
-    read_buffer(*f.devices.cl, "reading the image back", shaded.in_cl->cl_buffer(), image.pixels.data(), image.pixels.size() * 16);
+    read_buffer(*v.renderer.cl, "reading the image back", shaded.in_cl->cl_buffer(), image.pixels.data(), image.pixels.size() * 16);
   } else {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);

@@ -12,32 +12,30 @@
 #include <algorithm>
 #include <numeric>
 
-#include "passes/frame/draw.h"
-#include "passes/frame/light_defines.h"
-#include "passes/frame/light_volumes.h"
 #include "passes/light_passes.h"
-#include "passes/light_screen_bounds.h"
+#include "passes/light_source.h"
+#include "passes/light_volumes/light_volumes.h"
+#include "passes/light_volumes/screen_bounds.h"
 
 namespace lightgrid {
 namespace {
 
 class VolumeDraws {
  public:
-  VolumeDraws(Frame& f, const GBuffer& gbuffer, const char* output)
-      : f_(f),
-        culling_(f.plan.settings.volume_culling),
-        volumes_(f.kept<LightVolumes>()),
-        lights_(lights_in_view(f.scene, f.view)) {
-    std::vector<std::string> defines = own_light_defines(f, 0);
-    if (f.plan.spots) defines.emplace_back("SPOTS");
+  VolumeDraws(RenderView& v, const GBuffer& gbuffer, const char* output)
+      : v_(v),
+        culling_(v.plan.settings.volume_culling),
+        volumes_(v.state<LightVolumes>()) {
+    std::vector<std::string> defines = base_lighting(v).defines;
+    if (v.plan.spots) defines.emplace_back("SPOTS");
     if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
     if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
     if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
     if (output) defines.emplace_back(output);
-    program_ = &f.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert",
+    program_ = &v.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert",
                           "shaders/deferred_light.frag", defines);
     if (culling_ == VolumeCulling::stencil)
-      marking_ = &f.program("shaders/light_volume.vert", "shaders/depth.frag", {});
+      marking_ = &v.program("shaders/light_volume.vert", "shaders/depth.frag", {});
   }
 
   const GlProgram& program() const { return *program_; }
@@ -94,15 +92,16 @@ class VolumeDraws {
     glDisable(GL_CULL_FACE);
     glEnable(GL_SCISSOR_TEST);
     glUseProgram(program_->name());
+    const GLint light = program_->uniform("light"), depth_bounds = program_->uniform("depth_bounds");
     for (size_t i = first; i < end; ++i) {
       const LightVolume& volume = volumes_.volumes()[i];
       const ScreenBounds bounds =
-          screen_bounds(f_.view, lights_[size_t(f_.plan.local[volume.light])], volume);
+          screen_bounds(v_.view, volumes_.lights()[volume.light], volume);
       const glm::ivec2 size = bounds.end - bounds.first;
       glScissor(bounds.first.x, bounds.first.y, size.x, size.y);
-      glUniform1ui(program_->uniform("light"), volume.light);
+      glUniform1ui(light, volume.light);
       if (culling_ == VolumeCulling::depth_bounds) {
-        glUniform2f(program_->uniform("depth_bounds"), bounds.depth.x, bounds.depth.y);
+        glUniform2f(depth_bounds, bounds.depth.x, bounds.depth.y);
       }
       glDrawArrays(GL_TRIANGLES, 0, 3);
     }
@@ -110,22 +109,21 @@ class VolumeDraws {
     glBindVertexArray(0);
   }
 
-  Frame& f_;
+  RenderView& v_;
   VolumeCulling culling_;
   LightVolumes& volumes_;
-  std::vector<ViewLight> lights_;
   const GlProgram *program_ = nullptr, *marking_ = nullptr;
 };
 
 // To add light to what is there.
-void begin_adding(Frame& f, const GBuffer& gbuffer, GLuint framebuffer) {
+void begin_adding(RenderView& v, const GBuffer& gbuffer, GLuint framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, f.view.width, f.view.height);
+  glViewport(0, 0, v.view.width, v.view.height);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
-  f.bind_lights();
+  v.bind_lights();
   bind_gbuffer(gbuffer);
 }
 
@@ -135,20 +133,20 @@ constexpr uint32_t lights_a_mark = 48;
 // Draws the marks of all lights, some at a time, and calls visit(pixel, light) for each time that a shader
 // ran.
 template <typename Visit>
-void visit_pairs(Frame& f, const Visit& visit) {
-  const GBuffer gbuffer = gbuffer_of(f);
-  const int width = f.view.width, height = f.view.height;
+void visit_pairs(RenderView& v, const Visit& visit) {
+  const GBuffer gbuffer = gbuffer_of(v);
+  const int width = v.view.width, height = v.view.height;
   const GlTexture target = make_texture_2d(GL_RGBA32F, width, height);
   const GlFramebuffer framebuffer = make_framebuffer({target.name()}, gbuffer.depth);
-  const std::vector<LightVolume>& volumes = f.kept<LightVolumes>().volumes();
-  VolumeDraws draws(f, gbuffer, "MARK");
+  const std::vector<LightVolume>& volumes = v.state<LightVolumes>().volumes();
+  VolumeDraws draws(v, gbuffer, "MARK");
   Image marks(width, height);
   for (size_t first = 0, end = 0; first < volumes.size(); first = end) {
     const uint32_t first_light = volumes[first].light;
     while (end < volumes.size() && volumes[end].light - first_light < lights_a_mark) ++end;
     const float nothing[4] = {0, 0, 0, 0};
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, nothing);
-    begin_adding(f, gbuffer, framebuffer.name());
+    begin_adding(v, gbuffer, framebuffer.name());
     glUseProgram(draws.program().name());
     glUniform1ui(draws.program().uniform("first_light"), first_light);
     draws.draw(first, end);
@@ -168,33 +166,33 @@ void visit_pairs(Frame& f, const Visit& visit) {
 
 }  // namespace
 
-void shade_light_volumes(Frame& f, const GBuffer& gbuffer) {
-  if (!f.plan.local_lights) return;
-  auto pass = f.timer.pass("shade_light_volumes", "gl");
-  LightVolumes& volumes = f.kept<LightVolumes>();
-  volumes.update(f, f.plan.settings.volume_mesh);
-  if (f.plan.stencil) {
+void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
+  if (!v.plan.local_lights) return;
+  auto pass = v.timer.pass("shade_light_volumes", "gl");
+  LightVolumes& volumes = v.state<LightVolumes>();
+  volumes.update(v, v.plan.settings.volume_mesh);
+  if (v.plan.stencil) {
     const GLint nothing = 0;
     glStencilMask(0xff);
     glClearNamedFramebufferiv(gbuffer.image.framebuffer, GL_STENCIL, 0, &nothing);
   }
-  begin_adding(f, gbuffer, gbuffer.image.framebuffer);
-  VolumeDraws(f, gbuffer, nullptr).draw(0, volumes.volumes().size());
+  begin_adding(v, gbuffer, gbuffer.image.framebuffer);
+  VolumeDraws(v, gbuffer, nullptr).draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
-  const size_t pixels = size_t(f.view.width) * f.view.height;
+  const size_t pixels = size_t(v.view.width) * v.view.height;
   pass.moves(pixels * (4 + 16 + gbuffer.layout->bytes()), pixels * 16);
 }
 
-ListedLights listed_of_light_volumes(Frame& f) {
+ListedLights listed_of_light_volumes(RenderView& v) {
   ListedLights lists;
-  const size_t pixels = size_t(f.view.width) * f.view.height;
+  const size_t pixels = size_t(v.view.width) * v.view.height;
   lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
-  if (!f.plan.local_lights) return list_every_light(0);
-  visit_pairs(f, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
+  if (!v.plan.local_lights) return list_every_light(0);
+  visit_pairs(v, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   place_lists(lists);
   std::vector<uint64_t> next = lists.first;
-  visit_pairs(f, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
+  visit_pairs(v, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
   return lists;
 }
 

@@ -29,26 +29,6 @@ constexpr FeatureName feature_names[] = {
     {feature_unlit, "UNLIT", "unlit materials"},
 };
 
-uint32_t features_of(const Scene& scene, const Mesh& mesh) {
-  const Material& m = scene.materials[mesh.material];
-  uint32_t features = 0;
-  const auto use = [&](const TextureSlot& slot, uint32_t feature) {
-    if (slot.texture < 0) return;
-    features |= feature | feature_textured;
-    if (slot.uv_set == 1) features |= feature_uv1;
-    if (slot.transformed()) features |= feature_uv_transform;
-  };
-  use(m.base_color_map, feature_base_color_map);
-  if (!mesh.colors.empty()) features |= feature_vertex_color;
-  if (m.alpha_mode == AlphaMode::mask) features |= feature_mask;
-  if (m.unlit) return features | feature_unlit;  // what lighting needs, an unlit surface does not
-  use(m.metallic_roughness_map, feature_metallic_roughness_map);
-  use(m.normal_map, feature_normal_map);
-  use(m.occlusion_map, feature_occlusion_map);
-  use(m.emissive_map, feature_emissive_map);
-  return features;
-}
-
 std::string instance_witness(const Scene& scene, int instance) {
   const Instance& i = scene.instances[instance];
   const int material = scene.meshes[i.mesh].material;
@@ -85,7 +65,7 @@ void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     const glm::dmat4 to_view = view_from_object(view, scene.instances[i].world_from_object);
     if (mesh.indices.empty() || !may_see_box(frustum, to_view, mesh.bounds)) continue;
-    const uint32_t features = features_of(scene, mesh);
+    const uint32_t features = material_features(scene, mesh);
     plan.features_of_instance[i] = features;
     plan.features |= features;
     for (size_t f = 0; f < std::size(feature_names); ++f) {
@@ -178,6 +158,26 @@ std::vector<std::string> defines_of(uint32_t features) {
     if (features & f.bit) defines.emplace_back(f.define);
   }
   return defines;
+}
+
+uint32_t material_features(const Scene& scene, const Mesh& mesh) {
+  const Material& m = scene.materials[mesh.material];
+  uint32_t features = 0;
+  const auto use = [&](const TextureSlot& slot, uint32_t feature) {
+    if (slot.texture < 0) return;
+    features |= feature | feature_textured;
+    if (slot.uv_set == 1) features |= feature_uv1;
+    if (slot.transformed()) features |= feature_uv_transform;
+  };
+  use(m.base_color_map, feature_base_color_map);
+  if (!mesh.colors.empty()) features |= feature_vertex_color;
+  if (m.alpha_mode == AlphaMode::mask) features |= feature_mask;
+  if (m.unlit) return features | feature_unlit;  // what lighting needs, an unlit surface does not
+  use(m.metallic_roughness_map, feature_metallic_roughness_map);
+  use(m.normal_map, feature_normal_map);
+  use(m.occlusion_map, feature_occlusion_map);
+  use(m.emissive_map, feature_emissive_map);
+  return features;
 }
 
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs) {

@@ -31,6 +31,9 @@ enum MaterialFeature : uint32_t {
 
 std::vector<std::string> defines_of(uint32_t features);
 
+// What a mesh with its material asks of shaders and vertex streams.
+uint32_t material_features(const Scene& scene, const Mesh& mesh);
+
 struct Decision {
   std::string effect;  // "blend", "spot lights", "normal maps", ...
   bool needed = false;

@@ -4,11 +4,12 @@
 
 namespace lightgrid {
 
-CapturedFrame capture_frame(Devices& devices, const Scene& scene, const View& view,
+CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view,
                             const Settings& settings) {
-  Frame frame(devices, scene, view, plan_frame(scene, view, settings, find_technique("forward_plus").needs));
-  depth_prepass(frame);
-  return {scene.name, view, settings.tile, frame.plan.slice_far_m, scene.lights, read_depth(frame)};
+  GpuScene gpu(renderer, scene);
+  RenderView seen(renderer, gpu, view, settings, find_technique("forward_plus").needs);
+  depth_prepass(seen);
+  return {scene.name, view, settings.tile, seen.plan.slice_far_m, scene.lights, read_depth(seen)};
 }
 
 }  // namespace lightgrid

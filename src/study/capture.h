@@ -7,6 +7,6 @@
 namespace lightgrid {
 
 // Draws the depth prepass. settings.tile becomes the frame's.
-CapturedFrame capture_frame(Devices& devices, const Scene& scene, const View& view, const Settings& settings);
+CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings);
 
 }  // namespace lightgrid

@@ -37,12 +37,12 @@ void attempt(Entry& entry, const Work& work, bool ends_run = true) {
   if (entry.refusal && ends_run) entry.run.reset();
 }
 
-std::vector<Entry> make_entries(Devices& devices, const Scene& scene, const View& view,
+std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& view,
                                 const std::vector<Contestant>& contestants) {
   std::vector<Entry> entries;
   for (const Contestant& c : contestants) {
     Entry& entry = entries.emplace_back(&c);
-    attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(devices, scene, view, c.settings, *c.technique); });
+    attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique); });
   }
   return entries;
 }
@@ -90,10 +90,10 @@ struct Reference {
   const Image& image() const { return sampled() ? sampled_image : run->image(); }
 };
 
-std::unique_ptr<TechniqueRun> make_reference_run(Devices& devices, const Scene& scene, const View& view,
+std::unique_ptr<TechniqueRun> make_reference_run(Renderer& renderer, GpuScene& gpu, const View& view,
                                                  const std::vector<Contestant>& contestants, const std::string& technique) {
   const Settings common = contestants.empty() ? Settings{} : contestants.front().settings;  // the same BRDF above all
-  return std::make_unique<TechniqueRun>(devices, scene, view, common, find_technique(technique));
+  return std::make_unique<TechniqueRun>(renderer, gpu, view, common, find_technique(technique));
 }
 
 std::string time_in_words(double ms) {
@@ -101,23 +101,23 @@ std::string time_in_words(double ms) {
 }
 
 // Chooses between all pixels and a sample. In a sample's favour contestants of the reference's technique are refused.
-void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Devices& devices, const Scene& scene,
+void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Renderer& renderer, GpuScene& gpu,
                              const View& view, const std::vector<Contestant>& contestants, const CompareOptions& options,
                              const std::string& technique) {
   const bool automatic = options.reference == ReferencePixels::automatic;
-  if (options.reference == ReferencePixels::full || (automatic && is_quick_for_forward(view, scene.lights.size(), options.most_reference_ms))) return;
+  if (options.reference == ReferencePixels::full || (automatic && is_quick_for_forward(view, gpu.scene().lights.size(), options.most_reference_ms))) return;
   const auto of_reference = [&](const Entry& entry) { return entry.run && entry.run->technique().name == technique; };
   const auto found = std::find_if(entries.begin(), entries.end(), of_reference);
   const bool is_contestant = found != entries.end();
-  if (!is_contestant) reference.own = make_reference_run(devices, scene, view, contestants, technique);
+  if (!is_contestant) reference.own = make_reference_run(renderer, gpu, view, contestants, technique);
   TechniqueRun& run = is_contestant ? *found->run : *reference.own;
 
   if (options.progress) options.progress(0, "estimating the reference's time");
   std::vector<PixelBlock> blocks = shuffled_blocks(view.width, view.height, options.seed);
-  const double frame_ms = automatic ? estimate_forward_ms(run.frame(), blocks) : 0;
+  const double frame_ms = automatic ? estimate_forward_ms(run.view(), blocks) : 0;
   if (automatic && frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms) return;
 
-  const size_t most = sample_size(scene.lights.size()), a_block = PixelBlock::side * PixelBlock::side;
+  const size_t most = sample_size(gpu.scene().lights.size()), a_block = PixelBlock::side * PixelBlock::side;
   blocks.resize(std::min(blocks.size(), (most + a_block - 1) / a_block));
   const size_t pixels = pixels_of(blocks, view.width, view.height).size(), all = size_t(view.width) * size_t(view.height);
   const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame", time_in_words(frame_ms))
@@ -163,13 +163,13 @@ void add_row(CompareReport& report, TechniqueRun& run, const Reference& referenc
 // difference is missed.
 void measure_against_oracle(CompareReport& report, const Reference& reference, const std::vector<float>& depth, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
-  const SurfaceOracle oracle(reference.run->frame(), depth);
+  const SurfaceOracle oracle(reference.run->view(), depth);
   std::vector<uint32_t> among = oracle.pixels();
   if (reference.sampled()) {
     const std::vector<uint32_t> sampled = pixels_of(reference.blocks, report.width, report.height);
     std::erase_if(among, [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
-  std::vector<uint32_t> pixels = sample_pixels(among, affordable_samples(samples, reference.run->frame().scene.lights.size()));
+  std::vector<uint32_t> pixels = sample_pixels(among, affordable_samples(samples, reference.run->view().scene.lights.size()));
   report.reference_errors = measure_reference_errors(oracle, reference.image(), pixels);
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (!report.rows[i].error) continue;
@@ -186,20 +186,21 @@ void measure_against_oracle(CompareReport& report, const Reference& reference, c
 
 }  // namespace
 
-CompareReport compare_techniques(Devices& devices, const Scene& scene, const View& view,
+CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
                                  const std::vector<Contestant>& contestants, const CompareOptions& options) {
   CompareReport report;
   report.scene = scene.name;
   report.width = view.width, report.height = view.height;
-  report.cl_device = devices.cl->info().name;
-  report.gl_device = devices.gl->renderer;
+  report.cl_device = renderer.cl->info().name;
+  report.gl_device = renderer.gl->renderer;
   report.commit = commit_of_build();
   report.reference = "forward";
   report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
 
-  std::vector<Entry> entries = make_entries(devices, scene, view, contestants);
+  GpuScene gpu(renderer, scene);
+  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants);
   Reference reference;
-  choose_reference_pixels(reference, entries, devices, scene, view, contestants, options, report.reference);
+  choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, report.reference);
   time_interleaved(entries, options);
   if (!options.all_may_refuse) require_one(entries);
 
@@ -208,16 +209,16 @@ CompareReport compare_techniques(Devices& devices, const Scene& scene, const Vie
   }
   if (options.progress && (reference.sampled() || !reference.run)) options.progress(0.8, "reference: " + report.reference);
   if (reference.sampled()) {
-    render_forward_at(reference.run->frame(), reference.blocks, reference.sampled_image);
+    render_forward_at(reference.run->view(), reference.blocks, reference.sampled_image);
     report.reference_pixels = pixels_of(reference.blocks, view.width, view.height).size();
   } else if (!reference.run) {
-    if (!reference.own) reference.own = make_reference_run(devices, scene, view, contestants, report.reference);
+    if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, report.reference);
     reference.run = reference.own.get();
     reference.run->run_frame();
     report.reference_image = reference.run->image();
   }
 
-  const std::vector<float> depth = read_depth(reference.run->frame());
+  const std::vector<float> depth = read_depth(reference.run->view());
   for (size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries[i];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");

@@ -35,7 +35,7 @@ struct CompareOptions {
 // read out; the first reason is thrown where no contestant renders, unless all_may_refuse. Where the reference is a
 // sample, contestants of its technique are refused, since a frame of theirs is what takes too long; errors are then over
 // the sample's pixels. What the reference itself throws is thrown.
-CompareReport compare_techniques(Devices& devices, const Scene& scene, const View& view,
+CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
                                  const std::vector<Contestant>& contestants, const CompareOptions& options);
 
 }  // namespace lightgrid

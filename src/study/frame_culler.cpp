@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
-#include "passes/frame/frame.h"
+#include "renderer/render_view.h"
 #include "reference/position.h"
 #include "study/frame_lists.h"
 #include "techniques/technique.h"

@@ -1,6 +1,6 @@
 #include "study/frame_lists.h"
 
-#include "passes/frame/frame.h"
+#include "renderer/render_view.h"
 #include "study/grid_lists.h"
 
 namespace lightgrid {

@@ -9,10 +9,10 @@
 namespace lightgrid {
 namespace {
 
-std::vector<ViewLight> local_lights(const Frame& f) {
-  const std::vector<ViewLight> all = lights_in_view(f.scene, f.view);
+std::vector<ViewLight> local_lights(const RenderView& v) {
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
   std::vector<ViewLight> local;
-  for (int i : f.plan.local) local.push_back(all[i]);
+  for (int i : v.plan.local) local.push_back(all[i]);
   return local;
 }
 
@@ -60,30 +60,30 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   return surface;
 }
 
-std::vector<float> read_depth(Frame& f) {
-  std::vector<float> depth(size_t(f.view.width) * f.view.height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, f.depth_framebuffer());
-  glReadPixels(0, 0, f.view.width, f.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+std::vector<float> read_depth(RenderView& v) {
+  std::vector<float> depth(size_t(v.view.width) * v.view.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, v.depth_framebuffer());
+  glReadPixels(0, 0, v.view.width, v.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
   return depth;
 }
 
-std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& depth) {
-  const CullView view = cull_view(f.view, f.plan);
+std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<float>& depth) {
+  const CullView view = cull_view(v.view, v.plan);
   const auto edges = slice_keys(view);
   std::vector<uint32_t> cells;
   cells.reserve(depth.size());
-  for (int y = 0; y < f.view.height; ++y) {
-    for (int x = 0; x < f.view.width; ++x) {
+  for (int y = 0; y < v.view.height; ++y) {
+    for (int x = 0; x < v.view.width; ++x) {
       const uint slice = slice_of_key(depth_key(view, depth[cells.size()]), edges.data());
-      const uint first = cell_of_pixel(x, y, f.params.tile_size, f.params.tiles_x);
-      cells.push_back(cell_in_slice(first, slice, f.params.tiles_x, f.params.tiles_y));
+      const uint first = cell_of_pixel(x, y, v.params.tile_size, v.params.tiles_x);
+      cells.push_back(cell_in_slice(first, slice, v.params.tiles_x, v.params.tiles_y));
     }
   }
   return cells;
 }
 
-std::vector<uint32_t> z_bins_of_pixels(const Frame& f, const std::vector<float>& depth) {
-  const CullView view = cull_view(f.view, f.plan);
+std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth) {
+  const CullView view = cull_view(v.view, v.plan);
   const auto edges = z_bin_keys(view);
   std::vector<uint32_t> bins;
   bins.reserve(depth.size());
@@ -92,27 +92,27 @@ std::vector<uint32_t> z_bins_of_pixels(const Frame& f, const std::vector<float>&
 }
 
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
-  Frame& f = run.frame();
-  if (run.technique().listed) return run.technique().listed(f);
-  if (!f.plan.light_grid) return list_every_light(uint32_t(f.plan.local.size()));
-  const LightGrid& grid = f.opaque_grid_last;
+  RenderView& v = run.view();
+  if (run.technique().listed) return run.technique().listed(v);
+  if (!v.plan.light_grid) return list_every_light(uint32_t(v.plan.local.size()));
+  const LightGrid& grid = *run.frame().grid;
   ListedLights lists;
-  lists.cell_of_pixel = cells_of_pixels(f, depth);
-  if (f.plan.settings.grid_lists == GridLists::masks) {
+  lists.cell_of_pixel = cells_of_pixels(v, depth);
+  if (v.plan.settings.grid_lists == GridLists::masks) {
     const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-    const GLuint masks = f.opaque_grid().masks_.buffer->gl_buffer();
+    const GLuint masks = v.opaque_grid().masks_.buffer->gl_buffer();
     add_masks(read_buffer<uint32_t>(masks, cells * grid.mask_words), cells, lists);
   } else {
-    add_lists(f.opaque_grid(), grid, lists);
+    add_lists(v.opaque_grid(), grid, lists);
   }
   if (grid.z_bin_bytes == 0) return lists;
-  SharedBuffer& bins = *f.opaque_grid().z_bins_.buffer;
+  SharedBuffer& bins = *v.opaque_grid().z_bins_.buffer;
   bins.hand_to_gl(grid.z_bin_bytes);  // as in add_lists
-  return in_z_bins(lists, z_bins_of_pixels(f, depth), read_buffer<uint32_t>(bins.gl_buffer(), grid.z_bin_bytes / 4));
+  return in_z_bins(lists, z_bins_of_pixels(v, depth), read_buffer<uint32_t>(bins.gl_buffer(), grid.z_bin_bytes / 4));
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {
-  return count_pairs(run.frame().view, depth, local_lights(run.frame()), listed_lights(run, depth));
+  return count_pairs(run.view().view, depth, local_lights(run.view()), listed_lights(run, depth));
 }
 
 ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
@@ -123,9 +123,9 @@ ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Imag
   return {compare_images(with_window, without), compare_images(in_float, with_window), oracle.pixels_left_out()};
 }
 
-ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,
+ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light, const std::vector<float>& depth,
                                          size_t samples) {
-  const SurfaceOracle oracle(f, depth);
+  const SurfaceOracle oracle(v, depth);
   return measure_reference_errors(oracle, every_light, sample_pixels(oracle.pixels(), samples));
 }
 

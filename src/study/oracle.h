@@ -1,7 +1,7 @@
 // Where the renderer's buffers meet the double-precision oracle (reference/).
 #pragma once
 
-#include "passes/surfaces.h"
+#include "passes/read_outs/surfaces.h"
 #include "reference/lit_set.h"
 #include "reference/shading.h"
 #include "study/results.h"
@@ -13,13 +13,13 @@ namespace lightgrid {
 Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
 
 // The depth image of the last frame: width * height, row 0 at the bottom, 0 where nothing is.
-std::vector<float> read_depth(Frame& f);
+std::vector<float> read_depth(RenderView& v);
 
 // The cell of the light grid that shading reads at each pixel, from the depth image of the frame.
-std::vector<uint32_t> cells_of_pixels(const Frame& f, const std::vector<float>& depth);
+std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<float>& depth);
 
 // And its z-bin: 0 where there are none.
-std::vector<uint32_t> z_bins_of_pixels(const Frame& f, const std::vector<float>& depth);
+std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth);
 
 // What the last frame of a run shaded opaque surfaces with: as the technique tells it, from the light grid, or every
 // point and spot light at every pixel. A pixel's slice and z-bin follow from its depth; lights that its
@@ -38,7 +38,7 @@ ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Imag
 
 // Model and precision errors at up to `samples` pixels that no blended surface covers: shades the surfaces that
 // OpenGL saw, in double. `every_light` is the float image of the technique `forward`.
-ReferenceErrors measure_reference_errors(Frame& f, const Image& every_light, const std::vector<float>& depth,
+ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light, const std::vector<float>& depth,
                                          size_t samples);
 
 }  // namespace lightgrid

@@ -29,8 +29,8 @@ struct Sums {
 
 }  // namespace
 
-SurfaceOracle::SurfaceOracle(Frame& f, const std::vector<float>& depth)
-    : f_(f), depth_(depth), surfaces_(read_surfaces(f)), lights_(lights_in_view(f.scene, f.view)) {
+SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth)
+    : v_(v), depth_(depth), surfaces_(read_surfaces(v)), lights_(lights_in_view(v.scene, v.view)) {
   for (const uint32_t pixel : covered_pixels(depth)) {
     surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);
   }
@@ -38,8 +38,8 @@ SurfaceOracle::SurfaceOracle(Frame& f, const std::vector<float>& depth)
 
 std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels, bool window) const {
   const auto surface_at = [&](uint32_t pixel) { return surface_of(surfaces_, pixel); };
-  const ShadeSettings settings{.brdf = f_.plan.settings.brdf, .ambient = f_.scene.ambient, .window = window};
-  return shade_pixels(f_.view, depth_, surface_at, lights_, settings, pixels);
+  const ShadeSettings settings{.brdf = v_.plan.settings.brdf, .ambient = v_.scene.ambient, .window = window};
+  return shade_pixels(v_.view, depth_, surface_at, lights_, settings, pixels);
 }
 
 std::vector<uint32_t> most_different(const Image& image, const Image& reference, const std::vector<uint32_t>& among, size_t most) {

@@ -8,7 +8,7 @@ namespace lightgrid {
 // What the oracle shades at some pixels of a view, out of the surfaces and the depth image of its last frame of `forward`.
 class SurfaceOracle {
  public:
-  SurfaceOracle(Frame& f, const std::vector<float>& depth);
+  SurfaceOracle(RenderView& v, const std::vector<float>& depth);
 
   // Those that show a surface which no blended one covers, ascending; others the oracle cannot shade.
   const std::vector<uint32_t>& pixels() const { return pixels_; }
@@ -18,7 +18,7 @@ class SurfaceOracle {
   std::vector<glm::dvec3> shade(const std::vector<uint32_t>& pixels, bool window) const;
 
  private:
-  Frame& f_;
+  RenderView& v_;
   const std::vector<float>& depth_;
   SurfaceImages surfaces_;
   std::vector<ViewLight> lights_;

@@ -12,9 +12,9 @@ namespace {
 // While it lives, surfaces pass the depth tests of shading inside the blocks alone: elsewhere depth is 1, nearer than all.
 class DepthOfBlocks {
  public:
-  DepthOfBlocks(Frame& f, const std::vector<PixelBlock>& blocks) : f_(f), whole_(read_depth(f)) {
+  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v)) {
     std::vector<float> masked(whole_.size(), 1.0f);
-    for (const uint32_t pixel : pixels_of(blocks, f.view.width, f.view.height)) masked[pixel] = whole_[pixel];
+    for (const uint32_t pixel : pixels_of(blocks, v.view.width, v.view.height)) masked[pixel] = whole_[pixel];
     write(masked);
   }
   ~DepthOfBlocks() { write(whole_); }
@@ -23,10 +23,10 @@ class DepthOfBlocks {
 
  private:
   void write(const std::vector<float>& depth) {
-    glTextureSubImage2D(f_.targets.depth(), 0, 0, 0, f_.view.width, f_.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    glTextureSubImage2D(v_.targets.depth(), 0, 0, 0, v_.view.width, v_.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
   }
 
-  Frame& f_;
+  RenderView& v_;
   const std::vector<float> whole_;
 };
 
@@ -53,24 +53,25 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width
   return pixels;
 }
 
-void render_forward_at(Frame& f, const std::vector<PixelBlock>& blocks, Image& image) {
-  const DepthImage depth = depth_prepass(f);
-  const TileDistances distances = tile_distances(f, depth_bounds(f, depth));
-  const DepthOfBlocks masked(f, blocks);
-  const ShadedImage shaded = shade_forward(f, distances, nullptr);
-  shade_blended(f, shaded, nullptr);
-  read_back(f, shaded, image);
+void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Image& image) {
+  const DepthImage depth = depth_prepass(v);
+  const TileDistances distances = tile_distances(v, depth_bounds(v, depth));
+  const DepthOfBlocks masked(v, blocks);
+  const LightSource lights = every_light(v);
+  const ShadedImage shaded = shade_forward(v, visible_surfaces(v, distances), lights);
+  shade_blended(v, shaded, lights);
+  read_back(v, shaded, image);
 }
 
 bool is_quick_for_forward(const View& view, size_t lights, double most_ms) {
   return double(view.width) * view.height * double(lights) < 16e3 * most_ms;
 }
 
-double estimate_forward_ms(Frame& f, const std::vector<PixelBlock>& shuffled) {
+double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffled) {
   Image image;
   const auto time_of = [&](size_t count) {
     const Timer timer;
-    render_forward_at(f, {shuffled.begin(), shuffled.begin() + std::ptrdiff_t(count)}, image);
+    render_forward_at(v, {shuffled.begin(), shuffled.begin() + std::ptrdiff_t(count)}, image);
     return timer.elapsed_ms();
   };
   const double without_pixels = (time_of(0), time_of(0));  // the first one builds programs

@@ -22,14 +22,14 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width
 
 // Renders `forward` into `image` where the blocks are; other pixels hold the background. The frame's depth image is whole
 // afterwards.
-void render_forward_at(Frame& f, const std::vector<PixelBlock>& blocks, Image& image);
+void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Image& image);
 
 // So few pairs of a pixel and a light (16,000 a millisecond) that no machine takes that long for a frame.
 bool is_quick_for_forward(const View& view, size_t lights, double most_ms);
 
 // Milliseconds that a whole frame of `forward` would take, from ever more blocks of the view until they take a quarter of
 // a second.
-double estimate_forward_ms(Frame& f, const std::vector<PixelBlock>& shuffled);
+double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffled);
 
 // How many pixels the sample has: four thousand million pairs of a pixel and a light, but 256 to 65,536 pixels.
 size_t sample_size(size_t lights);

@@ -6,11 +6,16 @@
 
 namespace lightgrid {
 
-// A technique made ready on a view: programs built, buffers there. Several may live side by side, so that what is
-// compared runs interleaved.
+// A technique made ready on a view: programs built, buffers there. Several may live side by side, so that what is compared
+// runs interleaved; they share the scene's memory where they are given the same GpuScene.
 class TechniqueRun {
  public:
-  TechniqueRun(Devices& devices, const Scene& scene, const View& view, const Settings& settings, const Technique& technique);
+  TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const Technique& technique);
+  // With a GPU scene of its own.
+  TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings, const Technique& technique);
+
+  // Another camera or size, for the frames that follow.
+  void look(const View& view) { view_.look(view); }
 
   // One frame, from the first draw to the image read back; its time goes into the result unless `warmup`.
   void run_frame(bool warmup = false);
@@ -18,8 +23,10 @@ class TechniqueRun {
   void run_profiled_frames();
 
   const Image& image() const { return image_; }
-  Frame& frame() { return frame_; }
+  RenderView& view() { return view_; }
+  const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }
+  const std::vector<double>& frame_ms() const { return frame_ms_; }  // of the frames that count, in order
 
   // All but `pairs` and `error`, which need the oracle and the reference image.
   RunResult result() const;
@@ -28,6 +35,8 @@ class TechniqueRun {
   void render();
 
   const Technique& technique_;
+  std::unique_ptr<GpuScene> own_scene_;
+  RenderView view_;
   Frame frame_;
   Image image_;
   std::vector<double> frame_ms_;

@@ -4,15 +4,18 @@
 
 namespace lightgrid {
 
-ShadedImage add_tiled_light(Frame& f, const GBuffer& gbuffer, const DepthBounds& bounds) {
-  if (!f.plan.light_grid) {  // no light has a place: the image is finished
-    shade_blended(f, gbuffer.image, nullptr);
-    return gbuffer.image;
-  }
-  const LightGrid grid = cull_lights_for_cl(f, bounds);
-  const ShadedImage image = shade_tiles(f, gbuffer, grid);
-  shade_blended_from_grid(f, image, bounds, grid);
-  return image;
+Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const DepthBounds& bounds) {
+  if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
+  Frame frame;
+  frame.grid = cull_lights(v, bounds);
+  frame.image = shade_tiles(v, gbuffer, depth, *frame.grid);
+  shade_blended_from_grid(v, bounds, frame);
+  return frame;
+}
+
+Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer) {
+  shade_blended(v, gbuffer.image, every_light(v));
+  return {gbuffer.image};
 }
 
 }  // namespace lightgrid

@@ -7,11 +7,14 @@
 namespace lightgrid {
 
 // Without point and spot lights there is no light pass, and the image takes all.
-inline OwnLight own_light_of(const Frame& f) {
-  return f.plan.light_grid && !f.plan.own_light ? OwnLight::in_light_pass : OwnLight::in_image;
+inline OwnLight own_light_of(const RenderView& v) {
+  return v.plan.light_grid && !v.plan.own_light ? OwnLight::in_light_pass : OwnLight::in_image;
 }
 
 // Culls lights, adds those of each tile's list to the geometry buffer's image, and lays blended surfaces over it.
-ShadedImage add_tiled_light(Frame& f, const GBuffer& gbuffer, const DepthBounds& bounds);
+Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const DepthBounds& bounds);
+
+// The same where no light has a position: the geometry buffer's image is finished but for blended surfaces.
+Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer);
 
 }  // namespace lightgrid

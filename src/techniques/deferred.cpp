@@ -6,11 +6,11 @@
 
 namespace lightgrid {
 
-static ShadedImage render(Frame& f) {
-  const GBuffer gbuffer = fill_gbuffer(f);
-  shade_light_volumes(f, gbuffer);
-  shade_blended(f, gbuffer.image, find_blended_object_lights(f));
-  return gbuffer.image;
+static Frame render(RenderView& v) {
+  const GBuffer gbuffer = fill_gbuffer(v);
+  shade_light_volumes(v, gbuffer);
+  shade_blended(v, gbuffer.image, find_blended_object_lights(v));
+  return {gbuffer.image};
 }
 
 extern const Technique deferred{.name = "deferred",

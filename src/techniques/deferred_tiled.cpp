@@ -3,9 +3,11 @@
 
 namespace lightgrid {
 
-static ShadedImage render(Frame& f) {
-  const GBuffer gbuffer = fill_gbuffer(f, own_light_of(f));
-  return add_tiled_light(f, gbuffer, depth_bounds(f, gbuffer.depth_image));
+static Frame render(RenderView& v) {
+  const GBuffer gbuffer = fill_gbuffer(v, own_light_of(v));
+  if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
+  const DepthBuffer depth = depth_to_cl(v, gbuffer.depth_image);
+  return add_tiled_light(v, gbuffer, depth, depth_bounds(v, depth));
 }
 
 extern const Technique deferred_tiled{

@@ -3,12 +3,13 @@
 
 namespace lightgrid {
 
-static ShadedImage render(Frame& f) {
-  const DepthImage depth = depth_prepass(f);
-  const TileDistances distances = tile_distances(f, depth_bounds(f, depth));
-  const ShadedImage image = shade_forward(f, distances, nullptr);
-  shade_blended(f, image, nullptr);
-  return image;
+static Frame render(RenderView& v) {
+  const DepthImage depth = depth_prepass(v);
+  const TileDistances distances = tile_distances(v, depth_bounds(v, depth));
+  const LightSource lights = every_light(v);
+  const ShadedImage image = shade_forward(v, visible_surfaces(v, distances), lights);
+  shade_blended(v, image, lights);
+  return {image};
 }
 
 extern const Technique forward{.name = "forward",

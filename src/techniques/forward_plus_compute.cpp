@@ -4,10 +4,11 @@
 
 namespace lightgrid {
 
-static ShadedImage render(Frame& f) {
-  const DepthImage depth = depth_prepass(f);
-  const DepthBounds bounds = depth_bounds(f, depth);
-  return add_tiled_light(f, fill_gbuffer(f, tile_distances(f, bounds), own_light_of(f)), bounds);
+static Frame render(RenderView& v) {
+  const DepthBuffer depth = depth_to_cl(v, depth_prepass(v));
+  const DepthBounds bounds = depth_bounds(v, depth);
+  const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
+  return add_tiled_light(v, fill_gbuffer(v, surfaces, own_light_of(v)), depth, bounds);
 }
 
 extern const Technique forward_plus_compute{

@@ -5,13 +5,13 @@
 
 namespace lightgrid {
 
-static ShadedImage render(Frame& f) {
-  const DepthImage depth = depth_prepass(f);
-  const TileDistances distances = tile_distances(f, depth_bounds(f, depth));
-  const ObjectLights& objects = find_object_lights(f, distances);
-  const ShadedImage image = shade_objects(f, objects, 8, false);
-  shade_blended(f, image, find_blended_object_lights(f));
-  return image;
+static Frame render(RenderView& v) {
+  const DepthImage depth = depth_prepass(v);
+  const TileDistances distances = tile_distances(v, depth_bounds(v, depth));
+  const ObjectLights& objects = find_object_lights(v, visible_surfaces(v, distances));
+  const ShadedImage image = shade_objects(v, objects, 8, false);
+  shade_blended(v, image, find_blended_object_lights(v));
+  return {image};
 }
 
 extern const Technique forward_zprepass{

@@ -5,26 +5,29 @@
 
 namespace lightgrid {
 
-static ShadedImage render(Frame& f) {
-  const DepthImage depth = depth_prepass(f);
-  const TileDistances distances = tile_distances(f, depth_bounds(f, depth));
-  if (f.plan.local.empty()) {
-    const ShadedImage image = shade_forward(f, distances, nullptr);
-    shade_blended(f, image, nullptr);
-    return image;
+static Frame render(RenderView& v) {
+  const DepthImage depth = depth_prepass(v);
+  const DrawList surfaces = visible_surfaces(v, tile_distances(v, depth_bounds(v, depth)));
+  if (v.plan.local.empty()) {
+    const ShadedImage image = shade_forward(v, surfaces, every_light(v));
+    shade_blended(v, image, every_light(v));
+    return {image};
   }
-  const LightIndexImages index = light_index(f);
-  const ShadedImage image = shade_forward(f, distances, index);
+  const LightIndexImages index = light_index(v);
+  const LightSource lights = from_light_index(v, index);
+  const ShadedImage image = shade_forward(v, surfaces, lights);
   // A stencil knows what is inside a volume of opaque surfaces alone.
-  if (f.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
-    shade_blended(f, image, index);
+  if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
+    shade_blended(v, image, lights);
   } else {
-    shade_blended(f, image, find_blended_object_lights(f));
+    shade_blended(v, image, find_blended_object_lights(v));
   }
-  return image;
+  return {.image = image, .light_index_bytes = index.bytes};
 }
 
-static ListedLights listed(Frame& f) { return f.plan.local.empty() ? list_every_light(0) : read_light_index(f); }
+static ListedLights listed(RenderView& v) {
+  return v.plan.local.empty() ? list_every_light(0) : read_light_index(v);
+}
 
 extern const Technique lidr{
     .name = "lidr",

@@ -3,25 +3,28 @@
 
 namespace lightgrid {
 
-ShadedImage shade_from_light_grid(Frame& f) {
-  const DepthImage depth = depth_prepass(f);
-  const DepthBounds bounds = depth_bounds(f, depth);
-  const TileDistances distances = tile_distances(f, bounds);
-  if (!f.plan.light_grid) {  // no light has a place: there is nothing to list
-    const ShadedImage image = shade_forward(f, distances, nullptr);
-    shade_blended(f, image, nullptr);
-    return image;
+Frame shade_from_light_grid(RenderView& v) {
+  const DepthImage depth = depth_prepass(v);
+  const DepthBounds bounds = depth_bounds(v, depth);
+  const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
+  Frame frame;
+  if (!v.plan.light_grid) {  // no light has a position: there is nothing to list
+    frame.image = shade_forward(v, surfaces, every_light(v));
+    shade_blended(v, frame.image, every_light(v));
+    return frame;
   }
-  const GridTextures grid = cull_lights(f, bounds);
-  const ShadedImage image = shade_forward(f, distances, &grid);
-  shade_blended_from_grid(f, image, bounds, grid.grid);
-  return image;
+  frame.grid = cull_lights(v, bounds);
+  frame.image = shade_forward(v, surfaces, from_grid(v, grid_to_gl(v, *frame.grid, v.opaque_grid())));
+  shade_blended_from_grid(v, bounds, frame);
+  return frame;
 }
 
-void shade_blended_from_grid(Frame& f, const ShadedImage& image, const DepthBounds& bounds, const LightGrid& grid) {
-  if (!f.plan.blend) return;
-  const GridTextures lists = f.plan.blend_grid ? cull_lights_for_blended(f, bounds) : grid_to_gl(f, grid);
-  shade_blended(f, image, &lists);
+void shade_blended_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame) {
+  if (!v.plan.blend) return;
+  if (v.plan.blend_grid) frame.blend_grid = cull_lights_for_blended(v, bounds);
+  const GridTextures lists = v.plan.blend_grid ? grid_to_gl(v, *frame.blend_grid, v.blend_grid())
+                                               : grid_to_gl(v, *frame.grid, v.opaque_grid());
+  shade_blended(v, frame.image, from_grid(v, lists));
 }
 
 }  // namespace lightgrid

@@ -16,19 +16,20 @@ struct Technique {
   const char* source;   // paper or article, year
   TechniqueNeeds needs;
   std::vector<const char*> settings;  // keys of those that it reads (plan/settings.h)
-  ShadedImage (*render)(Frame& f);
+  Frame (*render)(RenderView& v);
   // What the last frame shaded each pixel of its opaque surfaces with. Null: the frame's light grid or, without one,
   // every light.
-  ListedLights (*listed)(Frame& f) = nullptr;
+  ListedLights (*listed)(RenderView& v) = nullptr;
   // A pixel has places for a limited number of lights; those past it are left out.
   bool limited_lists = false;
 };
 
 // The recipe of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended surfaces.
-ShadedImage shade_from_light_grid(Frame& f);
+Frame shade_from_light_grid(RenderView& v);
 
-// Blended surfaces from a grid of their own or, where there are no depth bounds, from that of opaque ones.
-void shade_blended_from_grid(Frame& f, const ShadedImage& image, const DepthBounds& bounds, const LightGrid& grid);
+// Blended surfaces over the frame's image, from a grid of their own, which the frame gets, or, where there are no depth
+// bounds, from that of opaque ones.
+void shade_blended_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame);
 
 const std::vector<const Technique*>& techniques();
 

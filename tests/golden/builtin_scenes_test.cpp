@@ -87,7 +87,7 @@ TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
     write_file(folder / (name + ".actual.png"), actual_png);
     write_file(folder / (name + ".expected.png"), encode_png(width, height, 3, expected));
     write_file(folder / (name + ".difference.png"), encode_png(width, height, 3, d.picture));
-    const Devices& devices = software_devices();
+    const Renderer& devices = software_devices();
     const std::string device = devices.gl->renderer + ", " + devices.gl->version + "\n" + devices.cl->info().name + "\n";
     write_file(folder / (name + ".device.txt"), device);
     ADD_FAILURE() << "mean " << d.mean << " (allowed " << allowed_mean << "), off by more than " << allowed_step << ": "

@@ -5,14 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/surfaces.h"
+#include "passes/passes.h"
+#include "passes/read_outs/surfaces.h"
 #include "support/small_scene.h"
 
 namespace lightgrid {
 namespace {
 
-Devices& test_devices() {
-  static Devices devices = open_devices("", GlBackend::automatic);
+Renderer& test_devices() {
+  static Renderer devices("", GlBackend::automatic);
   return devices;
 }
 
@@ -48,14 +49,15 @@ struct Surfaces {
 };
 
 Surfaces surfaces_of(const Scene& scene, const View& view, int bits, bool after_prepass = false) {
-  Frame f(test_devices(), scene, view, plan_frame(scene, view, {.buffer_bits = bits}, {}));
+  GpuScene gpu(test_devices(), scene);
+  RenderView v(test_devices(), gpu, view, {.buffer_bits = bits}, {});
   if (after_prepass) {
-    const DepthImage depth = depth_prepass(f);
-    fill_gbuffer(f, tile_distances(f, depth_bounds(f, depth)));
+    const DepthImage depth = depth_prepass(v);
+    fill_gbuffer(v, visible_surfaces(v, tile_distances(v, depth_bounds(v, depth))));
   } else {
-    fill_gbuffer(f);
+    fill_gbuffer(v);
   }
-  return {read_surfaces(f), read_gbuffer_surfaces(f), f.targets.bytes(TargetUse::gbuffer)};
+  return {read_surfaces(v), read_gbuffer_surfaces(v), v.targets.bytes(TargetUse::gbuffer)};
 }
 
 double angle_deg(const glm::vec4& a, const glm::vec4& b) {
@@ -151,13 +153,14 @@ TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
 TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
   const Scene scene = wall_of_all_normals(16);
   const View view = wide_view(32, 32);
-  Frame f(test_devices(), scene, view, plan_frame(scene, view, {.buffer_bits = 16}, {}));
-  const GBuffer g = fill_gbuffer(f);
+  GpuScene gpu(test_devices(), scene);
+  RenderView v(test_devices(), gpu, view, {.buffer_bits = 16}, {});
+  const GBuffer g = fill_gbuffer(v);
   std::vector<glm::u16vec4> stored(32 * 32);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, g.framebuffer);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(0, 0, 32, 32, GL_RGBA, g.layout->images[0].type, stored.data());
-  const SurfaceImages kept = read_gbuffer_surfaces(f);
+  const SurfaceImages kept = read_gbuffer_surfaces(v);
   for (size_t i = 0; i < stored.size(); ++i) {
     const glm::dvec2 uv = (glm::dvec2(stored[i]) - 32768.0) / 32767.0;
     glm::dvec3 n(uv, 1 - std::abs(uv.x) - std::abs(uv.y));

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "passes/frame/light_groups.h"
-#include "passes/frame/light_index_layout.h"
-#include "passes/frame/light_index_probe.h"
+#include "passes/light_index/light_groups.h"
+#include "passes/light_index/layout.h"
+#include "passes/light_index/blending_probe.h"
 #include "scene/random.h"
 #include "shared/light_index.h"
 

@@ -1,5 +1,5 @@
 // Boxes and lights: what is told not to be reached gets nothing of the light.
-#include "passes/frame/light_reach.h"
+#include "passes/light_volumes/light_reach.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Rectangles and depth intervals of lights hold every pixel that the light reaches, and little more.
-#include "passes/light_screen_bounds.h"
+#include "passes/light_volumes/screen_bounds.h"
 
 #include <gtest/gtest.h>
 

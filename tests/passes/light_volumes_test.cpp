@@ -1,5 +1,5 @@
 // Light volumes contain what their lights reach, whatever the light and the view.
-#include "passes/frame/light_volumes.h"
+#include "passes/light_volumes/light_volumes.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ShadedImage refuse(Frame&) { throw machine_error("8 bits of blending are not exact here"); }
+Frame refuse(RenderView&) { throw machine_error("8 bits of blending are not exact here"); }
 const Technique refuses{
     .name = "refuses", .summary = "refuses", .source = "none", .needs = {}, .settings = {}, .render = refuse};
 
@@ -45,7 +45,7 @@ TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
 }
 
 // The picture is there, and memory runs out when its lists are read.
-ListedLights out_of_memory(Frame&) { throw std::bad_alloc(); }
+ListedLights out_of_memory(RenderView&) { throw std::bad_alloc(); }
 
 TEST(CompareTechniques, MakesARefusedRowOfListsThatMemoryDoesNotHold) {
   Technique many = find_technique("forward");  // the reference, too

@@ -18,7 +18,7 @@ namespace lightgrid {
 namespace {
 
 FrameGrid cull(const CapturedFrame& frame, const Settings& settings = {}, const TechniqueNeeds& needs = {}) {
-  FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, settings, needs);
+  FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, settings, needs);
   culler.run();
   return culler.grid();
 }
@@ -52,7 +52,7 @@ TEST(FrameCuller, LosesNothingBesideDepthsThatAreNone) {
     CapturedFrame frame = small_frame(133, 71);
     if (standard) frame = with_standard_depth(frame, 60);
     for (size_t i = 0; i < frame.depth.size(); i += 97) frame.depth[i] = strange[i / 97 % 4];
-    FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, {});
+    FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, {});
     culler.run();
     EXPECT_GT(culler.invalid_depth_tiles(), 20u);
     FrameGrid grid = culler.grid();
@@ -247,7 +247,7 @@ TEST_P(CaptureOf, HasTheGridThatTheRendererShadesFrom) {
       ASSERT_EQ(list_at(captured, pixel), list_at(shaded, pixel)) << pixel;
     }
   }
-  EXPECT_EQ(frame.depth, read_depth(run.frame()));
+  EXPECT_EQ(frame.depth, read_depth(run.view()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, CaptureOf,

@@ -25,7 +25,7 @@ struct Inspected {
 };
 
 Inspected inspect(const CapturedFrame& frame, int x, int y, const Settings& settings = {}) {
-  FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, settings);
+  FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, settings);
   culler.run();
   Inspected inspected{culler.grid(), {}};
   inspected.pixel = inspect_pixel(frame, inspected.grid, culler.intervals(), settings, x, y);
@@ -128,7 +128,7 @@ TEST(Inspect, AgreesWithTheListsTheOracleAndItself) {
       SCOPED_TRACE(setting.key + "=" + value);
       const Settings settings = frame_settings(frame, {setting.key + "=" + value});
       const TechniqueNeeds needs{.slices = setting.key == "slices", .z_bins = setting.key == "z-bins"};
-      FrameCuller culler(*software_devices().cl, *software_devices().programs, frame, settings, needs);
+      FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, settings, needs);
       culler.run();
       const FrameGrid grid = culler.grid();
       const std::vector<DepthInterval> intervals = culler.intervals();

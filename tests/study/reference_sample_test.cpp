@@ -45,11 +45,11 @@ TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("forward"));
   run.run_frame();
   const Image whole = run.image();
-  const std::vector<float> depth = read_depth(run.frame());
+  const std::vector<float> depth = read_depth(run.view());
   std::vector<PixelBlock> blocks = shuffled_blocks(127, 73, 3);
   blocks.resize(60);
   Image sampled;
-  render_forward_at(run.frame(), blocks, sampled);
+  render_forward_at(run.view(), blocks, sampled);
   const std::vector<uint32_t> pixels = pixels_of(blocks, 127, 73);
   size_t shaded = 0, lit = 0;
   for (const uint32_t pixel : pixels) ASSERT_EQ(sampled.pixels[pixel], whole.pixels[pixel]) << pixel;
@@ -58,7 +58,7 @@ TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   for (const uint32_t pixel : pixels) lit += whole.pixels[pixel] != background;
   EXPECT_GT(lit, 0u);
   EXPECT_EQ(shaded, lit) << "pixels outside the sample are shaded";
-  EXPECT_EQ(read_depth(run.frame()), depth) << "the depth image is not restored";
+  EXPECT_EQ(read_depth(run.view()), depth) << "the depth image is not restored";
 }
 
 TEST(ReferenceSample, HasFewerPixelsTheMoreLightsThereAre) {
@@ -102,7 +102,7 @@ TEST(ReferenceSample, EstimatesTheTimeOfAFrame) {
   for (int i = 0; i < 2000; ++i) add_point(scene, "lamp", {0.001f * float(i) - 1, 0, -3}, {1, 1, 1}, 1, 3);
   const View view = small_view(640, 360);
   TechniqueRun run(software_devices(), scene, view, {}, find_technique("forward"));
-  const double estimate_ms = estimate_forward_ms(run.frame(), shuffled_blocks(640, 360, 1));
+  const double estimate_ms = estimate_forward_ms(run.view(), shuffled_blocks(640, 360, 1));
   const Timer timer;
   run.run_frame();
   const double ms = timer.elapsed_ms();

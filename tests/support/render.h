@@ -11,12 +11,12 @@ namespace lightgrid {
 
 // Opened once a process and never closed: at exit the drivers may go first. Mesa's software renderer, by OSMesa
 // where it is there: the same picture with and without a graphics card in the machine.
-inline Devices& software_devices() {
-  static Devices* const devices = [] {
+inline Renderer& software_devices() {
+  static Renderer* const devices = [] {
     try {
-      return new Devices(open_devices("", GlBackend::osmesa));
+      return new Renderer("", GlBackend::osmesa);
     } catch (const Error&) {
-      return new Devices(open_devices("", GlBackend::egl));
+      return new Renderer("", GlBackend::egl);
     }
   }();
   return *devices;

@@ -1,7 +1,7 @@
 // clustered gives the bytes of the brute-force image, and shading finds the cells that the oracle takes.
 #include <cmath>
 
-#include "passes/cells.h"
+#include "passes/read_outs/cells.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -66,8 +66,8 @@ TEST(Clustered, OneSliceIsForwardPlus) {
   TechniqueRun one(test_devices(), scene, view, {.slices = 1}, find_technique("clustered"));
   TechniqueRun plus(test_devices(), scene, view, {}, find_technique("forward_plus"));
   one.run_frame(), plus.run_frame();
-  EXPECT_EQ(one.frame().opaque_grid_last.cell_bytes, plus.frame().opaque_grid_last.cell_bytes);
-  EXPECT_EQ(one.frame().opaque_grid_last.index_count, plus.frame().opaque_grid_last.index_count);
+  EXPECT_EQ(one.frame().grid.value().cell_bytes, plus.frame().grid.value().cell_bytes);
+  EXPECT_EQ(one.frame().grid.value().index_count, plus.frame().grid.value().index_count);
   EXPECT_TRUE(identical(one.image(), plus.image()));
 }
 
@@ -117,7 +117,7 @@ TEST(Clustered, ListsFewerLightsThanTilesWhereDepthHasGaps) {
   for (const int i : {0, 1}) {
     TechniqueRun run(test_devices(), scene, view, {}, find_technique(i ? "clustered" : "forward_plus"));
     run.run_frame();
-    listed[i] = count_listed_pairs(run, read_depth(run.frame())).listed;
+    listed[i] = count_listed_pairs(run, read_depth(run.view())).listed;
   }
   EXPECT_LT(listed[1], 0.9 * double(listed[0]));
 }
@@ -153,21 +153,21 @@ TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
   for (const char* technique : {"clustered", "forward_plus"}) {
     TechniqueRun run(test_devices(), s.scene, view, {.depth_bounds = DepthBoundsMode::none}, find_technique(technique));
     run.run_frame();
-    EXPECT_FALSE(run.frame().plan.blend_grid);
-    EXPECT_EQ(run.frame().blend_grid_last.cell_bytes, 0u);
+    EXPECT_FALSE(run.view().plan.blend_grid);
+    EXPECT_FALSE(run.frame().blend_grid);
     EXPECT_TRUE(identical(run.image(), render(s.scene, view, "forward")));
   }
 }
 
 // Depths on the edges, a unit in the last place to either side, at both ends, and everywhere between.
-std::vector<float> telling_depths(const Frame& f) {
+std::vector<float> telling_depths(const RenderView& v) {
   std::vector<float> telling = {0, 1, 0.5f, 1e-20f, 1e-38f};
-  for (const float key : slice_keys(cull_view(f.view, f.plan))) {
+  for (const float key : slice_keys(cull_view(v.view, v.plan))) {
     if (std::isinf(key)) continue;
     for (const float end : {key, -1.0f, 1.0f}) telling.push_back(-std::nextafter(key, end));
   }
   std::vector<float> depths;
-  for (size_t i = 0; i < size_t(f.view.width) * f.view.height; ++i) {
+  for (size_t i = 0; i < size_t(v.view.width) * v.view.height; ++i) {
     depths.push_back(telling[i % telling.size()]);
   }
   return depths;
@@ -180,13 +180,13 @@ TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
     for (const int slices : {1, 24, 64}) {
       TechniqueRun run(test_devices(), *scene, view, {.slices = slices}, find_technique("clustered"));
       run.run_frame();
-      Frame& f = run.frame();
-      const std::vector<float> depth = read_depth(f);
-      std::vector<uint32_t> expected = cells_of_pixels(f, depth);
+      RenderView& v = run.view();
+      const std::vector<float> depth = read_depth(v);
+      std::vector<uint32_t> expected = cells_of_pixels(v, depth);
       for (size_t i = 0; i < depth.size(); ++i) expected[i] = depth[i] > 0 ? expected[i] : no_cell;
-      EXPECT_EQ(shaded_cells(f), expected);
-      const std::vector<float> telling = telling_depths(f);
-      EXPECT_EQ(cells_at_depths(f, telling), cells_of_pixels(f, telling));
+      EXPECT_EQ(shaded_cells(v), expected);
+      const std::vector<float> telling = telling_depths(v);
+      EXPECT_EQ(cells_at_depths(v, telling), cells_of_pixels(v, telling));
     }
   }
 }

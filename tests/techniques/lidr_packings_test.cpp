@@ -1,8 +1,8 @@
 // lidr within its overlap limit is the brute-force image, in every packing and row of the table; past it, lights are missing
 // and none is another.
 #include "base/error.h"
-#include "passes/frame/light_index_layout.h"
-#include "passes/frame/light_volumes.h"
+#include "passes/light_index/layout.h"
+#include "passes/light_volumes/light_volumes.h"
 #include "reference/position.h"
 #include "techniques/lidr_scenes.h"
 
@@ -66,7 +66,7 @@ TEST_P(LidrTable, HasTheBytesInTheScenesOrder) {
 void expect_no_wrong_light(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("lidr"));
   run.run_frame();
-  const std::vector<float> depth = read_depth(run.frame());
+  const std::vector<float> depth = read_depth(run.view());
   const ListedLights lists = listed_lights(run, depth);
   std::vector<ViewLight> lights = lights_in_view(scene, view);
   std::vector<const LightVolume*> volume_of(lights.size(), nullptr);

@@ -1,6 +1,6 @@
 // lidr: any number of lights, each frame the same, in the memory that its page computes.
 #include "base/error.h"
-#include "passes/frame/light_index_layout.h"
+#include "passes/light_index/layout.h"
 #include "techniques/lidr_scenes.h"
 
 namespace lightgrid {
@@ -11,7 +11,7 @@ TEST(Lidr, KeepsTheBrightestWhereThereIsNoRoom) {
   for (int i = 0; i < 9; ++i) add_point(s.scene, "lamp", {0, 0, -3.5}, {1, 1, 1}, i == 6 ? 50.0f : 1.0f, 2);
   TechniqueRun run(test_devices(), s.scene, small_view(32, 32), lidr_settings(LidrPacking::bitshift, 1), find_technique("lidr"));
   run.run_frame();
-  const ListedLights lists = listed_lights(run, read_depth(run.frame()));
+  const ListedLights lists = listed_lights(run, read_depth(run.view()));
   ASSERT_GT(lists.indices.size(), 100u);
   for (uint32_t light : lists.indices) ASSERT_EQ(light, 6u);
 }

@@ -1,7 +1,7 @@
 // The volumes that lidr draws hold every pixel that their lights reach, from any place and through any camera.
 #include <cstdlib>
 
-#include "passes/frame/light_volumes.h"
+#include "passes/light_volumes/light_volumes.h"
 #include "reference/position.h"
 #include "scene/random.h"
 #include "techniques/lidr_scenes.h"
@@ -155,7 +155,7 @@ TEST(Lidr, LosesNothingOfLightsTangentToTheirMeshes) {
     TechniqueRun empty(test_devices(), dark, view, {}, find_technique("forward"));
     empty.run_frame();
     const VolumeMeshes meshes = trial % 2 ? VolumeMeshes::icosahedron : VolumeMeshes::box;
-    const Scene scene = lights_tangent_to_faces(random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty.frame()));
+    const Scene scene = lights_tangent_to_faces(random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty.view()));
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
       settings.volume_mesh = meshes;

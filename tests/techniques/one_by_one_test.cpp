@@ -229,8 +229,8 @@ TEST(OneByOne, BlinnPhong) {
 size_t memory_of(const Scene& scene, const View& view, const char* technique, const Settings& settings = {}) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
-  const GpuScene& gpu = run.frame().gpu;
-  const size_t reversed = run.frame().plan.reversed_triangles ? 4 * size_t(gpu.index_count()) : 0;
+  const GpuScene& gpu = run.view().gpu;
+  const size_t reversed = run.view().plan.reversed_triangles ? 4 * size_t(gpu.index_count()) : 0;
   EXPECT_EQ(gpu.reversed_triangle_bytes(), reversed) << technique;
   return run.result().memory_total - gpu.geometry_bytes() - reversed - gpu.texture_bytes();
 }
@@ -243,8 +243,8 @@ TEST(OneByOne, TakesTheMemoryThatThePagesSay) {
   const size_t pixels = 127 * 73, lights = 6 * 32;
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward_zprepass"));
   run.run_frame();
-  const size_t blended_pairs = run.frame().kept<BlendedObjectLights>().lights().size();
-  const size_t pairs = run.frame().kept<ObjectLights>().lights().size() + blended_pairs;
+  const size_t blended_pairs = run.view().state<BlendedObjectLights>().lights().size();
+  const size_t pairs = run.view().state<ObjectLights>().lights().size() + blended_pairs;
   EXPECT_GT(pairs, 6u);
   EXPECT_GT(blended_pairs, 0u);
   for (const char* technique : {"forward_multipass", "forward_zprepass"}) {

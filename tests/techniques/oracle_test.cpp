@@ -19,8 +19,8 @@ TEST_P(Shading, InFloatIsTheOraclesWithinItsRounding) {
   const View view = default_view(scene, 320, 180);
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
   run.run_frame();
-  const auto depth = read_depth(run.frame());
-  const ReferenceErrors errors = measure_reference_errors(run.frame(), run.image(), depth, 4000);
+  const auto depth = read_depth(run.view());
+  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), depth, 4000);
   const float brightest = brightest_channel(run.image());
   RecordProperty("max_rel", fmt::format("{}", errors.precision.max_rel));
   EXPECT_LT(errors.precision.max_rel, 2e-4);
@@ -36,8 +36,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Shading, testing::Values("hall", "spheres", "te
 void expect_each_exact(const Scene& scene, const View& view, const Settings& settings = {}) {
   TechniqueRun forward(test_devices(), scene, view, settings, find_technique("forward"));
   forward.run_frame();
-  const auto depth = read_depth(forward.frame());
-  const SurfaceOracle oracle(forward.frame(), depth);
+  const auto depth = read_depth(forward.view());
+  const SurfaceOracle oracle(forward.view(), depth);
   const std::vector<uint32_t> sample = sample_pixels(oracle.pixels(), 4000);
   for (const Technique* technique : techniques()) {
     // lidr holds 16 lights a pixel at most and leaves others out: lidr_test.

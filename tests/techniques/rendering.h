@@ -14,13 +14,13 @@
 
 namespace lightgrid {
 
-inline Devices& test_devices() {
-  static Devices devices = open_devices("", GlBackend::automatic);
+inline Renderer& test_devices() {
+  static Renderer devices("", GlBackend::automatic);
   devices.gl->make_current();  // some tests open others
   return devices;
 }
 
-inline Image render(Devices& devices, const Scene& scene, const View& view, const std::string& technique,
+inline Image render(Renderer& devices, const Scene& scene, const View& view, const std::string& technique,
                     const Settings& settings = {}) {
   TechniqueRun run(devices, scene, view, settings, find_technique(technique));
   run.run_frame();
@@ -57,7 +57,7 @@ inline void expect_exact(const Scene& scene, const View& view, const Settings& s
   run.run_frame();
   EXPECT_TRUE(identical(run.image(), forward));
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run, read_depth(run.frame()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
 }
@@ -70,7 +70,7 @@ inline void expect_close(const Scene& scene, const View& view, const Settings& s
   run.run_frame();
   EXPECT_LT(compare_images(run.image(), forward).max_rel, bound);
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run, read_depth(run.frame()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
   const Image first = run.image();

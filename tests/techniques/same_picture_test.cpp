@@ -52,7 +52,7 @@ TEST(SamePicture, WhicheverWayTheBuffersTravel) {
   if (test_devices().bridge == BridgeKind::staged)
     GTEST_SKIP() << "this machine has no mapped bridge to compare with";
   setenv("LIGHTGRID_BRIDGE", "staged", 1);
-  Devices staged = open_devices("", GlBackend::automatic);
+  Renderer staged = Renderer("", GlBackend::automatic);
   unsetenv("LIGHTGRID_BRIDGE");
   ASSERT_EQ(staged.bridge, BridgeKind::staged);
   EXPECT_TRUE(identical(render(staged, scene, view, "forward_plus"), image));
@@ -67,7 +67,7 @@ TEST(SamePicture, ThroughOsmesaAndEgl) {
   for (const GlBackend backend : {GlBackend::osmesa, GlBackend::egl}) {
     const int i = backend == GlBackend::egl;
     try {
-      Devices devices = open_devices("", backend);
+      Renderer devices("", backend);
       renderers[i] = devices.gl->renderer + devices.gl->version;
       images[i] = render(devices, scene, view, "forward_plus");
     } catch (const Error& error) {

@@ -13,7 +13,7 @@ double error_of(const char* technique, const Scene& scene, const View& view, con
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run, read_depth(run.frame()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
   return compare_images(run.image(), forward).max_rel;
@@ -57,17 +57,17 @@ TEST(TiledLight, OfBothKernelShapesAndEveryLoop) {
 }
 
 // Point and spot lights at every pixel with a surface, in double.
-std::vector<glm::dvec3> shade_in_double(const Frame& f, const SurfaceImages& surfaces, const std::vector<float>& depth,
+std::vector<glm::dvec3> shade_in_double(const RenderView& v, const SurfaceImages& surfaces, const std::vector<float>& depth,
                                         const std::vector<uint32_t>& pixels) {
-  const std::vector<ViewLight> all = lights_in_view(f.scene, f.view);
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
   std::vector<ViewLight> local;
-  for (int i : f.plan.local) local.push_back(all[i]);
+  for (int i : v.plan.local) local.push_back(all[i]);
   const auto surface_at = [&](uint32_t pixel) {
     Surface surface = surface_of(surfaces, pixel);
     surface.emissive = {}, surface.unlit = false;
     return surface;
   };
-  return shade_pixels(f.view, depth, surface_at, local, {}, pixels);
+  return shade_pixels(v.view, depth, surface_at, local, {}, pixels);
 }
 
 struct Loss {
@@ -80,16 +80,16 @@ struct Loss {
 Loss loss_of(const Scene& scene, const View& view, const Image& forward, int bits) {
   TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique("deferred_tiled"));
   run.run_frame();
-  Frame& f = run.frame();
-  EXPECT_TRUE(f.plan.own_light);
-  const std::vector<float> depth = read_depth(f);
-  const SurfaceImages kept = read_gbuffer_surfaces(f), drawn = read_surfaces(f);
+  RenderView& v = run.view();
+  EXPECT_TRUE(v.plan.own_light);
+  const std::vector<float> depth = read_depth(v);
+  const SurfaceImages kept = read_gbuffer_surfaces(v), drawn = read_surfaces(v);
   std::vector<uint32_t> pixels;
   for (uint32_t i = 0; i < depth.size(); ++i) {
     if (depth[i] > 0 && !drawn.blended[i] && drawn.emissive_occlusion.pixels[i].w >= 0) pixels.push_back(i);
   }
-  const std::vector<glm::dvec3> rounded = shade_in_double(f, kept, depth, pixels);
-  const std::vector<glm::dvec3> exact = shade_in_double(f, drawn, depth, pixels);
+  const std::vector<glm::dvec3> rounded = shade_in_double(v, kept, depth, pixels);
+  const std::vector<glm::dvec3> exact = shade_in_double(v, drawn, depth, pixels);
   const double brightest = brightest_channel(forward);
   Loss loss;
   for (size_t k = 0; k < pixels.size(); ++k) {

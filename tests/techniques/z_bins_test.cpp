@@ -23,19 +23,19 @@ constexpr const char* in_opencl[] = {"deferred_tiled", "forward_plus_compute"};
 
 // The technique with z-bins against itself without, whose image is forward's but for rounding: tiled_light_test.cpp.
 void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings settings, const char* technique,
-                              Devices& devices = test_devices()) {
+                              Renderer& devices = test_devices()) {
   SCOPED_TRACE(testing::PrintToString(to_strings(settings)) + technique);
   TechniqueRun on(devices, scene, view, settings, find_technique(technique));
   settings.z_bins = 1;
   TechniqueRun off(devices, scene, view, settings, find_technique(technique));
   on.run_frame(), off.run_frame();
   EXPECT_TRUE(identical(on.image(), off.image()));
-  const LitPairs with = count_listed_pairs(on, read_depth(on.frame()));
-  const LitPairs without = count_listed_pairs(off, read_depth(off.frame()));
+  const LitPairs with = count_listed_pairs(on, read_depth(on.view()));
+  const LitPairs without = count_listed_pairs(off, read_depth(off.view()));
   EXPECT_EQ(with.lost, 0u);
   EXPECT_EQ(with.lit, without.lit);
   EXPECT_LE(with.listed, without.listed);
-  EXPECT_GT(on.frame().opaque_grid_last.z_bin_bytes, 0u);
+  EXPECT_GT(on.frame().grid.value().z_bin_bytes, 0u);
 }
 
 TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
@@ -49,7 +49,7 @@ TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
 // Where OpenGL has a copy of its own, which light code in OpenCL never asks for.
 TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
   setenv("LIGHTGRID_BRIDGE", "staged", 1);
-  Devices staged = open_devices("", GlBackend::automatic);
+  Renderer staged = Renderer("", GlBackend::automatic);
   unsetenv("LIGHTGRID_BRIDGE");
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 95, 53);
@@ -107,7 +107,7 @@ TEST(ZBins, LeaveTheLightPassInOpenClItsBytesWithGlassSmallTilesAndNoDepthBounds
 uint64_t listed(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward_plus"));
   run.run_frame();
-  return count_listed_pairs(run, read_depth(run.frame())).listed;
+  return count_listed_pairs(run, read_depth(run.view())).listed;
 }
 
 // Longer than the stretch of a list that the kernel looks at together.
@@ -136,9 +136,9 @@ TEST(ZBins, AreNeitherBuiltNorKeptWhereTheyAreOff) {
   TechniqueRun off(test_devices(), scene, view, {}, find_technique("forward_plus"));
   TechniqueRun on(test_devices(), scene, view, {.z_bins = 16}, find_technique("forward_plus"));
   off.run_frame(), on.run_frame();
-  EXPECT_EQ(off.frame().opaque_grid_last.z_bin_bytes, 0u);
-  EXPECT_EQ(on.frame().opaque_grid_last.z_bin_bytes, 4 * on.frame().plan.local.size());
-  EXPECT_FALSE(off.frame().opaque_grid().z_bins_.buffer);
+  EXPECT_EQ(off.frame().grid.value().z_bin_bytes, 0u);
+  EXPECT_EQ(on.frame().grid.value().z_bin_bytes, 4 * on.view().plan.local.size());
+  EXPECT_FALSE(off.view().opaque_grid().z_bins_.buffer);
 }
 
 }  // namespace

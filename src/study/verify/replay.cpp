@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
-#include "passes/frame/frame.h"
+#include "renderer/render_view.h"
 #include "reference/lit_set.h"
 #include "study/frame_culler.h"
 #include "study/frame_lists.h"

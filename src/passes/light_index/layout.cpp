@@ -1,0 +1,122 @@
+#include "passes/light_index/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "shared/light_index.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr uint32_t most_targets = 4;
+
+const char* name_of(LidrPacking packing) {
+  return packing == LidrPacking::sort ? "sort" : packing == LidrPacking::maxblend ? "maxblend" : "bitshift";
+}
+
+uint32_t number_of(LidrPacking packing) {
+  return packing == LidrPacking::sort ? LIDR_SORT : packing == LidrPacking::maxblend ? LIDR_MAXBLEND : LIDR_BITSHIFT;
+}
+
+// How the packing lays such a row out, be it possible or not.
+LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights) {
+  const uint32_t index_bits = lights == 15 ? 4 : lights == 255 ? 8 : 16;
+  LightIndexLayout row{.packing = packing, .overlap = overlap, .lights = lights};
+  if (packing == LidrPacking::sort) {
+    row.groups = overlap, row.channels = index_bits > 8 ? 2 : 1;
+  } else if (packing == LidrPacking::maxblend) {
+    row.slots = std::min(overlap, 2u), row.groups = overlap / row.slots;
+    row.channels = row.slots, row.channel_bits = index_bits > 8 ? 16 : 8;
+  } else {
+    row.slots = std::min(overlap, 8u), row.groups = overlap / row.slots;
+    row.shift = 8 / row.slots, row.channels = (index_bits + row.shift - 1) / row.shift;
+  }
+  return row;
+}
+
+std::string why_not(const LightIndexLayout& row) {
+  if (row.packing == LidrPacking::maxblend && row.groups > 2) {
+    return "two passes find the greatest and least index of two lights each, four in all; use lidr-packing=bitshift";
+  }
+  if (row.targets() > most_targets) {
+    return fmt::format("it takes {} targets of {} channels, and {} is the most; use lidr-overlap={}", row.targets(), row.target_channels(),
+                       most_targets, row.overlap / 2);
+  }
+  return "";
+}
+
+uint32_t least_that_holds(size_t lights) {
+  for (const uint32_t most : {15u, 255u, 65535u}) {
+    if (lights <= most) return most;
+  }
+  return 65535;
+}
+
+}  // namespace
+
+GLenum LightIndexLayout::format() const {
+  if (channel_bits == 16) return target_channels() == 1 ? GL_R16 : target_channels() == 2 ? GL_RG16 : GL_RGBA16;
+  return target_channels() == 1 ? GL_R8 : target_channels() == 2 ? GL_RG8 : GL_RGBA8;
+}
+
+std::vector<std::string> LightIndexLayout::defines() const {
+  // A channel that an image lacks reads as 0, and as 1 where it is alpha.
+  const uint32_t present = target_channels() == 4 ? ~0u : (1u << 8 * target_channels()) - 1;
+  const char* kind = packing == LidrPacking::sort ? "LIDR_APART" : packing == LidrPacking::maxblend ? "LIDR_GREATEST" : "LIDR_SHIFTED";
+  return {kind, fmt::format("LIDR_PACKING {}u", number_of(packing)), fmt::format("LIDR_GROUPS {}u", groups),
+          fmt::format("LIDR_SLOTS {}u", slots), fmt::format("LIDR_CHANNELS {}u", channels), fmt::format("LIDR_SHIFT {}u", shift),
+          fmt::format("LIDR_MOST {}u", most()), fmt::format("LIDR_TARGETS {}", targets()), fmt::format("LIDR_PRESENT {}u", present)};
+}
+
+std::string LightIndexLayout::name() const {
+  return fmt::format("{}, {} overlap{} of {} lights", name_of(packing), overlap, overlap == 1 ? "" : "s", lights);
+}
+
+LightIndexLayout light_index_layout(const Settings& settings, size_t lights) {
+  const uint32_t most_lights = settings.lidr_lights ? uint32_t(settings.lidr_lights) : least_that_holds(lights);
+  if (lights > most_lights) {
+    throw input_error("lidr: {} point and spot lights are more than the {} that have an index{}", lights, most_lights,
+                      most_lights < 65535 ? "; use lidr-lights=auto" : "");
+  }
+  uint32_t overlap = uint32_t(settings.lidr_overlap);
+  if (!overlap) {
+    for (overlap = 16; !why_not(row_of(settings.lidr_packing, overlap, most_lights)).empty();) overlap /= 2;
+  }
+  const LightIndexLayout row = row_of(settings.lidr_packing, overlap, most_lights);
+  if (const std::string why = why_not(row); !why.empty()) throw input_error("lidr: no images hold {}: {}", row.name(), why);
+  return row;
+}
+
+void unpack_light_index(const LightIndexLayout& layout, std::span<const uint16_t> channels, bool drop_repeats,
+                        std::vector<uint32_t>& lights) {
+  lights.clear();
+  uint32_t before = 0;
+  const auto take = [&](uint32_t index) {
+    if (index != 0 && !(drop_repeats && index == before)) lights.push_back(index - 1);
+    if (index != 0) before = index;
+  };
+  for (uint32_t group = 0; group < layout.groups; ++group) {
+    const uint16_t* own = channels.data() + group * layout.channels;
+    if (layout.packing == LidrPacking::sort) {
+      take(own[0] | (layout.channels > 1 ? own[1] << 8 : 0));
+    } else if (layout.packing == LidrPacking::maxblend) {
+      const uint32_t least = own[0] && layout.slots > 1 ? layout.most() - own[1] : own[0];
+      take(least);
+      if (own[0] != least) take(own[0]);
+    } else {
+      for (uint32_t slot = layout.slots; slot-- > 0;) {
+        uint32_t index = 0;
+        for (uint32_t first = 0; first < layout.channels; first += 4) {
+          uint32_t word = 0;
+          for (uint32_t c = first; c < std::min(first + 4, layout.channels); ++c) word |= uint32_t(own[c]) << 8 * (c - first);
+          index |= light_index_in_word(word, slot, layout.shift) << layout.shift * first;
+        }
+        take(index);
+      }
+    }
+  }
+}
+
+}  // namespace lightgrid

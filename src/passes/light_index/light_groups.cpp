@@ -1,0 +1,106 @@
+#include "passes/light_index/light_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace lightgrid {
+namespace {
+
+bool touch(const LightExtent& a, const LightExtent& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
+  }
+  if (std::isinf(a.radius) || std::isinf(b.radius)) return true;
+  const double reach = (a.radius + b.radius) * (1 + 1e-9);
+  const glm::dvec3 apart = a.center - b.center;
+  return glm::dot(apart, apart) <= reach * reach;
+}
+
+// Extents by the cells of a grid that they lie in; those in too many cells in a list of their own.
+class Neighbours {
+ public:
+  explicit Neighbours(const std::vector<LightExtent>& extents) : extents_(extents) {
+    std::vector<double> sizes;
+    for (const LightExtent& e : extents) sizes.push_back(std::max({e.high.x - e.low.x, e.high.y - e.low.y, e.high.z - e.low.z}));
+    if (sizes.empty()) return;
+    std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+    const double median = sizes[sizes.size() / 2];
+    if (std::isfinite(median) && median > 0) cell_ = median;
+  }
+
+  void add(uint32_t extent) {
+    if (!each_cell(extents_[extent], [&](uint64_t cell) { in_cell_[cell].push_back(extent); })) large_.push_back(extent);
+    all_.push_back(extent);
+  }
+
+  // Calls `found` for each extent that may touch this one, some of them more than once.
+  template <typename Found>
+  void near(const LightExtent& extent, const Found& found) const {
+    for (uint32_t other : large_) found(other);
+    const bool in_few = each_cell(extent, [&](uint64_t cell) {
+      const auto list = in_cell_.find(cell);
+      if (list == in_cell_.end()) return;
+      for (uint32_t other : list->second) found(other);
+    });
+    if (in_few) return;
+    for (uint32_t other : all_) found(other);
+  }
+
+ private:
+  static constexpr double most_cells = 64;
+
+  template <typename Visit>
+  bool each_cell(const LightExtent& e, const Visit& visit) const {
+    const glm::dvec3 low = glm::floor(e.low / cell_), high = glm::floor(e.high / cell_), count = high - low + 1.0;
+    if (!(count.x * count.y * count.z <= most_cells) || !(glm::length(low) < 1e15)) return false;
+    for (double z = low.z; z <= high.z; ++z) {
+      for (double y = low.y; y <= high.y; ++y) {
+        for (double x = low.x; x <= high.x; ++x) visit(key(int64_t(x), int64_t(y), int64_t(z)));
+      }
+    }
+    return true;
+  }
+
+  // Two cells of one key only make more candidates.
+  static uint64_t key(int64_t x, int64_t y, int64_t z) {
+    return uint64_t(x) * 0x9e3779b97f4a7c15 ^ uint64_t(y) * 0xc2b2ae3d27d4eb4f ^ uint64_t(z) * 0x165667b19e3779f9;
+  }
+
+  const std::vector<LightExtent>& extents_;
+  double cell_ = 1;
+  std::unordered_map<uint64_t, std::vector<uint32_t>> in_cell_;
+  std::vector<uint32_t> large_, all_;
+};
+
+}  // namespace
+
+std::vector<uint32_t> group_lights(const std::vector<LightExtent>& extents, uint32_t groups) {
+  std::vector<uint32_t> group_of(extents.size(), no_group);
+  Neighbours placed(extents);
+  for (uint32_t i = 0; i < extents.size(); ++i) {
+    std::vector<bool> taken(groups, false);
+    placed.near(extents[i], [&](uint32_t other) {
+      if (!taken[group_of[other]] && touch(extents[i], extents[other])) taken[group_of[other]] = true;
+    });
+    const auto free = std::find(taken.begin(), taken.end(), false);
+    if (free == taken.end()) continue;
+    group_of[i] = uint32_t(free - taken.begin());
+    placed.add(i);
+  }
+  return group_of;
+}
+
+std::vector<uint32_t> draw_rounds(const std::vector<LightExtent>& extents) {
+  std::vector<uint32_t> rounds(extents.size(), 0);
+  Neighbours placed(extents);
+  for (uint32_t i = 0; i < extents.size(); ++i) {
+    placed.near(extents[i], [&](uint32_t other) {
+      if (rounds[other] >= rounds[i] && touch(extents[i], extents[other])) rounds[i] = rounds[other] + 1;
+    });
+    placed.add(i);
+  }
+  return rounds;
+}
+
+}  // namespace lightgrid

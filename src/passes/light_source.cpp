@@ -1,0 +1,58 @@
+#include "passes/light_source.h"
+
+#include "passes/object_lights.h"
+
+namespace lightgrid {
+namespace {
+
+LightSource with_lights(const RenderView& v) {
+  LightSource source = base_lighting(v);
+  if (v.plan.local_lights) source.defines.emplace_back("LIGHTS");
+  if (v.plan.spots) source.defines.emplace_back("SPOTS");
+  return source;
+}
+
+}  // namespace
+
+void LightSource::bind(const RenderView& v) const {
+  v.bind_lights();
+  for (const Binding& binding : textures) glBindTextureUnit(binding.unit, binding.texture);
+}
+
+LightSource base_lighting(const RenderView& v) {
+  LightSource source;
+  if (v.plan.settings.brdf == Brdf::blinn) source.defines.emplace_back("BLINN");
+  if (v.plan.directional) source.defines.emplace_back("DIRECTIONAL");
+  return source;
+}
+
+LightSource every_light(const RenderView& v) { return with_lights(v); }
+
+LightSource from_grid(const RenderView& v, const GridTextures& grid) {
+  LightSource source = with_lights(v);
+  source.defines.emplace_back(grid.masks ? "LIGHTS_MASKS" : "LIGHTS_GRID");
+  if (v.plan.slices > 1) source.defines.emplace_back("SLICES");
+  if (v.plan.z_bins > 1) source.defines.emplace_back("Z_BINS");
+  source.textures = {{12, grid.masks ? grid.masks : grid.cells}, {13, grid.indices}};
+  if (grid.z_bins) source.textures.push_back({14, grid.z_bins});
+  source.bytes = grid.bytes;
+  return source;
+}
+
+LightSource from_light_index(const RenderView& v, const LightIndexImages& index) {
+  LightSource source = with_lights(v);
+  source.defines.insert(source.defines.end(), index.defines.begin(), index.defines.end());
+  for (size_t i = 0; i < index.images.size(); ++i) source.textures.push_back({GLuint(12 + i), index.images[i]});
+  source.bytes = index.bytes;
+  return source;
+}
+
+LightSource from_objects(const RenderView& v, const ObjectLights& objects) {
+  LightSource source = with_lights(v);
+  source.defines.emplace_back("LIGHTS_OBJECT");
+  if (objects.texture()) source.textures.push_back({12, objects.texture()});
+  source.bytes = objects.lights().size() * sizeof(uint32_t);
+  return source;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,66 @@
+#include "renderer/draw.h"
+
+#include <numeric>
+
+#include <glm/gtc/type_ptr.hpp>
+
+namespace lightgrid {
+
+// A software rasteriser starts on what was drawn only when it is flushed. Handing it a part at a time lets it
+// work while the vertices of the next part are shaded.
+static constexpr GLsizei indices_per_flush = 3 * 25'000;
+
+void InstanceDrawer::bind(int index, const SceneProgram& program) {
+  if (&program == program_ && index == instance_) return;
+  const int material = v_.scene.meshes[v_.scene.instances[index].mesh].material;
+  const uint32_t features = v_.plan.features_of_instance[index];
+  const bool positions_only = streams_ == DrawStreams::positions_where_possible && !(features & feature_mask);
+  if (&program != program_) {
+    glUseProgram(program.name);
+    glBindVertexArray(positions_only ? v_.gpu.positions_only() : v_.gpu.all_streams());
+    material_ = -1;
+  }
+  if (material != material_ && !positions_only) {
+    v_.gpu.bind_material(material, features);
+    material_ = material;
+  }
+  const InstanceTransform& t = v_.transforms[index];
+  glUniformMatrix4fv(program.clip_from_object, 1, GL_FALSE, glm::value_ptr(t.clip_from_object));
+  if (program.view_from_object >= 0) glUniformMatrix3fv(program.view_from_object, 1, GL_FALSE, glm::value_ptr(t.directions));
+  if (program.normal_from_object >= 0) glUniformMatrix3fv(program.normal_from_object, 1, GL_FALSE, glm::value_ptr(t.normals));
+  v_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+  glFrontFace(t.mirrored ? GL_CW : GL_CCW);
+  program_ = &program;
+  instance_ = index;
+}
+
+void InstanceDrawer::draw(const IndexRanges& ranges) {
+  glMultiDrawElementsBaseVertex(GL_TRIANGLES, ranges.counts.data(), GL_UNSIGNED_INT, ranges.offsets.data(),
+                                GLsizei(ranges.counts.size()), ranges.base_vertices.data());
+  unflushed_indices_ += std::accumulate(ranges.counts.begin(), ranges.counts.end(), GLsizei(0));
+  if (v_.renderer.gl->software && unflushed_indices_ > indices_per_flush) {
+    glFlush();
+    unflushed_indices_ = 0;
+  }
+}
+
+void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs,
+               const std::function<uint32_t(uint32_t features)>& features_read) {
+  InstanceDrawer drawer(v, streams);
+  for (const DrawItem& item : list) {
+    const uint32_t features = v.plan.features_of_instance[item.instance];
+    drawer.bind(item.instance, programs.of(features_read ? features_read(features) : features));
+    drawer.draw(item.ranges);
+  }
+}
+
+void draw_screen(const GlProgram& program) {
+  const GlVertexArray nothing = make_vertex_array();
+  glBindVertexArray(nothing.name());
+  glDisable(GL_CULL_FACE);
+  glUseProgram(program.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,75 @@
+// A scene in OpenGL's memory: every mesh, material and texture, uploaded once, whatever its views see of it.
+#pragma once
+
+#include <vector>
+
+#include "renderer/renderer.h"
+#include "scene/scene.h"
+#include "shared/material_params.h"
+
+namespace lightgrid {
+
+// A run of neighbouring triangles, small enough to be seen or not as a whole. Object space.
+struct TriangleCluster {
+  uint32_t first_index = 0, index_count = 0;  // in the scene's one index buffer
+  Aabb bounds;
+  // All its triangles face away from an eye e with dot(normalize(apex - e), axis) >= cutoff; a cutoff of 1 or more:
+  // no eye sees none of them.
+  glm::vec3 cone_apex{0}, cone_axis{0};
+  float cone_cutoff = 2;
+};
+
+struct GpuMesh {
+  int base_vertex = 0;
+  std::vector<TriangleCluster> clusters;  // in index order
+};
+
+class GpuScene {
+ public:
+  // Both outlive it. Meshes that no instance shows, and textures that no such mesh's material has, stay out. A software
+  // OpenGL gets colour textures in linear 16 bits, since it would pay for the sRGB curve at every texel of every sample.
+  GpuScene(const Renderer& renderer, const Scene& scene);
+
+  const Scene& scene() const { return scene_; }
+  const GpuMesh& mesh(int index) const { return meshes_[index]; }
+
+  // Vertex arrays of the scene's one vertex and index buffer: positions alone for the depth prepass, or all streams.
+  GLuint positions_only() const { return positions_only_.name(); }
+  GLuint all_streams() const { return all_streams_.name(); }
+
+  // Binds the material's uniform block and the textures of `features` (MaterialFeature).
+  void bind_material(int material, uint32_t features) const;
+
+  // Makes room for reversed triangles: from then on the index buffer holds all triangles once more, last to first, each with
+  // its corners in the same order. The indices [a, b) are there as [2 index_count() - b, 2 index_count() - a).
+  void add_reversed_triangles();
+  uint32_t index_count() const { return index_count_; }
+
+  size_t geometry_bytes() const { return geometry_bytes_; }  // without reversed triangles
+  size_t reversed_triangle_bytes() const { return reversed_triangle_bytes_; }
+  size_t texture_bytes() const { return texture_bytes_; }
+
+ private:
+  void upload_meshes(const std::vector<bool>& used);
+  void upload_indices(const std::vector<uint32_t>& indices);
+  void upload_materials(const std::vector<bool>& used_meshes);
+  void upload_texture(int texture);
+
+  const Renderer& renderer_;
+  const Scene& scene_;
+  std::vector<GpuMesh> meshes_;
+  std::vector<GlBuffer> streams_;
+  GlBuffer indices_, materials_, absent_;  // absent_: zeros, then -1s, for streams that no mesh has
+  GlVertexArray positions_only_, all_streams_;
+  size_t material_stride_ = 0;
+  struct Slots {
+    int texture[5];
+  };
+  std::vector<Slots> slots_;  // texture index per map, -1: none
+  std::vector<GlTexture> textures_;
+  std::vector<GlSampler> samplers_;
+  uint32_t index_count_ = 0;
+  size_t geometry_bytes_ = 0, reversed_triangle_bytes_ = 0, texture_bytes_ = 0;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,156 @@
+#include "renderer/render_view.h"
+
+#include "cl/transfer.h"
+#include "plan/settings.h"
+
+namespace lightgrid {
+namespace {
+
+PassTimer::Wait wait_for(Renderer& renderer) {
+  return [&renderer](const std::string& on) {
+    if (on == "cl") {
+      finish_queue(*renderer.cl, "timing a pass");
+    } else {
+      glFinish();
+    }
+  };
+}
+
+FramePlan tuned_plan(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
+                     const TunedSizes& tuned) {
+  FramePlan plan = plan_frame(scene, view, settings, needs);
+  plan.settings = with_tuned(std::move(plan.settings), tuned);
+  return plan;
+}
+
+ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
+  ViewParams p = view_params(cull_view(view), plan.settings.tile);
+  p.light_count = uint(plan.local.size());
+  p.directional_count = uint(plan.directional_lights.size());
+  p.ambient_r = ambient.r;
+  p.ambient_g = ambient.g;
+  p.ambient_b = ambient.b;
+  return p;
+}
+
+bool same_culler(const FramePlan& a, const FramePlan& b) {
+  return a.blend_grid == b.blend_grid && a.index_bits == b.index_bits && a.light_grid == b.light_grid;
+}
+
+}  // namespace
+
+RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+                       const TechniqueNeeds& needs)
+    : renderer(renderer),
+      gpu(gpu),
+      scene(gpu.scene()),
+      view(view),
+      plan(tuned_plan(scene, view, settings, needs, renderer.tuned)),
+      params(params_of(view, plan, scene.ambient)),
+      timer(wait_for(renderer)),
+      targets(view.width, view.height, plan.stencil),
+      settings_(settings),
+      needs_(needs) {
+  if (plan.reversed_triangles) gpu.add_reversed_triangles();
+  lights.update(scene, view, plan, params);
+  make_draw_lists();
+}
+
+void RenderView::look(const View& next) {
+  const bool resized = next.width != view.width || next.height != view.height;
+  const FramePlan before = std::move(plan);
+  if (next.orthographic != view.orthographic) programs_.clear();
+  view = next;
+  plan = tuned_plan(scene, view, settings_, needs_, renderer.tuned);
+  params = params_of(view, plan, scene.ambient);
+  if (resized || plan.stencil != before.stencil) {
+    targets = Targets(view.width, view.height, plan.stencil);
+    depth_copy_.reset();
+    states_.clear();
+  }
+  lights.update(scene, view, plan, params);
+  make_draw_lists();
+  follow_plan(before);
+}
+
+void RenderView::lights_changed() {
+  if (culler_ && plan.light_grid) culler_->set_lights(cull_lights_of(scene, plan.local));
+}
+
+void RenderView::make_draw_lists() {
+  transforms.resize(scene.instances.size());
+  for (const auto* instances : {&plan.opaque, &plan.blended}) {
+    for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
+  }
+  opaque = make_draw_list(gpu, view, plan.opaque, transforms, plan.slice_far_m, DrawOrder::front_to_back);
+  blended = make_draw_list(gpu, view, plan.blended, transforms, plan.slice_far_m, DrawOrder::as_given);
+}
+
+// Keeps what still fits; what does not is made anew at its next use.
+void RenderView::follow_plan(const FramePlan& before) {
+  if (!same_culler(before, plan)) culler_.reset();
+  if (before.index_bits != plan.index_bits) {
+    for (auto& grid : grids_) grid.reset();
+  }
+  if (!plan.blend_grid) grids_[1].reset();
+  if (culler_) culler_->set_view(cull_view(view, plan));
+  std::erase_if(states_, [&](const auto& entry) { return !entry.second->follow(*this); });
+}
+
+std::vector<std::string> RenderView::view_defines(std::vector<std::string> defines) const {
+  if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
+  if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
+  return defines;
+}
+
+ScenePrograms& RenderView::programs(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
+  std::string key = vertex + " " + fragment;
+  for (const std::string& name : defines) key += " " + name;
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return found->second;
+  return programs_.try_emplace(key, renderer, vertex, fragment, view_defines(std::move(defines))).first->second;
+}
+
+const GlProgram& RenderView::program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
+  return renderer.program(vertex, fragment, view_defines(std::move(defines)));
+}
+
+GLuint RenderView::color_framebuffer() {
+  return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
+}
+
+SharedBuffer& RenderView::depth_copy() {
+  if (!depth_copy_) depth_copy_.emplace(*renderer.cl, renderer.bridge, (pixels() + spare_pixels) * 4);
+  return *depth_copy_;
+}
+
+LightCuller& RenderView::culler() {
+  if (!culler_) {
+    culler_.emplace(*renderer.cl, *renderer.kernels, culler_options(plan));
+    lights_changed();
+    culler_->set_view(cull_view(view, plan));
+  }
+  return *culler_;
+}
+
+SharedGridStorage& RenderView::opaque_grid() {
+  if (!grids_[0]) grids_[0].emplace(renderer, plan.index_bits);
+  return *grids_[0];
+}
+
+SharedGridStorage& RenderView::blend_grid() {
+  if (!grids_[1]) grids_[1].emplace(renderer, plan.index_bits);
+  return *grids_[1];
+}
+
+size_t RenderView::memory_bytes() const {
+  size_t bytes = gpu.geometry_bytes() + gpu.texture_bytes() + targets.bytes() + lights.light_bytes();
+  if (plan.reversed_triangles) bytes += gpu.reversed_triangle_bytes();
+  for (const auto& [type, state] : states_) bytes += state->memory_bytes();
+  for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
+  if (depth_copy_) bytes += depth_copy_->size();
+  if (culler_) bytes += culler_->memory_bytes();
+  return bytes;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,99 @@
+// A scene seen by one camera for one technique: matrices, plan, targets, draw lists, the culler's view. Made once, then
+// moved by look(): what the camera does not change stays, and nothing of the scene is uploaded again.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <typeindex>
+
+#include "renderer/culler_input.h"
+#include "renderer/draw_list.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/grid_storage.h"
+#include "renderer/pass_timer.h"
+#include "renderer/scene_programs.h"
+#include "renderer/targets.h"
+#include "renderer/view_light_buffers.h"
+
+namespace lightgrid {
+
+struct RenderView;
+
+// What one pass keeps from frame to frame beyond targets and programs: RenderView::state makes it.
+class PassState {
+ public:
+  virtual ~PassState() = default;
+  virtual size_t memory_bytes() const { return 0; }
+  // After the camera, the lights or the plan changed. False: it cannot follow, and is made anew at its next use.
+  virtual bool follow(RenderView&) { return false; }
+};
+
+struct RenderView {
+  // All outlive it; the GPU scene may get reversed triangles. Throws Error(input) where the settings do not fit the view.
+  RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const TechniqueNeeds& needs);
+  RenderView(const RenderView&) = delete;
+
+  // Another camera, another size, or other instances and lights in the scene. Targets stay where the size does.
+  void look(const View& view);
+  // After look(), where point or spot lights of the scene moved or changed.
+  void lights_changed();
+
+  Renderer& renderer;
+  GpuScene& gpu;
+  const Scene& scene;
+  View view;
+  FramePlan plan;
+  ViewParams params;
+  PassTimer timer;
+  Targets targets;
+
+  std::vector<InstanceTransform> transforms;  // by instance; of those that the plan names
+  DrawList opaque, blended;                   // nearest first; back to front
+
+  // The programs of a pass over the scene's surfaces, by material features. `defines` hold for all of them.
+  ScenePrograms& programs(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
+  // One program of the plan's view, for what draws no material.
+  const GlProgram& program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
+
+  GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
+  GLuint color_framebuffer();  // linear RGBA, 32-bit float, over the depth image
+  static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end
+  size_t pixels() const { return size_t(view.width) * size_t(view.height); }
+
+  // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
+  // (shared/punctual_light.h).
+  void bind_lights() const { lights.bind(); }
+  ViewLightBuffers lights;
+
+  SharedBuffer& depth_copy();  // memory for a copy of the depth image that OpenCL reads
+
+  // The one T of this view: T(RenderView&) at first use.
+  template <typename T>
+  T& state() {
+    std::unique_ptr<PassState>& slot = states_[typeid(T)];
+    if (!slot) slot = std::make_unique<T>(*this);
+    return static_cast<T&>(*slot);
+  }
+
+  LightCuller& culler();  // made at first use; holds lights only where there is a grid
+  SharedGridStorage& opaque_grid();
+  SharedGridStorage& blend_grid();
+
+  size_t memory_bytes() const;  // of this view's targets and buffers, and the scene's
+
+ private:
+  void make_draw_lists();
+  void follow_plan(const FramePlan& before);
+  std::vector<std::string> view_defines(std::vector<std::string> defines) const;
+
+  Settings settings_;
+  TechniqueNeeds needs_;
+  std::map<std::string, ScenePrograms> programs_;
+  std::optional<SharedBuffer> depth_copy_;
+  std::optional<LightCuller> culler_;
+  std::optional<SharedGridStorage> grids_[2];
+  std::map<std::type_index, std::unique_ptr<PassState>> states_;
+};
+
+}  // namespace lightgrid

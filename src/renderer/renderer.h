@@ -1,0 +1,47 @@
+// The machine's side of rendering: what lives as long as the program, whatever scenes and views come and go.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bridge/shared_buffer.h"
+#include "cl/program_cache.h"
+#include "cl/tuned_sizes.h"
+#include "gl/context.h"
+#include "gl/program.h"
+
+namespace lightgrid {
+
+// Work that a moving camera should not cause. Totals since the renderer was made.
+struct RendererCounts {
+  int gl_programs = 0;     // GLSL programs compiled and linked
+  int cl_programs = 0;     // OpenCL programs built or loaded from disk
+  size_t scene_bytes = 0;  // geometry, materials and textures uploaded
+};
+
+class Renderer {
+ public:
+  // Opens both devices. Throws Error(machine) where one is missing.
+  Renderer(const std::string& cl_substring, GlBackend backend);
+  Renderer(Renderer&&) = default;
+
+  std::unique_ptr<GlContext> gl;
+  std::unique_ptr<ClDevice> cl;
+  std::unique_ptr<ProgramCache> kernels;
+  BridgeKind bridge = BridgeKind::staged;
+  TunedSizes tuned{};  // of settings that are left open
+
+  // A GLSL program, compiled at first use: embedded shader files, each after one "#define" a name.
+  const GlProgram& program(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines);
+
+  RendererCounts counts() const;
+  void note_scene_bytes(size_t bytes) const { scene_bytes_ += bytes; }
+
+ private:
+  std::map<std::string, GlProgram> programs_;
+  mutable size_t scene_bytes_ = 0;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,37 @@
+// The programs of one pass over a scene's surfaces. Their strings are built once for each set of material features, not in
+// each draw.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/renderer.h"
+
+namespace lightgrid {
+
+// A program and the uniforms that drawing sets; -1 where it has none.
+struct SceneProgram {
+  explicit SceneProgram(const GlProgram& program);
+  GLuint name;
+  GLint clip_from_object, view_from_object, normal_from_object;
+  GLint lights_of_draw, alpha, object;  // shaders/lights/object.glsl, forward.frag, object.frag
+};
+
+class ScenePrograms {
+ public:
+  // Embedded shader files. `defines` hold for all variants and come after those of the features.
+  ScenePrograms(Renderer& renderer, std::string vertex, std::string fragment, std::vector<std::string> defines);
+
+  // Of surfaces with these features. Compiled at first use; stays where it is.
+  const SceneProgram& of(uint32_t features);
+
+ private:
+  Renderer& renderer_;
+  std::string vertex_, fragment_;
+  std::vector<std::string> defines_;
+  std::vector<std::pair<uint32_t, std::unique_ptr<SceneProgram>>> variants_;
+};
+
+}  // namespace lightgrid

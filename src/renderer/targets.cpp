@@ -1,0 +1,51 @@
+#include "renderer/targets.h"
+
+#include <numeric>
+
+namespace lightgrid {
+namespace {
+
+// As OpenGL holds it, which may be wider than the format asks.
+size_t bits_of_pixel(GLuint texture) {
+  size_t sum = 0;
+  for (GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,
+                      GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE}) {
+    GLint bits = 0;
+    glGetTextureLevelParameteriv(texture, 0, part, &bits);
+    sum += size_t(bits);
+  }
+  return sum;
+}
+
+}  // namespace
+
+GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
+  const auto found = targets_.find(name);
+  if (found != targets_.end()) return found->second.texture.name();
+  GlTexture texture = make_texture_2d(format, width_, height_);
+  const size_t bytes = size_t(width_) * size_t(height_) * bits_of_pixel(texture.name()) / 8;
+  return targets_.try_emplace(name, Target{std::move(texture), use, bytes}).first->second.texture.name();
+}
+
+GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
+
+GLuint Targets::framebuffer(const std::vector<GLuint>& colors, GLuint depth) {
+  std::vector<GLuint> key = colors;
+  key.push_back(depth);
+  const auto found = framebuffers_.find(key);
+  if (found != framebuffers_.end()) return found->second.name();
+  return framebuffers_.try_emplace(key, make_framebuffer(colors, depth)).first->second.name();
+}
+
+size_t Targets::bytes() const {
+  return std::accumulate(targets_.begin(), targets_.end(), size_t(0),
+                         [](size_t sum, const auto& target) { return sum + target.second.bytes; });
+}
+
+size_t Targets::bytes(TargetUse use) const {
+  size_t sum = 0;
+  for (const auto& [name, target] : targets_) sum += target.use == use ? target.bytes : 0;
+  return sum;
+}
+
+}  // namespace lightgrid

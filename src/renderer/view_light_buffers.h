@@ -1,0 +1,29 @@
+// Uniform blocks of a view and its lights in view space, as OpenGL's shaders read them.
+#pragma once
+
+#include "renderer/gpu_scene.h"
+#include "renderer/light_texels.h"
+#include "shared/view_params.h"
+
+namespace lightgrid {
+
+class ViewLightBuffers {
+ public:
+  // Uploads what the view and the plan give. Buffers stay where their sizes do.
+  void update(const Scene& scene, const View& view, const FramePlan& plan, const ViewParams& params);
+  void bind() const;
+  size_t light_bytes() const { return light_bytes_; }
+
+ private:
+  struct Sized {
+    GlBuffer buffer;
+    size_t bytes = 0;
+    bool put(size_t size, const void* data);  // true: the buffer is a new one
+  };
+  Sized view_block_, slice_block_, z_bin_block_;
+  Sized light_buffers_[4];
+  GlTexture light_textures_[4];
+  size_t light_bytes_ = 0;
+};
+
+}  // namespace lightgrid
