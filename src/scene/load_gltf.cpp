@@ -1,7 +1,9 @@
 #include "scene/load_gltf.h"
 
+#include <algorithm>
 #include <new>
 
+#include "scene/gltf/animations.h"
 #include "scene/gltf/lights.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/meshes.h"
@@ -9,17 +11,26 @@
 namespace lightgrid {
 namespace {
 
+bool has_channels(const Rig& rig) {
+  return std::any_of(rig.animations.begin(), rig.animations.end(),
+                     [](const Animation& animation) { return !animation.channels.empty(); });
+}
+
 Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits& limits) {
   gltf::Document doc = gltf::read_document(path, limits);
-  const std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(doc, scene_index);
+  std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(doc, scene_index);
+  Rig rig{.file = path.string(), .nodes = {}, .animations = gltf::read_animations(doc, nodes), .skins = {}, .meshes = {}};
   Scene scene;
   scene.name = path.stem().string();
   scene.materials = gltf::read_materials(doc);
-  gltf::add_meshes(doc, nodes, scene);
+  gltf::add_meshes(doc, nodes, scene, rig);
   scene.lights = gltf::read_lights(doc, nodes);
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);
+  if (!has_channels(rig)) return scene;
+  rig.nodes = gltf::rig_nodes(doc, nodes);
+  scene.rig = std::make_shared<const Rig>(std::move(rig));
   return scene;
 }
 

@@ -1,9 +1,11 @@
 // A scene as plain data. World space is right-handed, y up, in metres (glTF's own); angles are in radians,
-// colours linear. Nodes are already flattened: every instance carries its world matrix in double.
+// colours linear. Nodes are already flattened: every instance carries its world matrix in double, at the scene's
+// current time. What moves them is in `rig`; set_time (scene/animation.h) applies it.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -83,6 +85,7 @@ struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
+  int node = -1;  // of the rig, which moves it; -1: stays
 };
 
 enum class LightType { point, spot, directional };
@@ -99,6 +102,7 @@ struct Light {
   float radius_m = std::numeric_limits<float>::infinity();  // infinite: no window, reaches everything
   float inner_cone_rad = 0;                                 // half-angles, 0 <= inner < outer; only spots
   float outer_cone_rad = 0.78539816f;
+  int node = -1;  // of the rig, which moves it; -1: stays
 };
 
 // Whether colour times intensity passes the largest float in some channel. Shaders could not hold such a light: whatever
@@ -114,7 +118,10 @@ struct Camera {
   double half_width_m = 1, half_height_m = 1;  // orthographic
   double near_m = 0.1;
   double far_m = std::numeric_limits<double>::infinity();
+  int node = -1;  // of the rig, which moves it; -1: stays
 };
+
+struct Rig;  // scene/rig.h
 
 struct Scene {
   std::string name;
@@ -127,6 +134,9 @@ struct Scene {
   std::vector<Camera> cameras;
   glm::vec3 ambient{0.02f};  // constant radiance from all sides; what occlusion maps darken
   glm::vec3 background{0};   // radiance where nothing is
+  std::shared_ptr<const Rig> rig;  // what moves; null: nothing. Copies of a scene share it
+  double time_s = 0;               // the time of the pose, as last given to set_time
+  int animation = -1;              // of the rig: whose pose it is; -1: all of them, or at time 0 the rest pose
 };
 
 // The box around all instances, in world space; empty for a scene without geometry.

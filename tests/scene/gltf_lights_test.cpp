@@ -3,20 +3,13 @@
 #include <glm/gtc/constants.hpp>
 
 #include "support/gltf_builder.h"
+#include "support/near.h"
 
 namespace lightgrid {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-constexpr double root_half = 0.7071067811865476;
-
-glm::dvec3 at(const glm::dmat4& m, const glm::dvec3& p) { return glm::dvec3(m * glm::dvec4(p, 1)); }
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
-  EXPECT_LT(glm::length(a - b), 1e-12) << a.x << " " << a.y << " " << a.z;
-}
 
 GltfBuilder with_camera(const json& camera) {
   GltfBuilder made = GltfBuilder::triangle();

@@ -77,8 +77,8 @@ Document read_document(const fs::path& path, const GltfLimits& limits) {
   parse_json(doc, prepared);
   check_asset(doc);
   doc.images = std::move(prepared.images);
+  doc.animations = std::move(prepared.animations);
   check_indices(doc, prepared.buffers.size());
-  if (prepared.has_animations) doc.warn("animation", "animations are not played: the rest pose is used");
   read_buffers(doc, prepared.buffers, container);
   if (container.is_glb) doc.owned.push_back(std::move(file));  // the first buffer points into it
   return doc;

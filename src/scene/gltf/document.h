@@ -17,8 +17,9 @@ struct Document : Reporter {
 
   std::filesystem::path folder;
   GltfLimits limits;
-  tinygltf::Model model;  // without buffers and images
+  tinygltf::Model model;  // without buffers, images and animations
   std::vector<ImageEntry> images;
+  std::vector<AnimationEntry> animations;
   std::vector<std::span<const uint8_t>> buffers;  // empty where the file names no bytes
   std::vector<std::vector<uint8_t>> owned;        // what `buffers` point into
   std::map<int, std::vector<uint8_t>> decoded_views;

@@ -176,8 +176,7 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
   PreparedJson out;
   out.buffers = take_buffers(report, root);
   out.images = take_images(report, root);
-  out.has_animations = root.contains("animations") && !root["animations"].empty();
-  root.erase("animations");
+  out.animations = take_animations(report, root);
   if (!root.contains("bufferViews")) root["bufferViews"] = json::array();
   out.absent_view = static_cast<int>(root["bufferViews"].size());
   root["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});

@@ -1,6 +1,7 @@
 // The JSON of a glTF file made ready for tinygltf, which trusts much of what it is given.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,11 +22,25 @@ struct ImageEntry {
   int view = -1;  // buffer view; -1: uri
 };
 
+struct AnimationEntry {
+  struct Sampler {
+    int input = -1, output = -1;  // accessors; -1: absent
+    std::string interpolation = "LINEAR";
+  };
+  struct Channel {
+    int sampler = -1, node = -1;  // -1: absent
+    std::string path;
+  };
+  std::string name;
+  std::vector<Sampler> samplers;
+  std::vector<Channel> channels;
+};
+
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
   std::vector<ImageEntry> images;
-  bool has_animations = false;
+  std::vector<AnimationEntry> animations;
   // tinygltf refuses indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors refer to this one, past the end of the file's own.
   int absent_view = 0;
@@ -33,9 +48,12 @@ struct PreparedJson {
 
 // Checks nesting, that collections are arrays of objects, and that every index is an integer in [0, 2^31);
 // numbers such as 3.0 become integers, and integers past 32 bits (which tinygltf would wrap) become doubles.
-// Buffers and images are taken out, because tinygltf reads them all at once, keeps copies, wants file sizes
+// Animations are taken out, because tinygltf reads them with less care than the rest. Buffers and images are taken out, because tinygltf reads them all at once, keeps copies, wants file sizes
 // to match exactly, knows no fallback buffers and reads a view's bytes unchecked.
 PreparedJson prepare_json(const Reporter& report, std::string_view text);
+
+// Moves the animations out of the JSON; errors name wrong types and indices that are not integers from 0 on.
+std::vector<AnimationEntry> take_animations(const Reporter& report, nlohmann::json& root);
 
 bool is_supported_extension(std::string_view name);
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "scene/pose.h"
+
 namespace lightgrid::gltf {
 namespace {
 
@@ -69,7 +71,8 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     templates.push_back(read_light(doc, doc.model.lights[i], has_range(doc, static_cast<int>(i)),
                                    label("light", static_cast<int>(i), doc.model.lights[i].name)));
   std::vector<Light> out;
-  for (const PlacedNode& placed : nodes) {
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const PlacedNode& placed = nodes[i];
     const tinygltf::Node& node = doc.model.nodes[placed.node];
     const tinygltf::Value* extension = find_extension(node.extensions, "KHR_lights_punctual");
     if (!extension) continue;
@@ -79,12 +82,12 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     Light light = checked(doc, templates, index, place, "KHR_lights_punctual.light");
     light.name = node.name.empty() ? doc.model.lights[index].name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
-    const glm::dvec3 along = -glm::dvec3(placed.world_from_node[2]);
-    const double length = glm::length(along);
-    if (length > 0 && std::isfinite(length))
-      light.direction = glm::vec3(along / length);
+    if (placed.moves) light.node = static_cast<int>(i);
+    if (const auto direction = light_direction(placed.world_from_node))
+      light.direction = *direction;
     else if (light.type != LightType::point)
-      throw doc.error("{}: light {} has no direction: its node is scaled to {}", place, index, length);
+      throw doc.error("{}: light {} has no direction: its node is scaled to {}", place, index,
+                      glm::length(glm::dvec3(placed.world_from_node[2])));
     out.push_back(std::move(light));
   }
   return out;
@@ -113,21 +116,12 @@ void read_orthographic(const Document& doc, const tinygltf::OrthographicCamera& 
   out.near_m = in.znear, out.far_m = in.zfar;
 }
 
-glm::dmat4 without_scale(const Document& doc, const glm::dmat4& world, const std::string& place) {
-  const glm::dvec3 back(world[2]), up(world[1]);
-  const glm::dvec3 z = back / glm::length(back);
-  const glm::dvec3 across = up - z * glm::dot(up, z);
-  const glm::dvec3 y = across / glm::length(across);
-  if (!std::isfinite(z.x + z.y + z.z + y.x + y.y + y.z))
-    throw doc.error("{}: its camera's axes are scaled to nothing", place);
-  return {glm::dvec4(glm::cross(y, z), 0), glm::dvec4(y, 0), glm::dvec4(z, 0), world[3]};
-}
-
 }  // namespace
 
 std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& nodes) {
   std::vector<Camera> out;
-  for (const PlacedNode& placed : nodes) {
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const PlacedNode& placed = nodes[i];
     const tinygltf::Node& node = doc.model.nodes[placed.node];
     if (node.camera < 0) continue;
     const std::string place = node_label(doc, placed.node);
@@ -138,7 +132,10 @@ std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& n
       read_orthographic(doc, in.orthographic, camera_place, camera);
     else
       read_perspective(doc, in.perspective, camera_place, camera);
-    camera.world_from_view = without_scale(doc, placed.world_from_node, place);
+    const auto rigid = rigid_part(placed.world_from_node);
+    if (!rigid) throw doc.error("{}: its camera's axes are scaled to nothing", place);
+    camera.world_from_view = *rigid;
+    if (placed.moves) camera.node = static_cast<int>(i);
     out.push_back(std::move(camera));
   }
   return out;

@@ -2,37 +2,43 @@
 
 #include <tuple>
 
+#include "scene/deform.h"
 #include "scene/gltf/morph.h"
 #include "scene/gltf/skin.h"
+#include "scene/pose.h"
 
 namespace lightgrid::gltf {
 namespace {
 
 class MeshReader {
  public:
-  MeshReader(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene)
-      : doc_(doc), nodes_(nodes), scene_(scene), budget_(doc.limits.max_vertices) {}
+  MeshReader(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig)
+      : doc_(doc), nodes_(nodes), scene_(scene), rig_(rig), budget_(doc.limits.max_vertices) {
+    for (const PlacedNode& placed : nodes) world_from_node_.push_back(placed.world_from_node);
+    rig_.skins.resize(doc.model.skins.size());
+  }
 
-  void add(const PlacedNode& placed) {
+  void add(int index) {
+    const PlacedNode& placed = nodes_[index];
     const tinygltf::Node& node = doc_.model.nodes[placed.node];
     if (node.mesh < 0) return;
-    checked(doc_, doc_.model.meshes, node.mesh, node_label(doc_, placed.node), "mesh");
-    if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, node_label(doc_, placed.node), "skin");
-    const std::vector<double> weights =
-        default_weights(doc_, node, doc_.model.meshes[node.mesh], node_label(doc_, placed.node));
-    for (const Drawn& drawn : meshes_of(node.mesh, node.skin, weights)) {
+    const std::string place = node_label(doc_, placed.node);
+    const tinygltf::Mesh& mesh = checked(doc_, doc_.model.meshes, node.mesh, place, "mesh");
+    if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
+    const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1};
+    for (const Drawn& drawn : meshes_of(use)) {
       // A mesh flattened to a plane, line or point has no normals that could be lit.
-      if (!drawn.in_world && glm::determinant(glm::dmat3(placed.world_from_node)) == 0) {
-        doc_.warn("flattened", "{}: is scaled to no volume and left out", node_label(doc_, placed.node));
+      if (!drawn.in_world && !placed.moves && is_flat(placed.world_from_node)) {
+        doc_.warn("flattened", "{}: is scaled to no volume and left out", place);
         continue;
       }
       if (scene_.instances.size() >= doc_.limits.max_instances)
-        throw doc_.error("{}: more than {} instances", node_label(doc_, placed.node),
-                         doc_.limits.max_instances);
+        throw doc_.error("{}: more than {} instances", place, doc_.limits.max_instances);
       scene_.instances.push_back(
           {.name = node.name,
            .mesh = drawn.mesh,
-           .world_from_object = drawn.in_world ? glm::dmat4(1) : placed.world_from_node});
+           .world_from_object = drawn.in_world ? glm::dmat4(1) : world_of_instance(placed.world_from_node),
+           .node = drawn.in_world || !placed.moves ? -1 : index});
     }
   }
 
@@ -42,53 +48,98 @@ class MeshReader {
     bool in_world;  // skinned: its vertices are in world space
   };
 
-  const std::vector<Drawn>& meshes_of(int mesh, int skin, const std::vector<double>& weights) {
-    const auto [known, is_new] = drawn_.try_emplace({mesh, skin, weights});
-    if (is_new) known->second = read(mesh, skin, weights);
+  // What decides the shape of a file's mesh.
+  struct Use {
+    int mesh, skin;               // of the file
+    std::vector<double> weights;  // at rest
+    int weights_node;             // a place in nodes_, where the weights are animated; else -1
+    auto operator<=>(const Use&) const = default;
+  };
+
+  const std::vector<Drawn>& meshes_of(const Use& use) {
+    const auto [known, is_new] = drawn_.try_emplace(use);
+    if (is_new) known->second = read(use);
     return known->second;
   }
 
-  std::vector<Drawn> read(int mesh, int skin, const std::vector<double>& weights) {
-    const tinygltf::Mesh& in = doc_.model.meshes[mesh];
+  std::vector<Drawn> read(const Use& use) {
+    const tinygltf::Mesh& in = doc_.model.meshes[use.mesh];
     std::vector<Drawn> out;
     for (size_t i = 0; i < in.primitives.size(); ++i) {
-      const std::string place = fmt::format("{} primitive {}", label("mesh", mesh, in.name), i);
+      const std::string place = fmt::format("{} primitive {}", label("mesh", use.mesh, in.name), i);
       auto primitive = read_primitive(doc_, in.primitives[i], scene_.materials, budget_, place);
       if (!primitive) continue;
-      apply_morph_targets(doc_, in.primitives[i], weights, place, primitive->mesh);
-      const bool skinned = skin >= 0 && primitive->skin.sets > 0;
-      if (skinned) {
-        doc_.warn("skin", "skins are drawn in their rest pose");
-        apply_skin(doc_, joints_of(skin), primitive->skin, place, primitive->mesh);
-      }
-      complete_mesh(doc_, scene_.materials, budget_, place, primitive->mesh);
       primitive->mesh.name = in.name;
+      const bool skinned = use.skin >= 0 && primitive->skin.sets > 0;
       out.push_back({static_cast<int>(scene_.meshes.size()), skinned});
-      scene_.meshes.push_back(std::move(primitive->mesh));
+      DeformingMesh shape{.mesh = out.back().mesh, .label = place, .tangents = tangent_need(scene_.materials[primitive->mesh.material])};
+      if (skinned) shape.skin = use.skin, shape.skin_weights = std::move(primitive->skin);
+      add_at_rest(in.primitives[i], use, std::move(primitive->mesh), std::move(shape));
     }
     return out;
   }
 
-  const std::vector<glm::dmat4>& joints_of(int skin) {
-    const auto [known, is_new] = joints_.try_emplace(skin);
-    if (is_new) known->second = joint_matrices(doc_, skin, nodes_);
-    return known->second;
+  // Adds the mesh to the scene at rest, and its shape to the rig if that changes.
+  void add_at_rest(const tinygltf::Primitive& in, const Use& use, Mesh mesh, DeformingMesh shape) {
+    const bool morphs = use.weights_node >= 0 && !in.targets.empty();
+    std::vector<MorphTarget> targets =
+        read_morph_targets(doc_, in, use.weights, morphs, mesh, budget_, shape.label);
+    if (!morphs) apply_checked_morph(targets, use.weights, shape.label, mesh);
+    if (shape.tangents == TangentNeed::none) mesh.tangents = {};
+    const bool deforms = morphs || (shape.skin >= 0 && moves(skin_of(shape.skin)));
+    if (deforms) shape.base = mesh;
+    if (morphs) apply_checked_morph(targets, use.weights, shape.label, mesh);
+    if (shape.skin >= 0) apply_checked_skin(shape, mesh);
+    spend_on_flat_normals(doc_, mesh, budget_, shape.label);
+    complete_mesh(shape.tangents, mesh);
+    scene_.meshes.push_back(std::move(mesh));
+    if (!deforms) return;
+    if (morphs) {
+      shape.weights_node = use.weights_node;
+      shape.rest_weights = use.weights;
+      shape.targets = std::move(targets);
+    }
+    rig_.meshes.push_back(std::move(shape));
+  }
+
+  void apply_checked_morph(const std::vector<MorphTarget>& targets, const std::vector<double>& weights,
+                           const std::string& place, Mesh& mesh) const {
+    if (targets.empty()) return;
+    apply_morph_targets(targets, weights, mesh);
+    if (first_not_finite(mesh)) throw doc_.error("{}: its morph targets move a vertex to infinity", place);
+  }
+
+  void apply_checked_skin(const DeformingMesh& shape, Mesh& mesh) {
+    const RigSkin& skin = skin_of(shape.skin);
+    check_joints(doc_, skin, shape.skin_weights, shape.label);
+    apply_skin(joint_matrices(skin, world_from_node_), shape.skin_weights, mesh);
+    if (const auto vertex = first_not_finite(mesh))
+      throw doc_.error("{}: vertex {} is moved to infinity by its joints", shape.label, *vertex);
+  }
+
+  const RigSkin& skin_of(int skin) {
+    if (rig_.skins[skin].joints.empty()) rig_.skins[skin] = read_skin(doc_, skin, nodes_);
+    return rig_.skins[skin];
+  }
+
+  bool moves(const RigSkin& skin) const {
+    return std::any_of(skin.joints.begin(), skin.joints.end(), [&](int joint) { return nodes_[joint].moves; });
   }
 
   Document& doc_;
   const std::vector<PlacedNode>& nodes_;
   Scene& scene_;
+  Rig& rig_;
   Budget budget_;
-  // By the file's mesh, skin and weights of morph targets.
-  std::map<std::tuple<int, int, std::vector<double>>, std::vector<Drawn>> drawn_;
-  std::map<int, std::vector<glm::dmat4>> joints_;
+  std::vector<glm::dmat4> world_from_node_;
+  std::map<Use, std::vector<Drawn>> drawn_;
 };
 
 }  // namespace
 
-void add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  MeshReader reader(doc, nodes, scene);
-  for (const PlacedNode& placed : nodes) reader.add(placed);
+void add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig) {
+  MeshReader reader(doc, nodes, scene, rig);
+  for (size_t i = 0; i < nodes.size(); ++i) reader.add(static_cast<int>(i));
 }
 
 }  // namespace lightgrid::gltf

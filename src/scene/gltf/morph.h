@@ -1,8 +1,7 @@
-// Morph targets at their default weights.
+// Morph targets of a file.
 #pragma once
 
-#include "scene/gltf/document.h"
-#include "scene/scene.h"
+#include "scene/gltf/primitive.h"
 
 namespace lightgrid::gltf {
 
@@ -11,12 +10,12 @@ namespace lightgrid::gltf {
 std::vector<double> default_weights(const Document& doc, const tinygltf::Node& node,
                                     const tinygltf::Mesh& mesh, const std::string& place);
 
-// Adds each target's displacements times its weight to the attributes that `mesh` has: positions, normals,
-// tangents (not their handedness), texture coordinates and colours. Normals and tangents come out as unit
-// vectors, colours within 0 to 1. `mesh` is as read_primitive gives it, before its skin is applied. Weights
-// have nothing to weight in a primitive without targets. Errors: a number of weights other than that of targets,
-// a target whose count is not that of the vertices, a position that is moved to infinity.
-void apply_morph_targets(Document& doc, const tinygltf::Primitive& primitive,
-                         const std::vector<double>& weights, const std::string& place, Mesh& mesh);
+// The displacements of the attributes that `mesh` has, as read_primitive gives it: of all targets where the weights are
+// animated, else of those whose weight is not 0 (others stay empty). No target where no weight is set: weights have nothing to
+// weight in a primitive without targets. Errors: a number of weights other than that of targets, a target whose count is not
+// that of the vertices, values that are not finite, displaced vertices past the budget.
+std::vector<MorphTarget> read_morph_targets(Document& doc, const tinygltf::Primitive& primitive,
+                                            const std::vector<double>& weights, bool animated, const Mesh& mesh,
+                                            Budget& budget, const std::string& place);
 
 }  // namespace lightgrid::gltf

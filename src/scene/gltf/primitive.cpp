@@ -3,10 +3,8 @@
 #include <algorithm>
 
 #include "scene/gltf/draco.h"
-#include "scene/gltf/geometry.h"
 
 namespace lightgrid::gltf {
-namespace {
 
 void spend(const Document& doc, size_t& left, size_t amount, const std::string& place, const char* what) {
   if (amount > left)
@@ -14,6 +12,8 @@ void spend(const Document& doc, size_t& left, size_t amount, const std::string& 
                     doc.limits.max_vertices);
   left -= amount;
 }
+
+namespace {
 
 // Attributes of one primitive, from accessors or from Draco's data.
 class Attributes {
@@ -161,22 +161,14 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
   return out;
 }
 
-void complete_mesh(const Document& doc, const std::vector<Material>& materials, Budget& budget,
-                   const std::string& place, Mesh& mesh) {
-  if (mesh.normals.empty()) {
-    if (mesh.indices.size() > mesh.positions.size())
-      spend(doc, budget.vertices, mesh.indices.size() - mesh.positions.size(), place, "vertices");
-    make_flat_normals(mesh);
-  } else {
-    repair_normals(mesh);
-  }
-  const TextureSlot& normal_map = materials[mesh.material].normal_map;
-  if (normal_map.texture < 0)
-    mesh.tangents = {};
-  else if (mesh.tangents.empty())
-    make_tangents(mesh, normal_map.uv_set == 0 ? mesh.uv0 : mesh.uv1);
-  for (glm::vec4& tangent : mesh.tangents) tangent.w = tangent.w < 0 ? -1.0f : 1.0f;
-  for (const glm::vec3& position : mesh.positions) mesh.bounds.add(position);
+TangentNeed tangent_need(const Material& material) {
+  if (material.normal_map.texture < 0) return TangentNeed::none;
+  return material.normal_map.uv_set == 0 ? TangentNeed::along_uv0 : TangentNeed::along_uv1;
+}
+
+void spend_on_flat_normals(const Document& doc, const Mesh& mesh, Budget& budget, const std::string& place) {
+  if (mesh.normals.empty() && mesh.indices.size() > mesh.positions.size())
+    spend(doc, budget.vertices, mesh.indices.size() - mesh.positions.size(), place, "vertices");
 }
 
 }  // namespace lightgrid::gltf

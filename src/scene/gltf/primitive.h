@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "scene/gltf/accessor.h"
-#include "scene/scene.h"
+#include "scene/rig.h"
 
 namespace lightgrid::gltf {
 
@@ -14,11 +14,8 @@ struct Budget {
   size_t vertices, indices;
 };
 
-struct SkinWeights {
-  int sets = 0;                    // of four joints a vertex; 0: the primitive has none
-  std::vector<glm::uvec4> joints;  // joints[vertex * sets + set]
-  std::vector<glm::vec4> weights;
-};
+// Takes `amount` from what is left, or an error "place: amount what more pass the limit".
+void spend(const Document& doc, size_t& left, size_t amount, const std::string& place, const char* what);
 
 struct Primitive {
   Mesh mesh;  // a triangle list; normals and tangents as in the file
@@ -32,8 +29,10 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
                                         const std::vector<Material>& materials, Budget& budget,
                                         const std::string& place);
 
-// Makes normals and tangents where they are missing and needed, drops tangents nobody uses, sets bounds.
-void complete_mesh(const Document& doc, const std::vector<Material>& materials, Budget& budget,
-                   const std::string& place, Mesh& mesh);
+// The tangents that a mesh of this material needs.
+TangentNeed tangent_need(const Material& material);
+
+// Takes from the budget the vertices that flat normals would add.
+void spend_on_flat_normals(const Document& doc, const Mesh& mesh, Budget& budget, const std::string& place);
 
 }  // namespace lightgrid::gltf

@@ -1,17 +1,15 @@
-// Skins, at rest.
+// Skins of a file.
 #pragma once
 
 #include "scene/gltf/nodes.h"
-#include "scene/gltf/primitive.h"
+#include "scene/rig.h"
 
 namespace lightgrid::gltf {
 
-// The world matrix of each joint times its inverse bind matrix. Joints must be among `nodes`.
-std::vector<glm::dmat4> joint_matrices(Document& doc, int skin, const std::vector<PlacedNode>& nodes);
+// Joints as places in `nodes`, among which they must be, and their inverse bind matrices (identities where the file has none).
+RigSkin read_skin(Document& doc, int skin, const std::vector<PlacedNode>& nodes);
 
-// Moves positions, normals and tangents by the joints, into world space: a skinned mesh's own node has no say
-// (glTF 2.0, 3.7.3.3). Weights are brought to sum 1.
-void apply_skin(const Document& doc, const std::vector<glm::dmat4>& joints, const SkinWeights& weights,
-                const std::string& place, Mesh& mesh);
+// An error where a vertex is weighted by a joint that the skin does not have.
+void check_joints(const Document& doc, const RigSkin& skin, const SkinWeights& weights, const std::string& place);
 
 }  // namespace lightgrid::gltf

@@ -1,0 +1,147 @@
+#include "scene/gltf/animations.h"
+
+#include <cmath>
+#include <utility>
+
+#include "scene/gltf/accessor.h"
+
+namespace lightgrid::gltf {
+namespace {
+
+// Morph targets of a mesh: as many for each of its primitives that has any.
+size_t target_count(const Document& doc, int node) {
+  const int mesh = doc.model.nodes[node].mesh;
+  if (mesh < 0) return 0;
+  size_t count = 0;
+  for (const tinygltf::Primitive& primitive : doc.model.meshes[mesh].primitives)
+    count = std::max(count, primitive.targets.size());
+  return count;
+}
+
+std::optional<AnimatedPath> read_path(const std::string& path) {
+  if (path == "translation") return AnimatedPath::translation;
+  if (path == "rotation") return AnimatedPath::rotation;
+  if (path == "scale") return AnimatedPath::scale;
+  if (path == "weights") return AnimatedPath::weights;
+  return {};
+}
+
+Interpolation read_interpolation(const Document& doc, const std::string& name, const std::string& place) {
+  if (name == "LINEAR") return Interpolation::linear;
+  if (name == "STEP") return Interpolation::step;
+  if (name == "CUBICSPLINE") return Interpolation::cubic_spline;
+  throw doc.error("{}: interpolation is \"{}\"", place, name);
+}
+
+class AnimationReader {
+ public:
+  AnimationReader(Document& doc, std::vector<PlacedNode>& nodes)
+      : doc_(doc), nodes_(nodes), values_left_(doc.limits.max_animation_values), place_of_node_(doc.model.nodes.size(), -1) {
+    for (size_t i = 0; i < nodes.size(); ++i) place_of_node_[nodes[i].node] = static_cast<int>(i);
+  }
+
+  Animation read(const AnimationEntry& entry, const std::string& place) {
+    Animation out{.name = entry.name, .channels = {}};
+    std::set<std::pair<int, AnimatedPath>> targets;
+    for (size_t i = 0; i < entry.channels.size(); ++i) {
+      const std::string inner = fmt::format("{} channel {}", place, i);
+      auto channel = read_target(entry.channels[i], inner);
+      if (!channel) continue;
+      if (!targets.insert({channel->node, channel->path}).second)
+        throw doc_.error("{}: an earlier channel animates the {} of node {} too", inner, entry.channels[i].path,
+                         entry.channels[i].node);
+      if (entry.channels[i].sampler < 0) throw doc_.error("{}: has no sampler", inner);
+      read_keys(entry.samplers[entry.channels[i].sampler],
+                fmt::format("{} sampler {}", place, entry.channels[i].sampler), *channel);
+      PlacedNode& node = nodes_[channel->node];
+      (channel->path == AnimatedPath::weights ? node.morphs : node.moves) = true;
+      out.channels.push_back(*std::move(channel));
+    }
+    return out;
+  }
+
+ private:
+  // Nothing where the channel moves nothing of this scene.
+  std::optional<AnimationChannel> read_target(const AnimationEntry::Channel& in, const std::string& place) {
+    const auto path = read_path(in.path);
+    if (!path && (in.node >= 0 || in.path == "pointer"))
+      doc_.warn("animation path", "{}: path \"{}\" is not supported; left out", place, in.path);
+    if (!path || in.node < 0 || place_of_node_[in.node] < 0) return {};
+    AnimationChannel out{.node = place_of_node_[in.node], .path = *path, .times = {}, .values = {}};
+    if (*path == AnimatedPath::rotation) out.components = 4;
+    if (*path == AnimatedPath::weights) {
+      out.components = static_cast<int>(target_count(doc_, in.node));
+      if (out.components > 0) return out;
+      doc_.warn("animated weights", "{}: {} has no morph targets; left out", place, node_label(doc_, in.node));
+      return {};
+    }
+    if (nodes_[out.node].matrix)
+      throw doc_.error("{}: {} has a matrix; only translation, rotation and scale can be animated", place,
+                       node_label(doc_, in.node));
+    return out;
+  }
+
+  void read_keys(const AnimationEntry::Sampler& in, const std::string& place, AnimationChannel& out) {
+    if (in.input < 0 || in.output < 0) throw doc_.error("{}: has no {}", place, in.input < 0 ? "input" : "output");
+    out.interpolation = read_interpolation(doc_, in.interpolation, place);
+    out.times = read_values(in.input, Normalize::as_accessor_says, "SCALAR", true, place + ": input");
+    check_times(out.times, place);
+    const bool is_cubic = out.interpolation == Interpolation::cubic_spline;
+    if (is_cubic && out.times.size() < 2) throw doc_.error("{}: a cubic spline of one key; it needs two", place);
+    const char* type = out.path == AnimatedPath::weights ? "SCALAR" : out.path == AnimatedPath::rotation ? "VEC4" : "VEC3";
+    const bool is_float = out.path == AnimatedPath::translation || out.path == AnimatedPath::scale;
+    out.values = read_values(in.output, Normalize::always, type, is_float, place + ": output");
+    const size_t a_key = static_cast<size_t>(out.components) * (is_cubic ? 3 : 1);
+    if (out.values.size() != out.times.size() * a_key)
+      throw doc_.error("{}: output has {} numbers for {} keys of {}", place, out.values.size(), out.times.size(), a_key);
+    if (out.path == AnimatedPath::rotation) check_rotations(out, is_cubic, place);
+  }
+
+  std::vector<float> read_values(int accessor, Normalize normalize, const char* type, bool only_float, const std::string& place) {
+    const tinygltf::Accessor& in = checked(doc_, doc_.model.accessors, accessor, place, "accessor");
+    const int wanted = type == std::string_view("SCALAR") ? 1 : type[3] - '0';
+    if (in.type != (wanted == 1 ? TINYGLTF_TYPE_SCALAR : wanted)) throw doc_.error("{}: is not of type {}", place, type);
+    if (only_float && in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      throw doc_.error("{}: componentType is {}; it must be float", place, in.componentType);
+    if (in.count > values_left_ / wanted)
+      throw doc_.error("{}: with it, animations have more than {} numbers", place, doc_.limits.max_animation_values);
+    values_left_ -= in.count * wanted;
+    return read_floats(doc_, accessor, in.count, normalize, place).values;
+  }
+
+  // Equal times are read, though the specification has them increase: exporters write them for a jump.
+  void check_times(const std::vector<float>& times, const std::string& place) const {
+    if (times[0] < 0) throw doc_.error("{}: input: time 0 is {}, before 0", place, times[0]);
+    for (size_t i = 1; i < times.size(); ++i)
+      if (times[i] < times[i - 1])
+        throw doc_.error("{}: input: time {} is {}, before {}", place, i, times[i], times[i - 1]);
+  }
+
+  void check_rotations(const AnimationChannel& channel, bool is_cubic, const std::string& place) const {
+    for (size_t key = 0; key < channel.times.size(); ++key) {
+      const float* q = channel.values.data() + (is_cubic ? key * 3 + 1 : key) * 4;
+      const double length = std::hypot(std::hypot(double(q[0]), double(q[1])), std::hypot(double(q[2]), double(q[3])));
+      if (!(length > 1e-12))
+        throw doc_.error("{}: output: rotation {} is a quaternion of length {}", place, key, length);
+    }
+  }
+
+  Document& doc_;
+  std::vector<PlacedNode>& nodes_;
+  size_t values_left_;
+  std::vector<int> place_of_node_;  // by the file's index; -1: not in the scene
+};
+
+}  // namespace
+
+std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& nodes) {
+  AnimationReader reader(doc, nodes);
+  std::vector<Animation> out;
+  for (size_t i = 0; i < doc.animations.size(); ++i)
+    out.push_back(reader.read(doc.animations[i], label("animation", static_cast<int>(i), doc.animations[i].name)));
+  for (PlacedNode& node : nodes)
+    if (node.parent >= 0 && nodes[node.parent].moves) node.moves = true;
+  return out;
+}
+
+}  // namespace lightgrid::gltf

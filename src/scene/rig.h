@@ -1,0 +1,89 @@
+// What can move in a scene: the nodes, animations, skins and morph targets of a glTF file (glTF 2.0, Khronos, 2021,
+// sections 3.5, 3.7.2.2, 3.7.3 and 3.11). Plain data that never changes after loading; scene/animation.h applies it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+// Object space of the node to that of its parent: translation * rotation * scale.
+struct NodeTransform {
+  glm::dvec3 translation{0};
+  glm::dquat rotation{1, 0, 0, 0};  // unit
+  glm::dvec3 scale{1};
+};
+
+struct RigNode {
+  std::string label;                 // for messages: node 3 "arm"
+  int parent = -1;                   // an earlier node; -1: a root
+  NodeTransform rest;                // where no animation moves it
+  std::optional<glm::dmat4> matrix;  // affine; in place of `rest`: such a node cannot be animated
+};
+
+enum class AnimatedPath { translation, rotation, scale, weights };
+enum class Interpolation { linear, step, cubic_spline };
+
+// One animated property of one node.
+struct AnimationChannel {
+  int node = 0;
+  AnimatedPath path = AnimatedPath::translation;
+  Interpolation interpolation = Interpolation::linear;
+  int components = 3;         // translation and scale 3, rotation 4 (x, y, z, w), weights: one for each morph target
+  std::vector<float> times;   // seconds, from 0 on, not decreasing; at least one
+  std::vector<float> values;  // `components` for each time; cubic_spline: in-tangent, value and out-tangent, each as many
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimationChannel> channels;  // those that move a node of this scene
+};
+
+struct RigSkin {
+  std::vector<int> joints;                // nodes
+  std::vector<glm::dmat4> inverse_binds;  // one a joint
+};
+
+// Displacements of each vertex at weight 1. Empty where the target does not displace this attribute.
+struct MorphTarget {
+  std::vector<glm::vec3> positions, normals, tangents;
+  std::vector<glm::vec2> uv0, uv1;
+  std::vector<glm::vec4> colors;
+};
+
+struct SkinWeights {
+  int sets = 0;                    // of four joints a vertex; 0: not skinned
+  std::vector<glm::uvec4> joints;  // joints[vertex * sets + set], into RigSkin::joints
+  std::vector<glm::vec4> weights;
+};
+
+// Which tangents a mesh must have: none, or the file's, or (where it has none) tangents along u of a texture coordinate set.
+enum class TangentNeed { none, along_uv0, along_uv1 };
+
+// The shape that morph targets and joints start from. Only meshes that change their shape have one.
+struct DeformingMesh {
+  int mesh = 0;  // of Scene::meshes: the result
+  std::string label;
+  Mesh base;     // as the file has it; normals and tangents may be missing
+  TangentNeed tangents = TangentNeed::none;
+  int weights_node = -1;             // whose morph weights; -1: base is morphed already
+  std::vector<double> rest_weights;  // one a target, or none: all 0
+  std::vector<MorphTarget> targets;
+  int skin = -1;  // of Rig::skins; -1: not skinned
+  SkinWeights skin_weights;
+};
+
+struct Rig {
+  std::string file;             // for messages
+  std::vector<RigNode> nodes;   // parents before children
+  std::vector<Animation> animations;  // all of the file, by its index
+  std::vector<RigSkin> skins;         // all of the file, by its index; those that deform nothing are empty
+  std::vector<DeformingMesh> meshes;
+};
+
+}  // namespace lightgrid
