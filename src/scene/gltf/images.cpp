@@ -1,8 +1,9 @@
 #include "scene/gltf/images.h"
 
 #include <stb_image.h>
+#include <webp/decode.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cstring>
 
 #include "base/parallel.h"
@@ -25,20 +26,46 @@ bool starts_with(std::span<const uint8_t> bytes, std::string_view magic) {
 
 bool is_png(std::span<const uint8_t> bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }
 
+bool is_webp(std::span<const uint8_t> bytes) {
+  return bytes.size() >= 12 && starts_with(bytes, "RIFF") && starts_with(bytes.subspan(8), "WEBP");
+}
+
+bool uses_webp(const Document& doc) {
+  const auto& used = doc.model.extensionsUsed;
+  return std::find(used.begin(), used.end(), "EXT_texture_webp") != used.end();
+}
+
+void read_webp_header(const Document& doc, Encoded& image) {
+  if (!uses_webp(doc))
+    throw doc.error("{}: is WebP, but extensionsUsed does not name EXT_texture_webp", image.place);
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(image.bytes.data(), image.bytes.size(), &features) != VP8_STATUS_OK)
+    throw doc.error("{}: cannot be decoded: its WebP header is broken", image.place);
+  if (features.has_animation) throw doc.error("{}: is an animated WebP image", image.place);
+  image.width = features.width, image.height = features.height;
+}
+
 // Of the formats that stb_image knows, glTF allows these two.
-void read_header(const Document& doc, Encoded& image) {
+void read_stb_header(const Document& doc, Encoded& image) {
   if (!is_png(image.bytes) && !starts_with(image.bytes, "\xff\xd8\xff"))
-    throw doc.error("{}: is neither PNG nor JPEG", image.place);
-  if (image.bytes.size() > size_t(std::numeric_limits<int>::max()))
-    throw doc.error("{}: is of {} bytes", image.place, image.bytes.size());
+    throw doc.error("{}: is neither PNG nor JPEG{}", image.place, uses_webp(doc) ? " nor WebP" : "");
   const auto size = static_cast<int>(image.bytes.size());
   int channels = 0;
   if (!stbi_info_from_memory(image.bytes.data(), size, &image.width, &image.height, &channels))
     throw doc.error("{}: cannot be decoded: {}", image.place, stbi_failure_reason());
+  image.has_16_bits = stbi_is_16_bit_from_memory(image.bytes.data(), size);
+}
+
+void read_header(const Document& doc, Encoded& image) {
+  if (image.bytes.size() > size_t(std::numeric_limits<int>::max()))
+    throw doc.error("{}: is of {} bytes", image.place, image.bytes.size());
+  if (is_webp(image.bytes))
+    read_webp_header(doc, image);
+  else
+    read_stb_header(doc, image);
   if (image.width < 1 || image.height < 1 || std::max(image.width, image.height) > doc.limits.max_image_side)
     throw doc.error("{}: is {} x {}; a side of at most {} is read", image.place, image.width, image.height,
                     doc.limits.max_image_side);
-  image.has_16_bits = stbi_is_16_bit_from_memory(image.bytes.data(), size);
 }
 
 Encoded fetch(Document& doc, int index) {
@@ -77,7 +104,16 @@ void check_png_inflates_to_its_size(const Document& doc, const Encoded& image) {
                     image.height);
 }
 
+Bitmap decode_webp(const Document& doc, const Encoded& image) {
+  Bitmap out{.width = image.width, .height = image.height};
+  out.rgba.resize(size_t(image.width) * image.height * 4);
+  if (!WebPDecodeRGBAInto(image.bytes.data(), image.bytes.size(), out.rgba.data(), out.rgba.size(), image.width * 4))
+    throw doc.error("{}: cannot be decoded: its WebP data is broken", image.place);
+  return out;
+}
+
 Bitmap decode(const Document& doc, const Encoded& image) {
+  if (is_webp(image.bytes)) return decode_webp(doc, image);
   if (is_png(image.bytes)) check_png_inflates_to_its_size(doc, image);
   Bitmap out{.width = image.width, .height = image.height};
   int width = 0, height = 0, channels = 0;

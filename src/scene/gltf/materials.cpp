@@ -49,8 +49,8 @@ void read_transform(Document& doc, const tinygltf::Value& extension, const std::
 
 TextureSlot read_slot(Document& doc, const auto& info, const std::string& place) {
   if (info.index < 0) return {};
-  const auto& texture = checked(doc, doc.model.textures, info.index, place, "texture");
-  if (texture.source < 0) {
+  checked(doc, doc.model.textures, info.index, place, "texture");
+  if (image_of_texture(doc, info.index) < 0) {
     doc.warn("texture without image", "{}: texture {} has no image that is supported; left out", place,
              info.index);
     return {};

@@ -12,6 +12,9 @@ std::vector<Material> read_materials(Document& doc);
 // Drops the materials that no mesh of the scene uses.
 void keep_used_materials(Scene& scene);
 
+// The image of a texture: the one of EXT_texture_webp (2021), else its source; -1: it has none that is supported.
+int image_of_texture(const Document& doc, int texture);
+
 // Fills scene.textures and scene.bitmaps with what its materials name, and turns the slots' indices to these.
 // Each image is decoded once, in parallel; see images.h.
 void add_textures(Document& doc, Scene& scene);

@@ -53,6 +53,13 @@ void read_sampler(const Document& doc, const tinygltf::Sampler& in, const std::s
 
 }  // namespace
 
+int image_of_texture(const Document& doc, int index) {
+  const tinygltf::Texture& texture = doc.model.textures[index];
+  const tinygltf::Value* webp = find_extension(texture.extensions, "EXT_texture_webp");
+  if (!webp || !webp->Has("source")) return texture.source;
+  return static_cast<int>(size_or(doc, *webp, "source", 0, fmt::format("texture {}: EXT_texture_webp", index)));
+}
+
 void add_textures(Document& doc, Scene& scene) {
   std::vector<int> images;  // the file's images that are used; bitmap i is of images[i]
   std::map<int, int> bitmap_of_image;
@@ -63,12 +70,12 @@ void add_textures(Document& doc, Scene& scene) {
       if (slot.texture < 0) continue;
       const tinygltf::Texture& in = doc.model.textures[slot.texture];
       const std::string place = fmt::format("texture {}", slot.texture);
-      checked(doc, doc.images, in.source, place, "source");
-      const auto [bitmap, is_new_image] =
-          bitmap_of_image.try_emplace(in.source, static_cast<int>(images.size()));
-      if (is_new_image) images.push_back(in.source);
+      const int image = image_of_texture(doc, slot.texture);
+      checked(doc, doc.images, image, place, "source");
+      const auto [bitmap, is_new_image] = bitmap_of_image.try_emplace(image, static_cast<int>(images.size()));
+      if (is_new_image) images.push_back(image);
       const auto [known, is_new] =
-          textures.try_emplace({in.source, in.sampler, use.srgb}, static_cast<int>(scene.textures.size()));
+          textures.try_emplace({image, in.sampler, use.srgb}, static_cast<int>(scene.textures.size()));
       slot.texture = known->second;
       if (!is_new) continue;
       Texture texture{.bitmap = bitmap->second, .srgb = use.srgb};

@@ -1,5 +1,7 @@
 #include "scene/gltf/validate.h"
 
+#include "scene/gltf/materials.h"
+
 namespace lightgrid::gltf {
 namespace {
 
@@ -108,6 +110,7 @@ void check_indices(const Document& doc, size_t buffer_count) {
   for (size_t i = 0; i < model.textures.size(); ++i) {
     check.set_place("texture", i);
     check.optional(model.textures[i].source, doc.images.size(), "source");
+    check.optional(image_of_texture(doc, static_cast<int>(i)), doc.images.size(), "EXT_texture_webp.source");
     check.optional(model.textures[i].sampler, model.samplers.size(), "sampler");
   }
   check_accessors(model, check);
