@@ -186,6 +186,7 @@ void run_views(Renderer& devices, const std::vector<LoadedView>& views, const st
     options.progress = [&](double done, const std::string& step) { bar((before + done * cost) / total, which + step); };
     options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
     view.scene->lights = view.lights, view.scene->ambient = view.ambient;
+    options.path = chosen_path(*view.scene, view.view, o.scene);
     found(compare_techniques(devices, *view.scene, view.view, contestants, options));
     before += cost;
   }
@@ -258,6 +259,7 @@ void add_compare(CommandLine& line) {
   command.list("--size", o->sizes, "image size, WxH, or several with commas between", ',');
   command.list("--lights", o->lights, "scatter N lights; with --lights-file, its first N; or several with commas between", ',');
   add_view_options(command, o->scene);
+  add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
   command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between; names are " + technique_names(), ',');

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "scene/builtin.h"
+#include "scene/camera_path.h"
 #include "scene/light_rigs.h"
 #include "scene/lights_file.h"
 #include "scene/load_gltf.h"
@@ -87,6 +88,10 @@ void add_view_options(Subcommand& command, SceneOptions& o) {
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
+void add_path_option(Subcommand& command, SceneOptions& o) {
+  command.option("--camera-path", o.camera_path, "a camera that moves: turn:N, dolly:N or a JSON file of keys");
+}
+
 void add_device_options(Subcommand& command, DeviceOptions& o) {
   command.option("--device", o.device, "OpenCL device, by a part of its name");
   command.option("--gl", o.gl, "osmesa, egl or auto");
@@ -124,6 +129,10 @@ View choose_view(Scene& scene, const SceneOptions& o) {
     scene.ambient = added.ambient;
   }
   return view;
+}
+
+std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneOptions& o) {
+  return o.camera_path.empty() ? std::vector<View>() : camera_path(scene, start, o.camera_path);
 }
 
 ChosenScene load_chosen_scene(const SceneOptions& o) {

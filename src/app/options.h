@@ -18,6 +18,7 @@ struct SceneOptions {
   std::string scene = "hall";
   std::string size = "1280x720";
   std::string camera;
+  std::string camera_path;  // empty: a camera at rest
   int lights = -1;  // -1: as the scene has them
   std::string lights_file;
   std::string light_radius;
@@ -40,6 +41,7 @@ inline constexpr int most_lights = 10'000'000;
 
 void add_scene_options(Subcommand& command, SceneOptions& options);
 void add_view_options(Subcommand& command, SceneOptions& options);  // of those, all but scene, size and lights
+void add_path_option(Subcommand& command, SceneOptions& options);
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
 
@@ -51,6 +53,8 @@ ImageSize parse_size(const std::string& text);
 Scene load_scene(const std::string& name);
 // The view of a loaded scene, whose lights become those that the options ask for.
 View choose_view(Scene& scene, const SceneOptions& options);
+// The views of the camera path, or none.
+std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneOptions& options);
 struct ChosenScene {
   Scene scene;
   View view;

@@ -1,6 +1,7 @@
 // lightgrid render SCENE -t TECHNIQUE -o out.png|out.exr
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "app/commands.h"
@@ -18,6 +19,25 @@ struct RenderOptions {
   std::string technique = "forward_plus", output = "out.png", json;
 };
 
+// out.png becomes out_0000.png, out_0001.png and so on.
+std::filesystem::path numbered(const std::filesystem::path& path, size_t number) {
+  std::filesystem::path numbered = path;
+  return numbered.replace_filename(fmt::format("{}_{:04}{}", path.stem().string(), number, path.extension().string()));
+}
+
+int render_path(const RenderOptions& o, TechniqueRun& run, const std::vector<View>& path) {
+  for (size_t i = 0; i < path.size(); ++i) {
+    run.look(path[i]);
+    run.run_frame();
+    save_image(numbered(o.output, i), run.image());
+  }
+  if (!o.json.empty()) {
+    run.run_profiled_frames();
+    write_json(o.json, json_text(run.result()));
+  }
+  return 0;
+}
+
 int render(const RenderOptions& o) {
   const Technique& technique = find_technique(o.technique);
   const Settings settings = chosen_settings(o.scene);
@@ -26,8 +46,10 @@ int render(const RenderOptions& o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   const ChosenScene chosen = load_chosen_scene(o.scene);
-  Renderer devices(o.devices.device, backend);
-  TechniqueRun run(devices, chosen.scene, chosen.view, settings, technique);
+  const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
+  Renderer renderer(o.devices.device, backend);
+  TechniqueRun run(renderer, chosen.scene, chosen.view, settings, technique);
+  if (!path.empty()) return render_path(o, run, path);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
   save_image(o.output, run.image());
@@ -44,10 +66,11 @@ void add_render(CommandLine& line) {
   auto o = std::make_shared<RenderOptions>();
   Subcommand command = line.add("render", "one image of a scene", [o] { return render(*o); });
   add_scene_options(command, o->scene);
+  add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
   command.option("-t,--technique", o->technique, technique_names());
-  command.option("-o,--output", o->output, "image file, .png or .exr");
+  command.option("-o,--output", o->output, "image file, .png or .exr; with a camera path NAME_0000.png and so on");
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
 }
 

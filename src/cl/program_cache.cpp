@@ -20,7 +20,7 @@ std::string common_options(const ClDeviceInfo& device) {
 
 bool disk_is_off() {
   const char* setting = std::getenv("LIGHTGRID_CL_CACHE");
-  return setting && std::string_view(setting) == "off";
+  return setting && (std::string_view(setting) == "off" || std::string_view(setting) == "driver");
 }
 
 // An empty program where the driver does not take the binary, as after an update that kept its version.

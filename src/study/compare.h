@@ -22,6 +22,7 @@ struct CompareOptions {
   ReferencePixels reference = ReferencePixels::automatic;
   uint64_t seed = 1;              // of the reference's sample
   double most_reference_ms = 60e3;  // what all of the reference's frames may take before automatic takes a sample
+  std::vector<View> path;         // further frames with a camera that moves: RunResult::moving
   bool all_may_refuse = false;    // a report of refusals alone, instead of the first reason thrown
   // Told of each finished step: how far (0 to 1) and what comes next.
   std::function<void(double done, const std::string& step)> progress;

@@ -79,6 +79,21 @@ json to_json(const PassResult& pass) {
           {"bytes_written", pass.bytes_written}};
 }
 
+json to_json(const MovingResult& m) {
+  return {{"frames", m.frames},
+          {"frame_ms", to_json(m.frame_ms)},
+          {"resting_ms", to_json(m.resting_ms)},
+          {"error", {{"max_abs", finite_or_null(m.max_abs)},
+                     {"max_rel", finite_or_null(m.max_rel)},
+                     {"rmse_rel", finite_or_null(m.rmse_rel)}}},
+          {"temporal", {{"max_rel", finite_or_null(m.temporal_max_rel)}, {"rmse_rel", finite_or_null(m.temporal_rmse_rel)}}},
+          {"pairs", to_json(m.pairs)},
+          {"nan_pixels", m.nan_pixels},
+          {"gl_programs_compiled", m.gl_programs},
+          {"cl_programs_built", m.cl_programs},
+          {"scene_bytes_uploaded", m.scene_bytes}};
+}
+
 }  // namespace
 
 json settings_json(const std::map<std::string, std::string>& settings) {
@@ -103,6 +118,7 @@ json to_json(const RunResult& result) {
               {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},
               {"skipped", skipped}};
+  if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
   return out;
 }

@@ -44,6 +44,21 @@ struct ImageError {
   std::optional<OracleError> oracle;  // absent where none was asked for
 };
 
+// Over a camera path. Errors against the reference's image of the same frame, over its brightest channel of all frames.
+struct MovingResult {
+  size_t frames = 0;
+  Spread frame_ms;    // the move and the frame, without the first two
+  Spread resting_ms;  // the same frames again, of a camera at rest
+  double max_abs = 0, max_rel = 0, rmse_rel = 0;
+  // How much the difference from the reference changes from frame to frame: flicker that the scene does not have.
+  double temporal_max_rel = 0, temporal_rmse_rel = 0;
+  PairCounts pairs;
+  uint64_t nan_pixels = 0;
+  // After the first two frames.
+  int gl_programs = 0, cl_programs = 0;  // compiled
+  size_t scene_bytes = 0;                // uploaded
+};
+
 struct SkippedEffect {
   std::string effect, why;
 };
@@ -60,6 +75,7 @@ struct RunResult {
   std::optional<ImageError> error;  // technique error: this image against the float image with every light
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
+  std::optional<MovingResult> moving;  // absent where no camera path was asked for
 };
 
 // Settings by the keys of results.json, numbers as numbers.
