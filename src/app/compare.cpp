@@ -187,6 +187,7 @@ void run_views(Renderer& devices, const std::vector<LoadedView>& views, const st
     options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
     view.scene->lights = view.lights, view.scene->ambient = view.ambient;
     options.path = chosen_path(*view.scene, view.view, o.scene);
+    if (!options.path.empty()) options.advance = chosen_motion(*view.scene, o.scene);
     found(compare_techniques(devices, *view.scene, view.view, contestants, options));
     before += cost;
   }

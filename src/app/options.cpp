@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "scene/builtin.h"
 #include "scene/camera_path.h"
+#include "scene/light_motion.h"
 #include "scene/light_rigs.h"
 #include "scene/lights_file.h"
 #include "scene/load_gltf.h"
@@ -59,6 +60,15 @@ void load_lights(Scene& scene, const SceneOptions& o) {
   scene.lights.resize(o.lights);
 }
 
+double parse_time(const std::string& text) {
+  double seconds = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (failure != std::errc() || end != text.data() + text.size() || !(seconds >= 0) || !(seconds <= 1e9)) {
+    throw input_error("--time {}: not a number of seconds from 0 to 1e9", text);
+  }
+  return seconds;
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& name) {
@@ -85,10 +95,12 @@ void add_view_options(Subcommand& command, SceneOptions& o) {
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.option("--seed", o.seed, "of the scatter");
   command.option("--brdf", o.brdf, "ggx or blinn: short for --set brdf=…");
+  command.option("--time", o.time, "seconds into the animations of the file; not given: at rest");
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
 void add_path_option(Subcommand& command, SceneOptions& o) {
+  command.option("--light-motion", o.light_motion, "lights that move along the path: none, orbit or drift");
   command.option("--camera-path", o.camera_path, "a camera that moves: turn:N, dolly:N or a JSON file of keys");
 }
 
@@ -113,6 +125,7 @@ ImageSize parse_size(const std::string& text) {
 
 View choose_view(Scene& scene, const SceneOptions& o) {
   const ImageSize size = parse_size(o.size);
+  if (!o.time.empty()) set_time(scene, parse_time(o.time));
   check_light_radius(o);
   std::string camera = o.camera;
   if (!o.lights_file.empty()) {
@@ -129,6 +142,25 @@ View choose_view(Scene& scene, const SceneOptions& o) {
     scene.ambient = added.ambient;
   }
   return view;
+}
+
+SceneMotion chosen_motion(Scene& scene, const SceneOptions& o) {
+  const LightMotion motion = light_motion(o.light_motion);
+  const bool animated = !o.time.empty() && animation_count(scene) > 0;
+  if (motion == LightMotion::none && !animated) return {};
+  const double start = o.time.empty() ? 0 : parse_time(o.time);
+  constexpr double frames_a_second = 30;
+  return [&scene, animated, start, rig = make_light_rig(scene, motion)](size_t frame) {
+    const double seconds = start + double(frame) / frames_a_second;
+    SceneChanges changes;
+    if (animated) {
+      const double duration = duration_of(scene);
+      changes = set_time(scene, seconds > duration ? std::fmod(seconds, duration) : seconds);
+    }
+    const SceneChanges lights = move_lights(scene, rig, seconds);
+    changes.lights.insert(changes.lights.end(), lights.lights.begin(), lights.lights.end());
+    return changes;
+  };
 }
 
 std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneOptions& o) {

@@ -9,6 +9,7 @@
 #include "app/command_line.h"
 #include "gl/context.h"
 #include "plan/settings.h"
+#include "study/compare.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,8 @@ struct SceneOptions {
   std::string size = "1280x720";
   std::string camera;
   std::string camera_path;  // empty: a camera at rest
+  std::string time;         // seconds; empty: at rest
+  std::string light_motion = "none";
   int lights = -1;  // -1: as the scene has them
   std::string lights_file;
   std::string light_radius;
@@ -53,6 +56,8 @@ ImageSize parse_size(const std::string& text);
 Scene load_scene(const std::string& name);
 // The view of a loaded scene, whose lights become those that the options ask for.
 View choose_view(Scene& scene, const SceneOptions& options);
+// The scene's motion along a path, 30 frames a second from the chosen time on; empty where nothing moves. The scene outlives it.
+SceneMotion chosen_motion(Scene& scene, const SceneOptions& options);
 // The views of the camera path, or none.
 std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneOptions& options);
 struct ChosenScene {

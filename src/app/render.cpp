@@ -25,9 +25,11 @@ std::filesystem::path numbered(const std::filesystem::path& path, size_t number)
   return numbered.replace_filename(fmt::format("{}_{:04}{}", path.stem().string(), number, path.extension().string()));
 }
 
-int render_path(const RenderOptions& o, TechniqueRun& run, const std::vector<View>& path) {
+int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const std::vector<View>& path, const SceneMotion& advance) {
   for (size_t i = 0; i < path.size(); ++i) {
-    run.look(path[i]);
+    const SceneChanges changes = advance ? advance(i) : SceneChanges();
+    gpu.update(changes);
+    run.look(path[i], changes);
     run.run_frame();
     save_image(numbered(o.output, i), run.image());
   }
@@ -45,11 +47,13 @@ int render(const RenderOptions& o) {
   check_output_file("-o", o.output);
   if (!o.json.empty()) check_output_file("--json", o.json);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
-  const ChosenScene chosen = load_chosen_scene(o.scene);
+  ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   Renderer renderer(o.devices.device, backend);
-  TechniqueRun run(renderer, chosen.scene, chosen.view, settings, technique);
-  if (!path.empty()) return render_path(o, run, path);
+  const SceneMotion advance = path.empty() ? SceneMotion() : chosen_motion(chosen.scene, o.scene);
+  GpuScene gpu(renderer, chosen.scene);
+  TechniqueRun run(renderer, gpu, chosen.view, settings, technique);
+  if (!path.empty()) return render_path(o, run, gpu, path, advance);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
   save_image(o.output, run.image());

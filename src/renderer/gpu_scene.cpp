@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "plan/frame_plan.h"
 #include "renderer/clusters.h"
+#include "scene/rig.h"
 
 namespace lightgrid {
 namespace {
@@ -103,11 +104,18 @@ void GpuScene::upload_meshes(const std::vector<bool>& used) {
   size_t vertices = 0;
   std::vector<uint32_t> indices;
   meshes_.resize(scene_.meshes.size());
+  if (scene_.rig) {
+    for (const DeformingMesh& deforming : scene_.rig->meshes) deforming_[deforming.mesh];
+  }
   for (size_t i = 0; i < scene_.meshes.size(); ++i) {
     if (!used[i]) continue;
     const bool blended = scene_.materials[scene_.meshes[i].material].alpha_mode == AlphaMode::blend;
     meshes_[i].base_vertex = int(vertices);
+    const size_t first = indices.size();
     meshes_[i].clusters = append_clusters(scene_.meshes[i], blended, indices);
+    if (const auto found = deforming_.find(int(i)); found != deforming_.end()) {
+      found->second.assign(indices.begin() + std::ptrdiff_t(first), indices.end());
+    }
     vertices += scene_.meshes[i].positions.size();
   }
   positions_only_ = make_vertex_array();
@@ -133,6 +141,7 @@ void GpuScene::upload_meshes(const std::vector<bool>& used) {
     if (any) {
       streams_.push_back(make_buffer(all.size() * sizeof(Value), all.data()));
       geometry_bytes_ += all.size() * sizeof(Value);
+      stream_of_[location] = streams_.back().name();
     } else if (!absent_) {
       const glm::vec4 values[2] = {glm::vec4(0), glm::vec4(-1)};
       absent_ = make_buffer(sizeof values, values);
@@ -156,6 +165,30 @@ void GpuScene::upload_meshes(const std::vector<bool>& used) {
   upload_indices(indices);
   index_count_ = uint32_t(indices.size());
   geometry_bytes_ += indices.size() * sizeof(uint32_t);
+}
+
+void GpuScene::update(const SceneChanges& changes) {
+  for (const int mesh : changes.meshes) update_mesh(mesh);
+}
+
+void GpuScene::update_mesh(int index) {
+  const auto found = deforming_.find(index);
+  if (found == deforming_.end() || found->second.empty()) return;  // no instance shows it
+  const Mesh& mesh = scene_.meshes[index];
+  refresh_clusters(mesh, found->second, meshes_[index].clusters);
+  const auto put = [&](GLuint location, const auto& values) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    if (stream_of_[location] == 0 || values.empty()) return;
+    glNamedBufferSubData(stream_of_[location], GLintptr(meshes_[index].base_vertex) * GLintptr(sizeof(Value)),
+                         GLsizeiptr(values.size() * sizeof(Value)), values.data());
+    renderer_.note_scene_bytes(values.size() * sizeof(Value));
+  };
+  put(0, mesh.positions);
+  put(1, mesh.normals);
+  put(2, mesh.tangents);
+  put(3, mesh.uv0);
+  put(4, mesh.uv1);
+  put(5, mesh.colors);
 }
 
 void GpuScene::upload_indices(const std::vector<uint32_t>& indices) {

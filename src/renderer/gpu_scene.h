@@ -1,9 +1,11 @@
 // A scene in OpenGL's memory: every mesh, material and texture, uploaded once, whatever its views see of it.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "renderer/renderer.h"
+#include "scene/animation.h"
 #include "scene/scene.h"
 #include "shared/material_params.h"
 
@@ -30,6 +32,10 @@ class GpuScene {
   // OpenGL gets colour textures in linear 16 bits, since it would pay for the sRGB curve at every texel of every sample.
   GpuScene(const Renderer& renderer, const Scene& scene);
 
+  // After the scene changed: uploads the vertices of meshes that deformed, and nothing else. Instances, lights and cameras are
+  // read from the scene by the views.
+  void update(const SceneChanges& changes);
+
   const Scene& scene() const { return scene_; }
   const GpuMesh& mesh(int index) const { return meshes_[index]; }
 
@@ -51,6 +57,7 @@ class GpuScene {
 
  private:
   void upload_meshes(const std::vector<bool>& used);
+  void update_mesh(int index);
   void upload_indices(const std::vector<uint32_t>& indices);
   void upload_materials(const std::vector<bool>& used_meshes);
   void upload_texture(int texture);
@@ -59,6 +66,8 @@ class GpuScene {
   const Scene& scene_;
   std::vector<GpuMesh> meshes_;
   std::vector<GlBuffer> streams_;
+  GLuint stream_of_[6] = {};  // by attribute location; 0: no material reads it
+  std::map<int, std::vector<uint32_t>> deforming_;  // meshes that deform: their indices, cluster by cluster
   GlBuffer indices_, materials_, absent_;  // absent_: zeros, then -1s, for streams that no mesh has
   GlVertexArray positions_only_, all_streams_;
   size_t material_stride_ = 0;

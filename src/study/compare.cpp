@@ -185,11 +185,11 @@ void measure_against_oracle(CompareReport& report, const Reference& reference, c
   }
 }
 
-void run_path(CompareReport& report, std::vector<Entry>& entries, Reference& reference, const CompareOptions& options) {
+void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries, Reference& reference, const CompareOptions& options) {
   if (options.path.empty()) return;
   std::vector<TechniqueRun*> runs;
   for (const Entry& entry : entries) runs.push_back(entry.refusal ? nullptr : entry.run.get());
-  run_along_path(runs, *reference.run, options.path, report.rows, [&](double done) {
+  run_along_path(runs, *reference.run, {gpu, options.path, options.advance}, report.rows, [&](double done) {
     if (options.progress) options.progress(0.9 + 0.1 * done, "camera path");
   });
 }
@@ -241,7 +241,7 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   }
   if (options.progress) options.progress(0.9, "oracle: shading");
   measure_against_oracle(report, reference, depth, options.shaded_samples);
-  run_path(report, entries, reference, options);
+  run_path(report, gpu, entries, reference, options);
   if (options.progress) options.progress(1, "");
   return report;
 }

@@ -16,6 +16,9 @@ struct Contestant {
 // At which pixels every light is shaded. automatic: all, or a sample where this is estimated to take too long.
 enum class ReferencePixels { automatic, full, sampled };
 
+// Moves a scene to frame n of a path, counted from 0, and says what changed.
+using SceneMotion = std::function<SceneChanges(size_t frame)>;
+
 struct CompareOptions {
   int frames = 5, warmup = 1;
   size_t shaded_samples = 20000;  // pixels at which the oracle shades, for the model and precision errors
@@ -23,6 +26,7 @@ struct CompareOptions {
   uint64_t seed = 1;              // of the reference's sample
   double most_reference_ms = 60e3;  // what all of the reference's frames may take before automatic takes a sample
   std::vector<View> path;         // further frames with a camera that moves: RunResult::moving
+  SceneMotion advance;            // of that path; empty: a scene at rest
   bool all_may_refuse = false;    // a report of refusals alone, instead of the first reason thrown
   // Told of each finished step: how far (0 to 1) and what comes next.
   std::function<void(double done, const std::string& step)> progress;

@@ -30,10 +30,10 @@ RendererCounts since(const RendererCounts& now, const RendererCounts& before) {
   return {now.gl_programs - before.gl_programs, now.cl_programs - before.cl_programs, now.scene_bytes - before.scene_bytes};
 }
 
-void run_one(Path& p, const View& view, size_t frame) {
+void run_one(Path& p, const View& view, const SceneChanges& changes, size_t frame) {
   const RendererCounts before = p.run->view().renderer.counts();
   const Timer timer;
-  p.run->look(view);
+  p.run->look(view, changes);
   p.run->run_frame(true);
   const double ms = timer.elapsed_ms();
   if (frame < frames_to_settle) return;
@@ -91,8 +91,9 @@ void finish(Path& p, size_t frames) {
 
 }  // namespace
 
-void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const std::vector<View>& path,
+void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
                     std::vector<RunResult>& rows, const std::function<void(double done)>& progress) {
+  const std::vector<View>& path = moving.path;
   std::vector<Path> paths;
   for (size_t i = 0; i < runs.size(); ++i) {
     if (runs[i]) paths.push_back(Path{.run = runs[i], .row = &rows[i]});
@@ -100,11 +101,13 @@ void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& refere
   const bool reference_runs = std::ranges::find(runs, &reference) == runs.end();
   for (size_t frame = 0; frame < path.size(); ++frame) {
     if (progress) progress(double(frame) / double(path.size()));
+    const SceneChanges changes = moving.advance ? moving.advance(frame) : SceneChanges();
+    moving.gpu.update(changes);
     if (reference_runs) {
-      reference.look(path[frame]);
+      reference.look(path[frame], changes);
       reference.run_frame(true);
     }
-    for (Path& p : paths) run_one(p, path[frame], frame);
+    for (Path& p : paths) run_one(p, path[frame], changes, frame);
     for (Path& p : paths) {
       add_errors(p, reference.image());
       add_pairs(p);

@@ -16,6 +16,11 @@ class TechniqueRun {
 
   // Another camera or size, for the frames that follow.
   void look(const View& view) { view_.look(view); }
+  // And where the scene changed, which its GpuScene knows already.
+  void look(const View& view, const SceneChanges& changes) {
+    view_.look(view);
+    if (!changes.lights.empty()) view_.lights_changed();
+  }
 
   // One frame, from the first draw to the image read back; its time goes into the result unless `warmup`.
   void run_frame(bool warmup = false);

@@ -1,5 +1,6 @@
 #include "scene/gltf/meshes.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "scene/deform.h"
