@@ -1,16 +1,16 @@
-# The float twin of the culling kernels (src/study/verify/float_twin.h) compiles the kernels' own headers as C++: once for
+# The float twin of the culling kernels (src/verify/float_twin.h) compiles the kernels' own headers as C++: once for
 # each setting that is a macro there. Its sources are left out of the folder's list and come back as objects.
-set(float_twin_sources verify/twin/cells.cpp verify/twin/depth.cpp)
+set(float_twin_sources twin/cells.cpp twin/depth.cpp)
 
 function(lightgrid_twin_objects source name)
   set(root ${PROJECT_BINARY_DIR}/include/kernels)
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/kernels ${root}/kernels SYMBOLIC)
-  add_library(float_twin_${name} OBJECT ${PROJECT_SOURCE_DIR}/src/study/${source})
-  target_include_directories(float_twin_${name} PRIVATE ${root} ${PROJECT_BINARY_DIR}/include/study)
+  add_library(float_twin_${name} OBJECT ${PROJECT_SOURCE_DIR}/src/${source})
+  target_include_directories(float_twin_${name} PRIVATE ${root} ${PROJECT_BINARY_DIR}/include/verify)
   target_link_libraries(float_twin_${name} PRIVATE lightgrid_shared)
   target_compile_definitions(float_twin_${name} PRIVATE ${ARGN})
-  target_sources(lightgrid_study PRIVATE $<TARGET_OBJECTS:float_twin_${name}>)
+  target_sources(lightgrid_verify PRIVATE $<TARGET_OBJECTS:float_twin_${name}>)
 endfunction()
 
 function(lightgrid_float_twin)

@@ -10,9 +10,9 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
-#include "study/bench/bench.h"
-#include "study/bench/row_filter.h"
-#include "study/bench/tune.h"
+#include "bench/bench.h"
+#include "bench/row_filter.h"
+#include "bench/tune.h"
 
 namespace lightgrid {
 namespace {

@@ -7,8 +7,8 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "base/write_file.h"
-#include "study/capture.h"
-#include "study/frame_summary.h"
+#include "capture/capture.h"
+#include "capture/frame_summary.h"
 
 namespace lightgrid {
 namespace {

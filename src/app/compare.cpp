@@ -14,9 +14,9 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/write_file.h"
-#include "study/compare.h"
-#include "study/report.h"
-#include "study/words.h"
+#include "compare/compare.h"
+#include "report/report.h"
+#include "results/words.h"
 
 namespace lightgrid {
 namespace {

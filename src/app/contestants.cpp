@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "study/frame_culler.h"
+#include "capture/frame_culler.h"
 
 namespace lightgrid {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "study/bench/bench.h"
+#include "bench/bench.h"
 
 namespace lightgrid {
 

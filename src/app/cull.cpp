@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/timer.h"
 #include "base/write_file.h"
-#include "study/frame_summary.h"
+#include "capture/frame_summary.h"
 
 namespace lightgrid {
 namespace {

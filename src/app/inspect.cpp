@@ -12,10 +12,10 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "base/write_file.h"
-#include "study/capture.h"
-#include "study/inspect.h"
-#include "study/inspect_maps.h"
-#include "study/list_accuracy.h"
+#include "capture/capture.h"
+#include "inspect/inspect.h"
+#include "inspect/inspect_maps.h"
+#include "capture/list_accuracy.h"
 
 namespace lightgrid {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/command_line.h"
 #include "gl/context.h"
 #include "plan/settings.h"
-#include "study/compare.h"
+#include "compare/compare.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 

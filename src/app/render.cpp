@@ -7,7 +7,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
-#include "study/run_technique.h"
+#include "compare/run_technique.h"
 
 namespace lightgrid {
 namespace {

@@ -12,8 +12,8 @@
 #include "app/progress.h"
 #include "app/verify_hunt.h"
 #include "base/error.h"
-#include "study/results.h"
-#include "study/verify/replay.h"
+#include "results/results.h"
+#include "verify/replay.h"
 
 namespace lightgrid {
 namespace {

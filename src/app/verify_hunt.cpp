@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
-#include "study/verify/hunt.h"
+#include "verify/hunt.h"
 
 namespace lightgrid {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/command_line.h"
-#include "study/verify/engine.h"
+#include "verify/engine.h"
 
 namespace lightgrid {
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/image.h"
-#include "study/metrics.h"
+#include "results/metrics.h"
 #include "support/read_files.h"
 #include "support/run_program.h"
 

@@ -17,14 +17,14 @@ struct PosedModel {
   PoseOracle oracle;
 };
 
-std::optional<PosedModel> load_model(const char* name) {
+std::optional<PosedModel> load_posed_model(const char* name) {
   const std::filesystem::path path = shared_folder() / "scenes/conformance" / name;
   if (!std::filesystem::exists(path)) return {};
   return PosedModel{load_gltf(path), PoseOracle(path)};
 }
 
 #define LOAD_OR_SKIP(variable, name)      \
-  auto variable = load_model(name);       \
+  auto variable = load_posed_model(name);       \
   if (!variable) GTEST_SKIP() << "needs shared/scenes/conformance/" << name << ", which is absent"
 
 // The file's index of a node of the rig.

@@ -7,7 +7,7 @@
 #include "base/log.h"
 #include "scene/light_rigs.h"
 #include "scene/load_gltf.h"
-#include "study/metrics.h"
+#include "results/metrics.h"
 #include "support/render.h"
 #include "support/shared_files.h"
 

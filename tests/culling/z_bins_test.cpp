@@ -1,4 +1,4 @@
-// Which z-bins each light may reach, on cases solved by hand; agreement/z_bins_of_lights (src/study/verify) has the rest.
+// Which z-bins each light may reach, on cases solved by hand; agreement/z_bins_of_lights (src/verify) has the rest.
 #include <gmock/gmock.h>
 
 #include "base/error.h"

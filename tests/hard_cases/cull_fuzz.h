@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "study/verify/check.h"
+#include "verify/check.h"
 
 namespace lightgrid::verify {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hard_cases/naive_culler.h"
-#include "study/verify/run.h"
+#include "verify/run.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "study/verify/check.h"
-#include "study/verify/float_twin.h"
-#include "study/verify/tangent_lights.h"
+#include "verify/check.h"
+#include "verify/float_twin.h"
+#include "verify/tangent_lights.h"
 
 namespace lightgrid::verify {
 namespace {

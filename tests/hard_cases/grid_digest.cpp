@@ -2,8 +2,8 @@
 // of all their bytes. oclgrind_test.cpp runs it under Oclgrind and with several numbers of threads.
 #include <cstdio>
 
-#include "study/verify/check.h"
-#include "study/verify/tangent_lights.h"
+#include "verify/check.h"
+#include "verify/tangent_lights.h"
 
 using namespace lightgrid;
 using namespace lightgrid::verify;

@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "reference/lit_set.h"
-#include "study/frame_lists.h"
-#include "study/verify/hunt.h"
-#include "study/verify/hunt_save.h"
+#include "capture/frame_lists.h"
+#include "verify/hunt.h"
+#include "verify/hunt_save.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 

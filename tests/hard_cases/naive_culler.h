@@ -14,7 +14,7 @@
 #include "hard_cases/faults.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
-#include "study/verify/truth.h"
+#include "verify/truth.h"
 
 namespace lightgrid::verify {
 

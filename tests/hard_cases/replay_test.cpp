@@ -5,9 +5,9 @@
 
 #include "hard_cases/naive_culler.h"
 #include "reference/lit_set.h"
-#include "study/captured_frame.h"
-#include "study/frame_culler.h"
-#include "study/verify/replay.h"
+#include "capture/captured_frame.h"
+#include "capture/frame_culler.h"
+#include "verify/replay.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "study/verify/run.h"
+#include "verify/run.h"
 #include "support/paths.h"
 #include "support/run_program.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "scene/camera.h"
-#include "study/run_technique.h"
+#include "compare/run_technique.h"
 
 namespace lightgrid {
 

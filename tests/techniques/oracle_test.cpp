@@ -1,7 +1,7 @@
 // The shaders against the oracle in double, pixel by pixel.
 #include "scene/random.h"
-#include "study/oracle_sample.h"
-#include "study/report.h"
+#include "compare/oracle_sample.h"
+#include "report/report.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 

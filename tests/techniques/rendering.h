@@ -8,9 +8,9 @@
 
 #include "scene/builtin.h"
 #include "scene/camera.h"
-#include "study/metrics.h"
-#include "study/oracle.h"
-#include "study/run_technique.h"
+#include "results/metrics.h"
+#include "compare/oracle.h"
+#include "compare/run_technique.h"
 
 namespace lightgrid {
 

@@ -1,0 +1,21 @@
+// What `lightgrid bench` measures unless told otherwise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/standard_frames.h"
+
+namespace lightgrid {
+
+struct BenchCase {
+  std::string name;  // "floor-4096", "lights-100", "tile-8", "size-3840x2160"; of a folder: its name
+  FrameRecipe recipe;
+  std::string folder;  // a captured frame instead of the recipe
+  int tile = 0;        // the case's own tile size; 0: as the settings say
+};
+
+// The standard frames, then scaling in lights, tile size and resolution.
+std::vector<BenchCase> standard_cases();
+
+}  // namespace lightgrid

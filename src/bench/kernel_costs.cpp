@@ -1,0 +1,77 @@
+#include "bench/kernel_costs.h"
+
+#include <map>
+
+namespace lightgrid {
+namespace {
+
+using Formula = KernelCost (*)(const KernelWork&);
+
+constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4, id_bytes = 4;
+constexpr double place_bytes = 16, z_bin_word_bytes = 4;
+constexpr double bin_tiles = 64;
+
+// Floats of a light: place and radius, and with cones an axis and a cosine; in view space its tile rectangle and index
+// as well.
+double world_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 8 : 4); }
+double view_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 11 : 7); }
+
+// Operations of kernels/common/project.h and light_cell_tests.h, counted in their text: to view space and two pairs of
+// tangents; sphere against box; three Newton steps besides; cone against sphere besides.
+constexpr double project_flops = 100, box_flops = 18, exact_flops = 110, cone_flops = 60;
+// Of view_sphere there, and of a range of distances out of it.
+constexpr double range_flops = 28;
+double test_flops(const KernelWork& w) { return box_flops + (w.exact ? exact_flops : 0) + (w.cones ? cone_flops : 0); }
+
+// A bin has as many candidates as its longest list at least, and so its indices / 64.
+double least_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
+double cell_mark_bytes(const KernelWork& w) { return least_candidates(w) * bin_tiles / 8; }
+
+// What no kernel with these inputs and outputs can do without: each read and written once, as if caches held what is met
+// again, and one test for each entry that ends in a list.
+const std::map<std::string, Formula>& formulas() {
+  static const std::map<std::string, Formula> table = {
+      {"depth_bounds",
+       [](const KernelWork& w) { return KernelCost{4.0 * w.pixels + interval_bytes * w.tiles, 8.0 * w.tiles}; }},
+      {"project_lights",
+       [](const KernelWork& w) {
+         return KernelCost{(world_bytes(w) + view_bytes(w)) * w.lights, project_flops * w.lights};
+       }},
+      // For CPUs.
+      {"cull_lights",
+       [](const KernelWork& w) {
+         return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + count_bytes * w.cells + w.index_bytes,
+                           test_flops(w) * w.indices};
+       }},
+      {"compact_lists",
+       [](const KernelWork& w) { return KernelCost{2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0.0}; }},
+      // For GPUs.
+      {"mark_cells",
+       [](const KernelWork& w) {
+         return KernelCost{interval_bytes * w.tiles + w.lights / 8.0 + (view_bytes(w) + 2 * id_bytes) * least_candidates(w) +
+                               cell_mark_bytes(w) + count_bytes * w.cells,
+                           test_flops(w) * w.indices};
+       }},
+      {"fill_lists",
+       [](const KernelWork& w) { return KernelCost{cell_mark_bytes(w) + cell_bytes * w.cells + w.index_bytes, 0.0}; }},
+      // Where the settings ask for what they make.
+      {"light_z_bins",
+       [](const KernelWork& w) {
+         const double bytes = (place_bytes + z_bin_word_bytes) * w.lights + interval_bytes * w.z_bins;
+         return KernelCost{bytes, range_flops * w.lights};
+       }},
+      {"lists_to_masks",
+       [](const KernelWork& w) { return KernelCost{cell_bytes * w.cells + w.index_bytes + w.mask_bytes, 0.0}; }},
+  };
+  return table;
+}
+
+}  // namespace
+
+std::optional<KernelCost> kernel_cost(const std::string& label, const KernelWork& work) {
+  const auto found = formulas().find(label);
+  if (found == formulas().end()) return {};
+  return found->second(work);
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,110 @@
+#include "bench/measure.h"
+
+#include <algorithm>
+
+namespace lightgrid {
+namespace {
+
+// What the rounds gave for one contestant.
+struct Samples {
+  std::vector<double> wall, device, overhead;
+  std::vector<ClProfiler::Row> first;        // labels and launches
+  std::vector<std::vector<double>> kernels;  // by label, in the order of `first`
+};
+
+double wall_ms(ClDevice& device, CullingRun& run) {
+  device.profiler().time_launches(false);
+  const Timer timer;
+  run.run();
+  return timer.elapsed_ms();
+}
+
+// A run whose launches are timed by events, which cost a little each: apart from the wall clock's run.
+struct DeviceRun {
+  std::vector<ClProfiler::Row> rows;
+  double wall_ms = 0;
+};
+
+DeviceRun device_run(ClDevice& device, CullingRun& run) {
+  device.profiler().time_launches(true);
+  device.profiler().collect();
+  const Timer timer;
+  run.run();
+  const double wall = timer.elapsed_ms();
+  return {device.profiler().collect(), wall};
+}
+
+void take(Samples& samples, double wall, const DeviceRun& run) {
+  if (samples.first.empty()) samples.first = run.rows, samples.kernels.resize(run.rows.size());
+  double device = 0;
+  for (size_t i = 0; i < run.rows.size() && i < samples.kernels.size(); ++i) {
+    samples.kernels[i].push_back(run.rows[i].ms);
+    device += run.rows[i].ms;
+  }
+  samples.wall.push_back(wall);
+  samples.device.push_back(device);
+  samples.overhead.push_back(std::max(0.0, run.wall_ms - device));
+}
+
+MeasuredRun result_of(const Samples& samples) {
+  MeasuredRun run;
+  run.wall = spread_of(samples.wall);
+  run.device = spread_of(samples.device);
+  run.overhead = spread_of(samples.overhead);
+  for (size_t i = 0; i < samples.first.size(); ++i) {
+    run.kernels.push_back({samples.first[i].label, samples.first[i].launches, spread_of(samples.kernels[i])});
+  }
+  return run;
+}
+
+template <typename Work>
+Spread time_alone(const Work& work) {
+  constexpr int runs = 5;
+  std::vector<double> samples;
+  for (int i = -1; i < runs; ++i) {
+    const Timer timer;
+    work();
+    if (i >= 0) samples.push_back(timer.elapsed_ms());
+  }
+  return spread_of(samples);
+}
+
+void measure_transfers(CullingRun& run, MeasuredRun& result) {
+  result.lights_upload = time_alone([&] { run.upload_lights(); });
+  run.run();
+  result.grid_download = time_alone([&] { run.download_grid(); });
+}
+
+}  // namespace
+
+MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
+                              const Rounds& rounds) {
+  const cl::Buffer& depth = contestants.front()->depth();
+  const size_t bytes = contestants.front()->depth_bytes();
+  const double least = read.fit(depth, bytes);
+  std::vector<Samples> samples(contestants.size());
+  std::vector<double> reads;
+  for (int round = -rounds.warmup; round < rounds.timed; ++round) {
+    for (size_t i = 0; i < contestants.size(); ++i) {
+      // The wall clock's run is the second: it finds the caches as a frame of its own left them.
+      const DeviceRun timed = device_run(device, *contestants[i]);
+      const double wall = wall_ms(device, *contestants[i]);
+      if (round >= 0) take(samples[i], wall, timed);
+    }
+    device.profiler().time_launches(true);
+    const double read_ms = read.run(depth, bytes);
+    if (round >= 0) reads.push_back(read_ms);
+    if (rounds.progress) rounds.progress(double(round + rounds.warmup + 1) / (rounds.timed + rounds.warmup));
+  }
+  device.profiler().time_launches(false);
+  MeasuredFrame measured;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    measured.runs.push_back(result_of(samples[i]));
+    measure_transfers(*contestants[i], measured.runs.back());
+  }
+  measured.plain_read = spread_of(reads);
+  measured.least_read_ms = std::min(least, measured.plain_read.min);
+  return measured;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,42 @@
+// Several ways to cull one frame, timed in turn.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/timer.h"
+#include "bench/culling_run.h"
+#include "bench/limits.h"
+
+namespace lightgrid {
+
+struct MeasuredRun {
+  struct Kernel {
+    std::string label;
+    int launches = 0;  // in one run
+    Spread ms;         // on the device, all of its launches in one run
+  };
+  Spread wall;                  // one wait at the end
+  Spread device;                // the sum over all kernels of one run, which is timed by events, and not for `wall`
+  std::vector<Kernel> kernels;  // in order of first launch
+  Spread lights_upload, grid_download;  // wall clock, each with its wait
+  Spread overhead;              // wall less device, of the runs timed by events
+};
+
+struct MeasuredFrame {
+  std::vector<MeasuredRun> runs;  // one for each contestant
+  Spread plain_read;              // of the same depth buffer, in the same rounds
+  double least_read_ms = 0;       // the least of those and of the runs before that fitted it
+};
+
+struct Rounds {
+  int warmup = 3, timed = 30;
+  std::function<void(double done)> progress;  // may be empty
+};
+
+// In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer is read
+// once. What else the machine does in a while then meets all of them.
+MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
+                              const Rounds& rounds);
+
+}  // namespace lightgrid

@@ -1,0 +1,44 @@
+// What bench found, as rows: for a table and for `bench --json` (docs/benchmarks.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/cases.h"
+#include "bench/kernel_costs.h"
+#include "bench/measure.h"
+
+namespace lightgrid {
+
+struct BenchRow {
+  std::string name;  // a kernel's label, "pipeline", "pipeline_device", "plain_read", "upload_lights", …
+  std::string kind;  // "limit", "kernel", "pipeline", "transfer", "overhead"
+  std::string case_name;
+  nlohmann::ordered_json params;
+  Spread ms;
+  std::optional<KernelCost> cost;
+  std::optional<double> limit_ms;  // what the cost takes at the machine's limits
+  std::optional<double> ratio;     // of the median to that of the first contestant
+};
+
+// Of the whole run: one row a limit.
+std::vector<BenchRow> limit_rows(const Limits& limits);
+
+// A contestant of a case as its rows tell it.
+struct ContestantParams {
+  std::string case_name;
+  nlohmann::ordered_json params;
+  KernelWork work;
+};
+
+std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const MeasuredFrame& frame,
+                                      const Limits& limits);
+
+nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device);
+std::string table_line(const BenchRow& row);
+std::string table_head();
+
+}  // namespace lightgrid

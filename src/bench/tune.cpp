@@ -1,0 +1,100 @@
+#include "bench/tune.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "bench/measure.h"
+
+namespace lightgrid {
+namespace {
+
+std::vector<std::string> values_of(const std::string& key) {
+  for (const SettingHelp& help : setting_help()) {
+    if (help.key != key) continue;
+    std::vector<std::string> values = help.values;
+    std::erase(values, "auto");
+    return values;
+  }
+  return {};
+}
+
+// One value of the key that is tuned.
+struct Candidate {
+  std::string value;
+  Settings settings;
+  std::string failure;
+  double log_sum = 0;  // of the medians, over the frames
+};
+
+std::vector<Candidate> candidates_of(const std::string& key, const Settings& best) {
+  std::vector<Candidate> candidates;
+  for (const std::string& value : values_of(key)) {
+    candidates.push_back({value, best, "", 0});
+    apply_setting(candidates.back().settings, key + "=" + value);
+  }
+  return candidates;
+}
+
+void run_on(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const TuneOptions& options,
+            std::vector<Candidate>& candidates) {
+  std::vector<std::unique_ptr<CullingRun>> runs;
+  std::vector<Candidate*> running;
+  const cl::Buffer depth = upload_depth(device, frame);
+  for (Candidate& candidate : candidates) {
+    if (!candidate.failure.empty()) continue;
+    try {
+      runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, candidate.settings));
+      running.push_back(&candidate);
+    } catch (const Error& error) {
+      candidate.failure = error.what();
+    } catch (const cl::Error& error) {
+      candidate.failure = cl_machine_error(error).what();
+    }
+  }
+  if (runs.empty()) return;
+  std::vector<CullingRun*> in_turn;
+  for (const auto& run : runs) in_turn.push_back(run.get());
+  PlainRead read(device, programs);
+  const MeasuredFrame measured = measure_in_turn(device, in_turn, read, {options.warmup, options.frames, {}});
+  for (size_t i = 0; i < running.size(); ++i) running[i]->log_sum += std::log(measured.runs[i].wall.median);
+}
+
+const Candidate* fastest(const std::vector<Candidate>& candidates) {
+  const Candidate* best = nullptr;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.failure.empty() && (!best || candidate.log_sum < best->log_sum)) best = &candidate;
+  }
+  return best;
+}
+
+}  // namespace
+
+TuneResult tune_kernels(ClDevice& device, const TuneOptions& options) {
+  std::vector<CapturedFrame> frames;
+  for (const int lights : {256, 4096, 65536}) frames.push_back(make_standard_frame({.lights = lights}));
+  ProgramCache programs(device);
+  TuneResult result;
+  Settings settings;
+  for (const std::string& key : tunable_settings()) {
+    if (key == "group-size" && settings.kernel_shape != KernelShape::group) continue;  // of that shape alone
+    std::vector<Candidate> candidates = candidates_of(key, settings);
+    for (size_t i = 0; i < frames.size(); ++i) {
+      if (options.step) options.step(double(i) / double(frames.size()), key);
+      run_on(device, programs, frames[i], options, candidates);
+    }
+    if (options.step) options.step(1, key);
+    const Candidate* best = fastest(candidates);
+    if (!best) continue;
+    for (const Candidate& c : candidates) {
+      const double ratio = std::exp((c.log_sum - best->log_sum) / double(frames.size()));
+      result.trials.push_back({fmt::format("{}={}", key, c.value), c.failure.empty() ? ratio : 0, c.failure});
+    }
+    settings = best->settings;
+    result.best[key] = best->value;
+  }
+  return result;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,62 @@
+// The light grid of a captured frame, made by the culler. OpenCL only: nothing here opens OpenGL.
+#pragma once
+
+#include "cl/device.h"
+#include "cl/program_cache.h"
+#include "culling/light_culler.h"
+#include "plan/frame_plan.h"
+#include "capture/frame_file.h"
+
+namespace lightgrid {
+
+// The default settings with the frame's tile size, then each KEY=VALUE of `set`.
+Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set);
+
+CullerOptions culler_options(const Settings& settings);
+
+// What the grid of a technique has: slices and z-bins where its plan has them or their number was set by name. Throws
+// Error(input) where it shades from no grid.
+TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings);
+
+// With one slice where the grid has none, and z-bins likewise.
+Settings grid_settings(Settings settings, const TechniqueNeeds& needs);
+
+// The frame's view in those slices and z-bins, from the near plane to frame.surfaces_far_m or, where nobody knows it,
+// to the farthest surface.
+CullView cull_view_of(const CapturedFrame& frame, const Settings& settings);
+
+cl::Buffer upload_depth(ClDevice& device, const CapturedFrame& frame);
+
+// Keys of the settings that culling reads.
+const std::vector<std::string>& culling_settings();
+
+// Of the point and spot lights.
+std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
+
+class FrameCuller {
+ public:
+  // What settings leave open is as tuned for the device. settings.tile decides, not the frame's own. Uploads depth and
+  // lights; the frame may go then.
+  FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings,
+              const TechniqueNeeds& needs = {});
+
+  // Depth bounds and cull, to the finished grid. Waits.
+  void run();
+
+  // Of the last run.
+  FrameGrid grid();
+  std::vector<DepthInterval> intervals();  // a tile each, x fastest, then y from the bottom
+  uint32_t invalid_depth_tiles() { return culler_.invalid_depth_tiles(); }
+
+ private:
+  ClDevice& device_;
+  Settings settings_;
+  CullView view_;
+  LightCuller culler_;
+  ClGridStorage storage_;
+  DepthInput depth_;
+  DepthBounds bounds_;
+  LightGrid grid_;
+};
+
+}  // namespace lightgrid

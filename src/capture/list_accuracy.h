@@ -1,0 +1,28 @@
+// How many (pixel, light) pairs the lists of a captured frame hold for each that is truly lit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plan/settings.h"
+#include "reference/lit_blocks.h"
+#include "capture/frame_file.h"
+
+namespace lightgrid {
+
+LitBlocks find_lit_blocks(const CapturedFrame& frame);
+
+// A grid of one cell a tile, as measure_lists reads it.
+ListedLights grid_lists(const FrameGrid& grid);
+
+struct AccuracyRow {
+  std::string compared;  // "cull-test=exact tile=8"
+  ListAccuracy accuracy;
+};
+
+std::string accuracy_line(const AccuracyRow& row);
+
+// `settings` are those that were not compared.
+std::string accuracy_json(const CapturedFrame& frame, const Settings& settings, const std::vector<AccuracyRow>& rows);
+
+}  // namespace lightgrid

@@ -1,0 +1,249 @@
+#include "compare/compare.h"
+
+#include <algorithm>
+#include <new>
+
+#include "base/version.h"
+#include "cl/error.h"
+#include "results/metrics.h"
+#include "compare/moving.h"
+#include "compare/oracle_sample.h"
+#include "compare/reference_sample.h"
+#include "compare/run_technique.h"
+#include "results/words.h"
+
+namespace lightgrid {
+namespace {
+
+// A contestant's run, until the technique or the machine refuses.
+struct Entry {
+  const Contestant* contestant;
+  std::unique_ptr<TechniqueRun> run;
+  std::optional<Error> refusal;
+};
+
+// Does `work`; a refusal ends the entry's run, unless it is kept, and its reason is recorded.
+template <typename Work>
+void attempt(Entry& entry, const Work& work, bool ends_run = true) {
+  if (entry.refusal) return;
+  try {
+    work();
+  } catch (const Error& error) {
+    entry.refusal = error;
+  } catch (const cl::Error& error) {
+    entry.refusal = cl_machine_error(error);
+  } catch (const std::bad_alloc&) {
+    entry.refusal = machine_error("out of memory");
+  }
+  if (entry.refusal && ends_run) entry.run.reset();
+}
+
+std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& view,
+                                const std::vector<Contestant>& contestants) {
+  std::vector<Entry> entries;
+  for (const Contestant& c : contestants) {
+    Entry& entry = entries.emplace_back(&c);
+    attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique); });
+  }
+  return entries;
+}
+
+void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options) {
+  const int rounds = options.warmup + options.frames;
+  const auto tell = [&](int round, size_t i) {
+    const double done = round + double(i) / double(entries.size());
+    if (options.progress) options.progress(0.8 * done / (rounds + 1), entries[i].contestant->technique->name);
+  };
+  for (int round = 0; round <= rounds; ++round) {
+    for (size_t i = 0; i < entries.size(); ++i) {
+      tell(round, i);
+      TechniqueRun* run = entries[i].run.get();
+      attempt(entries[i], [&] { round < rounds ? run->run_frame(round < options.warmup) : run->run_profiled_frames(); });
+    }
+  }
+}
+
+// Where nothing ran there is nothing to report but the first reason.
+void require_one(const std::vector<Entry>& entries) {
+  for (const Entry& entry : entries) {
+    if (entry.run) return;
+  }
+  if (!entries.empty()) throw *entries.front().refusal;
+}
+
+RunResult refused_row(const Entry& entry, const RunResult& reference) {
+  RunResult row;
+  row.technique = entry.contestant->technique->name;
+  row.refused = entry.refusal->what();
+  row.settings = settings_of(*entry.contestant->technique, entry.contestant->settings);
+  row.lights_total = reference.lights_total, row.lights_in_view = reference.lights_in_view;
+  return row;
+}
+
+// The brute-force image: a contestant's or its own run, at all pixels or at a sample of them.
+struct Reference {
+  std::unique_ptr<TechniqueRun> own;
+  TechniqueRun* run = nullptr;
+  std::vector<PixelBlock> blocks;  // empty: all pixels
+  Image sampled_image;
+
+  bool sampled() const { return !blocks.empty(); }
+  const Image& image() const { return sampled() ? sampled_image : run->image(); }
+};
+
+std::unique_ptr<TechniqueRun> make_reference_run(Renderer& renderer, GpuScene& gpu, const View& view,
+                                                 const std::vector<Contestant>& contestants, const std::string& technique) {
+  const Settings common = contestants.empty() ? Settings{} : contestants.front().settings;  // the same BRDF above all
+  return std::make_unique<TechniqueRun>(renderer, gpu, view, common, find_technique(technique));
+}
+
+std::string time_in_words(double ms) {
+  return ms < 120e3 ? fmt::format("{:.0f} s", ms / 1000) : fmt::format("{:.0f} min", ms / 60e3);
+}
+
+// Chooses between all pixels and a sample. In a sample's favour contestants of the reference's technique are refused.
+void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Renderer& renderer, GpuScene& gpu,
+                             const View& view, const std::vector<Contestant>& contestants, const CompareOptions& options,
+                             const std::string& technique) {
+  const bool automatic = options.reference == ReferencePixels::automatic;
+  if (options.reference == ReferencePixels::full || (automatic && is_quick_for_forward(view, gpu.scene().lights.size(), options.most_reference_ms))) return;
+  const auto of_reference = [&](const Entry& entry) { return entry.run && entry.run->technique().name == technique; };
+  const auto found = std::find_if(entries.begin(), entries.end(), of_reference);
+  const bool is_contestant = found != entries.end();
+  if (!is_contestant) reference.own = make_reference_run(renderer, gpu, view, contestants, technique);
+  TechniqueRun& run = is_contestant ? *found->run : *reference.own;
+
+  if (options.progress) options.progress(0, "estimating the reference's time");
+  std::vector<PixelBlock> blocks = shuffled_blocks(view.width, view.height, options.seed);
+  const double frame_ms = automatic ? estimate_forward_ms(run.view(), blocks) : 0;
+  if (automatic && frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms) return;
+
+  const size_t most = sample_size(gpu.scene().lights.size()), a_block = PixelBlock::side * PixelBlock::side;
+  blocks.resize(std::min(blocks.size(), (most + a_block - 1) / a_block));
+  const size_t pixels = pixels_of(blocks, view.width, view.height).size(), all = size_t(view.width) * size_t(view.height);
+  const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame", time_in_words(frame_ms))
+                                    : std::string("asked for");
+  const std::string what = fmt::format("{} at {} of {} pixels ({}; --reference full shades all)", technique, with_commas(pixels),
+                                       with_commas(all), why);
+  if (options.notice) options.notice("the reference is " + what);
+  for (Entry& entry : entries) {
+    if (!of_reference(entry)) continue;
+    reference.own ? entry.run.reset() : void(reference.own = std::move(entry.run));
+    entry.refusal = machine_error("it is the reference: {}", what);
+  }
+  reference.run = reference.own.get();
+  reference.blocks = std::move(blocks);
+}
+
+Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
+  Image picked(int(pixels.size()), 1);
+  for (size_t i = 0; i < pixels.size(); ++i) picked.pixels[i] = image.pixels[pixels[i]];
+  return picked;
+}
+
+// All or nothing: the lists of lights may be more than memory holds.
+void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference, const std::vector<float>& depth) {
+  RunResult row = run.result();
+  if (reference.sampled()) {
+    const std::vector<uint32_t> pixels = pixels_of(reference.blocks, report.width, report.height);
+    row.error = compare_images(at_pixels(run.image(), pixels), at_pixels(reference.image(), pixels));
+  } else {
+    row.error = compare_images(run.image(), reference.image());
+  }
+  LitPairs pairs = count_listed_pairs(run, depth);
+  row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  if (run.technique().limited_lists) row.overflow = pairs.lost;
+  Image image = run.image();
+  report.rows.push_back(std::move(row));
+  report.images.push_back(std::move(image));
+  report.listed.push_back(std::move(pairs.listed_of_pixel));
+  report.lit = std::move(pairs.lit_of_pixel);
+}
+
+// Each image and the reference's against the oracle: at a sample of pixels, and where the images differ most, so that no
+// difference is missed.
+void measure_against_oracle(CompareReport& report, const Reference& reference, const std::vector<float>& depth, size_t samples) {
+  constexpr size_t worst_of_a_row = 100;
+  const SurfaceOracle oracle(reference.run->view(), depth);
+  std::vector<uint32_t> among = oracle.pixels();
+  if (reference.sampled()) {
+    const std::vector<uint32_t> sampled = pixels_of(reference.blocks, report.width, report.height);
+    std::erase_if(among, [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
+  }
+  std::vector<uint32_t> pixels = sample_pixels(among, affordable_samples(samples, reference.run->view().scene.lights.size()));
+  report.reference_errors = measure_reference_errors(oracle, reference.image(), pixels);
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (!report.rows[i].error) continue;
+    const std::vector<uint32_t> worst = most_different(report.images[i], reference.image(), among, worst_of_a_row);
+    pixels.insert(pixels.end(), worst.begin(), worst.end());
+  }
+  std::sort(pixels.begin(), pixels.end());
+  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  const std::vector<glm::dvec3> radiance = oracle.shade(pixels, true);
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (report.rows[i].error) report.rows[i].error->oracle = oracle_error(report.images[i], reference.image(), pixels, radiance);
+  }
+}
+
+void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries, Reference& reference, const CompareOptions& options) {
+  if (options.path.empty()) return;
+  std::vector<TechniqueRun*> runs;
+  for (const Entry& entry : entries) runs.push_back(entry.refusal ? nullptr : entry.run.get());
+  run_along_path(runs, *reference.run, {gpu, options.path, options.advance}, report.rows, [&](double done) {
+    if (options.progress) options.progress(0.9 + 0.1 * done, "camera path");
+  });
+}
+
+}  // namespace
+
+CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
+                                 const std::vector<Contestant>& contestants, const CompareOptions& options) {
+  CompareReport report;
+  report.scene = scene.name;
+  report.width = view.width, report.height = view.height;
+  report.cl_device = renderer.cl->info().name;
+  report.gl_device = renderer.gl->renderer;
+  report.commit = commit_of_build();
+  report.reference = "forward";
+  report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
+
+  GpuScene gpu(renderer, scene);
+  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants);
+  Reference reference;
+  choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, report.reference);
+  time_interleaved(entries, options);
+  if (!options.all_may_refuse) require_one(entries);
+
+  for (Entry& entry : entries) {
+    if (!reference.run && entry.run && entry.run->technique().name == report.reference) reference.run = entry.run.get();
+  }
+  if (options.progress && (reference.sampled() || !reference.run)) options.progress(0.8, "reference: " + report.reference);
+  if (reference.sampled()) {
+    render_forward_at(reference.run->view(), reference.blocks, reference.sampled_image);
+    report.reference_pixels = pixels_of(reference.blocks, view.width, view.height).size();
+  } else if (!reference.run) {
+    if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, report.reference);
+    reference.run = reference.own.get();
+    reference.run->run_frame();
+    report.reference_image = reference.run->image();
+  }
+
+  const std::vector<float> depth = read_depth(reference.run->view());
+  for (size_t i = 0; i < entries.size(); ++i) {
+    Entry& entry = entries[i];
+    if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
+    // What refuses here keeps its run: it may be the reference.
+    if (entry.run) attempt(entry, [&] { add_row(report, *entry.run, reference, depth); }, false);
+    if (entry.refusal) {
+      report.rows.push_back(refused_row(entry, reference.run->result()));
+      report.images.emplace_back(), report.listed.emplace_back();
+    }
+  }
+  if (options.progress) options.progress(0.9, "oracle: shading");
+  measure_against_oracle(report, reference, depth, options.shaded_samples);
+  run_path(report, gpu, entries, reference, options);
+  if (options.progress) options.progress(1, "");
+  return report;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,119 @@
+#include "compare/moving.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/metrics.h"
+#include "compare/oracle.h"
+
+namespace lightgrid {
+namespace {
+
+// After these, nothing is built for the first time.
+constexpr size_t frames_to_settle = 2;
+
+// One technique along the path.
+struct Path {
+  TechniqueRun* run;
+  RunResult* row;
+  std::vector<double> frame_ms, resting_ms;  // with look() and without, of the frames after frames_to_settle
+  std::vector<glm::vec3> difference;     // from the reference, of the last frame
+  double flicker_sum = 0, flicker_max = 0;
+  uint64_t flicker_count = 0;
+  double error_sum = 0;
+  uint64_t error_count = 0;
+  double brightest = 0;  // of the reference, over the path
+  MovingResult result;
+};
+
+RendererCounts since(const RendererCounts& now, const RendererCounts& before) {
+  return {now.gl_programs - before.gl_programs, now.cl_programs - before.cl_programs, now.scene_bytes - before.scene_bytes};
+}
+
+void run_one(Path& p, const View& view, const SceneChanges& changes, size_t frame) {
+  const RendererCounts before = p.run->view().renderer.counts();
+  const Timer timer;
+  p.run->look(view, changes);
+  p.run->run_frame(true);
+  const double ms = timer.elapsed_ms();
+  if (frame < frames_to_settle) return;
+  p.frame_ms.push_back(ms);
+  const RendererCounts made = since(p.run->view().renderer.counts(), before);
+  p.result.gl_programs += made.gl_programs;
+  p.result.cl_programs += made.cl_programs;
+  p.result.scene_bytes += made.scene_bytes;
+  const Timer at_rest;
+  p.run->run_frame(true);
+  p.resting_ms.push_back(at_rest.elapsed_ms());
+}
+
+void add_errors(Path& p, const Image& reference) {
+  const Image& image = p.run->image();
+  const bool first = p.difference.empty();
+  p.difference.resize(image.pixels.size());
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const glm::vec3 difference = glm::vec3(image.pixels[i]) - glm::vec3(reference.pixels[i]);
+    for (int c = 0; c < 3; ++c) {
+      p.error_sum += double(difference[c]) * difference[c];
+      p.result.max_abs = std::max(p.result.max_abs, double(std::abs(difference[c])));
+      if (first) continue;
+      const double change = double(difference[c]) - p.difference[i][c];
+      p.flicker_sum += change * change;
+      p.flicker_max = std::max(p.flicker_max, std::abs(change));
+    }
+    p.difference[i] = difference;
+  }
+  p.error_count += 3 * image.pixels.size();
+  if (!first) p.flicker_count += 3 * image.pixels.size();
+  p.brightest = std::max(p.brightest, double(brightest_channel(reference)));
+  p.result.nan_pixels += count_nan_pixels(image);
+}
+
+void add_pairs(Path& p) {
+  const LitPairs pairs = count_listed_pairs(*p.run, read_depth(p.run->view()));
+  p.result.pairs.listed += pairs.listed;
+  p.result.pairs.lit += pairs.lit;
+  p.result.pairs.lost += pairs.lost;
+  p.result.pairs.wrong += pairs.wrong;
+}
+
+void finish(Path& p, size_t frames) {
+  const double scale = p.brightest > 0 ? 1 / p.brightest : 1;
+  p.result.frames = frames;
+  p.result.frame_ms = spread_of(p.frame_ms);
+  p.result.resting_ms = spread_of(p.resting_ms);
+  p.result.max_rel = p.result.max_abs * scale;
+  p.result.rmse_rel = p.error_count ? std::sqrt(p.error_sum / double(p.error_count)) * scale : 0;
+  p.result.temporal_max_rel = p.flicker_max * scale;
+  p.result.temporal_rmse_rel = p.flicker_count ? std::sqrt(p.flicker_sum / double(p.flicker_count)) * scale : 0;
+  p.row->moving = p.result;
+}
+
+}  // namespace
+
+void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
+                    std::vector<RunResult>& rows, const std::function<void(double done)>& progress) {
+  const std::vector<View>& path = moving.path;
+  std::vector<Path> paths;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i]) paths.push_back(Path{.run = runs[i], .row = &rows[i]});
+  }
+  const bool reference_runs = std::ranges::find(runs, &reference) == runs.end();
+  for (size_t frame = 0; frame < path.size(); ++frame) {
+    if (progress) progress(double(frame) / double(path.size()));
+    const SceneChanges changes = moving.advance ? moving.advance(frame) : SceneChanges();
+    moving.gpu.update(changes);
+    if (reference_runs) {
+      reference.look(path[frame], changes);
+      reference.run_frame(true);
+    }
+    for (Path& p : paths) run_one(p, path[frame], changes, frame);
+    for (Path& p : paths) {
+      add_errors(p, reference.image());
+      add_pairs(p);
+    }
+  }
+  for (Path& p : paths) finish(p, path.size());
+}
+
+}  // namespace lightgrid

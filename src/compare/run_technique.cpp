@@ -1,0 +1,62 @@
+#include "compare/run_technique.h"
+
+#include "gl/errors.h"
+#include "gl/state.h"
+#include "results/metrics.h"
+
+namespace lightgrid {
+
+TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+                           const Technique& technique)
+    : technique_(technique), view_(renderer, gpu, view, settings, technique.needs) {}
+
+TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
+                           const Technique& technique)
+    : technique_(technique),
+      own_scene_(std::make_unique<GpuScene>(renderer, scene)),
+      view_(renderer, *own_scene_, view, settings, technique.needs) {}
+
+void TechniqueRun::render() {
+  reset_gl_state();
+  frame_ = technique_.render(view_);
+  read_back(view_, frame_.image, image_);
+  check_gl(technique_.name);
+}
+
+void TechniqueRun::run_frame(bool warmup) {
+  const Timer timer;
+  render();
+  if (!warmup) frame_ms_.push_back(timer.elapsed_ms());
+}
+
+void TechniqueRun::run_profiled_frames() {
+  const Timer timer;
+  view_.timer.enabled = true;
+  for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < 1000); ++i) {
+    render();
+  }
+  view_.timer.enabled = false;
+}
+
+RunResult TechniqueRun::result() const {
+  RunResult result;
+  result.technique = technique_.name;
+  result.settings = settings_of(technique_, view_.plan.settings);
+  result.lights_total = int(view_.scene.lights.size());
+  result.lights_in_view = view_.plan.lights_in_view;
+  result.frame_ms = spread_of(frame_ms_);
+  for (const PassRecord& record : view_.timer.records()) {
+    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read, record.bytes_written});
+  }
+  result.memory_total = view_.memory_bytes();
+  result.memory_light_grid = frame_.light_grid_bytes();
+  result.memory_gbuffer = view_.targets.bytes(TargetUse::gbuffer);
+  result.nan_pixels = count_nan_pixels(image_);
+  result.inf_pixels = count_inf_pixels(image_);
+  for (const Decision& decision : view_.plan.decisions) {
+    if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
+  }
+  return result;
+}
+
+}  // namespace lightgrid

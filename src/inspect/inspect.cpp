@@ -1,0 +1,286 @@
+#include "inspect/inspect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/attenuation.h"
+#include "reference/cone_cell.h"
+#include "reference/lit_set.h"
+#include "reference/pixel_tiles.h"
+#include "reference/position.h"
+#include "capture/frame_lists.h"
+
+namespace lightgrid {
+namespace {
+
+// Stands for infinity where a product with 0 must be 0, as in the kernels.
+constexpr double far_away = 1e18;
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
+
+struct Box {
+  glm::dvec3 min, max;  // x, y and distance
+};
+
+Box box_of(const Cell& cell) {
+  const double near = std::max(cell.near, -far_away), far = std::min(cell.far, far_away);
+  const double a = cell.scale_at(near), b = cell.scale_at(far);
+  return {{std::min(cell.x0 * a, cell.x0 * b), std::min(cell.y0 * a, cell.y0 * b), near},
+          {std::max(cell.x1 * a, cell.x1 * b), std::max(cell.y1 * a, cell.y1 * b), far}};
+}
+
+double planes_margin(const Cell& cell, const glm::dvec3& p, double radius) {
+  const double d = cell.orthographic ? 1 : -p.z, tip = cell.orthographic ? 0 : 1;
+  const auto side = [&](double value, double slope, double inward) {
+    return inward * (value - slope * d) / std::sqrt(1 + tip * slope * slope);
+  };
+  return radius + std::min({side(p.x, cell.x0, 1), side(p.x, cell.x1, -1), side(p.y, cell.y0, 1),
+                            side(p.y, cell.y1, -1)});
+}
+
+// Distance from the cone's surface, outside it, to the sphere around the box.
+double cone_margin(const Box& box, const ViewLight& light, double reach) {
+  glm::dvec3 centre = 0.5 * (box.min + box.max);
+  centre.z = -centre.z;
+  const glm::dvec3 to_centre = centre - light.position;
+  const double along = glm::dot(to_centre, light.direction);
+  const double across = glm::length(to_centre - along * light.direction);
+  const double sine = std::sqrt(std::max(0.0, 1 - light.cos_outer * light.cos_outer));
+  return reach - std::max(across * light.cos_outer - along * sine, -along);
+}
+
+TestMargins margins_of(const Cell& cell, const ViewLight& light) {
+  const glm::dvec3& p = light.position;
+  const double r = light.radius_m;
+  const Box box = box_of(cell);
+  const glm::dvec3 place(p.x, p.y, -p.z);
+  const double reach = 0.5 * glm::length(box.max - box.min);
+  TestMargins m;
+  m.interval = r + std::min(place.z - cell.near, cell.far - place.z);
+  m.planes = planes_margin(cell, p, r);
+  m.aabb = r - std::hypot(outside(place.x, box.min.x, box.max.x), outside(place.y, box.min.y, box.max.y),
+                          outside(place.z, box.min.z, box.max.z));
+  const bool bounded = std::isfinite(cell.near) && std::isfinite(cell.far);
+  m.sphere = bounded ? r + reach - glm::length(place - 0.5 * (box.min + box.max)) : endless;
+  m.exact = r - distance_to_cell(cell, p);
+  if (light.type == LightType::spot && light.cos_outer >= 0)
+    m.cone = bounded ? cone_margin(box, light, reach) : endless;
+  return m;
+}
+
+struct NamedMargin {
+  const char* test;
+  double margin_m;
+};
+
+// Of the tests that these settings use, in their order.
+std::vector<NamedMargin> margins_in_use(const TestMargins& m, CullTest test) {
+  std::vector<NamedMargin> used = {{"interval", m.interval}};
+  const bool exact = test == CullTest::exact, both = test == CullTest::planes_aabb || exact;
+  if (test == CullTest::planes || both) used.push_back({"planes", m.planes});
+  if (test == CullTest::aabb || both) used.push_back({"aabb", m.aabb});
+  if (test == CullTest::sphere) used.push_back({"sphere", m.sphere});
+  if (exact) used.push_back({"exact", m.exact});
+  if (m.cone) used.push_back({"cone", *m.cone});
+  if (m.pieces) used.push_back({"pieces", *m.pieces});
+  return used;
+}
+
+NamedMargin least(const std::vector<NamedMargin>& used) {
+  return *std::min_element(used.begin(), used.end(),
+                           [](auto& a, auto& b) { return a.margin_m < b.margin_m; });
+}
+
+// What decided: the first test that drops the light; of a listed light, the one with the least to spare.
+NamedMargin deciding(const std::vector<NamedMargin>& used, bool listed) {
+  if (listed) return least(used);
+  for (const NamedMargin& m : used) {
+    if (m.margin_m < 0) return m;
+  }
+  return {"other", least(used).margin_m};
+}
+
+// The intervals of distances within the cell's own that these depth bounds tell apart; none where they tell
+// none.
+std::vector<DepthInterval> pieces_of(const Cell& cell, const std::vector<glm::dvec3>& surfaces,
+                                     DepthBoundsMode mode) {
+  const float near = float(cell.near), far = float(cell.far), middle = near + 0.5f * (far - near);
+  const bool one = mode == DepthBoundsMode::none || mode == DepthBoundsMode::minmax;
+  if (one || !(near <= far) || !std::isfinite(far - near)) return {};
+  if (mode == DepthBoundsMode::halfz) return {{near, middle}, {middle, far}};
+  const bool mask = mode == DepthBoundsMode::mask32;
+  const int count = mask ? 32 : 2;
+  const float length = (far - near) / count;
+  std::vector<DepthInterval> pieces(count, {far, near});
+  for (const glm::dvec3& p : surfaces) {
+    const float distance = float(-p.z);
+    const int i = length > 0 ? std::clamp(int((distance - near) / length), 0, count - 1) : 0;
+    DepthInterval& piece = pieces[i];
+    piece = mask ? DepthInterval{near + i * length, near + (i + 1) * length}  // a bit says no more
+                 : DepthInterval{std::min(piece.near, distance), std::max(piece.far, distance)};
+  }
+  std::erase_if(pieces, [](const DepthInterval& piece) { return !(piece.near <= piece.far); });
+  return pieces;
+}
+
+// A mask's slots hold distances only; a half is a cell of its own, tested like one.
+double pieces_margin(const Cell& cell, const std::vector<DepthInterval>& pieces, const ViewLight& light,
+                     const Settings& settings) {
+  double best = -endless;
+  for (const DepthInterval& piece : pieces) {
+    Cell part = cell;
+    part.near = piece.near, part.far = piece.far;
+    const TestMargins m = margins_of(part, light);
+    const bool mask = settings.depth_bounds == DepthBoundsMode::mask32;
+    best = std::max(best, mask ? m.interval : least(margins_in_use(m, settings.cull_test)).margin_m);
+  }
+  return best;
+}
+
+double nearness(const TestMargins& m) {
+  return std::min({m.exact, m.cone.value_or(m.exact), m.pieces.value_or(m.exact)});
+}
+
+bool touches_cell(const Cell& cell, const ViewLight& light) {
+  if (light.type != LightType::spot) return sphere_touches_cell(cell, light.position, light.radius_m);
+  return cone_touches_cell(cell, light.position, light.direction, light.cos_outer, light.radius_m) !=
+         Touch::no;
+}
+
+// Surfaces of the cell's pixels, in view space.
+std::vector<glm::dvec3> surfaces_of(const CapturedFrame& frame, const FrameGrid& grid,
+                                    const PixelInspection& pixel) {
+  const PixelCells cells(frame, grid);
+  std::vector<glm::dvec3> surfaces;
+  for (int y = pixel.y0; y < pixel.y1; ++y) {
+    for (int x = pixel.x0; x < pixel.x1; ++x) {
+      if (!is_covered(frame, x, y) || cells.slice(x, y) != pixel.slice) continue;
+      surfaces.push_back(
+          position_from_depth(frame.view, x, y, frame.depth[size_t(y) * frame.view.width + x]));
+    }
+  }
+  return surfaces;
+}
+
+PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
+                         const std::vector<DepthInterval>& intervals, int x, int y) {
+  const View& view = frame.view;
+  PixelInspection pixel;
+  pixel.x = x, pixel.y = y;
+  pixel.depth = frame.depth[size_t(y) * view.width + x];
+  pixel.covered = is_covered(frame, x, y);
+  pixel.distance_m = pixel.covered ? -position_from_depth(view, x, y, pixel.depth).z : endless;
+  pixel.cell_x = x / grid.tile, pixel.cell_y = y / grid.tile;
+  pixel.slice = PixelCells(frame, grid).slice(x, y);
+  pixel.x0 = pixel.cell_x * grid.tile, pixel.x1 = std::min(pixel.x0 + grid.tile, view.width);
+  pixel.y0 = pixel.cell_y * grid.tile, pixel.y1 = std::min(pixel.y0 + grid.tile, view.height);
+  const DepthInterval interval = intervals[size_t(pixel.cell_y) * grid.lists.cells_x + pixel.cell_x];
+  pixel.near_m = interval.near > -0.1 * far_away ? interval.near : -endless;
+  pixel.far_m = interval.far < 0.1 * far_away ? interval.far : endless;
+  if (pixel.slice > 0) pixel.near_m = std::max(pixel.near_m, double(grid.slice_edges[pixel.slice - 1]));
+  if (pixel.slice < grid.lists.slices - 1)
+    pixel.far_m = std::min(pixel.far_m, double(grid.slice_edges[pixel.slice]));
+  for (const Light& light : frame.lights) pixel.directional += light.type == LightType::directional;
+  return pixel;
+}
+
+// As the frame counts, of the lights that lists count.
+std::vector<int> local_numbers(const CapturedFrame& frame) {
+  std::vector<int> numbers;
+  for (size_t i = 0; i < frame.lights.size(); ++i) {
+    if (frame.lights[i].type != LightType::directional) numbers.push_back(int(i));
+  }
+  return numbers;
+}
+
+bool stands_in_cell(const HostGrid& lists, size_t cell, uint32_t light) {
+  const size_t words = lists.masks.size() / lists.cells.size();
+  if (words > 0) return lists.masks[cell * words + light / 32] >> light % 32 & 1;
+  const uint32_t* first = lists.indices.data() + lists.cells[cell].x;
+  return std::binary_search(first, first + lists.cells[cell].y, light);
+}
+
+// How far the light reaches into the z-bin's range of distances.
+double z_bin_margin(const FrameGrid& grid, uint32_t bin, const ViewLight& light) {
+  const auto& edges = grid.z_bin_edges;
+  const double near = bin > 0 ? edges[bin - 1] : -endless, far = bin < edges.size() ? edges[bin] : endless;
+  return light.radius_m + std::min(-light.position.z - near, far + light.position.z);
+}
+
+Cell cell_of(const View& view, const PixelInspection& pixel) {
+  Cell cell;
+  cell.x0 = view_x_of_pixel(view, pixel.x0 + cell_inset),
+  cell.x1 = view_x_of_pixel(view, pixel.x1 - cell_inset);
+  cell.y0 = view_y_of_pixel(view, pixel.y0 + cell_inset),
+  cell.y1 = view_y_of_pixel(view, pixel.y1 - cell_inset);
+  cell.near = pixel.near_m, cell.far = pixel.far_m;
+  cell.orthographic = view.orthographic;
+  return cell;
+}
+
+int count_lit(const ViewLight& light, const std::vector<glm::dvec3>& surfaces) {
+  return int(
+      std::count_if(surfaces.begin(), surfaces.end(), [&](const glm::dvec3& p) { return is_lit(light, p); }));
+}
+
+}  // namespace
+
+int PixelInspection::listed() const {
+  return int(std::count_if(lights.begin(), lights.end(), [](const LightVerdict& v) { return v.listed; }));
+}
+
+int PixelInspection::lit() const {
+  return int(std::count_if(lights.begin(), lights.end(), [](const LightVerdict& v) { return v.lit; }));
+}
+
+int PixelInspection::lost() const {
+  return int(
+      std::count_if(lights.begin(), lights.end(), [](const LightVerdict& v) { return v.lit && !v.listed; }));
+}
+
+PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
+                              const std::vector<DepthInterval>& intervals, const Settings& settings, int x,
+                              int y) {
+  PixelInspection pixel = place_of(frame, grid, intervals, x, y);
+  const std::vector<glm::dvec3> surfaces = surfaces_of(frame, grid, pixel);
+  pixel.covered_pixels = int(surfaces.size());
+  const std::vector<ViewLight> lights = local_lights(frame);
+  const std::vector<int> number = local_numbers(frame);
+  const std::vector<uint32_t> near = lights_within_reach(lights, surfaces);
+  const PixelCells cells(frame, grid);
+  const uint32_t at = cells.cell(x, y), bin = cells.z_bin(x, y);
+  const bool empty = !(pixel.near_m <= pixel.far_m);
+  const Cell cell = cell_of(frame.view, pixel);
+  const std::vector<DepthInterval> pieces = pieces_of(cell, surfaces, settings.depth_bounds);
+  const glm::dvec3 here = pixel.covered ? position_from_depth(frame.view, x, y, pixel.depth) : glm::dvec3(0);
+  for (uint32_t i = 0; i < lights.size(); ++i) {
+    LightVerdict& v = pixel.lights.emplace_back();
+    v.index = i, v.light = number[i];
+    v.listed = stands_in_cell(grid.lists, at, i);
+    v.distance_m = pixel.covered ? glm::length(lights[i].position - here) : endless;
+    v.lit = pixel.covered && is_lit(lights[i], here);
+    if (std::binary_search(near.begin(), near.end(), i)) v.lit_pixels = count_lit(lights[i], surfaces);
+    if (empty) {
+      v.test = "empty", v.margin_m = -endless;
+      continue;
+    }
+    v.margins = margins_of(cell, lights[i]);
+    if (!pieces.empty()) v.margins.pieces = pieces_margin(cell, pieces, lights[i], settings);
+    const NamedMargin decided = deciding(margins_in_use(v.margins, settings.cull_test), v.listed);
+    v.test = decided.test, v.margin_m = decided.margin_m;
+    v.touches = touches_cell(cell, lights[i]);
+    if (v.listed && !grid.z_bin_edges.empty() && !bins_hold(grid.lists.z_bins[i], bin)) {
+      v.listed = false, v.test = "z-bins", v.margin_m = z_bin_margin(grid, bin, lights[i]);
+    }
+  }
+  std::stable_sort(pixel.lights.begin(), pixel.lights.end(),
+                   [](const LightVerdict& a, const LightVerdict& b) {
+                     if (a.listed != b.listed) return a.listed;
+                     return !a.listed && nearness(a.margins) > nearness(b.margins);
+                   });
+  return pixel;
+}
+
+}  // namespace lightgrid

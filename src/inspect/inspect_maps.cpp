@@ -1,0 +1,70 @@
+#include "inspect/inspect_maps.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.h"
+#include "base/write_file.h"
+#include "capture/frame_lists.h"
+#include "results/metrics.h"
+
+namespace lightgrid {
+namespace {
+
+// The 99th percentile over pixels that list something, so that a few long lists leave the rest its colours.
+uint32_t scale_top(std::vector<uint32_t> counts) {
+  std::erase(counts, 0u);
+  if (counts.empty()) return 1;
+  const size_t at = (counts.size() * 99 + 99) / 100 - 1;
+  std::nth_element(counts.begin(), counts.begin() + at, counts.end());
+  return counts[at];
+}
+
+}  // namespace
+
+InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid) {
+  const std::vector<float> depth = covered_depth(frame);
+  LitPairs pairs = count_pairs(frame.view, depth, local_lights(frame), listed_lights(frame, grid));
+  InspectionMaps maps;
+  maps.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  maps.covered = uint64_t(std::count_if(depth.begin(), depth.end(), [](float d) { return d > 0; }));
+  maps.listed = std::move(pairs.listed_of_pixel), maps.lost = std::move(pairs.lost_of_pixel);
+  maps.top = scale_top(maps.listed);
+  for (size_t i = 0; i < depth.size(); ++i) {
+    maps.false_positives.push_back(maps.listed[i] -
+                                   std::min(maps.listed[i], pairs.lit_of_pixel[i] - maps.lost[i]));
+  }
+  return maps;
+}
+
+std::string inspection_json(const CapturedFrame& frame, const InspectionMaps& maps, const FrameGrid& grid) {
+  const PairCounts& p = maps.pairs;
+  const nlohmann::json out = {
+      {"scene", frame.name},
+      {"size", {frame.view.width, frame.view.height}},
+      {"settings", settings_json(grid.settings)},
+      {"pairs", {{"listed", p.listed}, {"lit", p.lit}, {"lost", p.lost}, {"wrong", p.wrong}}},
+      {"covered_pixels", maps.covered},
+      {"scale_top", maps.top}};
+  return json_text(out);
+}
+
+void write_inspection_maps(const std::filesystem::path& folder, const CapturedFrame& frame,
+                           const InspectionMaps& maps) {
+  make_folder(folder);
+  const struct {
+    const char* name;
+    const std::vector<uint32_t>* counts;
+    uint32_t top;
+  } files[] = {{"listed.png", &maps.listed, maps.top},
+               {"false_positives.png", &maps.false_positives, maps.top},
+               {"lost.png", &maps.lost, 1}};
+  const int width = frame.view.width, height = frame.view.height;
+  parallel_for(3, [&](int i) {
+    const Image image = heat_map(width, height, *files[i].counts, files[i].top);
+    write_file(folder / files[i].name, encode_png(width, height, 3, srgb_bytes_as_is(image)));
+  });
+}
+
+}  // namespace lightgrid

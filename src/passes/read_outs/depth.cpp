@@ -1,0 +1,12 @@
+#include "passes/read_outs/depth.h"
+
+namespace lightgrid {
+
+std::vector<float> read_depth(RenderView& v) {
+  std::vector<float> depth(size_t(v.view.width) * v.view.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, v.depth_framebuffer());
+  glReadPixels(0, 0, v.view.width, v.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  return depth;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,13 @@
+// The depth that a frame left, on the host: not part of any technique's frame.
+#pragma once
+
+#include <vector>
+
+#include "passes/frame.h"
+
+namespace lightgrid {
+
+// The depth image of the last frame: width * height, row 0 at the bottom, 0 where nothing is.
+std::vector<float> read_depth(RenderView& v);
+
+}  // namespace lightgrid

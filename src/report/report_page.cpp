@@ -1,0 +1,172 @@
+#include "report/report_page.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/embedded.h"
+#include "base/image.h"
+#include "report/charts.h"
+#include "results/metrics.h"
+#include "report/overview.h"
+#include "results/words.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+
+std::string base64(const std::vector<uint8_t>& bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t left = bytes.size() - i;
+    const uint32_t group =
+        bytes[i] << 16 | (left > 1 ? bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
+    text += digits[group >> 18];
+    text += digits[group >> 12 & 63];
+    text += left > 1 ? digits[group >> 6 & 63] : '=';
+    text += left > 2 ? digits[group & 63] : '=';
+  }
+  return text;
+}
+
+// Pictures by number; techniques that agree to the last byte share one.
+class PictureStore {
+ public:
+  json number_of(const std::vector<uint8_t>& png) {
+    if (png.empty()) return nullptr;
+    auto url = "data:image/png;base64," + base64(png);
+    const auto [found, added] = number_.emplace(std::move(url), number_.size());
+    if (added) urls_.push_back(found->first);
+    return found->second;
+  }
+  const json& urls() const { return urls_; }
+
+ private:
+  std::map<std::string, size_t> number_;
+  json urls_ = json::array();
+};
+
+std::vector<uint8_t> legend_png(const Ramp& ramp) {
+  std::vector<uint8_t> bytes;
+  for (const auto& colour : ramp) bytes.insert(bytes.end(), {colour.r, colour.g, colour.b});
+  return encode_png(static_cast<int>(ramp.size()), 1, 3, bytes);
+}
+
+json heat_entry(PictureStore& store, const std::optional<HeatMap>& heat) {
+  if (!heat) return nullptr;
+  return {{"picture", store.number_of(heat->png)}, {"mean", heat->mean}, {"max", heat->max}};
+}
+
+// "exact", "lossy", "failed" or "refused".
+const char* standing_of(const RunResult& row) {
+  if (!row.refused.empty()) return "refused";
+  if (!passes_gates(row)) return "failed";
+  return is_exact(row) ? "exact" : "lossy";
+}
+
+json to_json(const Curve& curve) {
+  json points = json::array();
+  for (const CurvePoint& p : curve.points) {
+    points.push_back({{"x", p.x}, {"ms", p.ms}, {"exact", p.exact}, {"view", p.view}, {"row", p.row}});
+  }
+  return {{"name", curve.name}, {"flat", curve.flat}, {"points", points}};
+}
+
+json to_json(const std::vector<Chart>& charts) {
+  json list = json::array();
+  for (const Chart& chart : charts) {
+    json ticks = json::array(), curves = json::array(), crossings = json::array();
+    for (const Tick& t : chart.ticks) ticks.push_back({{"x", t.x}, {"label", t.label}});
+    for (const Curve& c : chart.curves) curves.push_back(to_json(c));
+    for (const Crossing& c : chart.crossings) {
+      crossings.push_back({{"below", c.below}, {"above", c.above}, {"x", c.x}, {"ms", c.ms}, {"lead", c.lead}});
+    }
+    list.push_back({{"title", chart.title}, {"axis", chart.axis}, {"ticks", ticks}, {"curves", curves},
+                    {"crossings", crossings}, {"sentences", chart.sentences}});
+  }
+  return list;
+}
+
+json view_data(PictureStore& store, const std::vector<ReportView>& views, size_t v) {
+  const ReportView& view = views[v];
+  const RunResult* winner = fastest_exact(view.report);
+  json rows = json::array();
+  for (size_t i = 0; i < view.report.rows.size(); ++i) {
+    const RunResult& row = view.report.rows[i];
+    const RowPictures& pictures = view.pictures.rows[i];
+    rows.push_back({{"name", pictures.name},
+                    {"standing", standing_of(row)},
+                    {"winner", &row == winner},
+                    {"image", store.number_of(pictures.image)},
+                    {"difference", store.number_of(pictures.difference)},
+                    {"listed", heat_entry(store, pictures.listed)}});
+  }
+  return {{"title", view_in_words(view.report)},
+          {"folder", view.folder},
+          {"reduced", view.pictures.reduced},
+          {"verdict", view.verdict},
+          {"figures", view.figures},
+          {"rows", rows},
+          {"reference", store.number_of(view.pictures.reference)},
+          {"lit", heat_entry(store, view.pictures.lit)},
+          {"heat_top", view.pictures.heat_top},
+          {"charts", to_json(charts_over_settings(views, v))}};
+}
+
+// What the page shows beside results.json.
+json page_data(const std::vector<ReportView>& views) {
+  PictureStore store;
+  json list = json::array();
+  for (size_t v = 0; v < views.size(); ++v) list.push_back(view_data(store, views, v));
+  json data = {{"views", list},
+               {"overview", {{"sentences", overview_sentences(views)}, {"charts", to_json(charts_over_views(views))}}},
+               {"difference_legend", store.number_of(legend_png(difference_ramp()))},
+               {"heat_legend", store.number_of(legend_png(viridis_ramp()))}};
+  data["pictures"] = store.urls();
+  return data;
+}
+
+// Safe inside <script>: no "<" is left, so no "</script>" either.
+std::string script_json(std::string text) {
+  std::string safe;
+  safe.reserve(text.size());
+  for (char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+// Each {{name}} of the template once, in order; what is put in is not looked at again.
+std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values) {
+  std::string text;
+  while (true) {
+    const size_t open = page.find("{{"), close = page.find("}}", open);
+    if (open == page.npos || close == page.npos) return text.append(page);
+    text.append(page.substr(0, open));
+    text.append(values.at(page.substr(open + 2, close - open - 2)));
+    page.remove_prefix(close + 2);
+  }
+}
+
+}  // namespace
+
+std::string report_page(const std::vector<ReportView>& views) {
+  std::string scripts;
+  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
+    scripts += embedded_file(std::string("report/page/") + name);
+  }
+  const json results = views.size() == 1 ? lightgrid::to_json(views.front().report) : lightgrid::to_json(views);
+  return filled(embedded_file("report/page/index.html"), {{"style", embedded_file("report/page/style.css")},
+                                                           {"script", scripts},
+                                                           {"results", script_json(json_text(results))},
+                                                           {"page", script_json(json_text(page_data(views)))}});
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,150 @@
+#include "results/results.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+
+// JSON has neither infinity nor NaN.
+json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+// "cull-test" on the command line is "cull_test" here.
+std::string key_of(std::string setting) {
+  std::replace(setting.begin(), setting.end(), '-', '_');
+  return setting;
+}
+
+template <typename Number>
+bool parse_whole(const std::string& text, Number& number) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+json value_of(const std::string& setting) {
+  int64_t whole = 0;
+  double real = 0;
+  if (setting == "true" || setting == "false") return setting == "true";
+  if (parse_whole(setting, whole)) return whole;
+  if (parse_whole(setting, real) && std::isfinite(real)) return real;
+  return setting;
+}
+
+json to_json(const ImageError& error) {
+  json oracle;
+  if (error.oracle) {
+    oracle = {{"max_rel", finite_or_null(error.oracle->max_rel)},
+              {"rmse_rel", finite_or_null(error.oracle->rmse_rel)},
+              {"of_reference_max_rel", finite_or_null(error.oracle->of_reference_max_rel)}};
+  }
+  return {{"max_abs", finite_or_null(error.max_abs)},
+          {"max_rel", finite_or_null(error.max_rel)},
+          {"rmse", finite_or_null(error.rmse)},
+          {"p99", finite_or_null(error.p99)},
+          {"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
+          {"bit_identical", error.bit_identical},
+          {"oracle", oracle}};
+}
+
+json to_json(const PairCounts& pairs) {
+  return {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
+}
+
+json to_json(const Spread& times) {
+  const bool timed = times.runs > 0;
+  return {{"min", timed ? finite_or_null(times.min) : json()},
+          {"median", timed ? finite_or_null(times.median) : json()},
+          {"max", timed ? finite_or_null(times.max) : json()},
+          {"runs", times.runs}};
+}
+
+json memory_json(const RunResult& result) {
+  const auto bytes = [&](size_t count) { return result.refused.empty() ? json(count) : json(); };
+  return {{"total", bytes(result.memory_total)},
+          {"light_grid", bytes(result.memory_light_grid)},
+          {"gbuffer", bytes(result.memory_gbuffer)}};
+}
+
+json to_json(const PassResult& pass) {
+  return {{"name", pass.name},
+          {"on", pass.on},
+          {"median_ms", finite_or_null(pass.median_ms)},
+          {"bytes_read", pass.bytes_read},
+          {"bytes_written", pass.bytes_written}};
+}
+
+json to_json(const MovingResult& m) {
+  return {{"frames", m.frames},
+          {"frame_ms", to_json(m.frame_ms)},
+          {"resting_ms", to_json(m.resting_ms)},
+          {"error", {{"max_abs", finite_or_null(m.max_abs)},
+                     {"max_rel", finite_or_null(m.max_rel)},
+                     {"rmse_rel", finite_or_null(m.rmse_rel)}}},
+          {"temporal", {{"max_rel", finite_or_null(m.temporal_max_rel)}, {"rmse_rel", finite_or_null(m.temporal_rmse_rel)}}},
+          {"pairs", to_json(m.pairs)},
+          {"nan_pixels", m.nan_pixels},
+          {"gl_programs_compiled", m.gl_programs},
+          {"cl_programs_built", m.cl_programs},
+          {"scene_bytes_uploaded", m.scene_bytes}};
+}
+
+}  // namespace
+
+json settings_json(const std::map<std::string, std::string>& settings) {
+  json out = json::object();
+  for (const auto& [name, value] : settings) out[key_of(name)] = value_of(value);
+  return out;
+}
+
+json to_json(const RunResult& result) {
+  json passes = json::array(), skipped = json::array();
+  for (const auto& pass : result.passes) passes.push_back(to_json(pass));
+  for (const auto& skip : result.skipped) skipped.push_back({{"effect", skip.effect}, {"why", skip.why}});
+  json out = {{"technique", result.technique},
+              {"settings", settings_json(result.settings)},
+              {"lights", {{"total", result.lights_total}, {"in_view", result.lights_in_view}}},
+              {"frame_ms", to_json(result.frame_ms)},
+              {"passes", passes},
+              {"memory_bytes", memory_json(result)},
+              {"pairs", result.pairs ? to_json(*result.pairs) : json()},
+              {"error", result.error ? to_json(*result.error) : json()},
+              {"nan_pixels", result.nan_pixels},
+              {"inf_pixels", result.inf_pixels},
+              {"overflow", result.overflow},
+              {"skipped", skipped}};
+  if (result.moving) out["moving"] = to_json(*result.moving);
+  if (!result.refused.empty()) out["refused"] = result.refused;
+  return out;
+}
+
+json to_json(const CompareReport& report) {
+  json rows = json::array(), reference_errors;
+  for (const auto& row : report.rows) rows.push_back(to_json(row));
+  if (const auto& errors = report.reference_errors) {
+    reference_errors = {{"model", to_json(errors->model)},
+                        {"precision", to_json(errors->precision)},
+                        {"pixels_left_out", errors->pixels_left_out}};
+  }
+  return {{"scene", report.scene},
+          {"size", {report.width, report.height}},
+          {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
+          {"commit", report.commit},
+          {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},
+          {"reference_errors", reference_errors},
+          {"rows", rows}};
+}
+
+std::string json_text(const CompareReport& report) { return json_text(to_json(report)); }
+
+std::string json_text(const RunResult& result) { return json_text(to_json(result)); }
+
+std::string json_text(const json& value) {
+  return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,38 @@
+#include "results/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace lightgrid {
+
+std::string with_commas(uint64_t value) {
+  auto text = std::to_string(value);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(text.begin() + at, ',');
+  return text;
+}
+
+std::string short_number(double value) {
+  if (value >= 100) return with_commas(std::llround(value));
+  return value >= 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
+}
+
+std::string spelled_setting(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return key;
+}
+
+std::string short_scene(const CompareReport& report) {
+  const std::string stem = std::filesystem::path(report.scene).stem().string();
+  return stem.empty() ? report.scene : stem;
+}
+
+std::string view_in_words(const CompareReport& report) {
+  const int lights = report.rows.empty() ? 0 : report.rows.front().lights_total;
+  return fmt::format("{}, {} × {}, {} light{}", short_scene(report), report.width, report.height,
+                     with_commas(lights), lights == 1 ? "" : "s");
+}
+
+}  // namespace lightgrid

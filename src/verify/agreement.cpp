@@ -1,0 +1,311 @@
+// Hard cases of agreement: who reads a grid finds what who wrote it meant.
+#include <algorithm>
+#include <cmath>
+
+#include "reference/position.h"
+#include "shared/light_grid.h"
+#include "shared/slices.h"
+#include "verify/check.h"
+#include "verify/tangent_lights.h"
+
+namespace lightgrid::verify {
+namespace {
+
+CullerOptions options_of(CullTest test) {
+  CullerOptions options;
+  options.cull_test = test;
+  return options;
+}
+
+// A light of almost no size at each pixel's centre: the cell that shading finds for the pixel lists it.
+void pixel_finds_its_tile(Check& c) {
+  const View v = oracle_view(sixty());
+  std::vector<CullLight> lights;
+  for (int y = 0; y < 73; ++y)
+    for (int x = 0; x < 127; ++x)
+      lights.push_back(point({view_x_of_pixel(v, x + 0.5) * 5, view_y_of_pixel(v, y + 0.5) * 5, -5}, 1e-6));
+  for (const CullerOptions& options : c.every_tile()) {
+    const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{5, 5}}, options);
+    for (uint y = 0; y < 73; ++y) {
+      for (uint x = 0; x < 127; ++x) {
+        const auto list = list_of(grid, cell_of_pixel(x, y, uint(options.tile), uint(grid.cells_x)));
+        c.trials(1);
+        if (!std::binary_search(list.begin(), list.end(), y * 127 + x)) c.lost("tile {}: pixel {} {}", options.tile, x, y);
+      }
+    }
+  }
+}
+
+void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const char* what) {
+  if (!c.that(inner.cells.size() == outer.cells.size(), "{}: {} and {} cells", what, inner.cells.size(), outer.cells.size())) return;
+  for (size_t i = 0; i < inner.cells.size(); ++i) {
+    const auto a = list_of(inner, i), b = list_of(outer, i);
+    c.that(std::includes(b.begin(), b.end(), a.begin(), a.end()), "{}: cell {} lists more", what, i);
+  }
+}
+
+// A test made of two lists what both list, and no more.
+void tests_are_nested(Check& c) {
+  for (const NamedView& named : hard_views(127, 73)) {
+    const OverTiles over = scattered_over_tiles(named.view, 300, true, 51);
+    const auto grid_by = [&](CullTest test) { return c.grid(named.view, over.lights, over.bounds, {options_of(test)}); };
+    const HostGrid both = grid_by(CullTest::planes_aabb);
+    for (const CullTest test : {CullTest::planes, CullTest::aabb})
+      expect_subset(c, both, grid_by(test), "planes+aabb within one of the two");
+    expect_subset(c, grid_by(CullTest::exact), both, "exact within planes+aabb");
+  }
+}
+
+// Of spheres: a cone is tested against the sphere around a cell's box, and that of a part may stick out of the whole's.
+void bounds_are_nested(Check& c) {
+  for (const NamedView& named : hard_views(63, 41)) {
+    const OverDepth over = scattered_over_depth(named.view, 300, false, 52);
+    const auto grid_by = [&](DepthBoundsMode mode) {
+      CullerOptions options;
+      options.depth_bounds = mode;
+      return c.pixels(named.view, over.lights, over.depth, {options});
+    };
+    const HostGrid minmax = grid_by(DepthBoundsMode::minmax);
+    expect_subset(c, minmax, grid_by(DepthBoundsMode::none), "min/max within none");
+    for (const DepthBoundsMode mode : {DepthBoundsMode::halfz, DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32})
+      expect_subset(c, grid_by(mode), minmax, "tighter bounds within min/max");
+  }
+}
+
+void narrower_intervals_list_less(Check& c) {
+  Random random(53);
+  const auto lights = scattered_lights(sixty(), 300, false, random);
+  HostGrid outer = c.grid(sixty(), lights, {every_distance});
+  for (const DepthInterval b : {DepthInterval{1, 50}, DepthInterval{3, 20}, DepthInterval{5, 6}, DepthInterval{5.5, 5.5}}) {
+    const HostGrid inner = c.grid(sixty(), lights, {b});
+    expect_subset(c, inner, outer, "a narrower interval within a wider one");
+    outer = inner;
+  }
+}
+
+void larger_lights_list_more(Check& c) {
+  auto [bounds, lights] = scattered_over_tiles(sixty(), 300, true, 54);
+  HostGrid inner = c.grid(sixty(), lights, bounds);
+  for (int i = 0; i < 4; ++i) {
+    for (CullLight& light : lights) light.radius_m *= i % 2 ? 2 : 1 + 1e-6;
+    const HostGrid outer = c.grid(sixty(), lights, bounds);
+    expect_subset(c, inner, outer, "the lists of smaller lights within those of larger ones");
+    inner = outer;
+  }
+}
+
+void whole_pixels_hold_centres(Check& c) {
+  for (const NamedView& named : hard_views(127, 73)) {
+    const auto [bounds, lights] = tangent_over_tiles(named.view, 300, Contact::any, 55);
+    CullerOptions whole, centres;
+    whole.pixel_centres = false;
+    const HostGrid outer = c.grid(named.view, lights, bounds, {whole});
+    expect_subset(c, c.grid(named.view, lights, bounds, {centres}), outer, "centres within whole pixels");
+  }
+}
+
+void portable_form(Check& c) {
+  for (const NamedView& named : hard_views(127, 73)) {
+    const auto [bounds, lights] = scattered_over_tiles(named.view, 300, true, 56);
+    for (CullerOptions options : c.every_test()) {
+      const HostGrid tuned = c.grid(named.view, lights, bounds, {options});
+      options.portable = true;
+      c.that(tuned == c.grid(named.view, lights, bounds, {options}), "{}: {}: the portable form differs",
+             named.name, to_string(options));
+    }
+  }
+}
+
+CullView sliced(CullView view, int slices) {
+  for (int i = 1; i < slices; ++i) view.slice_edges.push_back(float(0.3 * std::exp2(i * 8.0 / slices)));
+  return view;
+}
+
+// 32 slices in a box, and before an eye with reversed and standard depth.
+std::vector<CullView> sliced_views() {
+  CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 48, 32);
+  for (int i = 1; i < 32; ++i) box.slice_edges.push_back(float(4 * i));
+  const CullView standard = view_through({.near = 0.1, .far = 1000, .order = DepthOrder::standard}, 48, 32);
+  return {box, sliced(field_of_view(60, 48, 32), 32), sliced(standard, 32)};
+}
+
+// Surfaces on the edges and some `step`s of depth to either side, each with a light of almost no size at its place and
+// two that just reach it along the view axis, where slices part.
+struct OnEdges {
+  DepthImage depth;
+  std::vector<CullLight> lights;
+};
+void add_lights(const CullView& view, OnEdges& on) {
+  for (const CullLight& at : lights_at_surfaces(view, on.depth, 1e-6)) {
+    on.lights.push_back(at);
+    const double r = 0.01 * std::max(0.01, -at.position.z);
+    for (const double side : {-1.0, 1.0})
+      on.lights.push_back(point(at.position + glm::dvec3(0, 0, side * r), r * (1 + 0x1p-30)));
+  }
+}
+
+OnEdges on_edges(const CullView& view, const std::vector<float>& edges) {
+  OnEdges on;
+  for (int i = 0; i < view.width * view.height; ++i) {
+    float value = float(depth_at(view, edges[size_t(i) % edges.size()]));
+    if (i % 3) value = std::nextafter(value, i % 3 == 1 ? 0.0f : 1.0f);
+    on.depth.values.push_back(value);
+  }
+  add_lights(view, on);
+  return on;
+}
+
+// The same rounded to a format: the surfaces' own distances are up to half a step off what the buffer says.
+OnEdges on_edges_of_format(const CullView& view, const std::vector<float>& edges, double steps) {
+  Random random(60);
+  OnEdges on;
+  for (int i = 0; i < view.width * view.height; ++i) {
+    const double exact = depth_at(view, edges[size_t(i) % edges.size()]) + random.uniform(-1, 1) / steps;
+    const double depth = std::clamp(exact, 1 / steps, 1 - 1 / steps);
+    on.depth.distances.push_back(distance_at(view, depth));
+    on.depth.values.push_back(float(std::round(depth * steps) / steps));
+  }
+  add_lights(view, on);
+  return on;
+}
+
+// On the edges as floats keep depth, and as D24 and D16 do.
+void on_edges_of_every_format(Check& c, const CullView& view, const std::vector<float>& edges,
+                              const std::vector<CullerOptions>& settings) {
+  const OnEdges in_floats = on_edges(view, edges);
+  c.pixels(view, in_floats.lights, in_floats.depth, settings);
+  for (const auto& [format, steps] : {std::pair(DepthFormat::d24, 16777215.0), {DepthFormat::d16, 65535.0}}) {
+    CullerOptions options;
+    options.depth_format = format;
+    const OnEdges on = on_edges_of_format(view, edges, steps);
+    c.pixels(view, on.lights, on.depth, {options});
+  }
+}
+
+void on_slice_edges(Check& c) {
+  for (const CullView& view : sliced_views()) on_edges_of_every_format(c, view, view.slice_edges, c.every_test());
+}
+
+CullView with_z_bins(CullView view) {
+  view.z_bin_edges = std::move(view.slice_edges);
+  view.slice_edges.clear();
+  return view;
+}
+
+void on_z_bin_edges(Check& c) {
+  for (const CullView& sliced_view : sliced_views()) {
+    const CullView view = with_z_bins(sliced_view);
+    on_edges_of_every_format(c, view, view.z_bin_edges, {CullerOptions{}});
+  }
+}
+
+// No bin holds a light that reaches none of its distances. A step of `more` is given to roundings.
+void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLight>& lights, const HostGrid& grid) {
+  const std::vector<TrueLight> truth = true_lights(view, lights);
+  const std::vector<float>& edges = view.z_bin_edges;
+  if (!c.that(grid.z_bins.size() == lights.size(), "{} words of z-bins", grid.z_bins.size())) return;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const glm::dvec3& p = truth[i].position;
+    const double r = truth[i].radius, d = -p.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
+    for (size_t bin = 0; bin <= edges.size(); ++bin) {
+      if (!bins_hold(grid.z_bins[i], uint(bin))) continue;
+      const double near = bin > 0 ? edges[bin - 1] : -no_end, far = bin < edges.size() ? edges[bin] : no_end;
+      // What a depth's rounding moves the bin's ends by.
+      const auto step = [&](double edge) {
+        const double depth = depth_at(view, edge);
+        return std::isfinite(edge) ? std::abs(distance_at(view, depth + 0x1p-24 * std::abs(depth)) - edge) : 0.0;
+      };
+      const double more = step(near) + step(far) + 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * truth[i].place_error;
+      c.that(!truth[i].lists_nothing && d + r >= near - more && d - r <= far + more,
+             "bin {} from {} to {} holds a light from {} to {}", bin, near, far, d - r, d + r);
+    }
+  }
+}
+
+// Lights across the near plane, behind the eye, around it, past the last edge, in every bin, without end and of no size.
+void z_bins_of_lights(Check& c) {
+  uint64_t seed = 590;
+  for (NamedView named : hard_views(64, 48)) {
+    CullView& view = named.view;
+    view.z_bin_edges = {0.3f, 0.5f, 1, 1, 2, 3, 5, 7, 10, 20};
+    auto [depth, lights] = scattered_over_depth(view, 300, true, seed++);
+    std::vector<CullLight> axial;
+    for (const double d : {-3.0, -0.5, 0.0, 0.05, 0.1, 0.3, 1.0, 6.0, 99.0, 100.0, 1000.0})
+      for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0}) axial.push_back(point({0, 0, -d}, r));
+    move_to_world(view, axial);
+    lights.insert(lights.end(), axial.begin(), axial.end());
+    expect_tight_bins(c, view, lights, c.pixels(view, lights, depth, {CullerOptions{}}));
+  }
+}
+
+// Together the slices list for a tile what one slice lists for it.
+void slices_make_the_whole(Check& c) {
+  Random random(57);
+  const auto lights = scattered_lights(sixty(), 300, false, random);
+  const HostGrid whole = c.grid(sixty(), lights, {every_distance});
+  for (const int slices : {2, 3, 16, 64}) {
+    const CullView view = sliced(sixty(), slices);
+    const HostGrid grid = c.grid(view, lights, {every_distance});
+    const size_t tiles = whole.cells.size();
+    if (!c.that(grid.cells.size() == tiles * slices, "{} cells", grid.cells.size())) return;
+    for (size_t i = 0; i < tiles; ++i) {
+      for (int slice = 0; slice < slices; ++slice) {
+        const auto part = list_of(grid, i + slice * tiles), all = list_of(whole, i);
+        c.that(std::includes(all.begin(), all.end(), part.begin(), part.end()), "slice {} of tile {} lists more", slice, i);
+      }
+    }
+  }
+}
+
+void slices_and_bounds(Check& c) {
+  const CullView view = sliced(sixty(), 24);
+  const OverTiles tiles = scattered_over_tiles(view, 200, true, 58);
+  c.grid(view, tiles.lights, tiles.bounds);
+  const OverDepth surfaces = scattered_over_depth(view, 200, true, 59);
+  c.pixels(view, surfaces.lights, surfaces.depth, c.every_test());
+}
+
+}  // namespace
+
+std::vector<HardCase> agreement_cases() {
+  const char* g = "agreement";
+  return {
+      {g, "pixel_finds_its_tile", "a tiny light at each pixel's centre, in every tile size", "shading rounds the tile otherwise than culling",
+       "the cell that shading finds lists it", pixel_finds_its_tile},
+      {g, "on_slice_edges", "surfaces on slice edges and a step beside, reversed and standard, D32F, D24, D16; lights that just reach them",
+       "a second log() in the shader: 0.7 to 85 in a million differ", "the slice that shading finds by the stored depth lists the light",
+       on_slice_edges},
+      {g, "on_z_bin_edges", "the same on the edges of z-bins",
+       "bins of lights and of pixels round otherwise", "the pixel's bin holds the light", on_z_bin_edges},
+      {g, "z_bins_of_lights", "lights across near, behind, past the last edge, endless, of no size, in every view",
+       "a light in the bin of its centre alone; a last bin that ends", "every lit pixel's bin holds the light, no bin one that is out of it",
+       z_bins_of_lights},
+      {g, "slices_make_the_whole", "2 to 64 slices against one", "gaps between slices", "nothing lost; no slice lists more than the whole",
+       slices_make_the_whole},
+      {g, "slices_and_bounds", "slices cut by depth bounds", "the slice's end wins over the surface's", "nothing lost", slices_and_bounds},
+      {g, "tests_are_nested", "every cull test over the same cells", "one form of a shared test drifts from the other",
+       "exact ⊆ planes+aabb ⊆ planes, aabb", tests_are_nested},
+      {g, "bounds_are_nested", "every depth-bounds mode over the same depth", "a mask that widens", "mask, half-z ⊆ min/max ⊆ none",
+       bounds_are_nested},
+      {g, "narrower_intervals_list_less", "intervals within each other", "a comparison turned round", "lists within each other",
+       narrower_intervals_list_less},
+      {g, "larger_lights_list_more", "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone", "lists within each other",
+       larger_lights_list_more},
+      {g, "whole_pixels_hold_centres", "cells to pixels' edges and to their centres", "half a pixel to the wrong side",
+       "centres' lists within whole pixels'", whole_pixels_hold_centres},
+      {g, "portable_form", "with and without one CPU's builtins", "the faster form rounds otherwise", "the same bytes", portable_form},
+  };
+}
+
+const std::vector<HardCase>& hard_cases() {
+  static const std::vector<HardCase> all = [] {
+    std::vector<HardCase> cases;
+    for (const auto& group : {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
+                              light_cases(), light_place_cases(), list_cases(), agreement_cases()})
+      cases.insert(cases.end(), group.begin(), group.end());
+    return cases;
+  }();
+  return all;
+}
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,92 @@
+// What hard cases ask with, and where the answers are counted. Each question is a sandwich: what is certainly in must
+// be listed, what is listed must be possibly in; and on the library bytes must be equal in both kernel shapes and
+// in every run.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "verify/hard_case.h"
+#include "verify/truth.h"
+
+namespace lightgrid::verify {
+
+class Check {
+ public:
+  Check(CullEngine& engine, uint64_t adversarial_lights) : engine(engine), adversarial_lights(adversarial_lights) {}
+
+  CullEngine& engine;
+  const uint64_t adversarial_lights;  // how many tangent lights the bulk case makes
+
+  // Every cull test at one tile size.
+  std::vector<CullerOptions> every_test(int tile = 16) const;
+  // The default cull test in every tile size.
+  std::vector<CullerOptions> every_tile() const;
+
+  // The lists of these lights over given bounds (one a tile, or one for all), under each of `settings`; returns the first.
+  HostGrid grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds,
+                const std::vector<CullerOptions>& settings);
+  HostGrid grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds) {
+    return grid(view, lights, std::move(bounds), every_test());
+  }
+
+  // The same without the oracle: for sizes at which it would take minutes, with an answer known by other means.
+  HostGrid grid_of_known_answer(const CullView& view, const std::vector<CullLight>& lights,
+                                std::vector<DepthInterval> bounds, const CullerOptions& options);
+
+  // Depth bounds against a plain scan in double: they hold every surface and, with `tight`, little more.
+  std::vector<DepthInterval> bounds(const CullView& view, const DepthImage& depth, const CullerOptions& options,
+                                 bool tight = true);
+
+  // From depth to lists: every light that lights a pixel's surface, at the pixel's centre, is in the list that shading
+  // reads for it (its slice and z-bin found from the stored depth, as shared/slices.h does), and held by its z-bin where
+  // the view has some. Where `depth` knows the surfaces' distances these count, not what its values say. Returns the
+  // first setting's grid.
+  HostGrid pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
+                  const std::vector<CullerOptions>& settings);
+
+  // The kernels' raw bounds and grid have the bytes of the float twin (float_twin.h), in both shapes. Asks nothing of what
+  // is not the library.
+  void same_as_twin(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
+                    const CullerOptions& options, bool blend = false);
+
+  // Anything else that must hold: one trial.
+  template <typename... Args>
+  bool that(bool holds, fmt::format_string<Args...> format, Args&&... args) {
+    ++outcome_.trials;
+    if (!holds) fail(fmt::format(format, std::forward<Args>(args)...));
+    return holds;
+  }
+  template <typename... Args>
+  void lost(fmt::format_string<Args...> format, Args&&... args) {
+    lost_pairs(1, format, std::forward<Args>(args)...);
+  }
+  template <typename... Args>
+  void lost_pairs(uint64_t pairs, fmt::format_string<Args...> format, Args&&... args) {
+    outcome_.lost += pairs;
+    fail(fmt::format(format, std::forward<Args>(args)...));
+  }
+  void contacts(uint64_t more) { outcome_.contacts += more; }
+  void trials(uint64_t more) { outcome_.trials += more; }
+  void fail(const std::string& why);
+  void skip(const std::string& why);
+
+  Outcome outcome() const;
+
+ private:
+  std::vector<CullerOptions> in_both_shapes(const CullerOptions& options) const;
+  HostGrid same_in_every_way(const CullView& view, const std::vector<CullLight>& lights,
+                             const std::vector<DepthInterval>& bounds, const CullerOptions& options);
+  void hold_between(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,
+                    const Touching& touching, const CullerOptions& options, const HostGrid& grid, bool counts);
+
+  Outcome outcome_;
+  uint64_t listed_ = 0, touching_ = 0;  // under the first settings asked for
+};
+
+std::string to_string(const CullerOptions& options);
+std::span<const uint32_t> list_of(const HostGrid& grid, size_t cell);
+
+// Empty, or what is wrong: lists lie side by side without gap or overlap, are sorted and name lights that there are.
+std::string malformed(const HostGrid& grid, size_t lights);
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,95 @@
+#include <map>
+#include <tuple>
+
+#include "cl/transfer.h"
+#include "culling/cull_pipeline.h"
+#include "culling/light_culler.h"
+#include "verify/engine.h"
+
+namespace lightgrid::verify {
+namespace {
+
+// With its number where another device has the same name.
+std::string name_of_device(const std::string& substring) {
+  const std::vector<ClDeviceInfo> devices = list_cl_devices();
+  const size_t chosen = choose_cl_device(devices, substring);
+  const auto name = [&](size_t i) { return devices[i].platform + " " + devices[i].name; };
+  for (size_t i = 0; i < devices.size(); ++i) {
+    if (i != chosen && name(i) == name(chosen)) return name(chosen) + " #" + std::to_string(chosen);
+  }
+  return name(chosen);
+}
+
+class DeviceEngine : public CullEngine {
+ public:
+  explicit DeviceEngine(const std::string& substring)
+      : device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
+
+  std::string name() const override { return name_; }
+  bool is_the_library() const override { return true; }
+
+  HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                std::span<const DepthInterval> bounds) override {
+    LightCuller& culler = culler_of(options, view);
+    culler.set_lights(lights);
+    return read_grid(device_, culler.cull(culler.bounds_of(bounds), storage_), storage_);
+  }
+
+  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view, const DepthImage& depth,
+                                       bool blend) override {
+    LightCuller& culler = culler_of(options, view, depth.samples);
+    return culler.read_bounds(bounds_from(culler, depth, blend));
+  }
+
+  HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                      const DepthImage& depth, bool blend) override {
+    LightCuller& culler = culler_of(options, view, depth.samples);
+    culler.set_lights(lights);
+    return read_grid(device_, culler.cull(bounds_from(culler, depth, blend), storage_), storage_);
+  }
+
+  std::optional<KernelRun> kernel_run(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                                      const DepthImage& depth, bool blend) override {
+    LightCuller& culler = culler_of(options, view, depth.samples);
+    culler.set_lights(lights);
+    const TileBounds bounds = bounds_from(culler, depth, blend);
+    HostGrid grid = read_grid(device_, culler.cull(bounds, storage_), storage_);
+    return KernelRun{culler.read_inputs(bounds), std::move(grid)};
+  }
+
+ private:
+  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int, GridLists>;
+  static constexpr size_t most_cullers = 64;  // each has buffers of its own
+
+  LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
+    o.samples = samples;
+    const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend, o.index_bits, o.portable,
+                  o.pixel_centres, o.group_size, o.lists);
+    if (cullers_.size() >= most_cullers && !cullers_.contains(key)) cullers_.clear();
+    auto& culler = cullers_[key];
+    if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
+    culler->set_view(view);
+    return *culler;
+  }
+
+  TileBounds bounds_from(LightCuller& culler, const DepthImage& depth, bool blend) {
+    DepthInput input{.row_pixels = depth.row_pixels, .x = depth.x, .y = depth.y};
+    const size_t bytes = depth.values.size() * sizeof(float);
+    input.values = device_buffer(device_, bytes);
+    write_buffer(device_, "depth", input.values, depth.values.data(), bytes);
+    const DepthBounds bounds = culler.depth_bounds(input);
+    return blend ? bounds.blend : bounds.opaque;
+  }
+
+  ClDevice device_;
+  ProgramCache programs_;
+  ClGridStorage storage_;
+  std::string name_;
+  std::map<Key, std::unique_ptr<LightCuller>> cullers_;
+};
+
+}  // namespace
+
+std::unique_ptr<CullEngine> device_engine(const std::string& substring) { return std::make_unique<DeviceEngine>(substring); }
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,170 @@
+#include "verify/hunt.h"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <regex>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "verify/hunt_losses.h"
+#include "verify/hunt_save.h"
+
+namespace lightgrid::verify {
+namespace {
+
+constexpr int views_a_setting = 8;      // of each class, since a setting may have kernels to build
+constexpr int most_saved = 3;      // of each class
+constexpr size_t lights_in_both = 4096;  // a view's, where the other shape is slow
+
+std::vector<HuntClass> chosen_classes(const std::string& filter) {
+  std::vector<HuntClass> chosen;
+  try {
+    const std::regex pattern(filter);
+    for (int i = 0; i < hunt_class_count; ++i) {
+      if (std::regex_search(name_of(HuntClass(i)), pattern)) chosen.push_back(HuntClass(i));
+    }
+  } catch (const std::regex_error&) {
+    throw input_error("--filter: \"{}\" is no regular expression", filter);
+  }
+  if (chosen.empty()) throw input_error("--filter: no class of the hunt holds \"{}\"; names are like wide or off_centre", filter);
+  return chosen;
+}
+
+class Hunt {
+ public:
+  Hunt(CullEngine& engine, const HuntOptions& options) : engine_(engine), options_(options) {
+    report_.device = engine.name(), report_.seed = options.seed;
+    for (const HuntClass hunted : chosen_classes(options.filter)) {
+      classes_.push_back(hunted), report_.classes.push_back({.name = name_of(hunted)});
+    }
+    saved_.resize(classes_.size()), cpu_ns_.resize(classes_.size());
+  }
+
+  HuntReport run() {
+    for (uint64_t round = 0; !done(); ++round) {
+      Random random(Random::mix(options_.seed) + round);
+      HuntSetting setting = random_setting(random, options_.few_settings);
+      for (size_t i = 0; i < views_a_setting * classes_.size() && !done(); ++i) {
+        vary(setting, random);
+        tell(setting);
+        look(i % classes_.size(), setting, random.next());
+      }
+    }
+    if (options_.progress) options_.progress(1, "done");
+    report_.seconds = timer_.elapsed_ms() / 1000;
+    for (size_t i = 0; i < classes_.size(); ++i) report_.classes[i].cpu_ns_each = spread_of(cpu_ns_[i]).median;
+    return report_;
+  }
+
+ private:
+  double part_done() const {
+    if (options_.contacts) return double(contacts_) / double(options_.contacts);
+    return timer_.elapsed_ms() / 60'000 / options_.minutes;
+  }
+  bool done() const { return part_done() >= 1; }
+
+  void tell(const HuntSetting& setting) const {
+    if (options_.progress) options_.progress(std::min(part_done(), 0.999), to_string(setting));
+  }
+
+  void look(size_t at, HuntSetting setting, uint64_t seed) {
+    HuntTally& tally = report_.classes[at];
+    const Timer timer;
+    const std::clock_t cpu = std::clock();
+    const HuntView view = random_view(classes_[at], setting, seed);
+    setting.options.depth_format = view.format;
+    const size_t count = setting.both_shapes ? std::min(lights_in_both, options_.lights_a_view) : options_.lights_a_view;
+    const HuntLights lights = random_contacts(view, setting, count, Random::mix(seed));
+    ++tally.views;
+    try {
+      ask(tally, saved_[at], view, setting, lights, seed);
+    } catch (const Error& error) {
+      if (tally.refused++ == 0) tally.refusal = error.what();
+    }
+    tally.seconds += timer.elapsed_ms() / 1000;
+    const double cpu_ns = double(std::clock() - cpu) * 1e9 / CLOCKS_PER_SEC;
+    if (!lights.contacts.empty()) cpu_ns_[at].push_back(cpu_ns / double(lights.contacts.size()));
+  }
+
+  void ask(HuntTally& tally, int& saved, const HuntView& view, const HuntSetting& setting, const HuntLights& lights,
+           uint64_t seed) {
+    const std::vector<CullLight> culled = cull_lights(lights.lights);
+    const HostGrid grid = engine_.cull_depth(setting.options, view.view, culled, view.depth);
+    const std::vector<HuntLoss> lost = lost_contacts(view, lights.contacts, setting.options.tile, grid);
+    tally.contacts += lights.contacts.size(), contacts_ += lights.contacts.size();
+    if (setting.both_shapes && engine_.is_the_library()) compare_shapes(tally, view, setting, culled, grid);
+    if (lost.empty()) return;
+    if (tally.lost == 0) tally.why = words(setting, view, lights, lost[0], seed);
+    tally.lost += lost.size();
+    if (options_.save.empty() || saved >= most_saved) return;
+    const ShrunkLoss loss = shrink_loss(engine_, setting.options, view, lights.lights, lost[0]);
+    report_.saved.push_back(save_loss(options_.save, setting, view, loss, seed).string());
+    ++saved;
+  }
+
+  void compare_shapes(HuntTally& tally, const HuntView& view, const HuntSetting& setting, std::span<const CullLight> lights,
+                      const HostGrid& grid) {
+    CullerOptions lanes = setting.options, group = setting.options;
+    lanes.shape = KernelShape::lanes, group.shape = KernelShape::group;
+    for (const CullerOptions& shaped : {lanes, group}) {
+      if (engine_.cull_depth(shaped, view.view, lights, view.depth) == grid) continue;
+      ++tally.shapes_differ;
+      if (tally.why.empty()) tally.why = "lanes and group differ: " + to_string(setting);
+    }
+  }
+
+  static std::string words(const HuntSetting& setting, const HuntView& view, const HuntLights& lights, const HuntLoss& loss,
+                           uint64_t seed) {
+    const HuntContact& c = loss.contact;
+    const Light& light = lights.lights[c.light];
+    const glm::dvec3 p = *position_of(view, c), l = to_view(view.view, light.position);
+    return fmt::format("seed {}, {}: pixel {},{} at {:.9g} {:.9g} {:.9g} lost from its {} the {} at {:.9g} {:.9g} {:.9g} radius {:.9g}",
+                       seed, to_string(setting), c.x, c.y, p.x, p.y, p.z, name_of(loss.from), light.type == LightType::spot ? "spot" : "point", l.x, l.y,
+                       l.z, light.radius_m);
+  }
+
+  CullEngine& engine_;
+  const HuntOptions& options_;
+  const Timer timer_;
+  HuntReport report_;
+  uint64_t contacts_ = 0;
+  std::vector<HuntClass> classes_;
+  std::vector<int> saved_;                   // of each
+  std::vector<std::vector<double>> cpu_ns_;  // of each, a contact: a value a view
+};
+
+}  // namespace
+
+HuntTally HuntReport::total() const {
+  HuntTally sum{.name = "all"};
+  for (const HuntTally& t : classes) {
+    sum.contacts += t.contacts, sum.lost += t.lost, sum.views += t.views, sum.refused += t.refused;
+    sum.shapes_differ += t.shapes_differ, sum.seconds += t.seconds;
+  }
+  return sum;
+}
+
+bool HuntReport::failed() const {
+  const HuntTally sum = total();
+  return sum.lost || sum.refused || sum.shapes_differ;
+}
+
+HuntReport hunt(CullEngine& engine, const HuntOptions& options) { return Hunt(engine, options).run(); }
+
+nlohmann::ordered_json to_json(const HuntReport& report) {
+  const HuntTally sum = report.total();
+  nlohmann::ordered_json json = {{"device", report.device}, {"seed", report.seed},       {"contacts", sum.contacts},
+                                 {"lost", sum.lost},        {"refused", sum.refused},    {"shapes_differ", sum.shapes_differ},
+                                 {"seconds", report.seconds}, {"classes", nlohmann::ordered_json::array()}, {"saved", report.saved}};
+  for (const HuntTally& t : report.classes) {
+    json["classes"].push_back({{"name", t.name}, {"contacts", t.contacts}, {"lost", t.lost}, {"views", t.views},
+                               {"refused", t.refused}, {"shapes_differ", t.shapes_differ}, {"seconds", t.seconds}, {"cpu_ns_each", t.cpu_ns_each}, {"why", t.why},
+                               {"refusal", t.refusal}});
+  }
+  return json;
+}
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,158 @@
+#include "verify/hunt_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "verify/hunt_depth.h"
+
+namespace lightgrid::verify {
+namespace {
+
+using std::numbers::pi;
+constexpr double steepest_half = 1145.9;   // tan(179.9 / 2 degrees)
+constexpr double gentlest_half = 0.0087;   // tan(1 / 2 degree)
+
+struct Size {
+  int width, height;
+};
+constexpr Size sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515}, {128, 128}, {17, 1031}, {480, 272}};
+
+// What a view is put together from: each class sets what it is about.
+struct Plan {
+  double half = 1;  // the steeper of the two half-slopes
+  double off = 0;   // the image's centre, slopes
+  bool orthographic = false, standard = false, finite = false;
+  bool placed = false;
+  double eye_m = 0;
+  double unit_m = 1;
+};
+
+double half_of(double low_deg, double high_deg, Random& random) {
+  return log_between(random, std::tan(low_deg / 2 * pi / 180), std::tan(high_deg / 2 * pi / 180));
+}
+
+Plan mixed_plan(Random& random) {
+  Plan p;
+  p.orthographic = chance(random, 0.25);
+  p.half = p.orthographic ? log_between(random, 1e-4, 1e5) : log_between(random, gentlest_half, steepest_half);
+  p.standard = chance(random, 0.4), p.finite = p.orthographic || chance(random, 0.5);
+  if (chance(random, 0.3)) p.off = between(random, -1, 1) * (p.orthographic ? 100 * p.half : std::min(1000.0, 20 * p.half));
+  p.placed = chance(random, 0.5);
+  p.unit_m = chance(random, 0.5) ? 1 : log_between(random, 1e-12, p.orthographic ? 1e6 : 1e12);
+  p.eye_m = p.unit_m * log_between(random, 1, 1e6);
+  return p;
+}
+
+Plan plan_of(HuntClass hunted, Random& random) {
+  if (hunted == HuntClass::mixed) return mixed_plan(random);
+  Plan p;
+  p.half = half_of(5, 150, random);
+  p.placed = chance(random, 0.5), p.eye_m = log_between(random, 0.1, 1000);
+  const bool of_few_bits = hunted == HuntClass::d16 || hunted == HuntClass::d24;
+  switch (hunted) {
+    case HuntClass::narrow: p.half = half_of(1, 5, random); break;
+    case HuntClass::wide: p.half = half_of(150, 179.9, random); break;
+    case HuntClass::off_centre:
+      p.half = log_between(random, 0.01, 5);
+      p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
+      break;
+    case HuntClass::turned_far: p.placed = true, p.eye_m = log_between(random, 1e3, 1e15); break;
+    case HuntClass::orthographic: p.orthographic = true; break;
+    case HuntClass::standard: p.standard = true, p.finite = chance(random, 0.5); break;
+    case HuntClass::finite_far: p.finite = true; break;
+    case HuntClass::scaled: p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m); break;
+    default: break;
+  }
+  if (of_few_bits) {
+    p.standard = chance(random, 0.5), p.finite = chance(random, 0.5);
+    p.orthographic = chance(random, 0.25);
+  }
+  if (p.orthographic) {
+    p.half = log_between(random, 1e-4, 1e5), p.finite = true;
+    if (chance(random, 0.3)) p.off = between(random, -100, 100) * p.half;
+  }
+  return p;
+}
+
+// How far surfaces may be, as a multiple of near: where the format still tells distances apart.
+double farthest_ratio(DepthFormat format, bool standard) {
+  if (format == DepthFormat::d16) return 0x1p12;
+  if (format == DepthFormat::d24 || standard) return 0x1p19;
+  return 0x1p26;
+}
+
+// Nearest and farthest of the surfaces.
+void choose_range(HuntView& h, const Plan& p, Random& random) {
+  if (p.orthographic) {
+    const double across = p.unit_m * p.half;
+    h.near = chance(random, 0.3) ? 0 : between(random, -20, 5) * across;
+    h.far = h.near + across * log_between(random, 0.01, 100);
+    return;
+  }
+  const double steepest = p.half + std::abs(p.off) + 1, most = hunt_most_m / (4 * steepest);
+  h.near = std::min(p.unit_m * log_between(random, 1e-3, 1), most / 2);
+  h.far = std::min(h.near * log_between(random, 1.2, farthest_ratio(h.format, p.standard)), most);
+}
+
+DepthFormat format_of(HuntClass hunted, Random& random) {
+  if (hunted == HuntClass::d16) return DepthFormat::d16;
+  if (hunted == HuntClass::d24) return DepthFormat::d24;
+  if (hunted != HuntClass::mixed) return DepthFormat::d32f;
+  return one_of(random, {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16});
+}
+
+CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
+  const double aspect = double(size.width) / size.height, metres = p.orthographic ? p.unit_m : 1;
+  Lens lens{.near = h.near, .orthographic = p.orthographic};
+  lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect), lens.half_y = metres * (aspect >= 1 ? p.half / aspect : p.half);
+  lens.shift_x = p.off * metres * (chance(random, 0.8) ? 1 : 0);
+  lens.shift_y = p.off * metres * between(random, -1, 1);
+  lens.order = p.standard ? DepthOrder::standard : DepthOrder::reversed;
+  if (p.finite) lens.far = p.orthographic ? h.near + (h.far - h.near) * between(random, 1.01, 3) : h.far * log_between(random, 1.001, 100);
+  return view_through(lens, size.width, size.height);
+}
+
+void choose_lights_elsewhere(HuntView& h, Random& random) {
+  if (h.hunted == HuntClass::spread || (h.hunted == HuntClass::mixed && chance(random, 0.25))) {
+    h.elsewhere = 0.55;
+    h.elsewhere_m = h.hunted == HuntClass::spread ? log_between(random, 1e3, 1e15) : h.far * log_between(random, 1e3, 1e6);
+    h.elsewhere_radius_m = h.elsewhere_m * 1e-3;
+  }
+  if (h.hunted == HuntClass::parked) {
+    h.elsewhere = one_of(random, {1e-9, 0.5, 0.75});  // the first: a single one
+    h.elsewhere_m = one_of(random, {1e19, 1e30, double(std::numeric_limits<float>::max())});
+    h.elsewhere_radius_m = one_of(random, {0.0, 1.0});
+  }
+}
+
+}  // namespace
+
+const char* name_of(HuntClass hunted) {
+  static constexpr const char* names[] = {"ordinary", "narrow", "wide", "off_centre", "turned_far", "orthographic", "standard",
+                                          "finite_far", "d16", "d24", "scaled", "spread", "parked", "mixed"};
+  static_assert(std::size(names) == hunt_class_count);
+  return names[int(hunted)];
+}
+
+HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed) {
+  Random random(seed);
+  HuntView h{.hunted = hunted};
+  const Plan plan = plan_of(hunted, random);
+  h.format = format_of(hunted, random), h.unit_m = plan.unit_m;
+  choose_range(h, plan, random);
+  h.view = lens_of(h, plan, one_of(random, sizes), random);
+  if (plan.placed) {
+    const double turn = between(random, 0, 2 * pi), tilt = std::asin(between(random, -1, 1));
+    const glm::dvec3 eye(std::cos(turn) * std::cos(tilt), std::sin(tilt), std::sin(turn) * std::cos(tilt));
+    h.view = placed(h.view, eye * plan.eye_m, between(random, -pi, pi), between(random, -1.5, 1.5));
+  }
+  const double last_edge = h.near < hunt_most_edge_m / 2 ? std::min(h.far, hunt_most_edge_m) : 0;
+  if (last_edge > h.near && setting.slices > 1) h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, last_edge);
+  if (last_edge > h.near && setting.z_bins > 1) h.view.z_bin_edges = slice_edges(setting.spacing, setting.z_bins, h.near, last_edge);
+  choose_lights_elsewhere(h, random);
+  h.depth = random_surfaces(h, setting.options.samples, random);
+  return h;
+}
+
+}  // namespace lightgrid::verify

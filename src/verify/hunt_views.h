@@ -1,0 +1,45 @@
+// Random views of every class that the promise of docs/hard_cases.md covers, with surfaces in them.
+#pragma once
+
+#include "verify/hunt_settings.h"
+#include "verify/views.h"
+
+namespace lightgrid::verify {
+
+// What the promise covers (docs/hard_cases.md#the-domain): distances of surfaces, and edges of slices and z-bins, metres.
+constexpr double hunt_least_m = 1e-15, hunt_most_m = 1e15, hunt_most_edge_m = 1e13;
+
+enum class HuntClass {
+  ordinary,      // 5 to 150 degrees, reversed depth without end
+  narrow,        // 1 to 5 degrees
+  wide,          // 150 to 179.9 degrees
+  off_centre,    // slopes up to 100
+  turned_far,    // turned, the eye up to 1e15 m from the origin
+  orthographic,  // 0.1 mm to 100 km across, also behind the eye
+  standard,      // standard depth, with a far plane and without
+  finite_far,    // reversed depth with a far plane
+  d16,
+  d24,           // both depth orders, perspective and orthographic
+  scaled,        // the whole scene by 1e-12 to 1e15
+  spread,        // most lights are 1e3 to 1e15 m away from the surfaces
+  parked,        // one, half or most of the lights at 1e19 m, 1e30 m or FLT_MAX
+  mixed,         // any of the above together
+};
+constexpr int hunt_class_count = int(HuntClass::mixed) + 1;
+const char* name_of(HuntClass hunted);
+
+struct HuntView {
+  HuntClass hunted = HuntClass::ordinary;
+  CullView view;  // slice and z-bin edges included
+  DepthFormat format = DepthFormat::d32f;
+  double near = 0, far = 0;  // metres along the view axis: surfaces lie between the two
+  double unit_m = 1;         // what the scene is scaled by
+  // Lights that lie elsewhere: a share of all, at this distance from the eye, metres; 0: none.
+  double elsewhere = 0, elsewhere_m = 0, elsewhere_radius_m = 0;
+  DepthImage depth;
+};
+
+// The same for the same numbers.
+HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed);
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,262 @@
+// Hard cases of lists: how many lights, in which lists, and where these are kept.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "verify/check.h"
+#include "verify/tangent_lights.h"
+
+namespace lightgrid::verify {
+namespace {
+
+CullView small() { return field_of_view(60, 33, 17); }
+
+CullerOptions tile_of(int tile) {
+  CullerOptions options;
+  options.tile = tile;
+  return options;
+}
+
+// Lights that every tile lists and lights that none does, mixed so that each place of a vector has both.
+void counts(Check& c, std::initializer_list<size_t> numbers) {
+  for (const size_t n : numbers) {
+    const HostGrid all = c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
+    c.that(all.cells.size() == 6, "{} cells", all.cells.size());
+    for (size_t i = 0; i < all.cells.size(); ++i) c.that(all.cells[i].y == n, "tile {} lists {} of {}", i, all.cells[i].y, n);
+    std::vector<CullLight> mixed;
+    std::vector<uint32_t> expected;
+    for (uint32_t i = 0; i < n; ++i) {
+      const bool in = Random::mix(i) % 3 == 0 || i + 1 == n;
+      mixed.push_back(point({0, 0, in ? -5.0 : 500.0}, 100));
+      if (in) expected.push_back(i);
+    }
+    const HostGrid some = c.grid_of_known_answer(small(), mixed, {{4, 6}}, {});
+    for (size_t i = 0; i < some.cells.size(); ++i)
+      c.that(std::ranges::equal(list_of(some, i), expected), "tile {} does not list the {} of {} lights that reach it", i,
+             expected.size(), n);
+  }
+}
+
+void no_lights(Check& c) {
+  const HostGrid grid = c.grid(sixty(), {}, {every_distance});
+  c.that(grid.indices.empty() && grid.cells.size() == 40, "no lights make {} entries", grid.indices.size());
+}
+void light_zero_alone(Check& c) { counts(c, {1}); }
+void around_a_byte(Check& c) { counts(c, {254, 255, 256, 257}); }
+void around_16_bits(Check& c) { counts(c, {65534, 65535, 65536, 65537}); }
+void around_lanes(Check& c) { counts(c, {2, 3, 7, 8, 9, 15, 16, 17, 31, 32, 33, 47, 48, 49}); }
+void around_groups(Check& c) { counts(c, {63, 64, 65, 127, 128, 129}); }
+void around_batches(Check& c) { counts(c, {511, 512, 513, 1023, 1024, 1025, 2047, 2048, 2049, 4095, 4096, 4097}); }
+
+// Every number from 0 to 70 as the length of one list.
+void each_length(Check& c) {
+  for (size_t n = 0; n <= 70; ++n) {
+    const HostGrid grid = c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
+    c.that(grid.indices.size() == 6 * n, "{} lights make {} entries in 6 lists", n, grid.indices.size());
+  }
+}
+
+void none_in_view(Check& c) {
+  std::vector<CullLight> lights;
+  for (int i = 0; i < 3000; ++i) lights.push_back(point({i % 10, i % 7, 5 + i % 100}, 1));
+  c.that(c.grid(sixty(), lights, {{1, 100}}).indices.empty(), "lights behind the eye are listed");
+}
+
+void only_the_last(Check& c) {
+  std::vector<CullLight> lights(5000, point({0, 0, 500}, 1));
+  lights.back() = point({0, 0, -5}, 100);
+  const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{4, 6}}, {});
+  for (size_t i = 0; i < grid.cells.size(); ++i)
+    c.that(grid.cells[i].y == 1 && grid.indices[grid.cells[i].x] == 4999, "tile {} lists {}", i, grid.cells[i].y);
+}
+
+void all_in_one_tile(Check& c) {
+  const Cell cell = cell_of(sixty(), 16, 13, {4, 4}, true);
+  const glm::dvec3 middle((cell.x0 + cell.x1) * 2, (cell.y0 + cell.y1) * 2, -4);
+  const HostGrid grid = c.grid(sixty(), std::vector<CullLight>(3000, point(middle, 0.01)), {{4, 4}}, {tile_of(16)});
+  for (size_t i = 0; i < grid.cells.size(); ++i)
+    c.that(grid.cells[i].y == (i == 13 ? 3000u : 0u), "tile {} lists {}", i, grid.cells[i].y);
+}
+
+void first_and_last_tile(Check& c) {
+  const CullView view = field_of_view(60, 1300, 700);
+  for (const CullerOptions& options : c.every_tile()) {
+    const size_t tiles = tile_count(view, options.tile);
+    std::vector<CullLight> lights;
+    for (const size_t tile : {size_t(0), tiles - 1}) {
+      const Cell cell = cell_of(view, options.tile, tile, {4, 4}, true);
+      lights.push_back(point({(cell.x0 + cell.x1) * 2, (cell.y0 + cell.y1) * 2, -4}, 1e-4));
+    }
+    const HostGrid grid = c.grid(view, lights, {{4, 4}}, {options});
+    for (size_t i = 0; i < grid.cells.size(); ++i)
+      c.that(grid.cells[i].y == (i == 0 || i + 1 == tiles ? 1u : 0u), "tile {} of {} lists {}", i, tiles, grid.cells[i].y);
+  }
+}
+
+// Images that end one tile before, at and after the edge of a bin of tiles.
+void around_bins(Check& c) {
+  for (const int tiles : {7, 8, 9, 31, 32, 33, 63, 64, 65}) {
+    const CullView view = field_of_view(60, tiles * 8, 17);
+    Random random(41);
+    c.grid(view, scattered_lights(view, 60, true, random), scattered_bounds(view, 8, random), {tile_of(8)});
+  }
+}
+
+void longer_than_expected(Check& c) {
+  const CullView view = field_of_view(60, 321, 181);
+  const size_t tiles = tile_count(view, 8);
+  const HostGrid grid = c.grid_of_known_answer(view, std::vector<CullLight>(2000, point({0, 0, -5}, no_end)), {{1, 9}}, tile_of(8));
+  c.that(grid.indices.size() == tiles * 2000, "{} entries of {}", grid.indices.size(), tiles * 2000);
+  for (size_t i = 0; i < grid.cells.size(); ++i) c.that(grid.cells[i].y == 2000, "tile {} lists {}", i, grid.cells[i].y);
+}
+
+void other_sizes_between(Check& c) {
+  Random random(42);
+  const CullView large = field_of_view(60, 301, 211), tiny = field_of_view(60, 5, 3);
+  const auto few = scattered_lights(sixty(), 20, true, random), many = scattered_lights(sixty(), 900, true, random);
+  const HostGrid first = c.grid(sixty(), few, {{1, 30}}, {tile_of(16)});
+  c.grid(large, many, {{1, 30}}, {tile_of(16)});
+  c.grid(tiny, {}, {{1, 30}}, {tile_of(16)});
+  c.grid(tiny, many, {{1, 30}}, {tile_of(16)});
+  c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}), "what came between changes the grid");
+}
+
+// Enough tiles for many work-groups, which finish in another order each time; between two runs another frame.
+void hundred_runs(Check& c) {
+  const CullView view = field_of_view(60, 640, 360);
+  Random random(43);
+  const auto bounds = scattered_bounds(view, 16, random);
+  const auto lights = scattered_lights(view, 500, true, random);
+  CullerOptions options;
+  const HostGrid first = c.grid(view, lights, bounds, {options});
+  for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+    options.shape = shape;
+    for (int run = 0; run < 100; ++run) {
+      if (run % 10 == 9) c.engine.cull(options, sixty(), {lights.data(), size_t(5 * run)}, {bounds.data(), tile_count(sixty(), 16)});
+      c.that(first == c.engine.cull(options, view, lights, bounds), "run {} gives another grid", run);
+    }
+  }
+}
+
+void turned_round(Check& c) {  // the lights in another order: the same lights in each list
+  Random random(44);
+  const auto bounds = scattered_bounds(sixty(), 16, random);
+  auto lights = scattered_lights(sixty(), 333, true, random);
+  const HostGrid forward = c.grid(sixty(), lights, bounds);
+  std::reverse(lights.begin(), lights.end());
+  const HostGrid backward = c.grid(sixty(), lights, bounds);
+  for (size_t i = 0; i < forward.cells.size(); ++i) {
+    std::vector<uint32_t> turned(list_of(backward, i).begin(), list_of(backward, i).end());
+    std::reverse(turned.begin(), turned.end());
+    for (uint32_t& light : turned) light = uint32_t(lights.size()) - 1 - light;
+    c.that(std::ranges::equal(turned, list_of(forward, i)), "tile {}'s list depends on the order of the lights", i);
+  }
+}
+
+void in_32_bits(Check& c) {
+  Random random(45);
+  const auto bounds = scattered_bounds(sixty(), 16, random);
+  const auto lights = scattered_lights(sixty(), 300, true, random);
+  CullerOptions narrow, wide;
+  narrow.index_bits = 16, wide.index_bits = 32;
+  c.that(c.grid(sixty(), lights, bounds, {narrow}) == c.grid(sixty(), lights, bounds, {wide}),
+         "16- and 32-bit lists differ");
+}
+
+// A full list, and after it one that begins past 65,536 entries.
+void lists_past_16_bits(Check& c) {
+  const HostGrid grid = c.grid_of_known_answer(sixty(), std::vector<CullLight>(4000, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
+  for (size_t i = 0; i < grid.cells.size(); ++i)
+c.that(grid.cells[i].y == 4000 && grid.cells[i].x % 4000 == 0, "list {} is {} from {}", i, grid.cells[i].y, grid.cells[i].x);
+}
+
+// 64 slices and tiles of 8: 58,880 cells, each with its own list.
+void many_cells(Check& c) {
+  CullView view = field_of_view(60, 320, 180);
+  for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
+  Random random(46);
+  c.grid(view, scattered_lights(view, 60, true, random), {every_distance}, {tile_of(8)});
+}
+
+// 16 tiles x 64 slices x 2^22 lights that reach everywhere: 2^32 entries in the one block of tiles that there is.
+void past_32_bits(Check& c) {
+  CullView view = field_of_view(60, 32, 32);
+  for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
+  const std::vector<CullLight> lights(size_t(1) << 22, point({0, 0, -5}, no_end));
+  // The device's own shape: the other one takes minutes for that many tests.
+  const CullerOptions options = tile_of(8);
+  const std::vector<DepthInterval> bounds(tile_count(view, 8), every_distance);
+  try {
+    const HostGrid grid = c.engine.cull(options, view, lights, bounds);
+    c.that(grid.indices.size() == grid.cells.size() * lights.size(), "{} of 2^32 entries", grid.indices.size());
+  } catch (const Error& error) {
+    c.that(error.kind() == ErrorKind::machine, "{}", error.what());
+  }
+}
+
+// Lights tangent to the very cells, where a coarse step's rounding could drop what the fine one keeps. Every test in
+// slices, every kind of bounds without, in half of the views each; tile sizes by turns.
+void float_twin(Check& c) {
+  Random random(47);
+  int turn = 0;
+  for (NamedView named : hard_views(127, 73)) {
+    const bool slices = turn++ % 2;
+    if (slices) named.view.slice_edges = {0.5f, 1, 2, 5, 10, 30};
+    const DepthImage depth = scattered_depth(named.view, random);
+    for (int i = 0; i < 5; ++i) {
+      CullerOptions options = tile_of(8 << (i + turn) % 4);
+      if (slices) options.cull_test = CullTest(i);
+      else options.depth_bounds = DepthBoundsMode(i);
+      if (i == 4) options.cull_test = CullTest::exact;
+      const auto bounds = c.engine.depth_bounds(options, named.view, depth);
+      auto lights = scattered_lights(named.view, 100, true, random);
+      for (const auto& more : {tangent_lights(named.view, bounds, options.tile, 150, Contact::any, 1, random),
+                               tangent_spots(named.view, bounds, options.tile, 100, random)})
+        lights.insert(lights.end(), more.begin(), more.end());
+      move_to_world(named.view, lights);
+      if (i == turn % 5) c.pixels(named.view, lights, depth, {options});
+      c.same_as_twin(named.view, lights, depth, options);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<HardCase> list_cases() {
+  const char* g = "lists";
+  return {
+      {g, "no_lights", "0 lights", "buffers of no size", "every list empty", no_lights},
+      {g, "light_zero_alone", "1 light", "index 0 stands for none", "light 0 is listed", light_zero_alone},
+      {g, "around_a_byte", "254 to 257 lights in a list", "an 8-bit count wraps to 0 (Bevy #3916)", "every light that reaches", around_a_byte},
+      {g, "around_16_bits", "65,534 to 65,537", "16-bit counts and indices wrap", "every light that reaches", around_16_bits},
+      {g, "around_lanes", "2 … 49: around multiples of 8 and 16", "the last vector's empty lanes are lights", "every light that reaches",
+       around_lanes},
+      {g, "around_groups", "around 64 and 128", "items past the end", "every light that reaches", around_groups},
+      {g, "around_batches", "around 512 … 4096", "shared memory overwritten while read; capacities", "every light that reaches",
+       around_batches},
+      {g, "each_length", "0, 1, 2, … 70 lights", "one length that no power of two is near", "every list of that length", each_length},
+      {g, "none_in_view", "3000 lights behind the eye", "an empty frame divides by its count", "every list empty", none_in_view},
+      {g, "only_the_last", "5000 lights, only the last in view", "the last batch is cut", "it is listed", only_the_last},
+      {g, "all_in_one_tile", "3000 lights in one tile", "a capacity a tile", "all of them there, none beside", all_in_one_tile},
+      {g, "first_and_last_tile", "one light in each", "offsets off by one", "one entry each, none elsewhere", first_and_last_tile},
+      {g, "around_bins", "7, 8, 9, 31, … 65 tiles across", "the last bin's tiles are cut or doubled", "nothing lost", around_bins},
+      {g, "longer_than_expected", "2000 endless lights in 943 tiles", "the first guess of memory overflows silently", "all lists whole",
+       longer_than_expected},
+      {g, "other_sizes_between", "a large and an empty frame between two equal ones", "what was left in buffers is read",
+       "the same bytes", other_sizes_between},
+      {g, "hundred_runs", "one frame of 920 tiles a hundred times in each kernel shape, others between", "atomics: another order each run", "the same bytes",
+       hundred_runs},
+      {g, "turned_round", "the lights in the opposite order", "lists depend on neighbours", "the same lights", turned_round},
+      {g, "in_32_bits", "16- and 32-bit indices", "one of the two untested", "the same lists", in_32_bits},
+      {g, "lists_past_16_bits", "160,000 entries", "16-bit offsets", "lists lie side by side without a gap", lists_past_16_bits},
+      {g, "many_cells", "64 slices × 920 tiles", "one list's range overlaps the next", "nothing lost, no overlap",
+       many_cells},
+      {g, "past_32_bits", "16 tiles × 64 slices × 2²² endless lights", "cells × lights in 32 bits", "a machine error, or every entry",
+       past_32_bits},
+      {g, "float_twin", "lights tangent to the cells of random surfaces, under every test and every kind of bounds",
+       "a coarse step drops what the fine one keeps; one device rounds otherwise",
+       "bounds and lists have the bytes of a flat C++ program", float_twin},
+  };
+}
+
+}  // namespace lightgrid::verify

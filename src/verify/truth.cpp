@@ -1,0 +1,169 @@
+#include "verify/truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "reference/cone_cell.h"
+#include "reference/position.h"
+
+namespace lightgrid::verify {
+namespace {
+
+constexpr double u = 0x1p-24;       // one rounding in float
+constexpr double far_away = 1e17;    // kernels have 1e18 for no end
+constexpr double farthest = 1e30;    // where boxes of endless cells end, past all lights and surfaces
+constexpr double least_radius = 2e-18;  // metres that every light is given
+constexpr double gentle_slope = 2;    // up to it the exact test finds the distance in its three Newton steps
+constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones take no infinite near
+
+double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
+
+// The view-space box around a cell; d = -z.
+struct Box {
+  double x0, x1, y0, y1, d0, d1;
+};
+
+Box box_of(const Cell& c) {
+  const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, farthest));
+  return {std::min(c.x0 * s0, c.x0 * s1), std::max(c.x1 * s0, c.x1 * s1), std::min(c.y0 * s0, c.y0 * s1),
+          std::max(c.y1 * s0, c.y1 * s1), c.near, c.far};
+}
+
+double distance_to_box(const Box& b, const glm::dvec3& p) {
+  return std::hypot(outside(p.x, b.x0, b.x1), outside(p.y, b.y0, b.y1), outside(-p.z, b.d0, b.d1));
+}
+
+double steepest_slope(const CullView& view) {
+  const View v = oracle_view(view);
+  return std::max({std::abs(view_x_of_pixel(v, 0)), std::abs(view_x_of_pixel(v, v.width)),
+                   std::abs(view_y_of_pixel(v, 0)), std::abs(view_y_of_pixel(v, v.height))});
+}
+
+double tile_slope(const CullView& view, int tile) {
+  return tile * 2 * std::max(1 / (view.clip_from_view[0][0] * view.width), 1 / (view.clip_from_view[1][1] * view.height));
+}
+
+// Signed distances to the cell's side planes, outside positive; the largest.
+double outside_of_sides(const Cell& c, const glm::dvec3& p) {
+  const double d = c.scale_at(-p.z), tip = c.orthographic ? 0 : 1;
+  const auto side = [&](double beyond, double slope) { return beyond / std::sqrt(1 + tip * slope * slope); };
+  return std::max({side(c.x0 * d - p.x, c.x0), side(p.x - c.x1 * d, c.x1), side(c.y0 * d - p.y, c.y0),
+                   side(p.y - c.y1 * d, c.y1)});
+}
+
+// The cone against the sphere around the box, its cosine wider by 1e-6.
+bool cone_possibly_touches(const Box& b, const TrueLight& light, double margin) {
+  const glm::dvec3 centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, -(b.d0 + b.d1) / 2);
+  const double reach = std::hypot(b.x1 - b.x0, b.y1 - b.y0, b.d1 - b.d0) / 2 + margin;
+  if (!(reach < far_away)) return true;
+  const double cosine = std::max(-1.0, light.cos_outer - 1e-6), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const glm::dvec3 v = centre - light.position;
+  const double along = glm::dot(v, light.axis), across = glm::length(glm::cross(v, light.axis));
+  const double more = margin + 64 * u * (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
+  return across * cosine - along * sine <= reach + more && along >= -reach - more;
+}
+
+}  // namespace
+
+std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLight> lights) {
+  glm::dvec3 middle(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    for (const CullLight& light : lights)
+      if (std::isfinite(light.position[axis])) places.push_back(light.position[axis]);
+    if (places.empty()) continue;
+    std::nth_element(places.begin(), places.begin() + places.size() / 2, places.end());
+    middle[axis] = places[places.size() / 2];
+  }
+  std::vector<TrueLight> all;
+  for (const CullLight& light : lights) {
+    TrueLight t{to_view(view, light.position), glm::dmat3(view.view_from_world) * light.direction, light.radius_m,
+                light.cos_outer, 0, 0, false};
+    const glm::dvec3 place = glm::abs(light.position - middle);
+    t.place_error = 2 * u * (place.x + place.y + place.z);
+    const double length = glm::length(t.axis);
+    if (length > 0 && std::isfinite(length)) t.axis /= length;
+    else t.cos_outer = -1;
+    const double sum = light.position.x + light.position.y + light.position.z;
+    t.lists_nothing = !(light.radius_m >= 0) || !std::isfinite(sum);
+    all.push_back(t);
+  }
+  double cone_error = 0;
+  for (const TrueLight& t : all) {
+    if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.place_error);
+  }
+  for (TrueLight& t : all) t.cone_error = cone_error;
+  return all;
+}
+
+Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres) {
+  const View v = oracle_view(view);
+  const size_t tiles = tile_count(view, tile), at = index % tiles, slice = index / tiles;
+  const int tx = int(at % tiles_x(view, tile)), ty = int(at / tiles_x(view, tile));
+  const double inset = pixel_centres ? 0.5 : 0;
+  Cell cell{view_x_of_pixel(v, tx * tile + inset), view_x_of_pixel(v, std::min((tx + 1) * tile, v.width) - inset),
+            view_y_of_pixel(v, ty * tile + inset), view_y_of_pixel(v, std::min((ty + 1) * tile, v.height) - inset),
+            bounds.near, bounds.far, v.orthographic};
+  if (bounds.far >= far_away && bounds.near <= bounds.far) cell.far = no_end;
+  if (v.orthographic && bounds.near <= -far_away) cell.near = endless_near;
+  if (slice > 0) cell.near = std::max(cell.near, double(view.slice_edges[slice - 1]));
+  if (slice < view.slice_edges.size()) cell.far = std::min(cell.far, double(view.slice_edges[slice]));
+  return cell;
+}
+
+bool clearly_apart(const Cell& cell, const TrueLight& light) {
+  if (light.lists_nothing || !(cell.near <= cell.far)) return true;
+  if (light.radius > far_away) return false;
+  return distance_to_box(box_of(cell), light.position) > light.radius * (1 + 1e-12);
+}
+
+bool certainly_touches(const Cell& cell, const TrueLight& light) {
+  if (clearly_apart(cell, light)) return false;
+  if (light.cos_outer <= -1) return sphere_touches_cell(cell, light.position, light.radius);
+  return cone_touches_cell(cell, light.position, light.axis, light.cos_outer, light.radius) == Touch::yes;
+}
+
+bool possibly_touches(const CullView& view, int tile, const Cell& cell, const TrueLight& light, CullTest test) {
+  if (light.lists_nothing || !(cell.near <= cell.far)) return false;
+  const glm::dvec3& p = light.position;
+  const double r = light.radius + light.place_error;
+  if (r > far_away) return true;
+  // 24 u of slack and 8 u of roundings; the sides' slopes, and the tangents and tile coordinates with their own 32 u.
+  const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + r, steep = steepest_slope(view);
+  const double reach_of_slopes = cell.orthographic ? 1 : std::abs(p.z) + r;
+  const double margin = least_radius + 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
+  const double near = cell.near == endless_near ? 0 : std::abs(cell.near);
+  const bool endless = cell.far > far_away || cell.near == endless_near;
+  const double ends = cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
+  const double box_margin = least_radius + 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
+  const Box box = box_of(cell);
+  if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
+  const bool planes = test == CullTest::planes || test == CullTest::planes_aabb || test == CullTest::exact;
+  if (planes && outside_of_sides(cell, p) > r + margin) return false;
+  if (test == CullTest::aabb || test == CullTest::planes_aabb || test == CullTest::exact) {
+    if (distance_to_box(box, p) > r + box_margin) return false;
+  }
+  if (test == CullTest::exact && steep <= gentle_slope && distance_to_cell(cell, p) > r + box_margin) return false;
+  if (test == CullTest::sphere && !endless) {
+    const glm::dvec3 centre((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2, -(box.d0 + box.d1) / 2);
+    const double reach = std::hypot(box.x1 - box.x0, box.y1 - box.y0, box.d1 - box.d0) / 2;
+    if (glm::length(p - centre) > reach * (1 + 40 * u) + r + box_margin) return false;
+  }
+  return light.cos_outer < 0 || endless || cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
+}
+
+Touching touching_lights(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,
+                         int tile, bool pixel_centres) {
+  const size_t tiles = bounds.size();
+  Touching touching(tiles * (view.slice_edges.size() + 1));
+  parallel_for(int(touching.size()), [&](int i) {
+    const Cell cell = cell_of(view, tile, size_t(i), bounds[size_t(i) % tiles], pixel_centres);
+    for (uint32_t light = 0; light < lights.size(); ++light) {
+      if (certainly_touches(cell, lights[light])) touching[i].push_back(light);
+    }
+  });
+  return touching;
+}
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,134 @@
+// Techniques along a camera path: same pictures as at rest, no work twice, and flicker is seen.
+#include "compare/moving.h"
+
+#include <gmock/gmock.h>
+
+#include "scene/builtin.h"
+#include "scene/camera_path.h"
+#include "scene/rig.h"
+#include "results/metrics.h"
+#include "compare/oracle.h"
+#include "support/render.h"
+#include "support/small_scene.h"
+
+namespace lightgrid {
+namespace {
+
+// A picture of a view that was reached by looking elsewhere first is that of a view made for it.
+struct MovedView : testing::TestWithParam<const Technique*> {};
+
+TEST_P(MovedView, DrawsWhatAViewOfItsOwnDraws) {
+  Scene scene = find_builtin_scene("hall")->make();
+  if (GetParam()->limited_lists) scene.lights.resize(12);
+  const View start = make_view(choose_camera(scene, ""), 96, 54);
+  TechniqueRun run(software_devices(), scene, start, {}, *GetParam());
+  for (const View& view : camera_path(scene, start, "turn:5")) {
+    run.look(view);
+    run.run_frame();
+    TechniqueRun own(software_devices(), scene, view, {}, *GetParam());
+    own.run_frame();
+    EXPECT_TRUE(compare_images(run.image(), own.image()).bit_identical);
+  }
+  const View larger = make_view(choose_camera(scene, ""), 101, 77);
+  run.look(larger);
+  run.run_frame();
+  TechniqueRun own(software_devices(), scene, larger, {}, *GetParam());
+  own.run_frame();
+  ASSERT_EQ(run.image().width, 101);
+  EXPECT_TRUE(compare_images(run.image(), own.image()).bit_identical);
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, MovedView, testing::ValuesIn(techniques()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
+  const Scene scene = small_scene().scene;
+  std::vector<Contestant> contestants;
+  for (const Technique* technique : techniques()) contestants.push_back({technique, {}});
+  CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+  options.path = camera_path(scene, small_view(48, 32), "dolly:8");
+  const CompareReport report = compare_techniques(software_devices(), scene, small_view(48, 32), contestants, options);
+  for (const RunResult& row : report.rows) {
+    ASSERT_TRUE(row.moving) << row.technique;
+    EXPECT_EQ(row.moving->frames, 8u);
+    EXPECT_EQ(row.moving->frame_ms.runs, 6);
+    EXPECT_EQ(row.moving->gl_programs, 0) << row.technique;
+    EXPECT_EQ(row.moving->cl_programs, 0) << row.technique;
+    EXPECT_EQ(row.moving->scene_bytes, 0u) << row.technique;
+    EXPECT_EQ(row.moving->pairs.lost, 0u) << row.technique;
+    EXPECT_LT(row.moving->max_rel, 1e-5) << row.technique;
+    EXPECT_LT(row.moving->temporal_max_rel, 2e-5) << row.technique;
+  }
+}
+
+// Deformed meshes, moved instances and lights: the picture of a scene that was made so.
+TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
+  Scene scene = find_builtin_scene("hall")->make();
+  scene.lights.resize(40);
+  auto rig = std::make_shared<Rig>();
+  for (int mesh = 0; mesh < int(scene.meshes.size()); ++mesh) rig->meshes.push_back({.mesh = mesh});
+  scene.rig = rig;
+  const View view = make_view(choose_camera(scene, ""), 96, 54);
+  for (const char* technique : {"forward", "forward_plus", "deferred_tiled", "deferred", "forward_multipass"}) {
+    Scene moving = scene;
+    GpuScene gpu(software_devices(), moving);
+    TechniqueRun run(software_devices(), gpu, view, {}, find_technique(technique));
+    run.run_frame();
+    const Image before = run.image();
+    SceneChanges changes;
+    for (int i = 0; i < int(moving.meshes.size()); ++i) {
+      Mesh& mesh = moving.meshes[i];
+      mesh.bounds = {};
+      for (glm::vec3& p : mesh.positions) {
+        p += 0.1f * glm::sin(3.0f * glm::vec3(p.y, p.z, p.x));
+        mesh.bounds.add(p);
+      }
+      changes.meshes.push_back(i);
+    }
+    moving.instances[0].world_from_object[3].y += 0.25;
+    changes.instances = {0};
+    for (int i = 0; i < 40; ++i) {
+      moving.lights[i].position.x += 0.5;
+      changes.lights.push_back(i);
+    }
+    gpu.update(changes);
+    run.look(view, changes);
+    run.run_frame();
+    EXPECT_GT(compare_images(run.image(), before).max_rel, 0.01) << "nothing moved";
+    TechniqueRun fresh(software_devices(), moving, view, {}, find_technique(technique));
+    fresh.run_frame();
+    // Clusters are cut by the shape at rest: where surfaces share a depth, another may be the last.
+    EXPECT_LT(compare_images(run.image(), fresh.image()).rmse, 1e-6) << technique;
+    const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
+    EXPECT_EQ(pairs.lost, 0u) << technique;
+  }
+}
+
+int frames_drawn = 0;
+
+// forward, but every second frame is grey.
+Frame flicker(RenderView& v) {
+  const Frame frame = find_technique("forward").render(v);
+  const float grey[4] = {0.5f, 0.5f, 0.5f, 1};
+  if (frames_drawn++ / 2 % 2) glClearNamedFramebufferfv(frame.image.framebuffer, GL_COLOR, 0, grey);
+  return frame;
+}
+
+TEST(Moving, SeesFlicker) {
+  const Technique flickers{
+      .name = "flickers", .summary = "flickers", .source = "none", .needs = {}, .settings = {}, .render = flicker};
+  const Scene scene = small_scene().scene;
+  GpuScene gpu(software_devices(), scene);
+  const std::vector<View> path(8, small_view(32, 24));  // at rest: all that changes is flicker
+  TechniqueRun forward(software_devices(), gpu, path[0], {}, find_technique("forward"));
+  TechniqueRun grey(software_devices(), gpu, path[0], {}, flickers);
+  std::vector<RunResult> rows(2);
+  run_along_path({&forward, &grey}, forward, {gpu, path, {}}, rows, nullptr);
+  EXPECT_EQ(rows[0].moving->temporal_max_rel, 0);
+  EXPECT_EQ(rows[0].moving->max_rel, 0);
+  EXPECT_GT(rows[1].moving->temporal_rmse_rel, 0.01);
+  EXPECT_GT(rows[1].moving->rmse_rel, 0.01);
+}
+
+}  // namespace
+}  // namespace lightgrid

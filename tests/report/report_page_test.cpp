@@ -1,0 +1,269 @@
+// The page in a real browser: a script appended to a copy of it works the controls and writes what it saw.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "report/report.h"
+#include "report/synthetic_report.h"
+#include "support/paths.h"
+#include "support/read_files.h"
+#include "support/run_command.h"
+#include "support/temp_folder.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Goes in first: errors are caught from the start of the page on.
+constexpr const char* fault_recorder =
+    "<script>window.faults = [];"
+    "addEventListener('error', (event) => faults.push(event.message || 'a resource failed to load'), true);"
+    "</script>";
+
+void insert_before(std::string& page, const std::string& mark, const std::string& text) {
+  page.insert(page.find(mark), text);
+}
+
+std::string browser() {
+  std::string found =
+      run_command("command -v chromium || command -v chromium-browser || command -v google-chrome").output;
+  while (!found.empty() && found.back() == '\n') found.pop_back();
+  return found;
+}
+
+std::string unescaped(std::string text) {
+  for (const auto& [entity, character] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&nbsp;", "\u00a0"}, {"&amp;", "&"}}) {
+    text = std::regex_replace(text, std::regex(entity), character);
+  }
+  return text;
+}
+
+// What the interactions saw in a window of that size, or null and a failure.
+json seen_in_browser(const fs::path& folder, const char* window_size) {
+  auto page = file_bytes(folder / "index.html");
+  insert_before(page, "<style>", fault_recorder);
+  const auto controls = file_bytes(fs::path(source_folder) / "tests/report/report_page_controls.js");
+  insert_before(page, "</body>", "<script>" + controls + "</script>");
+  std::ofstream(folder / "tried.html") << page;
+  const auto command =
+      "timeout 120 " + browser() +
+      " --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking"
+      " --disable-sync --disable-extensions --virtual-time-budget=5000 --dump-dom --window-size=" +
+      window_size + " --user-data-dir=" + (folder / "profile").string() + " file://" +
+      (folder / "tried.html").string() + " 2>" + (folder / "browser.log").string();
+  const auto dump = run_command(command).output;
+  const std::string open = "<pre id=\"outcome\">";
+  const size_t start = dump.rfind(open), end = dump.find("</pre>", start);
+  if (start == dump.npos || end == dump.npos) {
+    ADD_FAILURE() << "the page wrote no outcome; the browser said: " << file_bytes(folder / "browser.log");
+    return nullptr;
+  }
+  return json::parse(unescaped(dump.substr(start + open.size(), end - start - open.size())));
+}
+
+std::vector<std::string> strings(const json& list) { return list.get<std::vector<std::string>>(); }
+
+const std::string both_tests = "forward_plus:cull-test=planes+aabb", exact_test = "forward_plus:cull-test=exact";
+
+class ReportPage : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (browser().empty())
+      GTEST_SKIP() << "needs chromium, chromium-browser or google-chrome in PATH; none is there";
+    write_report(folder.path, report);
+  }
+  const TempFolder folder;
+  const CompareReport report = synthetic_report(34, 18);
+};
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::Eq;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
+  const auto seen = seen_in_browser(folder.path, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  EXPECT_EQ(seen["results"], json::parse(file_bytes(folder.path / "results.json")));
+  EXPECT_EQ(seen["verdict"], verdict(report));
+  EXPECT_EQ(seen["title"], "hall.glb \u2013 lightgrid compare");
+
+  EXPECT_EQ(seen["left"], "forward");
+  EXPECT_EQ(seen["right"], exact_test);
+  EXPECT_THAT(strings(seen["clips"]), ElementsAre("inset(0px 50% 0px 0px)", "inset(0px 87.5% 0px 0px)",
+                                                  "inset(0px 100% 0px 0px)", "inset(0px 0% 0px 0px)"));
+  EXPECT_EQ(seen["focused"], "cut");
+  EXPECT_EQ(seen["pictureChanged"], true);
+  EXPECT_EQ(seen["imageSize"], json::parse("[34, 18]"));
+  EXPECT_EQ(seen["brokenImages"], 0);
+  EXPECT_THAT(strings(seen["loaded"]), IsEmpty()) << "the page is one file";
+  EXPECT_EQ(seen["zoomed"], true);
+
+  const std::string refused = "refused: blending rounds <0.5 of a step> here";
+  EXPECT_THAT(strings(seen["byTime"][0]), ElementsAre("lidr", exact_test, both_tests, "clustered", "deferred_tiled",
+                                                      "forward", "light_prepass"));
+  EXPECT_THAT(strings(seen["byTime"][1]), ElementsAre("183", "205", "214", "232", "262", "2,420", refused));
+  EXPECT_THAT(strings(seen["byTimeDescending"]), ElementsAre("forward", "deferred_tiled", "clustered", both_tests,
+                                                             exact_test, "lidr", "light_prepass"));
+  EXPECT_THAT(strings(seen["byName"]), ElementsAre("clustered", "deferred_tiled", "forward", exact_test, both_tests,
+                                                   "lidr", "light_prepass"));
+  EXPECT_THAT(strings(seen["bySpeedUp"]), ElementsAre("lidr", exact_test, both_tests, "clustered", "deferred_tiled",
+                                                      "forward", "light_prepass"));
+  EXPECT_THAT(strings(seen["lost"]), ElementsAre("812", "0", "0", "0", "0", "0", ""));
+  EXPECT_EQ(seen["sorted"], 2);
+  EXPECT_EQ(seen["overviewHidden"], true);
+  EXPECT_EQ(seen["settingsCharts"], 0);
+  EXPECT_THAT(strings(seen["cutInPrint"]), IsEmpty());
+  EXPECT_THAT(strings(seen["memory"]), testing::SizeIs(6));
+  EXPECT_THAT(strings(seen["memory"]), Each(Eq("48.0 MiB")));
+
+  EXPECT_THAT(seen["barWidths"].get<std::vector<double>>(), Each(testing::DoubleNear(100, 1e-6)));
+  EXPECT_THAT(strings(seen["captions"]), testing::Contains("Lights listed per pixel: mean 60.0, max 60"));
+  EXPECT_THAT(strings(seen["skipped"]),
+              ElementsAre("light_prepass " + refused, "shadows: no light casts one",
+                          "transparency: no blended surface is in view (forward, " + both_tests +
+                              ", clustered, deferred_tiled, lidr)"));
+}
+
+// Where the dot of a time stands, from the two dots of the outermost times: axes are logarithmic.
+double expected_y(double ms, double low_ms, double low_y, double high_ms, double high_y) {
+  return low_y + std::log(ms / low_ms) / std::log(high_ms / low_ms) * (high_y - low_y);
+}
+
+TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
+  ViewsReport views(folder.path, 3, 1 << 20);
+  for (int lights : {15, 60, 240}) views.add(synthetic_view("scenes/hall.glb", 34, 18, lights));
+  views.write();
+  const auto seen = seen_in_browser(folder.path, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  EXPECT_EQ(seen["overviewHidden"], false);
+  EXPECT_EQ(seen["brokenImages"], 0);
+  EXPECT_THAT(strings(seen["loaded"]), IsEmpty()) << "the page is one file";
+  const json results = json::parse(file_bytes(folder.path / "results.json"));
+  EXPECT_EQ(seen["results"], results);
+  const json& several = seen["several"];
+  EXPECT_EQ(strings(several["sentences"]), views.sentences());
+
+  // A technique a line: its name, then its time in each view; the fastest exact one of each has the star.
+  ASSERT_EQ(several["matrix"].size(), 7u);
+  EXPECT_THAT(strings(several["matrix"][0]), ElementsAre("forward", "\u2605\u00a075.6 ms", "303 ms", "1,210 ms"));
+  EXPECT_THAT(strings(several["matrix"][5]), ElementsAre(exact_test, "145 ms", "\u2605\u00a0205 ms", "\u2605\u00a0290 ms"));
+  EXPECT_THAT(strings(several["matrix"][6]), ElementsAre("light_prepass", "refused", "refused", "refused"));
+  EXPECT_EQ(several["winners"], 3);
+  EXPECT_THAT(strings(several["notes"]), testing::Contains("812 lost").Times(3));
+
+  ASSERT_EQ(several["charts"].size(), 1u);
+  const json& chart = several["charts"][0];
+  ASSERT_EQ(chart["curves"].size(), 6u);
+  EXPECT_EQ(chart["rings"], 1);
+  const auto ms_of = [&](const json& dot) {
+    return results["views"][dot["view"].get<size_t>()]["rows"][dot["row"].get<size_t>()]["frame_ms"]["median"].get<double>();
+  };
+  const json low = chart["curves"][0]["points"][0], high = chart["curves"][0]["points"][2];  // forward
+  for (const json& curve : chart["curves"]) {
+    ASSERT_EQ(curve["points"].size(), 3u) << curve;
+    for (const json& dot : curve["points"]) {
+      EXPECT_NEAR(dot["y"].get<double>(), expected_y(ms_of(dot), ms_of(low), low["y"], ms_of(high), high["y"]), 0.2) << curve;
+      EXPECT_NEAR(dot["x"].get<double>(), curve["points"][0]["x"].get<double>() * (2 - dot["view"].get<double>()) / 2 +
+                                              curve["points"][2]["x"].get<double>() * dot["view"].get<double>() / 2, 0.2);
+    }
+  }
+  EXPECT_EQ(several["hidden"], 1);
+
+  const auto& all = views.views();
+  EXPECT_EQ(several["first"]["title"], "hall, 34 × 18, 15 lights");
+  EXPECT_EQ(several["first"]["verdict"], all[0].verdict);
+  EXPECT_EQ(several["second"]["title"], "hall, 34 × 18, 60 lights");
+  EXPECT_EQ(several["second"]["verdict"], all[1].verdict);
+  EXPECT_EQ(several["second"]["times"][0], "183");
+  EXPECT_NE(several["second"]["picture"], several["first"]["picture"]);
+  EXPECT_EQ(several["third"]["choice"], "hall, 34 × 18, 240 lights");
+  EXPECT_EQ(several["third"]["verdict"], all[2].verdict);
+}
+
+TEST_F(ReportPage, DrawsACurveOverASettingThatOneViewSweeps) {
+  CompareReport swept = synthetic_report(34, 18);
+  for (size_t i : {1, 5}) swept.rows[i].settings["cull-test"] = "aabb", swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
+  write_report(folder.path, swept);
+  const auto seen = seen_in_browser(folder.path, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  EXPECT_EQ(seen["settingsCharts"], 1);
+}
+
+TEST_F(ReportPage, OfSeveralViewsFitsAPhoneAndASheetOfPaper) {
+  ViewsReport views(folder.path, 8, 1 << 20);
+  for (const char* scene : {"a", "b"}) {
+    for (int lights : {1, 15, 60, 240}) {
+      CompareReport report = synthetic_view(scene, 34, 18, lights);
+      report.rows[5].settings["radius-cutoff"] = "0.0001";  // a long name
+      views.add(std::move(report));
+    }
+  }
+  views.write();
+  const auto seen = seen_in_browser(folder.path, "500,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_EQ(seen["overflow"], 0);
+  EXPECT_THAT(strings(seen["cutInPrint"]), IsEmpty());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+}
+
+TEST_F(ReportPage, FitsAPhone) {
+  const auto seen = seen_in_browser(folder.path, "500,900");  // headless windows are no narrower than this
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_EQ(seen["overflow"], 0);
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+}
+
+TEST_F(ReportPage, TakesAReportOfOneRowAndNoOracle) {
+  CompareReport small;
+  small.scene = "one.gltf";
+  small.width = small.height = 1;
+  small.reference = "forward";
+  small.rows.resize(1);
+  small.rows[0].technique = "forward";
+  small.images = {Image(1, 1)};
+  write_report(folder.path, small);
+  const auto seen = seen_in_browser(folder.path, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  EXPECT_THAT(strings(seen["lost"]), ElementsAre("\u2013"));
+}
+
+void expect_no_other_place(const std::string& page) {
+  const std::regex elsewhere(
+      R"re((src|href)=["'](?!data:)[^"']|url\((?!data:)|@import|fetch\(|XMLHttpRequest|<iframe)re");
+  std::smatch found;
+  EXPECT_FALSE(std::regex_search(page, found, elsewhere)) << found.str();
+  EXPECT_EQ(page.find("https://"), page.npos);
+  // The one http address is a name: SVG's namespace.
+  const std::string svg = "http://www.w3.org/2000/svg";
+  EXPECT_EQ(page.find("http://"), page.find(svg));
+  EXPECT_EQ(page.rfind("http://"), page.find(svg));
+}
+
+TEST(ReportPageText, NamesNoOtherPlace) {
+  const TempFolder folder;
+  write_report(folder.path, synthetic_report(17, 9));
+  expect_no_other_place(file_bytes(folder.path / "index.html"));
+}
+
+TEST(ReportPageText, OfSeveralViewsNamesNoOtherPlace) {
+  const TempFolder folder;
+  ViewsReport views(folder.path, 2, 1 << 20);
+  for (int lights : {15, 60}) views.add(synthetic_view("hall", 17, 9, lights));
+  views.write();
+  expect_no_other_place(file_bytes(folder.path / "index.html"));
+}
+
+}  // namespace
+}  // namespace lightgrid

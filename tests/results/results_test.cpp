@@ -1,0 +1,108 @@
+#include "results/results.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "results/results.h"
+#include "report/synthetic_report.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+
+std::set<std::string> keys_of(const json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+RunResult small_result() {
+  RunResult result;
+  result.technique = "forward_plus";
+  result.settings = {{"tile", "16"},
+                     {"cull-test", "planes+aabb"},
+                     {"radius-cutoff", "0.01"},
+                     {"mask", "true"},
+                     {"odd", "nan"}};
+  result.lights_total = 1024;
+  result.lights_in_view = 871;
+  result.frame_ms = {1, 2, 3, 4, 5};
+  result.passes = {{"depth_prepass", "gl", 0.5, 10, 20}};
+  result.memory_total = 3;
+  result.memory_light_grid = 2;
+  result.memory_gbuffer = 1;
+  result.pairs = PairCounts{9, 8, 7, 6};
+  result.error = ImageError{0.5, 0.25, 0.125, 0.0625, {}, false, OracleError{0.75, 0.375, 0.875}};
+  result.nan_pixels = 11;
+  result.inf_pixels = 13;
+  result.overflow = 12;
+  result.skipped = {{"shadows", "no light casts one"}};
+  return result;
+}
+
+TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
+  const json expected = json::parse(R"({
+    "technique": "forward_plus",
+    "settings": {"tile": 16, "cull_test": "planes+aabb", "radius_cutoff": 0.01, "mask": true, "odd": "nan"},
+    "lights": {"total": 1024, "in_view": 871},
+    "frame_ms": {"min": 1.0, "median": 2.0, "max": 4.0, "runs": 5},
+    "passes": [{"name": "depth_prepass", "on": "gl", "median_ms": 0.5, "bytes_read": 10, "bytes_written": 20}],
+    "memory_bytes": {"total": 3, "light_grid": 2, "gbuffer": 1},
+    "pairs": {"listed": 9, "lit": 8, "lost": 7, "wrong": 6},
+    "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false,
+              "oracle": {"max_rel": 0.75, "rmse_rel": 0.375, "of_reference_max_rel": 0.875}},
+    "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
+  EXPECT_EQ(to_json(small_result()), expected);
+}
+
+TEST(Results, OfAnEmptyRunKeepEveryKey) {
+  const auto empty = to_json(RunResult{});
+  EXPECT_EQ(keys_of(empty), keys_of(to_json(small_result())));
+  EXPECT_TRUE(empty["pairs"].is_null());
+  EXPECT_TRUE(empty["error"].is_null());
+  EXPECT_EQ(empty["settings"], json::object());
+  EXPECT_EQ(empty["passes"], json::array());
+  EXPECT_EQ(empty["skipped"], json::array());
+}
+
+TEST(Results, WriteWhatIsNotFiniteAsNull) {
+  auto result = small_result();
+  result.error->max_abs = std::numeric_limits<double>::infinity();
+  result.frame_ms.median = std::numeric_limits<double>::quiet_NaN();
+  const auto value = to_json(result);
+  EXPECT_TRUE(value["error"]["max_abs"].is_null());
+  EXPECT_TRUE(value["frame_ms"]["median"].is_null());
+  EXPECT_EQ(json::parse(json_text(value)), value);
+}
+
+TEST(Results, OfAReportHoldTheDocumentedKeys) {
+  const auto value = to_json(synthetic_report(17, 9));
+  EXPECT_EQ(keys_of(value), (std::set<std::string>{"scene", "size", "devices", "commit", "reference",
+                                                   "reference_errors", "rows"}));
+  EXPECT_EQ(value["size"], json::parse("[17, 9]"));
+  EXPECT_EQ(value["reference"], json::parse(R"({"technique": "forward", "pixels": 153})"));
+  EXPECT_EQ(keys_of(value["devices"]), (std::set<std::string>{"cl", "gl"}));
+  EXPECT_EQ(keys_of(value["reference_errors"]),
+            (std::set<std::string>{"model", "precision", "pixels_left_out"}));
+  EXPECT_EQ(value["rows"].size(), 7u);
+}
+
+TEST(Results, WithoutAnOracleHaveNoReferenceErrors) {
+  auto report = synthetic_report(17, 9);
+  report.reference_errors.reset();
+  EXPECT_TRUE(to_json(report)["reference_errors"].is_null());
+  auto result = small_result();
+  result.error->oracle.reset();
+  EXPECT_TRUE(to_json(result)["error"]["oracle"].is_null());
+}
+
+TEST(Results, AreTextEvenWhereANameIsNotUtf8) {
+  EXPECT_THAT(json_text(json("caf\xe9")), testing::HasSubstr("caf\xef\xbf\xbd"));
+}
+
+}  // namespace
+}  // namespace lightgrid
