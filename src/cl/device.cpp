@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <mutex>
 #include <optional>
 
 #include "cl/cache_folder.h"
@@ -11,7 +12,10 @@
 namespace lightgrid {
 namespace {
 
+// One thread at a time: PoCL 3.1 starts in the first call, and until it has, tells other threads that it has no device.
 std::vector<cl::Device> all_devices() {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   std::vector<cl::Device> devices;
   try {
     std::vector<cl::Platform> platforms;
