@@ -1,0 +1,194 @@
+// Geometry and nodes from a file to the picture, worked out by hand. The plate is white and unlit, so that a
+// pixel says whether it is there.
+#include "conformance/own_model.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using Floats = std::vector<float>;
+
+GltfBuilder white_plate() { return unlit_plate({1, 1, 1, 1}); }
+
+bool same_pixels(const Picture& a, const Picture& b) { return a.image.pixels == b.image.pixels; }
+
+// Values in bytes: a byte's share of 255, linear, times the factor; and between vertices what lies between.
+TEST(OwnGeometry, VertexColoursOfBytesAndShortsAreLinearAndTimesTheFactor) {
+  GltfBuilder made = unlit_plate({1, 0.5f, 0.25f, 1});
+  const Bytes colors = {0, 255, 51, 255, 255, 255, 51, 255, 255, 255, 51, 255, 0, 255, 51, 255};
+  made.attribute("COLOR_0", colors, "VEC4", u8, 4, true);
+  const Picture bytes = shown(made);
+  for (const int column : {0, 17, 63}) {
+    expect_radiance(bytes.image.at(column, 40), {(column + 0.5) / own_size, 0.5, 0.2 * 0.25});
+  }
+  std::vector<uint16_t> wide;
+  for (const uint8_t value : colors) wide.push_back(uint16_t(257 * value));
+  made.attribute("COLOR_0", wide, "VEC3", u16, 4, true, 8);
+  EXPECT_TRUE(same_pixels(shown(made), bytes));
+}
+
+TEST(OwnGeometry, NormalisedUvsAndNormals) {
+  GltfBuilder made = lit_plate({1, 1, 1});
+  material_of(made)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add_four_colors(made)}};
+  add_light(made, {{"type", "directional"}, {"intensity", 2}});
+  const Picture floats = shown(made);
+  EXPECT_GT(floats.at({-0.5, 0.5, 0}).r, 0.5f);
+  const std::vector<int8_t> normals = {0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0};
+  made.attribute("NORMAL", normals, "VEC3", i8, 4, true, 4);
+  made.attribute("TEXCOORD_0", std::vector<uint16_t>{0, 65535, 65535, 65535, 65535, 0, 0, 0}, "VEC2", u16, 4,
+                 true);
+  EXPECT_TRUE(same_pixels(shown(made), floats));
+  made.attribute("TEXCOORD_0", Bytes{0, 255, 0, 0, 255, 255, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0}, "VEC2", u8, 4,
+                 true, 4);
+  EXPECT_TRUE(same_pixels(shown(made), floats));
+}
+
+// KHR_mesh_quantization: positions in steps, which the node's matrix undoes.
+TEST(OwnGeometry, QuantisedPositions) {
+  GltfBuilder made = white_plate();
+  made.root["extensionsUsed"] = made.root["extensionsRequired"] = {"KHR_mesh_quantization"};
+  // The left half: x from -1 to 0.
+  const std::vector<uint16_t> shorts = {0, 0, 7, 0, 500, 0, 7, 0, 500, 1000, 7, 0, 0, 1000, 7, 0};
+  made.attribute("POSITION", shorts, "VEC3", u16, 4, false, 8);
+  made.node()["scale"] = {0.002, 0.002, 0.001};
+  made.node()["translation"] = {-1, -1, 0};
+  expect_quarters(shown(made), {white, black, white, black});
+  const std::vector<int8_t> bytes = {-100, -100, 0, 0, 0, -100, 0, 0, 0, 100, 0, 0, -100, 100, 0, 0};
+  made.attribute("POSITION", bytes, "VEC3", i8, 4, true, 4);
+  made.node()["scale"] = {1.27, 1.27, 1};
+  made.node()["translation"] = {0, 0, 0};
+  expect_quarters(shown(made), {white, black, white, black});
+}
+
+// The upper two of four corners are moved down to the middle.
+TEST(OwnGeometry, SparsePositionsReplaceThoseOfTheBase) {
+  GltfBuilder made = white_plate();
+  const int where = made.view(Bytes{2, 3}), what = made.view(bytes_of(Floats{1, 0, 0, -1, 0, 0}));
+  const int positions = made.primitive()["attributes"]["POSITION"];
+  made.root["accessors"][positions]["sparse"] = {
+      {"count", 2},
+      {"indices", {{"bufferView", where}, {"componentType", 5121}}},
+      {"values", {{"bufferView", what}}}};
+  expect_quarters(shown(made), {black, black, white, white});
+}
+
+TEST(OwnGeometry, InterleavedAttributesShowWhatSeparateOnesDo) {
+  GltfBuilder made = lit_plate({1, 1, 1});
+  material_of(made)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add_four_colors(made)}};
+  add_light(made, {{"type", "directional"}, {"intensity", 2}});
+  const Picture apart = shown(made);
+  const int view = made.view(bytes_of(Floats{9, -1, -1, 0, 0, 0, 1, 0, 1,  //
+                                             9, 1,  -1, 0, 0, 0, 1, 1, 1,  //
+                                             9, 1,  1,  0, 0, 0, 1, 1, 0,  //
+                                             9, -1, 1,  0, 0, 0, 1, 0, 0}),
+                             36);
+  const auto part = [&](const char* name, const char* type, int offset) {
+    const int accessor = made.accessor(view, type, f32, 4);
+    made.root["accessors"][accessor]["byteOffset"] = offset;
+    made.primitive()["attributes"][name] = accessor;
+  };
+  part("POSITION", "VEC3", 4), part("NORMAL", "VEC3", 16), part("TEXCOORD_0", "VEC2", 28);
+  EXPECT_TRUE(same_pixels(shown(made), apart));
+}
+
+TEST(OwnGeometry, DataUrisAndFilesAndGlbShowTheSame) {
+  GltfBuilder made = white_plate();
+  material_of(made)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add_four_colors(made)}};
+  const Picture data_uri = shown(made);
+  expect_quarters(data_uri, {red, green, blue, white});
+  const ModelFolder folder;
+  EXPECT_TRUE(same_pixels(shown(load_gltf(folder.write("made.glb", made.glb()))), data_uri));
+  folder.write("of the plate.bin", made.bin);
+  made.root["buffers"] = {{{"byteLength", made.bin.size()}, {"uri", "of%20the%20plate.bin"}}};
+  EXPECT_TRUE(same_pixels(shown(load_gltf(folder.write("made.gltf", made.text()))), data_uri));
+}
+
+TEST(OwnGeometry, IndicesOfEveryWidthAndStripsAndFansShowTheSame) {
+  GltfBuilder made = white_plate();
+  const Picture shorts = shown(made);
+  expect_quarters(shorts, {white, white, white, white});
+  made.indices(Bytes{0, 1, 2, 0, 2, 3}, u8);
+  EXPECT_TRUE(same_pixels(shown(made), shorts));
+  made.indices(std::vector<uint32_t>{0, 1, 2, 0, 2, 3}, u32);
+  EXPECT_TRUE(same_pixels(shown(made), shorts));
+  made.indices(Bytes{0, 1, 3, 2}, u8);
+  made.primitive()["mode"] = 5;
+  EXPECT_TRUE(same_pixels(shown(made), shorts));
+  made.primitive().erase("indices");
+  made.primitive()["mode"] = 6;
+  EXPECT_TRUE(same_pixels(shown(made), shorts));
+}
+
+// By its weight of a half, the target takes the right edge from 1 to 0; the node's weights come before the
+// mesh's.
+TEST(OwnGeometry, MorphTargetsAtTheirDefaultWeights) {
+  GltfBuilder made = white_plate();
+  const int move =
+      made.accessor(made.view(bytes_of(Floats{0, 0, 0, -2, 0, 0, -2, 0, 0, 0, 0, 0})), "VEC3", f32, 4);
+  made.primitive()["targets"] = {{{"POSITION", move}}};
+  expect_quarters(shown(made), {white, white, white, white});
+  made.root["meshes"][0]["weights"] = {0.5};
+  expect_quarters(shown(made), {white, black, white, black});
+  made.node()["weights"] = {0};
+  expect_quarters(shown(made), {white, white, white, white});
+}
+
+// The lower corners hang on a joint that stays, the upper ones on its child, which goes down by 1; the node's
+// own place does not count.
+TEST(OwnGeometry, ASkinStandsInItsRestPose) {
+  GltfBuilder made = white_plate();
+  made.attribute("JOINTS_0", Bytes{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", u8, 4);
+  made.attribute("WEIGHTS_0", Floats{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", f32, 4);
+  made.node()["skin"] = 0;
+  made.node()["translation"] = {50, 0, 0};
+  made.root["nodes"].push_back({{"children", {3}}});
+  made.root["nodes"].push_back({{"translation", {0, -1, 0}}});
+  made.root["scenes"][0]["nodes"].push_back(2);
+  made.root["skins"] = {{{"joints", {2, 3}}}};
+  expect_quarters(shown(made), {black, black, white, white});
+}
+
+// Two nodes share the plate at half its size, each in its parent's quarter.
+TEST(OwnGeometry, NestedNodesAddUp) {
+  GltfBuilder made = white_plate();
+  made.root["nodes"][0] = {{"translation", {0.5, 0.5, 0}}, {"scale", {0.5, 0.5, 0.5}}, {"children", {2, 3}}};
+  made.root["nodes"].push_back({{"mesh", 0}});
+  made.root["nodes"].push_back({{"mesh", 0}, {"translation", {-2, -2, 0}}});
+  expect_quarters(shown(made), {black, white, white, black});
+}
+
+TEST(OwnGeometry, OnlyTheDefaultSceneIsShown) {
+  GltfBuilder made = white_plate();
+  made.root["scenes"] = {{{"nodes", {0, 1, 2}}}, {{"nodes", {1, 2}}}};
+  made.root["nodes"].push_back({{"mesh", 0}, {"translation", {-1, 0, 1}}});
+  made.root["scene"] = 1;
+  expect_quarters(shown(made), {white, black, white, black});
+}
+
+// A mirrored node turns the winding around, and a plate that was seen from its front still is: in mirrored
+// places, and lit as before. Mirrored in depth it shows its back, which is culled, unless it has two sides.
+TEST(OwnGeometry, NegativeScales) {
+  GltfBuilder made = lit_plate({0.5f, 0.5f, 0.5f});
+  add_light(made, {{"type", "directional"}, {"intensity", 2}});
+  made.indices(std::vector<uint16_t>{0, 1, 3}, u16);  // without the upper right half
+  const glm::dvec3 lower_left(-0.5, -0.5, 0), lower_right(0.5, -0.5, 0), upper_right(0.6, 0.5, 0);
+  const auto scaled = [&](const json& scale) {
+    made.node()["scale"] = scale;
+    return shown(made);
+  };
+  const Picture plain = scaled({1, 1, 1}), across = scaled({-1, 1, 1}), turned = scaled({-1, -1, 1});
+  const glm::vec3 lit = plain.at(lower_left);
+  EXPECT_GT(lit.r, 0.1f);
+  EXPECT_TRUE(plain.is_background(upper_right));
+  EXPECT_EQ(across.at(lower_right), lit);
+  EXPECT_TRUE(across.is_background({-0.6, 0.5, 0}));
+  EXPECT_EQ(turned.at({0.5, 0.5, 0}), lit);
+  EXPECT_TRUE(turned.is_background({-0.5, -0.6, 0}));
+  EXPECT_TRUE(scaled({1, 1, -1}).is_background(lower_left));
+  material_of(made)["doubleSided"] = true;
+  EXPECT_EQ(scaled({1, 1, -1}).at(lower_left), lit);
+  EXPECT_EQ(scaled({-1, 1, -1}).at(lower_right), lit);
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,155 @@
+// Materials from a file to the picture, worked out by hand.
+#include "conformance/own_model.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+
+// pi lux along the plate's normal and the view: appendix B of glTF 2.0 with N = L = V = H. With alpha =
+// roughness squared, D is 1 / (pi alpha squared), V is 1 / 4 and F is its value at normal incidence.
+GltfBuilder under_the_sun(GltfBuilder made) {
+  add_light(made, {{"type", "directional"}, {"intensity", glm::pi<double>()}});
+  return made;
+}
+
+glm::dvec3 dielectric(const glm::dvec3& base, double roughness) {
+  return (1 - 0.04) * base + 0.04 / (4 * std::pow(roughness, 4));
+}
+glm::dvec3 metal(const glm::dvec3& base, double roughness) { return base / (4 * std::pow(roughness, 4)); }
+
+TEST(OwnMaterials, AnUnlitOneShowsItsColourWhateverShines) {
+  const glm::vec4 color(0.25f, 0.5f, 0.75f, 1);
+  expect_radiance(shown(unlit_plate(color)).at({0, 0, 0}), color);
+  expect_radiance(shown(under_the_sun(unlit_plate(color))).at({0, 0, 0}), color);
+}
+
+TEST(OwnMaterials, DielectricAndMetalAndHalfOfEach) {
+  const glm::dvec3 base(0.2, 0.4, 0.8);
+  for (const double roughness : {1.0, 0.5}) {
+    const auto at = [&](float metallic) {
+      return shown(under_the_sun(lit_plate(base, metallic, float(roughness)))).at({0, 0, 0});
+    };
+    expect_radiance(at(0), dielectric(base, roughness));
+    expect_radiance(at(1), metal(base, roughness));
+    expect_radiance(at(0.5f), (dielectric(base, roughness) + metal(base, roughness)) / 2.0);
+  }
+}
+
+// Green is roughness and blue metalness, times the factors.
+TEST(OwnMaterials, MetallicRoughnessTexture) {
+  const glm::dvec3 base(0.2, 0.4, 0.8);
+  GltfBuilder made = under_the_sun(lit_plate(base, 1, 0.5f));
+  const int texture = add_texels(made, 2, 1, 3, {7, 255, 0, 99, 255, 255});
+  material_of(made)["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", texture}};
+  const Picture picture = shown(made);
+  expect_radiance(picture.at({-0.5, 0, 0}), dielectric(base, 0.5));
+  expect_radiance(picture.at({0.5, 0, 0}), metal(base, 0.5));
+}
+
+TEST(OwnMaterials, EmissionTimesItsStrengthNeedsNoLight) {
+  GltfBuilder made = lit_plate({1, 1, 1});
+  material_of(made)["emissiveFactor"] = {0.5, 0.25, 1};
+  material_of(made)["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 8;
+  expect_radiance(shown(made).at({0, 0, 0}), {4, 2, 8});
+}
+
+// At roughness 1, D is 1 / pi and V is 1 / (2 (N.L + N.V)).
+TEST(OwnMaterials, ANormalMapTiltsTheNormal) {
+  const glm::dvec3 base(0.2, 0.4, 0.8);
+  GltfBuilder made = under_the_sun(lit_plate(base));
+  material_of(made)["normalTexture"] = {{"index", add_texels(made, 1, 1, 3, {204, 128, 230})}};
+  const double cosine = glm::normalize(glm::dvec3(204, 128, 230) / 255.0 * 2.0 - 1.0).z;
+  expect_radiance(shown(made).at({0, 0, 0}), cosine * (0.96 * base + 0.04 / (4 * cosine)));
+}
+
+TEST(OwnMaterials, ATextureHasItsOriginAtTheUpperLeft) {
+  GltfBuilder made = unlit_plate({1, 1, 1, 1});
+  material_of(made)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add_four_colors(made)}};
+  expect_quarters(shown(made), {red, green, blue, white});
+}
+
+Picture transformed(const json& transform) {
+  GltfBuilder made = unlit_plate({1, 1, 1, 1});
+  material_of(made)["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", add_four_colors(made)}, {"extensions", {{"KHR_texture_transform", transform}}}};
+  return shown(made);
+}
+
+TEST(OwnMaterials, TextureTransforms) {
+  expect_quarters(transformed({{"offset", {0.5, 0}}}), {green, red, white, blue});
+  expect_quarters(transformed({{"scale", {0.5, 1}}}), {red, red, blue, blue});
+  // A quarter turn of the image with the clock: lower left goes to upper left.
+  expect_quarters(transformed({{"rotation", glm::half_pi<double>()}, {"offset", {0, 1}}}),
+                  {blue, red, white, green});
+  // Scaled, then turned, then moved: (u, v) to (u / 2, v), to (v, -u / 2), to (v, 1 - u / 2).
+  const json all = {{"scale", {0.5, 1}}, {"rotation", glm::half_pi<double>()}, {"offset", {0, 1}}};
+  expect_quarters(transformed(all), {blue, blue, white, white});
+}
+
+// Of a red and a blue texel, u from -1 to 1.
+TEST(OwnMaterials, WrapModes) {
+  const auto wrapped = [](int wrap_s) {
+    GltfBuilder made = unlit_plate({1, 1, 1, 1});
+    material_of(made)["pbrMetallicRoughness"]["baseColorTexture"] = {
+        {"index", add_texels(made, 2, 1, 3, {255, 0, 0, 0, 0, 255}, wrap_s)},
+        {"extensions", {{"KHR_texture_transform", {{"offset", {-1, 0}}, {"scale", {2, 1}}}}}}};
+    const Picture picture = shown(made);
+    std::string texels;
+    for (const double x : {-0.75, -0.25, 0.25, 0.75}) texels += picture.at({x, 0, 0}).r > 0.5f ? 'r' : 'b';
+    return texels;
+  };
+  EXPECT_EQ(wrapped(10497), "rbrb") << "repeat";
+  EXPECT_EQ(wrapped(33071), "rrrb") << "clamp";
+  EXPECT_EQ(wrapped(33648), "brrb") << "mirror";
+}
+
+// Base colour by the first set, emission by the second, in which the image is mirrored. The set that a
+// transform names comes before the texture's.
+TEST(OwnMaterials, TwoUvSetsServeTwoMaps) {
+  for (const bool by_transform : {false, true}) {
+    GltfBuilder made = under_the_sun(lit_plate({1, 1, 1}));
+    made.attribute("TEXCOORD_1", std::vector<float>{1, 1, 0, 1, 0, 0, 1, 0}, "VEC2", f32, 4);
+    json& material = material_of(made);
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add_four_colors(made)}};
+    material["emissiveFactor"] = {1, 1, 1};
+    material["emissiveTexture"] = {{"index", add_four_colors(made)}, {"texCoord", by_transform ? 0 : 1}};
+    if (by_transform) material["emissiveTexture"]["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
+    expect_quarters(shown(made), {dielectric(red, 1) + green, dielectric(green, 1) + red,
+                                  dielectric(blue, 1) + white, dielectric(white, 1) + blue});
+  }
+}
+
+// Texels of alpha 0, 64, 128 and 255: a cutoff lets through what is equal to it.
+TEST(OwnMaterials, AlphaModes) {
+  const auto over = [](const json& mode) {
+    GltfBuilder made = unlit_plate({1, 1, 1, 1});
+    json& material = material_of(made);
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {
+        {"index", add_texels(made, 4, 1, 4, {255, 0, 0, 0, 255, 0, 0, 64, 255, 0, 0, 128, 255, 0, 0, 255})}};
+    material.update(mode);
+    // A second plate a metre behind.
+    made.root["materials"].push_back(unlit({0, 0, 1, 1}));
+    json behind = made.root["meshes"][0];
+    behind["primitives"][0]["material"] = 1;
+    made.root["meshes"].push_back(behind);
+    made.root["nodes"].push_back({{"mesh", 1}, {"translation", {0, 0, -1}}});
+    made.root["scenes"][0]["nodes"].push_back(2);
+    return shown(made);
+  };
+  const auto expect_red = [](const Picture& picture, const std::array<double, 4>& shares) {
+    for (int i = 0; i < 4; ++i) {
+      SCOPED_TRACE(i);
+      expect_radiance(picture.at({-0.75 + 0.5 * i, 0, 0}), {shares[i], 0, 1 - shares[i]});
+    }
+  };
+  expect_red(over(json::object()), {1, 1, 1, 1});
+  expect_red(over({{"alphaMode", "MASK"}}), {0, 0, 1, 1});
+  expect_red(over({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}}), {0, 1, 1, 1});
+  expect_red(over({{"alphaMode", "MASK"}, {"alphaCutoff", 1}}), {0, 0, 0, 1});
+  expect_red(over({{"alphaMode", "MASK"}, {"alphaCutoff", 0}}), {1, 1, 1, 1});
+  expect_red(over({{"alphaMode", "BLEND"}}), {0, 64 / 255.0, 128 / 255.0, 1});
+}
+
+}  // namespace
+}  // namespace lightgrid
