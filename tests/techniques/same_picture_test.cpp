@@ -58,7 +58,11 @@ TEST(SamePicture, WhicheverWayTheBuffersTravel) {
   EXPECT_TRUE(identical(render(staged, scene, view, "forward_plus"), image));
 }
 
-// Two rasterisers may part in depth's last places and at edges; one rasteriser behind two doors may not.
+// Two renderers may differ in depth's last places, at edges, and in how they filter textures: of the brightest channel,
+// llvmpipe and softpipe have an rmse of 2.0e-4, llvmpipe with the filters of AVX and of SSE 2 one of 6.5e-4.
+constexpr double two_renderers = 2e-3;
+
+// One renderer behind two doors may not differ at all.
 TEST(SamePicture, ThroughOsmesaAndEgl) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 127, 73);
@@ -78,7 +82,7 @@ TEST(SamePicture, ThroughOsmesaAndEgl) {
   if (renderers[0] == renderers[1]) {
     EXPECT_TRUE(identical(images[1], images[0])) << renderers[0];
   } else {
-    EXPECT_LT(compare_images(images[1], images[0]).rmse, 0.01 * brightest_channel(images[0]))
+    EXPECT_LT(compare_images(images[1], images[0]).rmse, two_renderers * brightest_channel(images[0]))
         << renderers[0] << " and " << renderers[1];
   }
 }
