@@ -40,7 +40,7 @@ TEST(ReferenceSample, IsSpreadOverTheImage) {
 
 TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   SmallScene s = small_scene();
-  effects()[0].add(s);  // glass, so that blended surfaces are masked as well
+  effect("blend").add(s);  // so that blended surfaces are masked as well
   const View view = small_view(127, 73);
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("forward"));
   run.run_frame();

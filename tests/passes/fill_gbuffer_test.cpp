@@ -7,15 +7,11 @@
 
 #include "passes/passes.h"
 #include "passes/read_outs/surfaces.h"
+#include "support/devices.h"
 #include "support/small_scene.h"
 
 namespace lightgrid {
 namespace {
-
-Renderer& test_devices() {
-  static Renderer devices("", GlBackend::automatic);
-  return devices;
-}
 
 // A wall of small squares, each with a normal of its own: all directions evenly, also those that no
 // rasterised surface turns towards the eye. It fills a view of 90 degrees.

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "scene/builtin.h"
 #include "support/small_scene.h"
 
 namespace lightgrid {
@@ -74,20 +73,6 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   }
 }
 
-TEST(FramePlan, IsAPureFunction) {
-  for (const BuiltinScene& builtin : builtin_scenes()) {
-    const Scene scene = builtin.make();
-    const View view = make_view(choose_camera(scene, ""), 320, 180);
-    const FramePlan first = plan_frame(scene, view, {}, with_grid),
-                    second = plan_frame(scene, view, {}, with_grid);
-    EXPECT_EQ(describe(first, scene), describe(second, scene));
-    EXPECT_EQ(first.opaque, second.opaque);
-    EXPECT_EQ(first.blended, second.blended);
-    EXPECT_EQ(first.features_of_instance, second.features_of_instance);
-    EXPECT_EQ(first.local, second.local);
-  }
-}
-
 TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
   for (const Effect& effect : effects()) {
     SmallScene s = small_scene();
@@ -103,7 +88,7 @@ TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
 
 TEST(FramePlan, BlendedInstancesGoBackToFront) {
   SmallScene s = small_scene();
-  effects()[0].add(s);
+  effect("blend").add(s);
   const int pane = s.scene.instances.back().mesh;
   for (const double z : {-1.0, 0.5, -0.5}) add_instance(s.scene, "pane", pane, placed({0, 0, z}));
   EXPECT_EQ(plan_of(s.scene).blended, (std::vector<int>{3, 5, 2, 4}));
@@ -111,7 +96,7 @@ TEST(FramePlan, BlendedInstancesGoBackToFront) {
 
 TEST(FramePlan, ATechniqueWithoutAGridHasNone) {
   SmallScene s = small_scene();
-  effects()[0].add(s);
+  effect("blend").add(s);
   const FramePlan plan = plan_frame(s.scene, small_view(17, 9), {}, without_grid);
   EXPECT_FALSE(plan.light_grid || plan.blend_grid);
   EXPECT_TRUE(plan.blend && plan.local_lights);
@@ -140,7 +125,7 @@ TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
 
 TEST(FramePlan, WithoutDepthBoundsOneGridServesAll) {
   SmallScene s = small_scene();
-  effects()[0].add(s);
+  effect("blend").add(s);
   const FramePlan plan = plan_of(s.scene, {.depth_bounds = DepthBoundsMode::none});
   EXPECT_TRUE(plan.blend && plan.light_grid);
   EXPECT_FALSE(plan.blend_grid);

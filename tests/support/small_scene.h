@@ -3,6 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "scene/builtin/compose.h"
 #include "scene/builtin/shapes.h"
@@ -132,6 +135,19 @@ inline const std::vector<Effect>& effects() {
        }},
   };
   return all;
+}
+
+inline const Effect& effect(const std::string& name) {
+  for (const Effect& candidate : effects()) {
+    if (candidate.name == name) return candidate;
+  }
+  throw std::runtime_error("no effect " + name);
+}
+
+inline std::vector<std::string> effect_names() {
+  std::vector<std::string> names;
+  for (const Effect& each : effects()) names.push_back(each.name);
+  return names;
 }
 
 }  // namespace lightgrid

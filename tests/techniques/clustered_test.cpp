@@ -77,7 +77,7 @@ TEST(GridMasks, HaveTheBytesOfEveryLightAtEveryPixel) {
   for (const int more : {0, 1, 25, 26, 27, 60}) {
     SCOPED_TRACE(more);
     SmallScene s = small_scene();
-    effects()[0].add(s);
+    effect("blend").add(s);
     for (int i = 0; i < more; ++i) add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.2f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.8f);
     const View view = small_view(127, 73);
     const Image forward = render(s.scene, view, "forward");
@@ -132,7 +132,7 @@ View orthographic_small_view(double near_m) {
 
 TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
   SmallScene s = small_scene();
-  effects()[0].add(s);
+  effect("blend").add(s);
   Camera ends = look_at({0, 0, 0}, {0, 0, -1});
   ends.far_m = 4.5;
   for (const View& view : {orthographic_small_view(0), orthographic_small_view(-3), make_view(ends, 127, 73)}) {
@@ -148,7 +148,7 @@ TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
 // Opaque and blended surfaces at all depths stand in cells of one grid.
 TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
   SmallScene s = small_scene();
-  effects()[0].add(s);
+  effect("blend").add(s);
   const View view = small_view(127, 73);
   for (const char* technique : {"clustered", "forward_plus"}) {
     TechniqueRun run(test_devices(), s.scene, view, {.depth_bounds = DepthBoundsMode::none}, find_technique(technique));

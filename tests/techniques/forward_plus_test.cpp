@@ -93,7 +93,7 @@ TEST(ForwardPlus, CameraInsideALightAndLightsPastTheFarPlane) {
 
 TEST(ForwardPlus, OrthographicViews) {
   SmallScene s = small_scene();
-  effects()[0].add(s);
+  effect("blend").add(s);
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.orthographic = true;
   camera.half_width_m = camera.half_height_m = 2;
@@ -158,7 +158,7 @@ TEST(ForwardPlus, AThousandLightsInOnePlaceAreOneOfAThousandfoldIntensity) {
 // What a blended surface shows is lit by lights that reach no opaque one.
 TEST(ForwardPlus, ALightBeforeEverythingOpaqueLightsTheGlass) {
   SmallScene s = small_scene(false);
-  effects()[0].add(s);
+  effect("blend").add(s);
   const View view = small_view(127, 73);
   const Image dark = render(s.scene, view, "forward_plus");
   add_point(s.scene, "lamp", {-0.5f, 0, -1.8f}, {1, 1, 1}, 2, 0.5f);

@@ -57,8 +57,8 @@ inline void expect_within_limit(const Scene& scene, const View& view, const Sett
 // Lights about everything, few enough: around the eye, past near and far, behind, grazing, tangent, over the whole screen.
 inline Scene awkward_lights() {
   SmallScene s = small_scene();
-  effects()[0].add(s);  // glass
-  effects()[11].add(s); // a spot
+  effect("blend").add(s);
+  effect("spot").add(s);
   add_point(s.scene, "at the eye", {0, 0, 0}, {1, 1, 1}, 3, 3.5f);
   add_point(s.scene, "at the near plane", {0.02, 0, -0.1}, {1, 1, 1}, 1, 4.5f);
   add_point(s.scene, "behind", {0, 0, 1}, {1, 1, 1}, 5, 0.9f);

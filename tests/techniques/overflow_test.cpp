@@ -9,7 +9,7 @@ namespace {
 // them at the wall itself, one behind it; and a light from far off, on a scene with a pane of glass.
 Scene blinding_scene() {
   SmallScene s = small_scene(false);
-  effects()[0].add(s);
+  effect("blend").add(s);
   for (int i = 0; i < 3; ++i)
     add_point(s.scene, "lamp", {i - 1.0f, 0.1f, -3.9f}, {1, 0.9f, 0}, 3.4e38f, 0.5f);
   add_point(s.scene, "at the wall", {0.2f, 0.5f, -4}, {1, 1, 1}, 3.4e38f, 0.3f);

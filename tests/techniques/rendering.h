@@ -11,14 +11,9 @@
 #include "results/metrics.h"
 #include "compare/oracle.h"
 #include "compare/run_technique.h"
+#include "support/devices.h"
 
 namespace lightgrid {
-
-inline Renderer& test_devices() {
-  static Renderer devices("", GlBackend::automatic);
-  devices.gl->make_current();  // some tests open others
-  return devices;
-}
 
 inline Image render(Renderer& devices, const Scene& scene, const View& view, const std::string& technique,
                     const Settings& settings = {}) {
@@ -40,6 +35,9 @@ inline bool same_bytes(const Image& a, const Image& b) {
   return a.width == b.width && a.height == b.height &&
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec4)) == 0;
 }
+
+// Meshes that stand for lights: corners of three floats, indices of 16 bits (docs/techniques/deferred.md counts them).
+inline constexpr size_t light_mesh_bytes = 469 * 12 + 2667 * 2;
 
 // Says how far apart two images are where they should be one.
 inline testing::AssertionResult identical(const Image& a, const Image& b) {

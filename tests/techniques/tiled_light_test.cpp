@@ -1,6 +1,7 @@
 // deferred_tiled and forward_plus_compute: the light loop in OpenCL against forward's in OpenGL.
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
+#include "techniques/rounding_loss.h"
 
 namespace lightgrid {
 namespace {
@@ -56,61 +57,11 @@ TEST(TiledLight, OfBothKernelShapesAndEveryLoop) {
   }
 }
 
-// Point and spot lights at every pixel with a surface, in double.
-std::vector<glm::dvec3> shade_in_double(const RenderView& v, const SurfaceImages& surfaces, const std::vector<float>& depth,
-                                        const std::vector<uint32_t>& pixels) {
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
-  std::vector<ViewLight> local;
-  for (int i : v.plan.local) local.push_back(all[i]);
-  const auto surface_at = [&](uint32_t pixel) {
-    Surface surface = surface_of(surfaces, pixel);
-    surface.emissive = {}, surface.unlit = false;
-    return surface;
-  };
-  return shade_pixels(v.view, depth, surface_at, local, {}, pixels);
-}
-
-struct Loss {
-  double image = 0;        // of forward's brightest channel
-  double unexplained = 0;  // by what the geometry buffer rounds
-};
-
-// Own light (ambient, emission) is in the image before anything is rounded. The rest of the loss must be what the
-// oracle makes of the surfaces as they were stored.
-Loss loss_of(const Scene& scene, const View& view, const Image& forward, int bits) {
-  TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique("deferred_tiled"));
-  run.run_frame();
-  RenderView& v = run.view();
-  EXPECT_TRUE(v.plan.own_light);
-  const std::vector<float> depth = read_depth(v);
-  const SurfaceImages kept = read_gbuffer_surfaces(v), drawn = read_surfaces(v);
-  std::vector<uint32_t> pixels;
-  for (uint32_t i = 0; i < depth.size(); ++i) {
-    if (depth[i] > 0 && !drawn.blended[i] && drawn.emissive_occlusion.pixels[i].w >= 0) pixels.push_back(i);
-  }
-  const std::vector<glm::dvec3> rounded = shade_in_double(v, kept, depth, pixels);
-  const std::vector<glm::dvec3> exact = shade_in_double(v, drawn, depth, pixels);
-  const double brightest = brightest_channel(forward);
-  Loss loss;
-  for (size_t k = 0; k < pixels.size(); ++k) {
-    const glm::dvec3 found = glm::dvec3(run.image().pixels[pixels[k]]) - glm::dvec3(forward.pixels[pixels[k]]);
-    const glm::dvec3 rest = glm::abs(found - (rounded[k] - exact[k])), all = glm::abs(found);
-    loss.image = std::max({loss.image, all.x / brightest, all.y / brightest, all.z / brightest});
-    loss.unexplained = std::max({loss.unexplained, rest.x / brightest, rest.y / brightest, rest.z / brightest});
-  }
-  return loss;
-}
-
 TEST(TiledLight, LosesIn16And8BitsJustWhatTheGeometryBufferRounds) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 95, 53);
-  const Image forward = render(scene, view, "forward");
-  const Loss in_32 = loss_of(scene, view, forward, 32), in_16 = loss_of(scene, view, forward, 16);
-  const Loss in_8 = loss_of(scene, view, forward, 8);
-  for (const Loss& loss : {in_32, in_16, in_8}) EXPECT_LT(loss.unexplained, exact_enough);
-  EXPECT_LT(in_32.image, exact_enough);
-  EXPECT_GT(in_16.image, exact_enough) << "else nothing was explained";
-  EXPECT_GT(in_8.image, in_16.image);
+  ASSERT_TRUE(plan_frame(scene, view, {}, {}).own_light) << "ambient light would be rounded too";
+  expect_rounding_explains_the_loss("deferred_tiled", scene, view);
 }
 
 TEST(TiledLight, IsNoneWhereThereAreNoLights) {
