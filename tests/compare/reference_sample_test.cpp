@@ -13,7 +13,7 @@ namespace lightgrid {
 namespace {
 
 TEST(ReferenceSample, BlocksCoverEachPixelOnceInAnOrderOfTheSeed) {
-  for (const auto [width, height] : {std::pair(17, 9), {1, 1}, {64, 36}, {3, 40}}) {
+  for (const auto& [width, height] : {std::pair(17, 9), {1, 1}, {64, 36}, {3, 40}}) {
     const std::vector<PixelBlock> blocks = shuffled_blocks(width, height, 1);
     const std::vector<uint32_t> pixels = pixels_of(blocks, width, height);
     ASSERT_EQ(pixels.size(), size_t(width) * size_t(height));
