@@ -14,7 +14,11 @@ function(lightgrid_twin_objects source name)
 endfunction()
 
 function(lightgrid_float_twin)
-  foreach(test RANGE 4)
+  # One for each row of cull_tests.
+  file(STRINGS ${PROJECT_SOURCE_DIR}/src/shared/cull_tests.h rows REGEX "^    {CullTest::")
+  list(LENGTH rows tests)
+  math(EXPR last "${tests} - 1")
+  foreach(test RANGE ${last})
     foreach(mode 1 2 4)  # minmax, halfz, mask32: one of each layout of bounds
       lightgrid_twin_objects(verify/twin/cells.cpp cells_${test}_${mode} CULL_TEST=${test} DEPTH_MODE=${mode})
     endforeach()

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "bench/row_filter.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -40,7 +41,7 @@ KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
   work.bins = ((grid.cells_x + bin - 1) / bin) * ((grid.cells_y + bin - 1) / bin);
   work.indices = grid.index_count, work.index_bytes = grid.index_bytes;
   work.mask_bytes = grid.mask_bytes, work.z_bins = size_t(run.settings().z_bins);
-  work.exact = run.settings().cull_test == CullTest::exact;
+  work.exact = row_of(run.settings().cull_test).distance;
   for (const Light& light : frame.lights) work.cones |= light.type == LightType::spot;
   return work;
 }

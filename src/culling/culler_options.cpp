@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -14,11 +15,15 @@ void check_option(const char* name, int value, std::initializer_list<int> allowe
   throw input_error("culler options: {} is {}, not one of {}", name, value, fmt::join(allowed, ", "));
 }
 
+void check_row(const char* name, int value, int rows) {
+  if (value < 0 || value >= rows) throw input_error("culler options: {} is {}, not from 0 to {}", name, value, rows - 1);
+}
+
 }  // namespace
 
 void check_options(const CullerOptions& o) {
-  check_option("cull_test", int(o.cull_test), {0, 1, 2, 3, 4});
-  check_option("depth_bounds", int(o.depth_bounds), {0, 1, 2, 3, 4});
+  check_row("cull_test", int(o.cull_test), int(std::size(cull_tests)));
+  check_row("depth_bounds", int(o.depth_bounds), int(std::size(depth_bounds_modes)));
   check_option("shape", int(o.shape), {0, 1, 2});
   check_option("tile", o.tile, {8, 16, 32, 64});
   check_option("depth_format", int(o.depth_format), {0, 1, 2});

@@ -15,6 +15,7 @@
 #include "culling/light_arrays.h"
 #include "culling/oblique_view.h"
 #include "culling/two_floats.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
@@ -416,8 +417,7 @@ LightCuller::Room LightCuller::first_room(size_t index_bytes) const {
 // views move, or with just that much where there is not as much memory.
 void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells) {
   const size_t index_bytes = grid.index_bits / 8, largest = device_.info().max_allocation_bytes;
-  const bool sphere_or_aabb = options_.cull_test == CullTest::sphere || options_.cull_test == CullTest::aabb;
-  const char* advice = sphere_or_aabb ? "cull tests sphere and aabb count each light in every tile of the view: use planes, "
+  const char* advice = !row_of(options_.cull_test).planes ? "cull tests sphere and aabb count each light in every tile of the view: use planes, "
                                         "planes_aabb or exact, or fewer lights"
                                       : "use fewer or smaller lights";
   Room needed{1, 1, 0};  // as far as is known

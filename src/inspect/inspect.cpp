@@ -10,6 +10,7 @@
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
 #include "capture/frame_lists.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -78,11 +79,11 @@ struct NamedMargin {
 // Of the tests that these settings use, in their order.
 std::vector<NamedMargin> margins_in_use(const TestMargins& m, CullTest test) {
   std::vector<NamedMargin> used = {{"interval", m.interval}};
-  const bool exact = test == CullTest::exact, both = test == CullTest::planes_aabb || exact;
-  if (test == CullTest::planes || both) used.push_back({"planes", m.planes});
-  if (test == CullTest::aabb || both) used.push_back({"aabb", m.aabb});
-  if (test == CullTest::sphere) used.push_back({"sphere", m.sphere});
-  if (exact) used.push_back({"exact", m.exact});
+  const CullTestRow& parts = row_of(test);
+  if (parts.planes) used.push_back({"planes", m.planes});
+  if (parts.box) used.push_back({"aabb", m.aabb});
+  if (parts.sphere) used.push_back({"sphere", m.sphere});
+  if (parts.distance) used.push_back({"exact", m.exact});
   if (m.cone) used.push_back({"cone", *m.cone});
   if (m.pieces) used.push_back({"pieces", *m.pieces});
   return used;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -24,6 +25,17 @@ Choice choice(const char* value, T Settings::*member, T meant) {
   return {value, [=](Settings& s) { s.*member = meant; }, [=](const Settings& s) { return s.*member == meant; }};
 }
 
+// One choice a row of a table, the default first.
+template <typename Row, size_t rows, typename T>
+std::vector<Choice> choices_of(const Row (&table)[rows], T Settings::*member, T Row::*meant) {
+  std::vector<Choice> choices;
+  for (const Row& row : table) {
+    const auto place = row.*meant == Settings().*member ? choices.begin() : choices.end();
+    choices.insert(place, choice(row.name, member, row.*meant));
+  }
+  return choices;
+}
+
 const std::vector<Setting>& all_settings() {
   static const std::vector<Setting> settings = {
       {"brdf",
@@ -31,17 +43,10 @@ const std::vector<Setting>& all_settings() {
        {choice("ggx", &Settings::brdf, Brdf::ggx), choice("blinn", &Settings::brdf, Brdf::blinn)}},
       {"cull-test",
        "which test decides whether a light may touch a cell",
-       {choice("planes+aabb", &Settings::cull_test, CullTest::planes_aabb),
-        choice("planes", &Settings::cull_test, CullTest::planes), choice("aabb", &Settings::cull_test, CullTest::aabb),
-        choice("sphere", &Settings::cull_test, CullTest::sphere),
-        choice("exact", &Settings::cull_test, CullTest::exact)}},
+       choices_of(cull_tests, &Settings::cull_test, &CullTestRow::test)},
       {"depth-bounds",
        "the interval of distances that a cell spans",
-       {choice("minmax", &Settings::depth_bounds, DepthBoundsMode::minmax),
-        choice("none", &Settings::depth_bounds, DepthBoundsMode::none),
-        choice("halfz", &Settings::depth_bounds, DepthBoundsMode::halfz),
-        choice("halfz-modified", &Settings::depth_bounds, DepthBoundsMode::halfz_modified),
-        choice("mask32", &Settings::depth_bounds, DepthBoundsMode::mask32)}},
+       choices_of(depth_bounds_modes, &Settings::depth_bounds, &DepthBoundsRow::mode)},
       {"tile",
        "tile size in pixels",
        {choice("16", &Settings::tile, 16), choice("8", &Settings::tile, 8), choice("32", &Settings::tile, 32),

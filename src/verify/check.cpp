@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "reference/position.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 #include "verify/float_twin.h"
@@ -14,16 +15,6 @@ namespace lightgrid::verify {
 namespace {
 
 constexpr double farthest_surface = 1e15;  // metres; docs/hard_cases.md#the-domain
-
-const char* name_of(CullTest test) {
-  const char* names[] = {"sphere", "planes", "aabb", "planes+aabb", "exact"};
-  return names[int(test)];
-}
-
-const char* name_of(DepthBoundsMode mode) {
-  const char* names[] = {"none", "minmax", "halfz", "halfz-modified", "mask32"};
-  return names[int(mode)];
-}
 
 bool lights_it(const TrueLight& light, const glm::dvec3& position) {
   if (light.lists_nothing) return false;
@@ -63,7 +54,7 @@ Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t i
 }  // namespace
 
 std::string to_string(const CullerOptions& o) {
-  return fmt::format("{} {} tile {} {}", name_of(o.cull_test), name_of(o.depth_bounds), o.tile,
+  return fmt::format("{} {} tile {} {}", row_of(o.cull_test).name, row_of(o.depth_bounds).name, o.tile,
                      o.shape == KernelShape::lanes ? "lanes" : o.shape == KernelShape::group ? "group" : "automatic");
 }
 
@@ -115,11 +106,11 @@ Outcome Check::outcome() const {
 
 std::vector<CullerOptions> Check::every_test(int tile) const {
   std::vector<CullerOptions> settings;
-  for (const CullTest test :
-       {CullTest::planes_aabb, CullTest::exact, CullTest::sphere, CullTest::planes, CullTest::aabb}) {
+  for (const CullTestRow& row : cull_tests) {
     CullerOptions options;
-    options.cull_test = test, options.tile = tile;
-    settings.push_back(options);
+    options.cull_test = row.test;
+    options.tile = tile;
+    settings.insert(row.test == CullerOptions().cull_test ? settings.begin() : settings.end(), options);
   }
   return settings;
 }

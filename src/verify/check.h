@@ -18,7 +18,7 @@ class Check {
   const uint64_t adversarial_lights;  // how many tangent lights the bulk case makes
 
   // Every cull test at one tile size.
-  std::vector<CullerOptions> every_test(int tile = 16) const;
+  std::vector<CullerOptions> every_test(int tile = 16) const;  // the default first
   // The default cull test in every tile size.
   std::vector<CullerOptions> every_tile() const;
 

@@ -1,6 +1,7 @@
 // Depth images of hard cases, and what they are asked under.
 #pragma once
 
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 #include "verify/tangent_lights.h"
 
@@ -21,13 +22,14 @@ DepthImage depth_of(const CullView& view, const Distance& distance) {
   return depth;
 }
 
+// The default first.
 inline std::vector<CullerOptions> every_mode(int tile = 16) {
   std::vector<CullerOptions> settings;
-  for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::none, DepthBoundsMode::halfz,
-                                     DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32}) {
+  for (const DepthBoundsRow& row : depth_bounds_modes) {
     CullerOptions options;
-    options.depth_bounds = mode, options.tile = tile;
-    settings.push_back(options);
+    options.depth_bounds = row.mode;
+    options.tile = tile;
+    settings.insert(row.mode == CullerOptions().depth_bounds ? settings.begin() : settings.end(), options);
   }
   return settings;
 }

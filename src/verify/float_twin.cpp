@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 #include "verify/check.h"
 #include "verify/twin/twin.h"
@@ -21,15 +22,15 @@ Lists lists_by(const TwinInputs& in, DepthBoundsMode mode) {
   return halves ? lights_of_cells<test, 2>(in) : lights_of_cells<test, 1>(in);
 }
 
+// The twin of each row of cull_tests.
+template <size_t... tests>
+Lists lists_by(const TwinInputs& in, CullTest test, DepthBoundsMode mode, std::index_sequence<tests...>) {
+  constexpr Lists (*twins[])(const TwinInputs&, DepthBoundsMode) = {lists_by<int(tests)>...};
+  return twins[size_t(test)](in, mode);
+}
+
 Lists lists_by(const TwinInputs& in, CullTest test, DepthBoundsMode mode) {
-  switch (test) {
-    case CullTest::sphere: return lists_by<0>(in, mode);
-    case CullTest::planes: return lists_by<1>(in, mode);
-    case CullTest::aabb: return lists_by<2>(in, mode);
-    case CullTest::planes_aabb: return lists_by<3>(in, mode);
-    case CullTest::exact: break;
-  }
-  return lists_by<4>(in, mode);
+  return lists_by(in, test, mode, std::make_index_sequence<std::size(cull_tests)>());
 }
 
 }  // namespace

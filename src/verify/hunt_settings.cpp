@@ -1,19 +1,16 @@
 #include "verify/hunt_settings.h"
 
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 
 namespace lightgrid::verify {
 namespace {
 
-constexpr CullTest tests[] = {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact};
-constexpr DepthBoundsMode modes[] = {DepthBoundsMode::none, DepthBoundsMode::minmax, DepthBoundsMode::halfz,
-                                     DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32};
-
 // Variants that depth_cases and light_cases build in any case.
 void choose_from_few(HuntSetting& s, Random& random) {
   const bool vary_test = chance(random, 0.5);
-  if (vary_test) s.options.cull_test = one_of(random, tests);
-  else s.options.depth_bounds = one_of(random, modes);
+  if (vary_test) s.options.cull_test = one_of(random, cull_tests).test;
+  else s.options.depth_bounds = one_of(random, depth_bounds_modes).mode;
   s.spots = vary_test && chance(random, 0.5);
   if (!vary_test && s.options.depth_bounds == DepthBoundsMode::minmax) {
     s.slices = one_of(random, {1, 24});
@@ -31,7 +28,7 @@ HuntSetting random_setting(Random& random, bool few) {
     choose_from_few(s, random);
     return s;
   }
-  o.cull_test = one_of(random, tests), o.depth_bounds = one_of(random, modes);
+  o.cull_test = one_of(random, cull_tests).test, o.depth_bounds = one_of(random, depth_bounds_modes).mode;
   s.slices = one_of(random, {1, 24});
   s.z_bins = one_of(random, {1, 64});
   s.spots = chance(random, 0.5);

@@ -6,6 +6,7 @@
 #include "reference/lit_set.h"
 #include "capture/frame_culler.h"
 #include "capture/frame_lists.h"
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 
 namespace lightgrid::verify {
@@ -15,13 +16,12 @@ const HardCase replayed{"replay", "float_twin", "a captured frame, under every t
 
 std::vector<CullerOptions> every_setting(int tile) {
   std::vector<CullerOptions> settings;
-  for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
-    for (const DepthBoundsMode mode : {DepthBoundsMode::none, DepthBoundsMode::minmax, DepthBoundsMode::halfz,
-                                       DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32}) {
+  for (const CullTestRow& test : cull_tests) {
+    for (const DepthBoundsRow& bounds : depth_bounds_modes) {
       CullerOptions options;
       options.tile = tile;
-      options.cull_test = test;
-      options.depth_bounds = mode;
+      options.cull_test = test.test;
+      options.depth_bounds = bounds.mode;
       settings.push_back(options);
     }
   }

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -139,13 +140,11 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Tr
   const double box_margin = least_radius + 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
   const Box box = box_of(cell);
   if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
-  const bool planes = test == CullTest::planes || test == CullTest::planes_aabb || test == CullTest::exact;
-  if (planes && outside_of_sides(cell, p) > r + margin) return false;
-  if (test == CullTest::aabb || test == CullTest::planes_aabb || test == CullTest::exact) {
-    if (distance_to_box(box, p) > r + box_margin) return false;
-  }
-  if (test == CullTest::exact && steep <= gentle_slope && distance_to_cell(cell, p) > r + box_margin) return false;
-  if (test == CullTest::sphere && !endless) {
+  const CullTestRow& parts = row_of(test);
+  if (parts.planes && outside_of_sides(cell, p) > r + margin) return false;
+  if (parts.box && distance_to_box(box, p) > r + box_margin) return false;
+  if (parts.distance && steep <= gentle_slope && distance_to_cell(cell, p) > r + box_margin) return false;
+  if (parts.sphere && !endless) {
     const glm::dvec3 centre((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2, -(box.d0 + box.d1) / 2);
     const double reach = std::hypot(box.x1 - box.x0, box.y1 - box.y0, box.d1 - box.d0) / 2;
     if (glm::length(p - centre) > reach * (1 + 40 * u) + r + box_margin) return false;

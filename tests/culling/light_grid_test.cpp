@@ -9,6 +9,7 @@
 #include "reference/lit_blocks.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -86,21 +87,16 @@ CullerOptions grid_options(CullTest test, KernelShape shape) {
   return options;
 }
 
-constexpr CullTest every_test[] = {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact};
+std::vector<CullTest> every_cull_test() {
+  std::vector<CullTest> tests;
+  for (const CullTestRow& row : cull_tests) tests.push_back(row.test);
+  return tests;
+}
 
-std::string name_of(CullTest test) {
-  switch (test) {
-    case CullTest::sphere:
-      return "sphere";
-    case CullTest::planes:
-      return "planes";
-    case CullTest::aabb:
-      return "aabb";
-    case CullTest::exact:
-      return "exact";
-    default:
-      return "planes_aabb";
-  }
+std::string test_name(CullTest test) {
+  std::string name = row_of(test).name;
+  std::ranges::replace(name, '+', '_');
+  return name;
 }
 
 struct LightGridOf : testing::TestWithParam<std::tuple<CullTest, KernelShape>> {
@@ -211,10 +207,10 @@ TEST_P(LightGridOf, StrangeLights) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, LightGridOf,
-                         testing::Combine(testing::ValuesIn(every_test),
+                         testing::Combine(testing::ValuesIn(every_cull_test()),
                                           testing::Values(KernelShape::lanes, KernelShape::group)),
                          [](const auto& info) {
-                           return name_of(std::get<0>(info.param)) +
+                           return test_name(std::get<0>(info.param)) +
                                   (std::get<1>(info.param) == KernelShape::lanes ? "_lanes" : "_group");
                          });
 
@@ -318,8 +314,8 @@ TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
     const auto lights = scattered_lights(named.view, 400, true, 18);
     const LitBlocks lit = find_lit_blocks(named.view, depth, lights);
     // Every kind of depth bounds. Tile sizes take turns; every sixth setting also runs the other shape.
-    for (int mode = 0; mode < 5; ++mode) {
-      const int combination = 5 * int(GetParam()) + mode, tile = 8 << combination % 4;
+    for (int mode = 0; mode < int(std::size(depth_bounds_modes)); ++mode) {
+      const int combination = int(std::size(depth_bounds_modes)) * int(GetParam()) + mode, tile = 8 << combination % 4;
       CullerOptions options = grid_options(GetParam(), KernelShape::lanes);
       options.tile = tile, options.depth_bounds = DepthBoundsMode(mode);
       SCOPED_TRACE(fmt::format("{} mode {} tile {}", named.name, mode, tile));
@@ -340,8 +336,8 @@ TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, LightGridUnder, testing::ValuesIn(every_test),
-                         [](const auto& info) { return name_of(info.param); });
+INSTANTIATE_TEST_SUITE_P(Kernels, LightGridUnder, testing::ValuesIn(every_cull_test()),
+                         [](const auto& info) { return test_name(info.param); });
 
 }  // namespace
 }  // namespace lightgrid
