@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "scene/deform.h"
@@ -12,15 +14,16 @@ namespace {
 
 void check_animation(const Scene& scene, int animation) {
   if (animation >= -1 && animation < animation_count(scene)) return;
-  throw input_error("{}: animation {} was asked for, but there are {}", scene.rig ? scene.rig->file : scene.name, animation,
-                    animation_count(scene));
+  throw input_error("{}: animation {} was asked for, but there are {}",
+                    scene.rig ? scene.rig->file : scene.name, animation, animation_count(scene));
 }
 
 Pose pose_at(const Rig& rig, double seconds, int animation) {
   return seconds == 0 && animation < 0 ? rest_pose(rig) : animated_pose(rig, seconds, animation);
 }
 
-// Light directions and camera axes on nodes that have none in a pose. Rare, so the rest pose is made only then.
+// Light directions and camera axes on nodes that have none in a pose: rare, so the rest pose is made on
+// demand.
 class RestFallback {
  public:
   explicit RestFallback(const Rig& rig) : rig_(rig) {}
@@ -75,46 +78,70 @@ ShapeInputs inputs_of(const Rig& rig, const DeformingMesh& shape, const Pose& po
   return inputs;
 }
 
-void update_mesh(const Rig& rig, const DeformingMesh& shape, const ShapeInputs& inputs, double seconds, Mesh& mesh) {
+void update_mesh(const Rig& rig, const DeformingMesh& shape, const ShapeInputs& inputs, double seconds,
+                 Mesh& mesh) {
   deform(shape, inputs.weights, inputs.joints, mesh);
   if (const auto vertex = first_not_finite(mesh)) {
-    throw input_error("{}: {}: vertex {} is moved to infinity at {} s", rig.file, shape.label, *vertex, seconds);
+    throw input_error("{}: {}: vertex {} is moved to infinity at {} s", rig.file, shape.label, *vertex,
+                      seconds);
   }
+}
+
+std::vector<int> move_instances(Scene& scene, const Pose& pose) {
+  std::vector<int> changed;
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    Instance& instance = scene.instances[i];
+    if (instance.node < 0) continue;
+    const glm::dmat4 world = world_of_instance(pose.world_from_node[instance.node]);
+    if (assign(instance.world_from_object, world)) changed.push_back(int(i));
+  }
+  return changed;
+}
+
+// `items`: lights or cameras.
+template <typename Item, typename Move>
+std::vector<int> move_all(std::vector<Item>& items, const Pose& pose, RestFallback& rest, const Move& move) {
+  std::vector<int> changed;
+  for (size_t i = 0; i < items.size(); ++i) {
+    const int node = items[i].node;
+    if (node >= 0 && move(items[i], pose.world_from_node[node], rest)) changed.push_back(int(i));
+  }
+  return changed;
+}
+
+// `before` is empty where the present shapes are unknown: all are made again.
+std::vector<int> deform_meshes(Scene& scene, const Pose& pose, const std::optional<Pose>& before,
+                               double seconds) {
+  std::vector<int> changed;
+  for (const DeformingMesh& shape : scene.rig->meshes) {
+    const ShapeInputs inputs = inputs_of(*scene.rig, shape, pose);
+    if (before && inputs == inputs_of(*scene.rig, shape, *before)) continue;
+    update_mesh(*scene.rig, shape, inputs, seconds, scene.meshes[shape.mesh]);
+    changed.push_back(shape.mesh);
+  }
+  return changed;
 }
 
 }  // namespace
 
 SceneChanges set_time(Scene& scene, double seconds, int animation) {
-  if (!std::isfinite(seconds)) throw input_error("{}: time {} is not a finite number of seconds", scene.name, seconds);
+  if (!std::isfinite(seconds)) {
+    throw input_error("{}: time {} is not a finite number of seconds", scene.name, seconds);
+  }
   check_animation(scene, animation);
   if (!scene.rig) return {};
-  const Rig& rig = *scene.rig;
-  const Pose pose = pose_at(rig, seconds, animation);
-  std::optional<Pose> before;  // nothing after an error: then all shapes are made again
-  if (!std::isnan(scene.time_s)) before = pose_at(rig, scene.time_s, scene.animation);
-  scene.time_s = std::numeric_limits<double>::quiet_NaN();
+  const Pose pose = pose_at(*scene.rig, seconds, animation);
+  std::optional<Pose> before;
+  if (!std::isnan(scene.time_s)) before = pose_at(*scene.rig, scene.time_s, scene.animation);
 
+  // Meshes first: only they can fail, and the next call then makes and lists all of them.
+  scene.time_s = std::numeric_limits<double>::quiet_NaN();
   SceneChanges changes;
-  RestFallback rest(rig);
-  for (size_t i = 0; i < scene.instances.size(); ++i) {
-    Instance& instance = scene.instances[i];
-    if (instance.node < 0) continue;
-    if (assign(instance.world_from_object, world_of_instance(pose.world_from_node[instance.node]))) changes.instances.push_back(int(i));
-  }
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const int node = scene.lights[i].node;
-    if (node >= 0 && move_light(scene.lights[i], pose.world_from_node[node], rest)) changes.lights.push_back(int(i));
-  }
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const int node = scene.cameras[i].node;
-    if (node >= 0 && move_camera(scene.cameras[i], pose.world_from_node[node], rest)) changes.cameras.push_back(int(i));
-  }
-  for (const DeformingMesh& shape : rig.meshes) {
-    const ShapeInputs inputs = inputs_of(rig, shape, pose);
-    if (before && inputs == inputs_of(rig, shape, *before)) continue;
-    update_mesh(rig, shape, inputs, seconds, scene.meshes[shape.mesh]);
-    changes.meshes.push_back(shape.mesh);
-  }
+  changes.meshes = deform_meshes(scene, pose, before, seconds);
+  RestFallback rest(*scene.rig);
+  changes.instances = move_instances(scene, pose);
+  changes.lights = move_all(scene.lights, pose, rest, move_light);
+  changes.cameras = move_all(scene.cameras, pose, rest, move_camera);
   scene.time_s = seconds;
   scene.animation = animation;
   return changes;
@@ -130,6 +157,13 @@ double duration_of(const Scene& scene, int animation) {
     }
   }
   return duration;
+}
+
+double looped_time(const Scene& scene, double seconds, int animation) {
+  const double duration = duration_of(scene, animation);
+  if (!(seconds > duration) || duration == 0) return seconds;
+  const double remainder = std::fmod(seconds, duration);
+  return remainder == 0 ? duration : remainder;
 }
 
 int animation_count(const Scene& scene) { return scene.rig ? int(scene.rig->animations.size()) : 0; }

@@ -17,17 +17,19 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-// Calls set(value, sum of weighted displacements) for each value, if some target of weight other than 0 displaces the
-// attribute.
+// Calls set(value, sum of weighted displacements) for each value, if some target of weight other than 0
+// displaces the attribute.
 template <int N, typename Value, typename Set>
 void displace(std::span<const MorphTarget> targets, std::span<const double> weights,
-              std::vector<glm::vec<N, float>> MorphTarget::*attribute, std::vector<Value>& values, const Set& set) {
+              std::vector<glm::vec<N, float>> MorphTarget::*attribute, std::vector<Value>& values,
+              const Set& set) {
   std::vector<glm::vec<N, double>> sums;
   for (size_t target = 0; target < weights.size() && !values.empty(); ++target) {
     const std::vector<glm::vec<N, float>>& displacements = targets[target].*attribute;
     if (weights[target] == 0 || displacements.empty()) continue;
     sums.resize(values.size(), glm::vec<N, double>(0));
-    for (size_t i = 0; i < sums.size(); ++i) sums[i] += glm::vec<N, double>(displacements[i]) * weights[target];
+    for (size_t i = 0; i < sums.size(); ++i)
+      sums[i] += glm::vec<N, double>(displacements[i]) * weights[target];
   }
   for (size_t i = 0; i < sums.size(); ++i) set(values[i], sums[i]);
 }
@@ -35,14 +37,18 @@ void displace(std::span<const MorphTarget> targets, std::span<const double> weig
 }  // namespace
 
 void apply_morph_targets(std::span<const MorphTarget> targets, std::span<const double> weights, Mesh& mesh) {
-  displace(targets, weights, &MorphTarget::positions, mesh.positions,
-           [](glm::vec3& position, const glm::dvec3& by) { position = glm::vec3(glm::dvec3(position) + by); });
+  displace(
+      targets, weights, &MorphTarget::positions, mesh.positions,
+      [](glm::vec3& position, const glm::dvec3& by) { position = glm::vec3(glm::dvec3(position) + by); });
   displace(targets, weights, &MorphTarget::normals, mesh.normals,
-           [](glm::vec3& normal, const glm::dvec3& by) { normal = unit_or_same(glm::dvec3(normal) + by, normal); });
-  displace(targets, weights, &MorphTarget::tangents, mesh.tangents, [](glm::vec4& tangent, const glm::dvec3& by) {
-    const glm::vec3 direction(tangent);
-    tangent = glm::vec4(unit_or_same(glm::dvec3(direction) + by, direction), tangent.w);
-  });
+           [](glm::vec3& normal, const glm::dvec3& by) {
+             normal = unit_or_same(glm::dvec3(normal) + by, normal);
+           });
+  displace(targets, weights, &MorphTarget::tangents, mesh.tangents,
+           [](glm::vec4& tangent, const glm::dvec3& by) {
+             const glm::vec3 direction(tangent);
+             tangent = glm::vec4(unit_or_same(glm::dvec3(direction) + by, direction), tangent.w);
+           });
   const auto add = [](glm::vec2& uv, const glm::dvec2& by) { uv = glm::vec2(glm::dvec2(uv) + by); };
   displace(targets, weights, &MorphTarget::uv0, mesh.uv0, add);
   displace(targets, weights, &MorphTarget::uv1, mesh.uv1, add);
@@ -70,11 +76,13 @@ void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mes
     mesh.positions[vertex] = glm::vec3(blend * glm::dvec4(mesh.positions[vertex], 1));
     const glm::dmat3 turn(blend);
     if (!mesh.normals.empty()) {
-      mesh.normals[vertex] = unit_or_same(cofactors(turn) * glm::dvec3(mesh.normals[vertex]), mesh.normals[vertex]);
+      mesh.normals[vertex] =
+          unit_or_same(cofactors(turn) * glm::dvec3(mesh.normals[vertex]), mesh.normals[vertex]);
     }
     if (mesh.tangents.empty()) continue;
     const glm::vec3 tangent(mesh.tangents[vertex]);
-    mesh.tangents[vertex] = glm::vec4(unit_or_same(turn * glm::dvec3(tangent), tangent), mesh.tangents[vertex].w);
+    mesh.tangents[vertex] =
+        glm::vec4(unit_or_same(turn * glm::dvec3(tangent), tangent), mesh.tangents[vertex].w);
   }
 }
 
@@ -94,7 +102,8 @@ void complete_mesh(TangentNeed tangents, Mesh& mesh) {
   for (const glm::vec3& position : mesh.positions) mesh.bounds.add(position);
 }
 
-void deform(const DeformingMesh& shape, std::span<const double> weights, std::span<const glm::dmat4> joints, Mesh& mesh) {
+void deform(const DeformingMesh& shape, std::span<const double> weights, std::span<const glm::dmat4> joints,
+            Mesh& mesh) {
   Mesh made = shape.base;
   made.name = mesh.name;
   made.material = mesh.material;

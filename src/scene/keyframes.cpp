@@ -12,7 +12,8 @@ enum class KeyPart { in_tangent, value, out_tangent };
 std::vector<double> key_part(const AnimationChannel& channel, size_t index, KeyPart part = KeyPart::value) {
   const size_t parts_per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
   const size_t offset = parts_per_key == 3 ? static_cast<size_t>(part) : 0;
-  const auto first = channel.values.begin() + static_cast<long>((index * parts_per_key + offset) * channel.components);
+  const auto first =
+      channel.values.begin() + static_cast<long>((index * parts_per_key + offset) * channel.components);
   return {first, first + channel.components};
 }
 
@@ -30,7 +31,8 @@ std::vector<double> normalized_or(std::vector<double> v, const std::vector<doubl
   return v;
 }
 
-std::vector<double> weighted_sum(double a, const std::vector<double>& x, double b, const std::vector<double>& y) {
+std::vector<double> weighted_sum(double a, const std::vector<double>& x, double b,
+                                 const std::vector<double>& y) {
   std::vector<double> sum(x.size());
   for (size_t i = 0; i < sum.size(); ++i) sum[i] = a * x[i] + b * y[i];
   return sum;
@@ -53,10 +55,12 @@ std::vector<double> spherical(const std::vector<double>& from, const std::vector
 // Appendix C.5. Tangents are per second, so they are scaled by the time between the keys.
 std::vector<double> cubic(const AnimationChannel& channel, size_t index, double t, double seconds_between) {
   const double t2 = t * t, t3 = t2 * t;
-  const std::vector<double> from = weighted_sum(2 * t3 - 3 * t2 + 1, key_part(channel, index), seconds_between * (t3 - 2 * t2 + t),
-                                                key_part(channel, index, KeyPart::out_tangent));
-  const std::vector<double> to = weighted_sum(3 * t2 - 2 * t3, key_part(channel, index + 1), seconds_between * (t3 - t2),
-                                              key_part(channel, index + 1, KeyPart::in_tangent));
+  const std::vector<double> from =
+      weighted_sum(2 * t3 - 3 * t2 + 1, key_part(channel, index), seconds_between * (t3 - 2 * t2 + t),
+                   key_part(channel, index, KeyPart::out_tangent));
+  const std::vector<double> to =
+      weighted_sum(3 * t2 - 2 * t3, key_part(channel, index + 1), seconds_between * (t3 - t2),
+                   key_part(channel, index + 1, KeyPart::in_tangent));
   return weighted_sum(1, from, 1, to);
 }
 

@@ -58,7 +58,8 @@ LightRig make_light_rig(const Scene& scene, LightMotion motion) {
 
 SceneChanges move_lights(Scene& scene, const LightRig& rig, double seconds) {
   assert(rig.positions.size() == scene.lights.size());
-  if (!std::isfinite(seconds)) throw input_error("{}: time {} is not a finite number of seconds", scene.name, seconds);
+  if (!std::isfinite(seconds))
+    throw input_error("{}: time {} is not a finite number of seconds", scene.name, seconds);
   SceneChanges changes;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     Light& light = scene.lights[i];

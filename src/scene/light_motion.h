@@ -23,10 +23,11 @@ struct LightRig {
 };
 LightRig make_light_rig(const Scene& scene, LightMotion motion);
 
-// Moves point and spot lights to where they are at `seconds`, exactly to their own place at 0, and returns those that have
-// changed (SceneChanges::lights). A light stays within 0.4 (orbit) or 0.7 (drift) of its radius from its place; a radius above
-// 5 m counts as 5 m. Directions stay. Directional lights, and lights that a node of the scene's rig moves, are left alone. The
-// scene must have as many lights as when the rig was made. Throws Error(input) for a time that is not finite.
+// Moves point and spot lights to where they are at `seconds`, exactly to their own place at 0, and returns
+// those that have changed (SceneChanges::lights). A light stays within 0.4 (orbit) or 0.7 (drift) of its
+// radius from its place; a radius above 5 m counts as 5 m. Directions stay. Directional lights, and lights
+// that a node of the scene's rig moves, are left alone. The scene must have as many lights as when the rig
+// was made. Throws Error(input) for a time that is not finite.
 SceneChanges move_lights(Scene& scene, const LightRig& rig, double seconds);
 
 }  // namespace lightgrid

@@ -19,11 +19,11 @@ struct GltfLimits {
 };
 
 // Loads .gltf or .glb by content, scene `scene` of the file or its default one at -1.
-// The scene is at rest: nodes, joints and morph weights as the file has them. Where it has animations of this scene's nodes,
-// Scene::rig holds them, and set_time (scene/animation.h) plays them.
-// Throws Error(input) in one line that names the file, the field and the value. What is optional and not
-// supported (an extension, points) is one warning on stderr each.
-// Reads only regular files in the file's own folder and below. Deterministic.
+// The scene is at rest: nodes, joints and morph weights as the file has them. Where it has animations of this
+// scene's nodes, Scene::rig holds them, and set_time (scene/animation.h) plays them. Throws Error(input) in
+// one line that names the file, the field and the value. What is optional and not supported (an extension,
+// points) is one warning on stderr each. Reads only regular files in the file's own folder and below.
+// Deterministic.
 Scene load_gltf(const std::filesystem::path& path, int scene = -1, const GltfLimits& limits = {});
 
 }  // namespace lightgrid

@@ -30,7 +30,8 @@ std::vector<glm::dmat4> world_matrices(const Rig& rig, const std::vector<NodeTra
   return world;
 }
 
-void apply_channel(const AnimationChannel& channel, double seconds, std::vector<NodeTransform>& transforms, Pose& pose) {
+void apply_channel(const AnimationChannel& channel, double seconds, std::vector<NodeTransform>& transforms,
+                   Pose& pose) {
   const std::vector<double> value = sample_channel(channel, seconds);
   NodeTransform& transform = transforms[channel.node];
   switch (channel.path) {
@@ -52,13 +53,15 @@ void apply_channel(const AnimationChannel& channel, double seconds, std::vector<
 void check_finite(const Rig& rig, const Pose& pose, double seconds) {
   for (size_t i = 0; i < rig.nodes.size(); ++i) {
     if (!all_finite(pose.world_from_node[i])) {
-      throw input_error("{}: {}: its world matrix at {} s is not finite", rig.file, rig.nodes[i].label, seconds);
+      throw input_error("{}: {}: its world matrix at {} s is not finite", rig.file, rig.nodes[i].label,
+                        seconds);
     }
   }
   for (const auto& [node, weights] : pose.weights) {
     for (const double weight : weights) {
       if (!std::isfinite(weight)) {
-        throw input_error("{}: {}: a morph weight at {} s is {}", rig.file, rig.nodes[node].label, seconds, weight);
+        throw input_error("{}: {}: a morph weight at {} s is {}", rig.file, rig.nodes[node].label, seconds,
+                          weight);
       }
     }
   }
@@ -75,7 +78,8 @@ Pose animated_pose(const Rig& rig, double seconds, int animation) {
   Pose pose;
   for (size_t i = 0; i < rig.animations.size(); ++i) {
     if (animation >= 0 && static_cast<size_t>(animation) != i) continue;
-    for (const AnimationChannel& channel : rig.animations[i].channels) apply_channel(channel, seconds, transforms, pose);
+    for (const AnimationChannel& channel : rig.animations[i].channels)
+      apply_channel(channel, seconds, transforms, pose);
   }
   pose.world_from_node = world_matrices(rig, &transforms);
   check_finite(rig, pose, seconds);
@@ -115,7 +119,8 @@ std::optional<glm::dmat4> rigid_part(const glm::dmat4& world_from_node) {
 std::vector<glm::dmat4> joint_matrices(const RigSkin& skin, const std::vector<glm::dmat4>& world_from_node) {
   std::vector<glm::dmat4> out;
   out.reserve(skin.joints.size());
-  for (size_t i = 0; i < skin.joints.size(); ++i) out.push_back(world_from_node[skin.joints[i]] * skin.inverse_binds[i]);
+  for (size_t i = 0; i < skin.joints.size(); ++i)
+    out.push_back(world_from_node[skin.joints[i]] * skin.inverse_binds[i]);
   return out;
 }
 

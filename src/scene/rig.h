@@ -1,5 +1,6 @@
-// What can move in a scene: the nodes, animations, skins and morph targets of a glTF file (glTF 2.0, Khronos, 2021,
-// sections 3.5, 3.7.2.2, 3.7.3 and 3.11). Plain data that never changes after loading; scene/animation.h applies it.
+// What can move in a scene: the nodes, animations, skins and morph targets of a glTF file (glTF 2.0, Khronos,
+// 2021, sections 3.5, 3.7.2.2, 3.7.3 and 3.11). Plain data that never changes after loading;
+// scene/animation.h applies it.
 #pragma once
 
 #include <optional>
@@ -34,9 +35,10 @@ struct AnimationChannel {
   int node = 0;
   AnimatedPath path = AnimatedPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  int components = 3;         // translation and scale 3, rotation 4 (x, y, z, w), weights: one for each morph target
-  std::vector<float> times;   // seconds, from 0 on, not decreasing; at least one
-  std::vector<float> values;  // `components` for each time; cubic_spline: in-tangent, value and out-tangent, each as many
+  int components = 3;  // translation and scale 3, rotation 4 (x, y, z, w), weights: one for each morph target
+  std::vector<float> times;  // seconds, from 0 on, not decreasing; at least one
+  // `components` for each time; for cubic_spline as many of the in-tangent, of the value and of the out-tangent.
+  std::vector<float> values;
 };
 
 struct Animation {
@@ -62,14 +64,15 @@ struct SkinWeights {
   std::vector<glm::vec4> weights;
 };
 
-// Which tangents a mesh must have: none, or the file's, or (where it has none) tangents along u of a texture coordinate set.
+// Which tangents a mesh must have: none, or the file's, or (where it has none) tangents along u of a texture
+// coordinate set.
 enum class TangentNeed { none, along_uv0, along_uv1 };
 
 // The shape that morph targets and joints start from. Only meshes that change their shape have one.
 struct DeformingMesh {
   int mesh = 0;  // of Scene::meshes: the result
   std::string label;
-  Mesh base;     // as the file has it; normals and tangents may be missing
+  Mesh base;  // as the file has it; normals and tangents may be missing
   TangentNeed tangents = TangentNeed::none;
   int weights_node = -1;             // whose morph weights; -1: base is morphed already
   std::vector<double> rest_weights;  // one a target, or none: all 0
@@ -79,8 +82,8 @@ struct DeformingMesh {
 };
 
 struct Rig {
-  std::string file;             // for messages
-  std::vector<RigNode> nodes;   // parents before children
+  std::string file;                   // for messages
+  std::vector<RigNode> nodes;         // parents before children
   std::vector<Animation> animations;  // all of the file, by its index
   std::vector<RigSkin> skins;         // all of the file, by its index; those that deform nothing are empty
   std::vector<DeformingMesh> meshes;

@@ -1,6 +1,6 @@
 // A scene as plain data. World space is right-handed, y up, in metres (glTF's own); angles are in radians,
-// colours linear. Nodes are already flattened: every instance carries its world matrix in double, at the scene's
-// current time. What moves them is in `rig`; set_time (scene/animation.h) applies it.
+// colours linear. Nodes are already flattened: every instance carries its world matrix in double, at the current
+// time of the scene. What moves them is in `rig`; set_time (scene/animation.h) applies it.
 #pragma once
 
 #include <cstdint>
@@ -136,7 +136,7 @@ struct Scene {
   glm::vec3 background{0};   // radiance where nothing is
   std::shared_ptr<const Rig> rig;  // what moves; null: nothing. Copies of a scene share it
   double time_s = 0;               // the time of the pose, as last given to set_time
-  int animation = -1;              // of the rig: whose pose it is; -1: all of them, or at time 0 the rest pose
+  int animation = -1;              // whose pose it is; -1: of all animations, at time 0 the rest pose
 };
 
 // The box around all instances, in world space; empty for a scene without geometry.

@@ -1,18 +1,16 @@
-// The pose of a glTF file at a time, a second time: from the file's JSON and bytes by the text of glTF 2.0 alone, in double,
-// with other formulas than the loader's where there is a choice. Reads what the conformance models need: accessors with a
-// view, not sparse; buffers as files, data URIs or a GLB's chunk.
+// The pose of a glTF file at a time, a second time: from the file's JSON and bytes by the text of glTF 2.0
+// alone, in double, with other formulas than the loader's where there is a choice. Reads what the conformance
+// models need: accessors with a view, not sparse; buffers as files, data URIs or a GLB's chunk.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace lightgrid {
+#include "conformance/pose_math.h"
 
-using Numbers = std::vector<double>;
-using Affine = std::array<double, 12>;  // three rows of four
+namespace lightgrid {
 
 class PoseOracle {
  public:

@@ -37,97 +37,6 @@ Bytes8 from_base64(const std::string& text) {
   return out;
 }
 
-Numbers cross_product(const Numbers& a, const Numbers& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double norm(const Numbers& v) {
-  double sum = 0;
-  for (const double x : v) sum += x * x;
-  return std::sqrt(sum);
-}
-
-Numbers to_unit(Numbers v) {
-  const double length = norm(v);
-  for (double& x : v) x /= length;
-  return v;
-}
-
-// Quaternions are x, y, z, w.
-Numbers quaternion_product(const Numbers& a, const Numbers& b) {
-  const Numbers c = cross_product(a, b);
-  Numbers out(4);
-  for (int i = 0; i < 3; ++i) out[i] = a[3] * b[i] + b[3] * a[i] + c[i];
-  out[3] = a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2];
-  return out;
-}
-
-// The rotation between both keys as an axis and an angle, of which the part `t` is applied.
-Numbers slerp(const Numbers& from_key, const Numbers& to_key, double t) {
-  const Numbers from = to_unit(from_key), to = to_unit(to_key);
-  Numbers delta = quaternion_product({-from[0], -from[1], -from[2], from[3]}, to);
-  if (delta[3] < 0) {
-    for (double& x : delta) x = -x;
-  }
-  const double sine = std::sqrt(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
-  if (sine == 0) return from;
-  const double half_angle = std::atan2(sine, delta[3]) * t;
-  const double scale = std::sin(half_angle) / sine;
-  return quaternion_product(from, {delta[0] * scale, delta[1] * scale, delta[2] * scale, std::cos(half_angle)});
-}
-
-// The Hermite curve as a Bezier curve, by de Casteljau.
-double bezier(double p0, double tangent0, double p1, double tangent1, double seconds, double t) {
-  double c[4] = {p0, p0 + tangent0 * seconds / 3, p1 - tangent1 * seconds / 3, p1};
-  for (int level = 3; level > 0; --level) {
-    for (int i = 0; i < level; ++i) c[i] += (c[i + 1] - c[i]) * t;
-  }
-  return c[0];
-}
-
-Affine product(const Affine& a, const Affine& b) {
-  Affine out{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      double sum = column == 3 ? a[row * 4 + 3] : 0;
-      for (int k = 0; k < 3; ++k) sum += a[row * 4 + k] * b[k * 4 + column];
-      out[row * 4 + column] = sum;
-    }
-  }
-  return out;
-}
-
-Affine from_columns(const Numbers& m) {
-  Affine out;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) out[row * 4 + column] = m[column * 4 + row];
-  }
-  return out;
-}
-
-// v + 2 q x (q x v + w v).
-Numbers rotate(const Numbers& q, const Numbers& v) {
-  Numbers inner = cross_product(q, v);
-  for (int i = 0; i < 3; ++i) inner[i] += q[3] * v[i];
-  const Numbers outer = cross_product(q, inner);
-  return {v[0] + 2 * outer[0], v[1] + 2 * outer[1], v[2] + 2 * outer[2]};
-}
-
-Affine from_transform(const Numbers& translation, const Numbers& rotation, const Numbers& scale) {
-  const Numbers q = to_unit(rotation);
-  Affine out;
-  for (int column = 0; column < 3; ++column) {
-    Numbers axis(3, 0.0);
-    axis[column] = scale[column];
-    const Numbers turned = rotate(q, axis);
-    for (int row = 0; row < 3; ++row) out[row * 4 + column] = turned[row];
-  }
-  for (int row = 0; row < 3; ++row) out[row * 4 + 3] = translation[row];
-  return out;
-}
-
-Numbers row_of(const Affine& m, int row) { return {m[row * 4], m[row * 4 + 1], m[row * 4 + 2]}; }
-
 double read_component(const uint8_t* from, int type, bool normalized) {
   const auto load = [from](auto value) {
     std::memcpy(&value, from, sizeof(value));
@@ -153,7 +62,8 @@ double read_component(const uint8_t* from, int type, bool normalized) {
 
 Numbers transform(const Affine& m, const Numbers& p) {
   Numbers out(3);
-  for (int row = 0; row < 3; ++row) out[row] = m[row * 4] * p[0] + m[row * 4 + 1] * p[1] + m[row * 4 + 2] * p[2] + m[row * 4 + 3];
+  for (int row = 0; row < 3; ++row)
+    out[row] = m[row * 4] * p[0] + m[row * 4 + 1] * p[1] + m[row * 4 + 2] * p[2] + m[row * 4 + 3];
   return out;
 }
 
@@ -179,19 +89,23 @@ PoseOracle::PoseOracle(const std::filesystem::path& path) {
     }
   }
   for (size_t i = 0; i < root_["nodes"].size(); ++i) {
-    for (const json& child : root_["nodes"][i].value("children", json::array())) parent_of_[child.get<int>()] = int(i);
+    for (const json& child : root_["nodes"][i].value("children", json::array()))
+      parent_of_[child.get<int>()] = int(i);
   }
 }
 
 std::vector<Numbers> PoseOracle::elements(int index) const {
   const json& accessor = root_["accessors"][index];
   const json& view = root_["bufferViews"][accessor.at("bufferView").get<int>()];
-  static const std::map<std::string, int> components_of = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
-  static const std::map<int, int> bytes_of_type = {{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}};
+  static const std::map<std::string, int> components_of = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+  static const std::map<int, int> bytes_of_type = {{5120, 1}, {5121, 1}, {5122, 2},
+                                                   {5123, 2}, {5125, 4}, {5126, 4}};
   const int components = components_of.at(accessor["type"]), type = accessor["componentType"];
   const int bytes = bytes_of_type.at(type);
   const size_t stride = view.value("byteStride", bytes * components);
-  const uint8_t* first = buffers_.at(view["buffer"].get<int>()).data() + view.value("byteOffset", 0) + accessor.value("byteOffset", 0);
+  const uint8_t* first = buffers_.at(view["buffer"].get<int>()).data() + view.value("byteOffset", 0) +
+                         accessor.value("byteOffset", 0);
   std::vector<Numbers> out(accessor["count"].get<size_t>(), Numbers(components));
   for (size_t i = 0; i < out.size(); ++i) {
     for (int c = 0; c < components; ++c) {
@@ -210,7 +124,8 @@ std::map<PoseOracle::Key, Numbers> PoseOracle::animated(double seconds, int anim
     for (const json& channel : animations[a]["channels"]) {
       const json& sampler = animations[a]["samplers"][channel["sampler"].get<int>()];
       const std::vector<Numbers> times = elements(sampler["input"]), values = elements(sampler["output"]);
-      const std::string interpolation = sampler.value("interpolation", "LINEAR"), path = channel["target"]["path"];
+      const std::string interpolation = sampler.value("interpolation", "LINEAR"),
+                        path = channel["target"]["path"];
       const size_t parts = interpolation == "CUBICSPLINE" ? 3 : 1, value = parts / 2;
       const double clamped = std::min(std::max(seconds, times.front()[0]), times.back()[0]);
       size_t k = 0;
@@ -229,7 +144,8 @@ std::map<PoseOracle::Key, Numbers> PoseOracle::animated(double seconds, int anim
         }
       } else if (times.size() > 1) {
         for (size_t c = 0; c < result.size(); ++c) {
-          result[c] = bezier(values[k * 3 + 1][c], values[k * 3 + 2][c], values[k * 3 + 4][c], values[k * 3 + 3][c], between, t);
+          result[c] = bezier(values[k * 3 + 1][c], values[k * 3 + 2][c], values[k * 3 + 4][c],
+                             values[k * 3 + 3][c], between, t);
         }
       }
       out[{channel["target"]["node"].get<int>(), path}] = result;
@@ -244,14 +160,17 @@ Affine PoseOracle::world(int index, const std::map<Key, Numbers>& values) const 
     const auto found = values.find({index, name});
     return found != values.end() ? found->second : node.value(name, absent);
   };
-  const Affine local = node.contains("matrix") ? from_columns(node["matrix"].get<Numbers>())
-                                               : from_transform(property("translation", {0, 0, 0}),
-                                                                property("rotation", {0, 0, 0, 1}), property("scale", {1, 1, 1}));
+  const Affine local = node.contains("matrix")
+                           ? from_columns(node["matrix"].get<Numbers>())
+                           : from_transform(property("translation", {0, 0, 0}),
+                                            property("rotation", {0, 0, 0, 1}), property("scale", {1, 1, 1}));
   const auto parent = parent_of_.find(index);
   return parent == parent_of_.end() ? local : product(world(parent->second, values), local);
 }
 
-Affine PoseOracle::world_of_node(int node, double seconds, int animation) const { return world(node, animated(seconds, animation)); }
+Affine PoseOracle::world_of_node(int node, double seconds, int animation) const {
+  return world(node, animated(seconds, animation));
+}
 
 PoseOracle::Vertices PoseOracle::skinned(const json& primitive, int skin_index, double seconds) const {
   const json& skin = root_["skins"][skin_index];
@@ -261,10 +180,12 @@ PoseOracle::Vertices PoseOracle::skinned(const json& primitive, int skin_index, 
   if (skin.contains("inverseBindMatrices")) binds = elements(skin["inverseBindMatrices"]);
   for (const json& joint : skin["joints"]) {
     const Affine world_from_joint = world(joint, values);
-    joints.push_back(binds.empty() ? world_from_joint : product(world_from_joint, from_columns(binds[joints.size()])));
+    joints.push_back(binds.empty() ? world_from_joint
+                                   : product(world_from_joint, from_columns(binds[joints.size()])));
   }
   const json& attributes = primitive["attributes"];
-  const std::vector<Numbers> positions = elements(attributes["POSITION"]), weights = elements(attributes["WEIGHTS_0"]),
+  const std::vector<Numbers> positions = elements(attributes["POSITION"]),
+                             weights = elements(attributes["WEIGHTS_0"]),
                              indices = elements(attributes["JOINTS_0"]);
   std::vector<Numbers> normals;
   if (attributes.contains("NORMAL")) normals = elements(attributes["NORMAL"]);
@@ -277,7 +198,8 @@ PoseOracle::Vertices PoseOracle::skinned(const json& primitive, int skin_index, 
     }
     out.positions.push_back(transform(blend, positions[i]));
     if (normals.empty()) continue;
-    // The inverse transpose of three rows is their pairwise cross products, divided by the determinant (positive here).
+    // The inverse transpose of three rows is their pairwise cross products, divided by the determinant
+    // (positive here).
     Numbers normal(3);
     for (int row = 0; row < 3; ++row) {
       const Numbers cofactor = cross_product(row_of(blend, (row + 1) % 3), row_of(blend, (row + 2) % 3));
@@ -303,12 +225,14 @@ void expect_numbers(const Numbers& actual, const Numbers& expected) {
 TEST(PoseOracle, InterpolatesAsTheSpecificationSays) {
   GltfBuilder made = GltfBuilder::triangle();
   // 1/2 + 2 * 3 / 8 + 5/2 + 2 * 1 / 8 = 4: see scene/animation_nodes_test.cpp.
-  animate(made, 0, "translation", {1, 3}, "VEC3", {9, 9, 9, 1, 0, 0, 3, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9}, "CUBICSPLINE");
+  animate(made, 0, "translation", {1, 3}, "VEC3", {9, 9, 9, 1, 0, 0, 3, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9},
+          "CUBICSPLINE");
   animate(made, 0, "rotation", {1, 3}, "VEC4", {0, 0, 0, 1, 0, 0, -0.70710678f, -0.70710678f});
   animate(made, 0, "scale", {1, 2, 3}, "VEC3", {1, 1, 1, 2, 2, 2, 3, 3, 3}, "STEP");
   const PoseOracle oracle = oracle_of(made);
   const double angle = std::numbers::pi / 4;
-  expect_numbers(transform(oracle.world_of_node(0, 2), {1, 0, 0}), {4 + 2 * std::cos(angle), 2 * std::sin(angle), 0});
+  expect_numbers(transform(oracle.world_of_node(0, 2), {1, 0, 0}),
+                 {4 + 2 * std::cos(angle), 2 * std::sin(angle), 0});
   expect_numbers(transform(oracle.world_of_node(0, 0), {1, 1, 0}), {2, 1, 0});
   expect_numbers(transform(oracle.world_of_node(0, 9), {1, 0, 0}), {5, 3, 0});
 }
@@ -319,8 +243,10 @@ TEST(PoseOracle, MovesVerticesByTheirJoints) {
   made.attribute("JOINTS_0", std::vector<uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4", u8, 3);
   made.attribute("WEIGHTS_0", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}, "VEC4", f32, 3);
   made.root["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"children", {2}}}, {{"translation", {0, 1, 0}}}};
-  const std::vector<float> undo = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
-  made.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", made.accessor(made.view(bytes_of(undo)), "MAT4", f32, 2)}}};
+  const std::vector<float> undo = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
+                                   1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
+  made.root["skins"] = {{{"joints", {1, 2}},
+                         {"inverseBindMatrices", made.accessor(made.view(bytes_of(undo)), "MAT4", f32, 2)}}};
   animate(made, 2, "rotation", {0, 1}, "VEC4", {0, 0, 0, 1, 0.70710678f, 0, 0, 0.70710678f});
   const PoseOracle::Vertices out = oracle_of(made).skinned(made.primitive(), 0, 1);
   expect_numbers(out.positions[1], {1, 1, -1});

@@ -8,12 +8,13 @@ namespace {
 
 using Ints = std::vector<int>;
 
-// Node 0: a triangle. Node 1 moves along x and turns about x from none to 180 degrees; on it: 2, a spot 1 m ahead of it; 3, a
-// camera. Node 4: a point light that stays.
+// Node 0: a triangle. Node 1 moves along x and turns about x from none to 180 degrees; on it: 2, a spot 1 m
+// ahead of it; 3, a camera. Node 4: a point light that stays.
 GltfBuilder carried() {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}, {"range", 4}}, {{"type", "point"}, {"intensity", 3}}};
+      {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}, {"range", 4}},
+      {{"type", "point"}, {"intensity", 3}}};
   const auto light = [](int index) { return nlohmann::json{{"KHR_lights_punctual", {{"light", index}}}}; };
   made.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
   made.root["nodes"] = {{{"mesh", 0}},

@@ -13,7 +13,8 @@ using Points = std::vector<glm::vec3>;
 
 void expect_points(const Points& actual, const Points& expected) {
   ASSERT_EQ(actual.size(), expected.size());
-  for (size_t i = 0; i < actual.size(); ++i) expect_near(glm::dvec3(actual[i]), glm::dvec3(expected[i]), 2e-7);
+  for (size_t i = 0; i < actual.size(); ++i)
+    expect_near(glm::dvec3(actual[i]), glm::dvec3(expected[i]), 2e-7);
 }
 
 // A mesh's arrays, bit for bit.
@@ -30,8 +31,9 @@ void expect_same_mesh(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.bounds.max, b.bounds.max);
 }
 
-// The triangle (0,0,0), (1,0,0), (0,1,0) with normals z: corner 0 on joint node 1, corner 1 on node 2 (a metre above it), corner
-// 2 on both alike. Node 0 draws it and is moved away, which has no effect. Inverse binds undo the joints at rest.
+// The triangle (0,0,0), (1,0,0), (0,1,0) with normals z: corner 0 on joint node 1, corner 1 on node 2 (a
+// metre above it), corner 2 on both alike. Node 0 draws it and is moved away, which has no effect. Inverse
+// binds undo the joints at rest.
 GltfBuilder two_joints() {
   GltfBuilder made = GltfBuilder::triangle();
   made.attribute("NORMAL", Floats{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", f32, 3);
@@ -41,7 +43,8 @@ GltfBuilder two_joints() {
                         {{"children", {2}}},
                         {{"translation", {0, 1, 0}}}};
   made.root["scenes"][0]["nodes"] = {0, 1};
-  const Floats undo = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
+  const Floats undo = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
+                       1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
   const int binds = made.accessor(made.view(bytes_of(undo)), "MAT4", f32, 2);
   made.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", binds}}};
   return made;
@@ -58,7 +61,8 @@ TEST(AnimationSkins, joints_move_vertices_and_normals) {
   EXPECT_EQ(changes.meshes, Ints{0});
   EXPECT_TRUE(changes.instances.empty());
   const Mesh& mesh = scene.meshes[0];
-  // Corner 1, a metre below its joint at (0,1,0): from it (1,-1,0) becomes (1,0,-1). Corner 2 is at the joint in both poses.
+  // Corner 1, a metre below its joint at (0,1,0): from it (1,-1,0) becomes (1,0,-1). Corner 2 is at the joint
+  // in both poses.
   expect_points(mesh.positions, {{0, 0, 0}, {1, 1, -1}, {0, 1, 0}});
   const float diagonal = float(root_half);
   expect_points(mesh.normals, {{0, 0, 1}, {0, -1, 0}, {0, -diagonal, diagonal}});
@@ -109,7 +113,8 @@ TEST(AnimationSkins, instances_of_one_skin_share_a_mesh_and_other_skins_have_the
   EXPECT_EQ(scene.instances[0].mesh, scene.instances[1].mesh);
   EXPECT_EQ(set_time(scene, 1).meshes, (Ints{0, 1}));
   expect_points(scene.meshes[0].positions, {{0, 0, 0}, {3, 0, 0}, {1, 1, 0}});
-  // The second skin has its joints swapped and no inverse binds: corner 0 is on node 2, at (2, 1, 0), corner 1 on node 1.
+  // The second skin has its joints swapped and no inverse binds: corner 0 is on node 2, at (2, 1, 0), corner
+  // 1 on node 1.
   expect_points(scene.meshes[1].positions, {{2, 1, 0}, {1, 0, 0}, {1, 1.5f, 0}});
   expect_points(scene.meshes[2].positions, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   EXPECT_EQ(scene.rig->meshes.size(), 2u);
@@ -170,7 +175,8 @@ TEST(AnimationMorphs, weights_run_between_keys) {
 
 TEST(AnimationMorphs, cubic_splines_store_all_tangents_of_a_key_before_its_values) {
   GltfBuilder made = two_targets_at_rest();
-  // A second apart; both weights 0 with out-tangents 8 and 0, then 1 and 0 with in-tangents 0. At 1/2: 8 / 8 + 1/2 and 0.
+  // A second apart; both weights 0 with out-tangents 8 and 0, then 1 and 0 with in-tangents 0. At 1/2: 8 / 8
+  // + 1/2 and 0.
   animate(made, 0, "weights", {0, 1}, "SCALAR", {5, 5, 0, 0, 8, 0, 0, 0, 1, 0, 5, 5}, "CUBICSPLINE");
   Scene scene = made.load();
   set_time(scene, 0.5);
@@ -228,8 +234,9 @@ TEST(AnimationMorphs, texture_coordinates_and_colours_change_too) {
   GltfBuilder made = GltfBuilder::triangle();
   made.attribute("TEXCOORD_0", Floats{0, 0, 1, 0, 0, 1}, "VEC2", f32, 3);
   made.attribute("COLOR_0", Floats{0.5, 0.5, 0.5, 0, 0, 0, 0, 0, 0}, "VEC3", f32, 3);
-  made.primitive()["targets"] = {{{"TEXCOORD_0", float_accessor(made, "VEC2", 2, {0.25, 0.5, 0, 0, 0, 0})},
-                                  {"COLOR_0", float_accessor(made, "VEC3", 3, {1, -0.25, -2, 0, 0, 0, 0, 0, 0})}}};
+  made.primitive()["targets"] = {
+      {{"TEXCOORD_0", float_accessor(made, "VEC2", 2, {0.25, 0.5, 0, 0, 0, 0})},
+       {"COLOR_0", float_accessor(made, "VEC3", 3, {1, -0.25, -2, 0, 0, 0, 0, 0, 0})}}};
   animate(made, 0, "weights", {0, 1}, "SCALAR", {0, 1});
   Scene scene = made.load();
   set_time(scene, 1);
@@ -249,7 +256,8 @@ TEST(AnimationMorphs, a_vertex_moved_to_infinity_is_refused_and_the_next_pose_is
   Scene scene = made.load();
   const Mesh at_rest = scene.meshes[0];
   EXPECT_THAT([&] { set_time(scene, 1); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("made.gltf: mesh 0 primitive 0: vertex 0 is moved to infinity at 1 s")));
+              testing::ThrowsMessage<Error>(
+                  testing::HasSubstr("made.gltf: mesh 0 primitive 0: vertex 0 is moved to infinity at 1 s")));
   EXPECT_EQ(set_time(scene, 0).meshes, Ints{0});
   expect_same_mesh(scene.meshes[0], at_rest);
 }

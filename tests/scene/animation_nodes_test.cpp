@@ -14,7 +14,9 @@ glm::dmat4 world_at(Scene& scene, double seconds, int animation = -1) {
   return scene.instances.at(0).world_from_object;
 }
 
-glm::dvec3 position_at(Scene& scene, double seconds, int animation = -1) { return glm::dvec3(world_at(scene, seconds, animation)[3]); }
+glm::dvec3 position_at(Scene& scene, double seconds, int animation = -1) {
+  return glm::dvec3(world_at(scene, seconds, animation)[3]);
+}
 
 // Keys at 1 and 3 s, at (2, 0, 0) and (6, 8, -4).
 Scene moving(const char* interpolation) {
@@ -44,10 +46,11 @@ TEST(AnimationNodes, a_step_keeps_a_keys_value_until_the_next) {
 
 TEST(AnimationNodes, a_cubic_spline_scales_its_tangents_by_the_time_between_keys) {
   GltfBuilder made = GltfBuilder::triangle();
-  // Two keys, 2 s apart: value 1 with out-tangent 3 a second, value 5 with in-tangent -1 a second. At half the time the
-  // Hermite basis is 1/2, 1/8, 1/2, -1/8: 1/2 + 2 * 3 / 8 + 5/2 + 2 * 1 / 8 = 4. At a quarter it is 54/64, 9/64, 10/64, -3/64:
-  // (54 + 2 * 9 * 3 + 10 * 5 + 2 * 3) / 64 = 164 / 64.
-  animate(made, 0, "translation", {1, 3}, "VEC3", {9, 9, 9, 1, 0, 0, 3, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9}, "CUBICSPLINE");
+  // Two keys, 2 s apart: value 1 with out-tangent 3 a second, value 5 with in-tangent -1 a second. At half
+  // the time the Hermite basis is 1/2, 1/8, 1/2, -1/8: 1/2 + 2 * 3 / 8 + 5/2 + 2 * 1 / 8 = 4. At a quarter it
+  // is 54/64, 9/64, 10/64, -3/64: (54 + 2 * 9 * 3 + 10 * 5 + 2 * 3) / 64 = 164 / 64.
+  animate(made, 0, "translation", {1, 3}, "VEC3", {9, 9, 9, 1, 0, 0, 3, 0, 0, -1, 0, 0, 5, 0, 0, 9, 9, 9},
+          "CUBICSPLINE");
   Scene scene = made.load();
   expect_near(position_at(scene, 2), {4, 0, 0});
   expect_near(position_at(scene, 1.5), {164.0 / 64, 0, 0});
@@ -79,7 +82,8 @@ TEST(AnimationNodes, a_small_rotation_and_an_equal_one_are_exact) {
 TEST(AnimationNodes, rotations_need_not_be_unit_quaternions) {
   GltfBuilder made = GltfBuilder::triangle();
   // Quarter turn about x of length 3, half turn about x of length 1/2: halfway 135 degrees.
-  animate(made, 0, "rotation", {0, 2}, "VEC4", {3 * float(root_half), 0, 0, 3 * float(root_half), 0.5f, 0, 0, 0});
+  animate(made, 0, "rotation", {0, 2}, "VEC4",
+          {3 * float(root_half), 0, 0, 3 * float(root_half), 0.5f, 0, 0, 0});
   Scene scene = made.load();
   expect_near(at(world_at(scene, 0, 0), {0, 1, 0}), {0, 0, 1}, 1e-7);
   expect_near(at(world_at(scene, 1), {0, 1, 0}), {0, -std::sqrt(0.5), std::sqrt(0.5)}, 1e-7);
@@ -89,13 +93,14 @@ TEST(AnimationNodes, a_cubic_rotation_is_made_unit) {
   GltfBuilder made = GltfBuilder::triangle();
   const std::vector<float> none = {0, 0, 0, 0};
   std::vector<float> values;
-  for (const std::vector<float>& part : {none, {0, 0, 0, 1}, none, none, {0, 0, float(root_half), float(root_half)}, none}) {
+  for (const std::vector<float>& part :
+       {none, {0, 0, 0, 1}, none, none, {0, 0, float(root_half), float(root_half)}, none}) {
     values.insert(values.end(), part.begin(), part.end());
   }
   animate(made, 0, "rotation", {0, 1}, "VEC4", values, "CUBICSPLINE");
   Scene scene = made.load();
-  // Flat tangents: at a quarter the weights are 27/32 and 5/32. The sum (0, 0, 5 s, 27 + 5 s) / 32 with s = sqrt(1/2) turns by
-  // twice its angle atan2(5 s, 27 + 5 s).
+  // Flat tangents: at a quarter the weights are 27/32 and 5/32. The sum (0, 0, 5 s, 27 + 5 s) / 32 with s =
+  // sqrt(1/2) turns by twice its angle atan2(5 s, 27 + 5 s).
   const double s = std::sqrt(0.5), angle = 2 * std::atan2(5 * s, 27 + 5 * s);
   expect_near(at(world_at(scene, 0.25), {1, 0, 0}), {std::cos(angle), std::sin(angle), 0}, 1e-7);
 }
@@ -112,7 +117,8 @@ TEST(AnimationNodes, a_cubic_rotation_through_zero_keeps_the_key_before) {
 TEST(AnimationNodes, integers_are_normalised_rotations) {
   GltfBuilder made = GltfBuilder::triangle();
   nlohmann::json& sampler = animate(made, 0, "rotation", {0}, "VEC4", {0, 0, 0, 1});
-  const int quarter = made.accessor(made.view(bytes_of(std::vector<int16_t>{0, 0, 23170, 23170})), "VEC4", i16, 1, true);
+  const int quarter =
+      made.accessor(made.view(bytes_of(std::vector<int16_t>{0, 0, 23170, 23170})), "VEC4", i16, 1, true);
   sampler["output"] = quarter;
   Scene scene = made.load();
   expect_near(at(world_at(scene, 1), {1, 0, 0}), {0, 1, 0}, 1e-12);
@@ -128,7 +134,8 @@ TEST(AnimationNodes, children_follow_their_parents) {
   animate(made, 1, "translation", {0, 1}, "VEC3", {0, 0, 0, 0, 4, 0});
   animate(made, 0, "scale", {0, 1}, "VEC3", {1, 1, 1, 3, 1, 1});
   Scene scene = made.load();
-  // At 1/2: x is stretched by 2, moved by 1, all doubled, lifted by 2, then turned by 90 degrees about y, which takes x to -z.
+  // At 1/2: x is stretched by 2, moved by 1, all doubled, lifted by 2, then turned by 90 degrees about y,
+  // which takes x to -z.
   const glm::dmat4 world = world_at(scene, 0.5);
   expect_near(at(world, {0, 0, 0}), {0, 2, -2});
   expect_near(at(world, {1, 0, 0}), {0, 2, -6});
@@ -207,6 +214,17 @@ TEST(AnimationNodes, all_animations_play_at_once_the_later_over_the_earlier) {
   expect_near(at(world_at(scene, 1, 1), {1, 0, 0}), {1, 2, 0});
 }
 
+TEST(AnimationNodes, looped_times_never_return_to_the_rest_pose) {
+  const Scene scene = moving("LINEAR");  // keys up to 3 s
+  EXPECT_EQ(looped_time(scene, 0), 0);
+  EXPECT_EQ(looped_time(scene, 2.5), 2.5);
+  EXPECT_EQ(looped_time(scene, 3), 3);
+  EXPECT_EQ(looped_time(scene, 3.5), 0.5);
+  EXPECT_EQ(looped_time(scene, 6), 3);
+  EXPECT_EQ(looped_time(scene, 7), 1);
+  EXPECT_EQ(looped_time(GltfBuilder::triangle().load(), 7), 7) << "nothing repeats";
+}
+
 TEST(AnimationNodes, changes_name_what_moved_and_nothing_else) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}}, {{"children", {2}}}};
@@ -263,7 +281,8 @@ TEST(AnimationNodes, times_and_animations_that_do_not_exist_are_refused) {
   Scene scene = moving("LINEAR");
   EXPECT_EQ(refusal_at(scene, 1, 1), "made.gltf: animation 1 was asked for, but there are 1");
   EXPECT_EQ(refusal_at(scene, 1, -2), "made.gltf: animation -2 was asked for, but there are 1");
-  EXPECT_THAT([&] { set_time(scene, std::nan("")); }, testing::ThrowsMessage<Error>("made: time nan is not a finite number of seconds"));
+  EXPECT_THAT([&] { set_time(scene, std::nan("")); },
+              testing::ThrowsMessage<Error>("made: time nan is not a finite number of seconds"));
   EXPECT_THROW(duration_of(scene, 1), Error);
 }
 
@@ -276,7 +295,8 @@ TEST(AnimationNodes, a_pose_that_is_not_finite_is_refused_and_the_next_is_whole)
     animate(made, 1 + i, "scale", {0, 1}, "VEC3", {1, 1, 1, 3e38f, 1, 1});
   }
   Scene scene = made.load();
-  EXPECT_THAT(refusal_at(scene, 1, -1), testing::HasSubstr("made.gltf: node 9: its world matrix at 1 s is not finite"));
+  EXPECT_THAT(refusal_at(scene, 1, -1),
+              testing::HasSubstr("made.gltf: node 9: its world matrix at 1 s is not finite"));
   EXPECT_TRUE(set_time(scene, 0).empty());
 }
 

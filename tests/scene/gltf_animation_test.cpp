@@ -49,7 +49,8 @@ TEST(GltfAnimation, channels_without_a_node_and_of_other_scenes_are_left_out) {
 
 TEST(GltfAnimation, unknown_paths_and_weights_without_targets_are_a_warning) {
   GltfBuilder made = animated();
-  channel_of(made)["target"] = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/mesh"}}}}}};
+  channel_of(made)["target"] = {{"path", "pointer"},
+                                {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/mesh"}}}}}};
   EXPECT_THAT(warnings_of([&] { EXPECT_EQ(made.load().rig, nullptr); }),
               HasSubstr("animation 0 channel 0: path \"pointer\" is not supported; left out"));
   made = animated();
@@ -63,7 +64,8 @@ TEST(GltfAnimation, sparse_values_and_values_without_a_view_are_read) {
   const int zeros = made.accessor(-1, "VEC3", f32, 2);
   made.root["accessors"][zeros]["sparse"] = {
       {"count", 1},
-      {"indices", {{"bufferView", made.view(bytes_of(std::vector<uint16_t>{1}))}, {"componentType", int(u16)}}},
+      {"indices",
+       {{"bufferView", made.view(bytes_of(std::vector<uint16_t>{1}))}, {"componentType", int(u16)}}},
       {"values", {{"bufferView", made.view(bytes_of(std::vector<float>{0, 6, 0}))}}}};
   sampler_of(made)["output"] = zeros;
   Scene scene = made.load();
@@ -74,11 +76,13 @@ TEST(GltfAnimation, sparse_values_and_values_without_a_view_are_read) {
 TEST(GltfAnimation, two_channels_of_one_target_and_a_node_with_a_matrix_are_refused) {
   GltfBuilder made = animated();
   animate(made, 0, "translation", {0}, "VEC3", {0, 0, 0});
-  EXPECT_EQ(made.refusal(), "made.gltf: animation 0 channel 1: an earlier channel animates the translation of node 0 too");
+  EXPECT_EQ(made.refusal(),
+            "made.gltf: animation 0 channel 1: an earlier channel animates the translation of node 0 too");
   made = animated();
   made.node()["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   EXPECT_EQ(made.refusal(),
-            "made.gltf: animation 0 channel 0: node 0 has a matrix; only translation, rotation and scale can be animated");
+            "made.gltf: animation 0 channel 0: node 0 has a matrix; only translation, rotation and scale can "
+            "be animated");
 }
 
 TEST(GltfAnimation, times_that_decrease_or_are_negative_are_refused) {
@@ -114,7 +118,8 @@ TEST(GltfAnimation, types_that_do_not_fit_are_refused) {
   sampler_of(made)["output"] = float_accessor(made, "VEC4", 4, {0, 0, 0, 1, 0, 0, 0, 1});
   EXPECT_THAT(made.refusal(), HasSubstr("animation 0 sampler 0: output: is not of type VEC3"));
   made = animated();
-  sampler_of(made)["output"] = made.accessor(made.view(bytes_of(std::vector<int16_t>(8))), "VEC3", i16, 2, true);
+  sampler_of(made)["output"] =
+      made.accessor(made.view(bytes_of(std::vector<int16_t>(8))), "VEC3", i16, 2, true);
   made.root["bufferViews"].back()["byteStride"] = 8;
   EXPECT_THAT(made.refusal(), HasSubstr("output: componentType is 5122; it must be float"));
   made = animated();
@@ -128,7 +133,8 @@ TEST(GltfAnimation, types_that_do_not_fit_are_refused) {
 TEST(GltfAnimation, a_rotation_of_no_length_is_refused) {
   GltfBuilder made = GltfBuilder::triangle();
   animate(made, 0, "rotation", {0, 1}, "VEC4", {0, 0, 0, 1, 0, 0, 0, 0});
-  EXPECT_THAT(made.refusal(), HasSubstr("animation 0 sampler 0: output: rotation 1 is a quaternion of length 0"));
+  EXPECT_THAT(made.refusal(),
+              HasSubstr("animation 0 sampler 0: output: rotation 1 is a quaternion of length 0"));
 }
 
 TEST(GltfAnimation, broken_json_and_indices_out_of_range_are_named) {
@@ -142,7 +148,8 @@ TEST(GltfAnimation, broken_json_and_indices_out_of_range_are_named) {
       {"/animations/0/samplers/0/input", 70, "animation 0 sampler 0: input is 70, but there are 3"},
       {"/animations/0/samplers/0/output", -1, "animations[0].samplers[0].output is -1: not an index"},
       {"/animations/0/samplers/0/output", 0.5, "animations[0].samplers[0].output is 0.5: not an index"},
-      {"/animations/0/samplers/0/interpolation", 3, "animations[0].samplers[0].interpolation is not a string"},
+      {"/animations/0/samplers/0/interpolation", 3,
+       "animations[0].samplers[0].interpolation is not a string"},
   };
   for (const auto& [pointer, value, message] : cases) {
     GltfBuilder made = animated();

@@ -10,9 +10,11 @@ using testing::IsEmpty;
 
 // 3 x 2 pixels, lossless, by libwebp's encoder.
 constexpr const char* small_webp =
-    "UklGRkoAAABXRUJQVlA4TD4AAAAvAkAAEC9AkG2zQdzr/jLTIJO2yV//dmZtZNI2rYf986+yBNk2U5/NjI7zQI94SK73bSAQoIwVD2wT0f8YLw==";
+    "UklGRkoAAABXRUJQVlA4TD4AAAAvAkAAEC9AkG2zQdzr/jLTIJO2yV//dmZtZNI2rYf986+yBNk2U5/"
+    "NjI7zQI94SK73bSAQoIwVD2wT0f8YLw==";
 // 1 x 1, black.
-constexpr const char* small_png = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC";
+constexpr const char* small_png =
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC";
 
 // A base colour texture: a PNG as its source and a WebP image by the extension.
 GltfBuilder with_webp() {
@@ -70,14 +72,16 @@ TEST(GltfWebp, content_counts_not_where_the_image_is_named) {
   made.root["textures"][0] = {{"source", 1}};
   EXPECT_EQ(made.load().bitmaps.at(0).width, 3) << "the file uses the extension elsewhere";
   made.root["extensionsUsed"].clear();
-  EXPECT_EQ(made.refusal(), "made.gltf: image 1 \"webp\": is WebP, but extensionsUsed does not name EXT_texture_webp");
+  EXPECT_EQ(made.refusal(),
+            "made.gltf: image 1 \"webp\": is WebP, but extensionsUsed does not name EXT_texture_webp");
   made = with_webp();
   made.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
   EXPECT_EQ(made.load().bitmaps.at(0).width, 1) << "a PNG image";
 }
 
 TEST(GltfWebp, limits_hold_before_anything_is_decoded) {
-  EXPECT_THAT(with_webp().refusal({.max_image_side = 2}), HasSubstr("image 1 \"webp\": is 3 x 2; a side of at most 2 is read"));
+  EXPECT_THAT(with_webp().refusal({.max_image_side = 2}),
+              HasSubstr("image 1 \"webp\": is 3 x 2; a side of at most 2 is read"));
   EXPECT_THAT(with_webp().refusal({.max_image_bytes = 100}),
               HasSubstr("image 1 \"webp\": with it, images take more than 100 bytes"));
 }
@@ -88,7 +92,8 @@ TEST(GltfWebp, broken_files_and_indices_are_refused) {
   EXPECT_EQ(made.refusal(), "made.gltf: image 1 \"webp\": cannot be decoded: its WebP header is broken");
   made.root["images"][1]["uri"] = changed_webp(0, 'R', 60);
   EXPECT_EQ(made.refusal(), "made.gltf: image 1 \"webp\": cannot be decoded: its WebP data is broken");
-  made.root["images"][1]["uri"] = "data:image/webp;base64," + base64(Bytes{'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0});
+  made.root["images"][1]["uri"] =
+      "data:image/webp;base64," + base64(Bytes{'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0});
   EXPECT_THAT(made.refusal(), HasSubstr("image 1 \"webp\": is neither PNG nor JPEG nor WebP"));
   made = with_webp();
   made.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 7;

@@ -101,7 +101,8 @@ TEST(LightMotions, lights_stay_near_and_move_slowly) {
 TEST(LightMotions, a_lights_motion_depends_on_its_index_and_the_time_alone) {
   Scene few = twenty_lights(), many = twenty_lights();
   few.lights.resize(5);
-  const LightRig rig_of_few = make_light_rig(few, LightMotion::drift), rig_of_many = make_light_rig(many, LightMotion::drift);
+  const LightRig rig_of_few = make_light_rig(few, LightMotion::drift),
+                 rig_of_many = make_light_rig(many, LightMotion::drift);
   move_lights(few, rig_of_few, 9);
   move_lights(few, rig_of_few, 2.5);
   move_lights(many, rig_of_many, 2.5);

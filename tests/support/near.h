@@ -14,7 +14,8 @@ inline glm::dvec3 at(const glm::dmat4& m, const glm::dvec3& p) { return glm::dve
 
 inline void expect_near(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12) {
   EXPECT_LE(glm::length(actual - expected), tolerance)
-      << actual.x << " " << actual.y << " " << actual.z << " instead of " << expected.x << " " << expected.y << " " << expected.z;
+      << actual.x << " " << actual.y << " " << actual.z << " instead of " << expected.x << " " << expected.y
+      << " " << expected.z;
 }
 
 }  // namespace lightgrid

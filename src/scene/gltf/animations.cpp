@@ -1,6 +1,8 @@
 #include "scene/gltf/animations.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "scene/gltf/accessor.h"
@@ -36,7 +38,10 @@ Interpolation read_interpolation(const Document& doc, const std::string& name, c
 class AnimationReader {
  public:
   AnimationReader(Document& doc, std::vector<PlacedNode>& nodes)
-      : doc_(doc), nodes_(nodes), values_left_(doc.limits.max_animation_values), place_of_node_(doc.model.nodes.size(), -1) {
+      : doc_(doc),
+        nodes_(nodes),
+        values_left_(doc.limits.max_animation_values),
+        place_of_node_(doc.model.nodes.size(), -1) {
     for (size_t i = 0; i < nodes.size(); ++i) place_of_node_[nodes[i].node] = static_cast<int>(i);
   }
 
@@ -48,8 +53,8 @@ class AnimationReader {
       auto channel = read_target(entry.channels[i], inner);
       if (!channel) continue;
       if (!targets.insert({channel->node, channel->path}).second)
-        throw doc_.error("{}: an earlier channel animates the {} of node {} too", inner, entry.channels[i].path,
-                         entry.channels[i].node);
+        throw doc_.error("{}: an earlier channel animates the {} of node {} too", inner,
+                         entry.channels[i].path, entry.channels[i].node);
       if (entry.channels[i].sampler < 0) throw doc_.error("{}: has no sampler", inner);
       read_keys(entry.samplers[entry.channels[i].sampler],
                 fmt::format("{} sampler {}", place, entry.channels[i].sampler), *channel);
@@ -72,7 +77,8 @@ class AnimationReader {
     if (*path == AnimatedPath::weights) {
       out.components = static_cast<int>(target_count(doc_, in.node));
       if (out.components > 0) return out;
-      doc_.warn("animated weights", "{}: {} has no morph targets; left out", place, node_label(doc_, in.node));
+      doc_.warn("animated weights", "{}: {} has no morph targets; left out", place,
+                node_label(doc_, in.node));
       return {};
     }
     if (nodes_[out.node].matrix)
@@ -82,29 +88,37 @@ class AnimationReader {
   }
 
   void read_keys(const AnimationEntry::Sampler& in, const std::string& place, AnimationChannel& out) {
-    if (in.input < 0 || in.output < 0) throw doc_.error("{}: has no {}", place, in.input < 0 ? "input" : "output");
+    if (in.input < 0 || in.output < 0)
+      throw doc_.error("{}: has no {}", place, in.input < 0 ? "input" : "output");
     out.interpolation = read_interpolation(doc_, in.interpolation, place);
     out.times = read_values(in.input, Normalize::as_accessor_says, "SCALAR", true, place + ": input");
     check_times(out.times, place);
     const bool is_cubic = out.interpolation == Interpolation::cubic_spline;
-    if (is_cubic && out.times.size() < 2) throw doc_.error("{}: a cubic spline of one key; it needs two", place);
-    const char* type = out.path == AnimatedPath::weights ? "SCALAR" : out.path == AnimatedPath::rotation ? "VEC4" : "VEC3";
+    if (is_cubic && out.times.size() < 2)
+      throw doc_.error("{}: a cubic spline of one key; it needs two", place);
+    const char* type = out.path == AnimatedPath::weights    ? "SCALAR"
+                       : out.path == AnimatedPath::rotation ? "VEC4"
+                                                            : "VEC3";
     const bool is_float = out.path == AnimatedPath::translation || out.path == AnimatedPath::scale;
     out.values = read_values(in.output, Normalize::always, type, is_float, place + ": output");
     const size_t a_key = static_cast<size_t>(out.components) * (is_cubic ? 3 : 1);
     if (out.values.size() != out.times.size() * a_key)
-      throw doc_.error("{}: output has {} numbers for {} keys of {}", place, out.values.size(), out.times.size(), a_key);
+      throw doc_.error("{}: output has {} numbers for {} keys of {}", place, out.values.size(),
+                       out.times.size(), a_key);
     if (out.path == AnimatedPath::rotation) check_rotations(out, is_cubic, place);
   }
 
-  std::vector<float> read_values(int accessor, Normalize normalize, const char* type, bool only_float, const std::string& place) {
+  std::vector<float> read_values(int accessor, Normalize normalize, const char* type, bool only_float,
+                                 const std::string& place) {
     const tinygltf::Accessor& in = checked(doc_, doc_.model.accessors, accessor, place, "accessor");
     const int wanted = type == std::string_view("SCALAR") ? 1 : type[3] - '0';
-    if (in.type != (wanted == 1 ? TINYGLTF_TYPE_SCALAR : wanted)) throw doc_.error("{}: is not of type {}", place, type);
+    if (in.type != (wanted == 1 ? TINYGLTF_TYPE_SCALAR : wanted))
+      throw doc_.error("{}: is not of type {}", place, type);
     if (only_float && in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
       throw doc_.error("{}: componentType is {}; it must be float", place, in.componentType);
     if (in.count > values_left_ / wanted)
-      throw doc_.error("{}: with it, animations have more than {} numbers", place, doc_.limits.max_animation_values);
+      throw doc_.error("{}: with it, animations have more than {} numbers", place,
+                       doc_.limits.max_animation_values);
     values_left_ -= in.count * wanted;
     return read_floats(doc_, accessor, in.count, normalize, place).values;
   }
@@ -120,7 +134,8 @@ class AnimationReader {
   void check_rotations(const AnimationChannel& channel, bool is_cubic, const std::string& place) const {
     for (size_t key = 0; key < channel.times.size(); ++key) {
       const float* q = channel.values.data() + (is_cubic ? key * 3 + 1 : key) * 4;
-      const double length = std::hypot(std::hypot(double(q[0]), double(q[1])), std::hypot(double(q[2]), double(q[3])));
+      const double length =
+          std::hypot(std::hypot(double(q[0]), double(q[1])), std::hypot(double(q[2]), double(q[3])));
       if (!(length > 1e-12))
         throw doc_.error("{}: output: rotation {} is a quaternion of length {}", place, key, length);
     }
@@ -138,7 +153,8 @@ std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& n
   AnimationReader reader(doc, nodes);
   std::vector<Animation> out;
   for (size_t i = 0; i < doc.animations.size(); ++i)
-    out.push_back(reader.read(doc.animations[i], label("animation", static_cast<int>(i), doc.animations[i].name)));
+    out.push_back(
+        reader.read(doc.animations[i], label("animation", static_cast<int>(i), doc.animations[i].name)));
   for (PlacedNode& node : nodes)
     if (node.parent >= 0 && nodes[node.parent].moves) node.moves = true;
   return out;

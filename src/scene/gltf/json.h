@@ -48,8 +48,9 @@ struct PreparedJson {
 
 // Checks nesting, that collections are arrays of objects, and that every index is an integer in [0, 2^31);
 // numbers such as 3.0 become integers, and integers past 32 bits (which tinygltf would wrap) become doubles.
-// Animations are taken out, because tinygltf reads them with less care than the rest. Buffers and images are taken out, because tinygltf reads them all at once, keeps copies, wants file sizes
-// to match exactly, knows no fallback buffers and reads a view's bytes unchecked.
+// Animations, buffers and images are taken out. tinygltf reads animations with less care than the rest; of
+// the others it reads all at once, keeps copies, wants file sizes to match exactly, knows no fallback buffers
+// and reads a view's bytes unchecked.
 PreparedJson prepare_json(const Reporter& report, std::string_view text);
 
 // Moves the animations out of the JSON; errors name wrong types and indices that are not integers from 0 on.

@@ -31,7 +31,8 @@ std::string animation_string(const Reporter& report, const json& object, const c
 
 // Calls read(element, its place) for each object of the array object[key], if there is one.
 template <typename Read>
-void for_each_object(const Reporter& report, const json& object, const char* key, const std::string& place, const Read& read) {
+void for_each_object(const Reporter& report, const json& object, const char* key, const std::string& place,
+                     const Read& read) {
   const auto array = object.find(key);
   if (array == object.end()) return;
   if (!array->is_array()) throw report.error("{}.{} is not an array", place, key);
@@ -49,11 +50,13 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
   if (!root.contains("animations")) return out;
   for (const json& animation : root["animations"]) {
     const std::string place = fmt::format("animations[{}]", out.size());
-    AnimationEntry entry{.name = animation_string(report, animation, "name", "", place), .samplers = {}, .channels = {}};
+    AnimationEntry entry{
+        .name = animation_string(report, animation, "name", "", place), .samplers = {}, .channels = {}};
     for_each_object(report, animation, "samplers", place, [&](const json& sampler, const std::string& at) {
-      entry.samplers.push_back({.input = animation_index(report, sampler, "input", at),
-                                .output = animation_index(report, sampler, "output", at),
-                                .interpolation = animation_string(report, sampler, "interpolation", "LINEAR", at)});
+      entry.samplers.push_back(
+          {.input = animation_index(report, sampler, "input", at),
+           .output = animation_index(report, sampler, "output", at),
+           .interpolation = animation_string(report, sampler, "interpolation", "LINEAR", at)});
     });
     for_each_object(report, animation, "channels", place, [&](const json& channel, const std::string& at) {
       const json target = channel.value("target", json::object());

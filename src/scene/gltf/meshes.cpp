@@ -1,7 +1,7 @@
 #include "scene/gltf/meshes.h"
 
 #include <algorithm>
-#include <tuple>
+#include <algorithm>
 
 #include "scene/deform.h"
 #include "scene/gltf/morph.h"
@@ -73,7 +73,9 @@ class MeshReader {
       primitive->mesh.name = in.name;
       const bool skinned = use.skin >= 0 && primitive->skin.sets > 0;
       out.push_back({static_cast<int>(scene_.meshes.size()), skinned});
-      DeformingMesh shape{.mesh = out.back().mesh, .label = place, .tangents = tangent_need(scene_.materials[primitive->mesh.material])};
+      DeformingMesh shape{.mesh = out.back().mesh,
+                          .label = place,
+                          .tangents = tangent_need(scene_.materials[primitive->mesh.material])};
       if (skinned) shape.skin = use.skin, shape.skin_weights = std::move(primitive->skin);
       add_at_rest(in.primitives[i], use, std::move(primitive->mesh), std::move(shape));
     }
@@ -124,7 +126,8 @@ class MeshReader {
   }
 
   bool moves(const RigSkin& skin) const {
-    return std::any_of(skin.joints.begin(), skin.joints.end(), [&](int joint) { return nodes_[joint].moves; });
+    return std::any_of(skin.joints.begin(), skin.joints.end(),
+                       [&](int joint) { return nodes_[joint].moves; });
   }
 
   Document& doc_;

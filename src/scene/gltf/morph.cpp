@@ -45,11 +45,12 @@ std::vector<double> default_weights(const Document& doc, const tinygltf::Node& n
 }
 
 std::vector<MorphTarget> read_morph_targets(Document& doc, const tinygltf::Primitive& primitive,
-                                            const std::vector<double>& weights, bool animated, const Mesh& mesh,
-                                            Budget& budget, const std::string& place) {
+                                            const std::vector<double>& weights, bool animated,
+                                            const Mesh& mesh, Budget& budget, const std::string& place) {
   if (primitive.targets.empty() || (weights.empty() && !animated)) return {};
   if (!weights.empty() && weights.size() != primitive.targets.size())
-    throw doc.error("{}: there are {} weights for {} morph targets", place, weights.size(), primitive.targets.size());
+    throw doc.error("{}: there are {} weights for {} morph targets", place, weights.size(),
+                    primitive.targets.size());
   std::vector<MorphTarget> out(primitive.targets.size());
   for (size_t i = 0; i < out.size(); ++i) {
     if (!animated && weights[i] == 0) continue;

@@ -28,12 +28,13 @@ RigSkin read_skin(Document& doc, int index, const std::vector<PlacedNode>& nodes
   return out;
 }
 
-void check_joints(const Document& doc, const RigSkin& skin, const SkinWeights& weights, const std::string& place) {
+void check_joints(const Document& doc, const RigSkin& skin, const SkinWeights& weights,
+                  const std::string& place) {
   for (size_t i = 0; i < weights.joints.size(); ++i)
     for (int k = 0; k < 4; ++k)
       if (weights.weights[i][k] != 0 && weights.joints[i][k] >= skin.joints.size())
-        throw doc.error("{}: vertex {}: joint {}, but the skin has {}", place, i / weights.sets, weights.joints[i][k],
-                        skin.joints.size());
+        throw doc.error("{}: vertex {}: joint {}, but the skin has {}", place, i / weights.sets,
+                        weights.joints[i][k], skin.joints.size());
 }
 
 }  // namespace lightgrid::gltf
