@@ -1,7 +1,6 @@
 #include "scene/gltf/meshes.h"
 
 #include <algorithm>
-#include <algorithm>
 
 #include "scene/deform.h"
 #include "scene/gltf/morph.h"
