@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -153,12 +154,10 @@ SceneMotion chosen_motion(Scene& scene, const SceneOptions& o) {
   return [&scene, animated, start, rig = make_light_rig(scene, motion)](size_t frame) {
     const double seconds = start + double(frame) / frames_a_second;
     SceneChanges changes;
-    if (animated) {
-      const double duration = duration_of(scene);
-      changes = set_time(scene, seconds > duration ? std::fmod(seconds, duration) : seconds);
-    }
+    if (animated) changes = set_time(scene, looped_time(scene, seconds));
     const SceneChanges lights = move_lights(scene, rig, seconds);
     changes.lights.insert(changes.lights.end(), lights.lights.begin(), lights.lights.end());
+    std::ranges::sort(changes.lights);
     return changes;
   };
 }

@@ -23,13 +23,8 @@ std::optional<PosedModel> load_posed_model(const char* name) {
   return PosedModel{load_gltf(path), PoseOracle(path)};
 }
 
-<<<<<<< HEAD
 #define LOAD_OR_SKIP(variable, name)      \
-  auto variable = load_posed_model(name);       \
-=======
-#define LOAD_OR_SKIP(variable, name) \
-  auto variable = load_model(name);  \
->>>>>>> 6813738 (Poses: meshes deform before the rest moves, so that a refused pose leaves nothing unlisted; times that loop)
+  auto variable = load_posed_model(name); \
   if (!variable) GTEST_SKIP() << "needs shared/scenes/conformance/" << name << ", which is absent"
 
 // The file's index of a node of the rig.
