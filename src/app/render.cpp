@@ -50,7 +50,8 @@ int render(const RenderOptions& o) {
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   Renderer renderer(o.devices.device, backend);
-  const SceneMotion advance = path.empty() ? SceneMotion() : chosen_motion(chosen.scene, o.scene);
+  const SceneMotion advance = chosen_motion(chosen.scene, o.scene);
+  if (path.empty() && o.scene.light_motion != "none") advance(0);
   GpuScene gpu(renderer, chosen.scene);
   TechniqueRun run(renderer, gpu, chosen.view, settings, technique);
   if (!path.empty()) return render_path(o, run, gpu, path, advance);

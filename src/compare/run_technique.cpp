@@ -16,9 +16,14 @@ TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& v
       own_scene_(std::make_unique<GpuScene>(renderer, scene)),
       view_(renderer, *own_scene_, view, settings, technique.needs) {}
 
-void TechniqueRun::render() {
+void TechniqueRun::draw_frame() {
   reset_gl_state();
   frame_ = technique_.render(view_);
+  check_gl(technique_.name);
+}
+
+void TechniqueRun::render() {
+  draw_frame();
   read_back(view_, frame_.image, image_);
   check_gl(technique_.name);
 }

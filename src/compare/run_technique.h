@@ -24,6 +24,8 @@ class TechniqueRun {
 
   // One frame, from the first draw to the image read back; its time goes into the result unless `warmup`.
   void run_frame(bool warmup = false);
+  // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
+  void draw_frame();
   // More frames with a wait after each pass, for the time of each: up to five, or as many as a second holds.
   void run_profiled_frames();
 

@@ -54,6 +54,7 @@ class PassTimer {
   }
 
   const std::vector<PassRecord>& records() const { return records_; }  // in the order the passes first ran
+  void clear() { records_.clear(); }
 
   bool enabled = false;
 

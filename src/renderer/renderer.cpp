@@ -3,7 +3,10 @@
 namespace lightgrid {
 
 Renderer::Renderer(const std::string& cl_substring, GlBackend backend)
-    : gl(GlContext::create(backend)),
+    : Renderer(cl_substring, GlContext::create(backend)) {}
+
+Renderer::Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> context)
+    : gl(std::move(context)),
       cl(std::make_unique<ClDevice>(cl_substring)),
       kernels(std::make_unique<ProgramCache>(*cl)),
       bridge(choose_bridge(*cl, *gl)),

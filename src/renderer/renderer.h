@@ -25,6 +25,8 @@ class Renderer {
  public:
   // Opens both devices. Throws Error(machine) where one is missing.
   Renderer(const std::string& cl_substring, GlBackend backend);
+  // With a context that is current: a window's.
+  Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> context);
   Renderer(Renderer&&) = default;
 
   std::unique_ptr<GlContext> gl;

@@ -1,0 +1,12 @@
+# The window of `lightgrid view`. LIGHTGRID_VIEW is switched off for this build where GLFW or Dear ImGui is missing.
+if(LIGHTGRID_VIEW)
+  find_package(glfw3 QUIET)
+  pkg_check_modules(imgui QUIET IMPORTED_TARGET imgui)
+  if(glfw3_FOUND AND imgui_FOUND)
+    lightgrid_folder(view USES compare LIBRARIES PkgConfig::imgui glfw)
+  else()
+    message(STATUS "lightgrid view is left out: it needs libglfw3-dev and libimgui-dev")
+    set(LIGHTGRID_VIEW OFF)
+    set(LIGHTGRID_VIEW OFF PARENT_SCOPE)
+  endif()
+endif()

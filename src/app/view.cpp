@@ -1,0 +1,83 @@
+// lightgrid view SCENE: a window. Where the build found no GLFW or no Dear ImGui, it says so.
+#include <memory>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/error.h"
+#include "techniques/technique.h"
+#ifdef LIGHTGRID_VIEW
+#include "view/command_text.h"
+#include "view/viewer.h"
+#endif
+
+namespace lightgrid {
+namespace {
+
+struct ViewOptions {
+  SceneOptions scene;
+  std::string device, left = "forward_plus", right = "deferred_tiled", script, screenshot;
+  int frames = 60;
+};
+
+#ifdef LIGHTGRID_VIEW
+
+// What chose the scene and its lights, as words for `lightgrid render`.
+std::string scene_words(const ViewOptions& o) {
+  const SceneOptions& s = o.scene;
+  std::string words = shell_word(s.scene);
+  if (s.lights >= 0) words += fmt::format(" --lights {}", s.lights);
+  if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
+  if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
+  if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneOptions().seed) words += fmt::format(" --seed {}", s.seed);
+  if (!o.device.empty()) words += " --device " + shell_word(o.device);
+  return words;
+}
+
+int view(const ViewOptions& o) {
+  ViewJob job;
+  const Settings settings = chosen_settings(o.scene);
+  job.controls.sides = {{{find_technique(o.left).name, settings}, {find_technique(o.right).name, settings}}};
+  job.controls.lights = light_motion(o.scene.light_motion);
+  job.scripted = !o.script.empty() || !o.screenshot.empty();
+  job.frames = o.frames;
+  job.screenshot = o.screenshot;
+  if (job.scripted) job.controls.rate = 0;
+  if (!o.script.empty()) job.script = Script::read(o.script);
+  if (!o.screenshot.empty()) check_output_file("--screenshot", o.screenshot);
+  const ImageSize size = parse_size(o.scene.size);
+  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene);
+  ChosenScene chosen = load_chosen_scene(o.scene);
+  job.scene = std::move(chosen.scene);
+  job.view = chosen.view;
+  job.seconds = job.scene.time_s;
+  job.scene_words = scene_words(o);
+  job.camera = o.scene.camera;
+  job.device = o.device;
+  Viewer(window, std::move(job)).run();
+  return 0;
+}
+
+#else
+
+int view(const ViewOptions&) {
+  throw machine_error("view: built without a window; with Debian's libglfw3-dev and libimgui-dev installed, configure and build again");
+}
+
+#endif
+
+}  // namespace
+
+void add_view(CommandLine& line) {
+  auto o = std::make_shared<ViewOptions>();
+  Subcommand command = line.add("view", "a window: fly through a scene, two techniques side by side", [o] { return view(*o); });
+  add_scene_options(command, o->scene);
+  command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
+  command.option("--device", o->device, "OpenCL device, by a part of its name");
+  command.option("--left", o->left, "technique of the left side");
+  command.option("--right", o->right, "technique of the right side");
+  command.option("--script", o->script, "a file of input to replay instead of a user's");
+  command.option("--frames", o->frames, "frames of a script, after which the program ends", 1, 1'000'000);
+  command.option("--screenshot", o->screenshot, "the last frame of a script as a PNG");
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,49 @@
+// A camera that flies: turned by the mouse, moved by keys, always upright.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "scene/camera.h"
+#include "view/controls.h"
+
+namespace lightgrid {
+
+// Its state is the text that --camera takes, with decimals that suit the scene's size. The view is made from that text, so
+// that a command line with it gives the same picture to the bit.
+class FlyCamera {
+ public:
+  // The scene outlives it. `text`: what --camera was given. Until it is moved the view stays `start`, whatever that is; then it
+  // is upright and a perspective, with the near plane that choose_camera gives.
+  FlyCamera(const Scene& scene, const View& start, std::string text);
+
+  // At once to another camera, in the form of --camera. Throws Error(input) as choose_camera does.
+  void go_to(const std::string& text, int width, int height);
+
+  // By pixels of a picture of this height, as if the scene were dragged. Returns whether it turned.
+  bool turn(double dx_px, double dy_px, int height);
+  // For `seconds` by the keys that are held (FlightKey). Returns whether it moved.
+  bool move(const std::array<bool, 7>& held, double seconds);
+
+  View view(int width, int height) const;
+  const std::string& text() const { return text_; }  // empty: the scene's own first camera
+
+  double speed_m = 1;  // metres a second
+
+ private:
+  void take(const View& view);
+  void write_text();
+
+  const Scene& scene_;
+  View start_;
+  bool moved_ = false;
+  std::string text_;
+  glm::dvec3 eye_{0};
+  double yaw_ = 0, pitch_ = 0, fov_deg_ = 60;  // yaw about y from -z, pitch upwards; radians
+  double size_m_ = 1;                          // of the scene
+};
+
+// The same camera for an image of another size: the vertical field is kept.
+View resized(View view, int width, int height);
+
+}  // namespace lightgrid

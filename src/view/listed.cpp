@@ -1,0 +1,75 @@
+#include "view/listed.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <tuple>
+
+#include "reference/position.h"
+#include "scene/view_lights.h"
+#include "compare/oracle.h"
+
+namespace lightgrid {
+
+ListedFrame read_listed_frame(TechniqueRun& run) {
+  RenderView& v = run.view();
+  ListedFrame frame;
+  frame.view = v.view;
+  frame.depth = read_depth(v);
+  frame.lists = listed_lights(run, frame.depth);
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
+  for (const int light : v.plan.local) {
+    frame.lights.push_back(all[light]);
+    frame.scene_lights.push_back(light);
+  }
+  return frame;
+}
+
+PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel pixel) {
+  PixelLights result;
+  const size_t place = size_t(pixel.y) * frame.view.width + pixel.x;
+  const float depth = frame.depth[place];
+  result.covered = depth > 0;
+  if (!result.covered) return result;
+  const glm::dvec3 position = position_from_depth(frame.view, pixel.x, pixel.y, depth);
+  result.distance_m = -position.z;
+  const uint32_t cell = frame.lists.cell_of_pixel.empty() ? 0 : frame.lists.cell_of_pixel[place];
+  const auto first = frame.lists.indices.begin() + ptrdiff_t(frame.lists.first[cell]);
+  const std::set<uint32_t> listed(first, first + frame.lists.count[cell]);
+  const std::vector<uint32_t> lit_indices = lit_lights(frame.lights, position);
+  const std::set<uint32_t> lit(lit_indices.begin(), lit_indices.end());
+  std::set<uint32_t> either = listed;
+  either.insert(lit.begin(), lit.end());
+  for (const uint32_t i : either) {
+    if (i >= frame.lights.size()) continue;
+    const int light = frame.scene_lights[i];
+    result.lights.push_back({light, scene.lights[light].name, glm::length(frame.lights[i].position - position),
+                             frame.lights[i].radius_m, listed.contains(i), lit.contains(i)});
+  }
+  const auto rank = [](const PixelLight& l) { return std::tuple(!l.lit, l.listed, l.distance_m); };
+  std::ranges::sort(result.lights, [&](const PixelLight& a, const PixelLight& b) { return rank(a) < rank(b); });
+  for (const PixelLight& light : result.lights) {
+    result.listed += light.listed;
+    result.lit += light.lit;
+    result.lost += light.lit && !light.listed;
+  }
+  return result;
+}
+
+void ListedCount::start(ListedFrame frame, size_t picture) {
+  picture_ = picture;
+  running_ = std::async(std::launch::async, [frame = std::move(frame)] {
+    return count_pairs(frame.view, frame.depth, frame.lights, frame.lists);
+  });
+}
+
+const LitPairs* ListedCount::result(size_t picture, bool wait) {
+  if (running_.valid()) {
+    if (!wait && running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+    done_ = running_.get();
+    done_picture_ = picture_;
+  }
+  return done_ && done_picture_ == picture ? &*done_ : nullptr;
+}
+
+}  // namespace lightgrid

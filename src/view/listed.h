@@ -1,0 +1,57 @@
+// The lights that a side's last frame listed, held against the oracle: as maps over the picture, and at one pixel.
+#pragma once
+
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reference/lit_set.h"
+#include "compare/run_technique.h"
+#include "view/controls.h"
+
+namespace lightgrid {
+
+// What the oracle needs of a frame, copied off the devices.
+struct ListedFrame {
+  View view;
+  std::vector<float> depth;
+  std::vector<ViewLight> lights;  // point and spot lights, as the lists count them
+  std::vector<int> scene_lights;  // their indices in the scene
+  ListedLights lists;
+};
+ListedFrame read_listed_frame(TechniqueRun& run);
+
+// A light at a pixel.
+struct PixelLight {
+  int light = 0;  // of the scene
+  std::string name;
+  double distance_m = 0;  // from the surface
+  double radius_m = 0;
+  bool listed = false, lit = false;
+};
+
+struct PixelLights {
+  bool covered = false;   // a surface is there
+  double distance_m = 0;  // of the surface along the view axis
+  int listed = 0, lit = 0, lost = 0;
+  std::vector<PixelLight> lights;  // listed or lit ones: lost first, then lit, then the rest; each by distance
+};
+PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel pixel);
+
+// Counts every pixel's lights on other threads: a second or so for a full picture and a thousand lights.
+class ListedCount {
+ public:
+  void start(ListedFrame frame, size_t picture);  // `picture`: a number that names it
+  bool running() const { return running_.valid(); }
+  // The counts of the picture started last, once they are there. `wait`: until they are.
+  const LitPairs* result(size_t picture, bool wait);
+  size_t picture() const { return picture_; }
+
+ private:
+  std::future<LitPairs> running_;
+  std::optional<LitPairs> done_;
+  size_t picture_ = 0, done_picture_ = 0;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,62 @@
+// The panels beside the picture, and what is written over it. They read what the last frame was and change the controls.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "view/fly_camera.h"
+#include "view/listed.h"
+#include "view/motion.h"
+#include "view/side.h"
+#include "view/side_map.h"
+
+namespace lightgrid {
+
+inline constexpr int panel_width = 420;
+
+// When each side's plan last changed, by effect.
+class PlanHistory {
+ public:
+  void follow(const FramePlan& plan, double now_s);
+  // Seconds since the decision changed; infinite where it never did.
+  double age_s(const std::string& effect, double now_s) const;
+
+ private:
+  struct Entry {
+    std::string text;
+    double changed_s;
+  };
+  std::map<std::string, Entry> entries_;
+  bool first_ = true;
+};
+
+struct Shown {
+  const Scene& scene;
+  FlyCamera& camera;
+  const Motion& motion;
+  std::array<Side*, 2> sides;
+  std::array<const MapOfSide*, 2> maps;
+  std::array<std::string, 2> map_notes;  // why a map is not there yet; empty: it is
+  std::array<PlanHistory, 2>& plans;
+  std::array<std::optional<PixelLights>, 2> pixel;  // at Controls::pixel
+  std::array<std::string, 2> commands;
+  std::string note;  // of the last thing done
+  int picture_width = 0, picture_height = 0;
+  double fraction = 1;  // that is drawn of the picture's sides
+  double now_s = 0;
+};
+
+void show_panels(Controls& controls, const Shown& shown);
+void show_overlay(const Controls& controls, const Shown& shown);
+
+// Sections of the panel, one file each.
+void show_settings(Controls& controls, const Shown& shown);
+void show_times(Controls& controls, const Shown& shown);
+void show_motion(Controls& controls, const Shown& shown);
+void show_pixel(Controls& controls, const Shown& shown);
+void show_plan(const Shown& shown);
+void show_commands(Controls& controls, const Shown& shown);
+
+}  // namespace lightgrid

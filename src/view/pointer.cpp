@@ -1,0 +1,42 @@
+#include "view/pointer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightgrid {
+namespace {
+
+constexpr double line_reach_px = 6;   // how near to the line it is grabbed
+constexpr double click_reach_px = 3;  // how far a click may move
+
+}  // namespace
+
+PointerResult Pointer::follow(const Input& input, int width, int height, double line, bool free) {
+  PointerResult result;
+  // A press counts at the place of the last frame: a script may press and move in one frame.
+  if (input.button && gesture_ == Gesture::none) {
+    const bool over = free && x_ >= 0 && y_ >= 0 && x_ < width && y_ < height;
+    const bool near_line = std::abs(x_ - line * width) <= line_reach_px;
+    gesture_ = !over ? Gesture::elsewhere : near_line ? Gesture::line : Gesture::look;
+    moved_px_ = 0;
+  }
+  const double dx = input.x - x_, dy = input.y - y_;
+  if (input.button) {
+    moved_px_ += std::hypot(dx, dy);
+    if (gesture_ == Gesture::line) result.line = std::clamp(input.x / width, 0.0, 1.0);
+    if (gesture_ == Gesture::look && moved_px_ > click_reach_px) {
+      result.turn_x = dx;
+      result.turn_y = dy;
+    }
+  } else {
+    if (gesture_ == Gesture::look && moved_px_ <= click_reach_px) {
+      result.click = PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(height - 1 - int(y_), 0, height - 1)};
+    }
+    gesture_ = Gesture::none;
+  }
+  x_ = input.x;
+  y_ = input.y;
+  return result;
+}
+
+}  // namespace lightgrid

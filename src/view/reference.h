@@ -1,0 +1,28 @@
+// The picture of `forward`, which every side's is held against.
+#pragma once
+
+#include <memory>
+
+#include "compare/run_technique.h"
+
+namespace lightgrid {
+
+class ReferencePicture {
+ public:
+  // Both outlive it.
+  ReferencePicture(Renderer& renderer, GpuScene& gpu) : renderer_(renderer), gpu_(gpu) {}
+
+  // The scene changed: lights may have moved.
+  void scene_changed() { run_.reset(); }
+
+  // Of this view with the side's specular lobe. Drawn at each call: every light at every pixel, slow with many.
+  const Image& draw(const View& view, const Settings& settings);
+
+ private:
+  Renderer& renderer_;
+  GpuScene& gpu_;
+  std::unique_ptr<TechniqueRun> run_;
+  Brdf brdf_ = Brdf::ggx;
+};
+
+}  // namespace lightgrid

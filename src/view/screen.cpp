@@ -1,0 +1,68 @@
+#include "view/screen.h"
+
+#include "base/image.h"
+#include "base/write_file.h"
+#include "gl/state.h"
+#include "renderer/draw.h"
+
+namespace lightgrid {
+
+Screen::Screen(Renderer& renderer) : renderer_(renderer), sampler_(make_sampler()) {
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void Screen::begin(int width, int height) {
+  if (width != width_ || height != height_) {
+    width_ = width;
+    height_ = height;
+    image_ = make_texture_2d(GL_RGBA8, width, height);
+    framebuffer_ = make_framebuffer({image_.name()}, 0);
+  }
+  reset_gl_state();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width, height);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width) {
+  const GlProgram& program = renderer_.program("shaders/screen.vert", "shaders/view.frag", {});
+  glUseProgram(program.name());
+  glUniform2f(program.uniform("size"), float(picture_width), float(height_));
+  glUniform1f(program.uniform("line"), float(line * picture_width));
+  glUniform1i(program.uniform("mapped_left"), left.is_map);
+  glUniform1i(program.uniform("mapped_right"), right.is_map);
+  const GLuint textures[] = {left.texture, right.texture};
+  for (GLuint unit = 0; unit < 2; ++unit) {
+    glBindTextureUnit(unit, textures[unit]);
+    glBindSampler(unit, sampler_.name());
+  }
+  glViewport(0, 0, picture_width, height_);
+  draw_screen(program);
+  glViewport(0, 0, width_, height_);
+  for (GLuint unit = 0; unit < 2; ++unit) glBindSampler(unit, 0);
+}
+
+void Screen::finish() {
+  glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Screen::save(const std::filesystem::path& path) {
+  std::vector<uint8_t> rgba(size_t(width_) * height_ * 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  std::vector<uint8_t> rgb;
+  rgb.reserve(size_t(width_) * height_ * 3);
+  for (int y = height_ - 1; y >= 0; --y) {
+    const uint8_t* pixel = &rgba[size_t(y) * width_ * 4];
+    for (int x = 0; x < width_; ++x, pixel += 4) rgb.insert(rgb.end(), pixel, pixel + 3);
+  }
+  write_file(path, encode_png(width_, height_, 3, rgb));
+}
+
+}  // namespace lightgrid

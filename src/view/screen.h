@@ -1,0 +1,37 @@
+// What the window shows: the two sides' images, and room for panels beside them. Drawn into a framebuffer of our own, so that
+// a screenshot does not depend on what covers the window.
+#pragma once
+
+#include <filesystem>
+
+#include "renderer/renderer.h"
+
+namespace lightgrid {
+
+struct ScreenImage {
+  GLuint texture = 0;   // linear RGBA
+  bool is_map = false;  // shown without a tone map
+};
+
+class Screen {
+ public:
+  explicit Screen(Renderer& renderer);
+
+  // Starts a frame of the window's size, cleared. Its framebuffer is bound.
+  void begin(int width, int height);
+  // Into the left `picture_width` pixels, over the whole height. `line`: fraction of the picture's width.
+  void draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width);
+  // Into the window's own framebuffer.
+  void finish();
+
+  void save(const std::filesystem::path& path);  // the last frame as a PNG
+
+ private:
+  Renderer& renderer_;
+  int width_ = 0, height_ = 0;
+  GlTexture image_;
+  GlFramebuffer framebuffer_;
+  GlSampler sampler_;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,53 @@
+// One side of the window: a technique's run on the scene that both sides share, and the image that it shows.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "compare/run_technique.h"
+#include "view/controls.h"
+#include "view/timings.h"
+
+namespace lightgrid {
+
+class Side {
+ public:
+  // Both outlive it.
+  Side(Renderer& renderer, GpuScene& gpu) : renderer_(renderer), gpu_(gpu) {}
+
+  // Makes a run where the technique or the settings are others than before. Where they do not fit the scene, or fail to draw,
+  // problem() says so and the last picture stays. Returns whether it made one.
+  bool choose(const SideControls& wanted, const View& view);
+  // Another camera or size, or a scene that changed.
+  void look(const View& view, const SceneChanges& changes);
+  // One frame, where something changed since the last one or `again`. Returns whether it drew.
+  bool draw(bool again, bool measure_passes);
+
+  bool ready() const { return run_ && problem_.empty() && !stale_; }
+  TechniqueRun& run() { return *run_; }
+  const std::string& problem() const { return problem_; }
+  const Timings& timings() const { return timings_; }
+  GLuint picture() const { return picture_.name(); }  // linear RGBA, 32-bit float; 0: nothing drawn yet
+  int width() const { return width_; }                // of the picture
+  int height() const { return height_; }
+  double frame_ms() const { return frame_ms_; }
+  size_t pictures() const { return pictures_; }  // drawn so far that differ: a number for this one
+
+ private:
+  void keep_picture();
+
+  Renderer& renderer_;
+  GpuScene& gpu_;
+  std::unique_ptr<TechniqueRun> run_;
+  std::string technique_, problem_;
+  std::map<std::string, std::string> settings_;
+  bool stale_ = true;  // not drawn since something changed
+  int width_ = 0, height_ = 0;
+  GlTexture picture_;
+  GlFramebuffer framebuffer_;
+  Timings timings_;
+  double frame_ms_ = 0;
+  size_t pictures_ = 0;
+};
+
+}  // namespace lightgrid

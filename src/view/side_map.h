@@ -1,0 +1,43 @@
+// A map over one side's picture: lights listed, lit and lost, or the difference from `forward`.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "view/listed.h"
+#include "view/side.h"
+
+namespace lightgrid {
+
+class MapOfSide {
+ public:
+  // The map of the side's last picture, in work or done. Only for pictures of full size of a camera at rest; `wait`: until it
+  // is done. `reference`: draws `forward` on the same view; called for `difference` alone.
+  template <typename Reference>
+  void follow(SideMap wanted, Side& side, bool wait, const Reference& reference) {
+    if (shown_picture_ == side.pictures() && shown_ == wanted) return;
+    if (wanted == SideMap::difference) {
+      show_difference(side, reference());
+    } else {
+      show_counts(wanted, side, wait);
+    }
+  }
+
+  bool shows(SideMap wanted, const Side& side) const { return shown_picture_ == side.pictures() && shown_ == wanted; }
+  GLuint texture() const { return texture_.name(); }
+  const std::string& legend() const { return legend_; }  // of the map that it shows
+
+ private:
+  void show_counts(SideMap wanted, Side& side, bool wait);
+  void show_difference(Side& side, const Image& reference);
+  void put(const Image& image, SideMap map, const Side& side);
+
+  ListedCount count_;
+  SideMap shown_ = SideMap::picture;
+  size_t shown_picture_ = 0;
+  int width_ = 0, height_ = 0;
+  GlTexture texture_;
+  std::string legend_;
+};
+
+}  // namespace lightgrid

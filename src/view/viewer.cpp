@@ -1,0 +1,204 @@
+#include "view/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "base/error.h"
+#include "base/timer.h"
+#include "view/command_text.h"
+#include "view/interface.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double script_step_s = 1.0 / 60;
+constexpr double longest_step_s = 0.1;  // a slow frame does not throw the camera far
+constexpr double idle_wait_s = 0.2;
+
+}  // namespace
+
+Viewer::Viewer(Window& window, ViewJob job)
+    : window_(window),
+      job_(std::move(job)),
+      renderer_(job_.device, window.make_context()),
+      gpu_(renderer_, job_.scene),
+      screen_(renderer_),
+      interface_(std::make_unique<Interface>(window, job_.scripted)),
+      controls_(job_.controls),
+      camera_(job_.scene, job_.view, job_.camera),
+      motion_(job_.scene, LightMotion::none, job_.seconds),
+      reference_(renderer_, gpu_),
+      sides_{{renderer_, gpu_}, {renderer_, gpu_}},
+      width_(job_.view.width),
+      height_(job_.view.height) {}
+
+Viewer::~Viewer() = default;
+
+void Viewer::run() {
+  Timer timer;
+  for (int number = 0; !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames); ++number) {
+    window_.poll(!job_.scripted && number > 2 && idle() ? idle_wait_s : 0);
+    seconds_ = job_.scripted ? script_step_s : std::min(timer.elapsed_ms() / 1000, longest_step_s);
+    timer = Timer();
+    now_s_ += seconds_;
+    frame(number);
+    window_.show();
+  }
+  if (job_.scripted && !job_.screenshot.empty()) screen_.save(job_.screenshot);
+}
+
+bool Viewer::idle() const {
+  bool waits = true;
+  for (int i = 0; i < 2; ++i) {
+    const bool map_open = controls_.sides[i].map != SideMap::picture && sides_[i].ready();
+    waits = waits && !(map_open && !controls_.playing && !maps_[i].shows(controls_.sides[i].map, sides_[i]));
+  }
+  return waits && !moved_ && !drew_ && resolution_.resting() && !controls_.playing && !controls_.draw_always;
+}
+
+void Viewer::frame(int number) {
+  if (!job_.scripted) {
+    width_ = std::max(window_.width() - panel_width, 1);
+    height_ = std::max(window_.height(), 1);
+  }
+  take_input(number);
+  draw_sides();
+  follow_maps();
+  follow_pixel();
+  show(shown());
+  if (std::exchange(controls_.screenshot, false)) take_screenshot();
+}
+
+void Viewer::take_input(int number) {
+  if (job_.scripted) job_.script.play(number, controls_, script_input_);
+  const Input input = job_.scripted ? script_input_ : window_.input();
+  interface_->begin(input, width_ + panel_width, height_);
+  const PointerResult pointed = pointer_.follow(input, width_, height_, controls_.line, !interface_->takes_pointer());
+  if (pointed.line) controls_.line = *pointed.line;
+  if (pointed.click) controls_.pixel = pointed.click;
+  moved_ = camera_.turn(pointed.turn_x, pointed.turn_y, height_);
+  if (!interface_->takes_keys()) {
+    moved_ |= camera_.move(input.held, seconds_);
+    if (!job_.scripted) {
+      if (window_.was_pressed(GLFW_KEY_SPACE)) controls_.playing = !controls_.playing;
+      if (window_.was_pressed(GLFW_KEY_PERIOD)) controls_.step = true;
+      if (window_.was_pressed(GLFW_KEY_F12)) controls_.screenshot = true;
+    }
+  }
+  if (controls_.camera) {
+    camera_.go_to(*controls_.camera, width_, height_);
+    controls_.camera.reset();
+    moved_ = true;
+  }
+  if (controls_.pixel) {
+    controls_.pixel = PicturePixel{std::clamp(controls_.pixel->x, 0, width_ - 1), std::clamp(controls_.pixel->y, 0, height_ - 1)};
+  }
+}
+
+void Viewer::draw_sides() {
+  const SceneChanges changes = motion_.follow(controls_, seconds_);
+  gpu_.update(changes);
+  if (!changes.empty()) reference_.scene_changed();
+  fraction_ = resolution_.next(moved_, seconds_, controls_.rate);
+  const int width = std::max(int(std::lround(width_ * fraction_)), 1);
+  const int height = std::max(int(std::lround(height_ * fraction_)), 1);
+  const bool resized = width != drawn_width_ || height != drawn_height_;
+  drawn_width_ = width;
+  drawn_height_ = height;
+  const View view = camera_.view(width, height);
+  drew_ = false;
+  double ms = 0;
+  for (int i = 0; i < 2; ++i) {
+    const bool made = sides_[i].choose(controls_.sides[i], view);
+    if (!made && (moved_ || resized || !changes.empty())) sides_[i].look(view, changes);
+    if (sides_[i].draw(controls_.draw_always, controls_.measure_passes)) drew_ = true;
+    if (job_.scripted && !sides_[i].problem().empty()) throw input_error("view: {}", sides_[i].problem());
+    plans_[i].follow(sides_[i].run().view().plan, now_s_);
+    ms += sides_[i].frame_ms();
+  }
+  if (drew_) resolution_.measured(ms);
+}
+
+// Maps are of full pictures that rest. One that takes the window's own time is announced a frame before.
+void Viewer::follow_maps() {
+  if (!resolution_.resting() || controls_.playing) return;
+  for (int i = 0; i < 2; ++i) {
+    const SideMap wanted = controls_.sides[i].map;
+    if (wanted == SideMap::picture || !sides_[i].ready() || maps_[i].shows(wanted, sides_[i])) continue;
+    if (wanted == SideMap::difference && !job_.scripted && !std::exchange(map_announced_[i], true)) continue;
+    map_announced_[i] = false;
+    maps_[i].follow(wanted, sides_[i], job_.scripted, [&]() -> const Image& {
+      return reference_.draw(sides_[i].run().view().view, controls_.sides[i].settings);
+    });
+  }
+}
+
+void Viewer::follow_pixel() {
+  if (!controls_.pixel) {
+    pixel_ = {};
+    return;
+  }
+  const bool moved = *controls_.pixel != pixel_shown_;
+  pixel_shown_ = *controls_.pixel;
+  for (int i = 0; i < 2; ++i) {
+    const bool current = pixel_[i] && !moved && pixel_picture_[i] == sides_[i].pictures();
+    if (current) continue;
+    pixel_[i].reset();
+    if (!resolution_.resting() || controls_.playing || !sides_[i].ready()) continue;
+    pixel_[i] = lights_at(read_listed_frame(sides_[i].run()), job_.scene, *controls_.pixel);
+    pixel_picture_[i] = sides_[i].pictures();
+  }
+}
+
+Shown Viewer::shown() {
+  Shown shown{.scene = job_.scene,
+              .camera = camera_,
+              .motion = motion_,
+              .sides = {&sides_[0], &sides_[1]},
+              .maps = {&maps_[0], &maps_[1]},
+              .map_notes = {},
+              .plans = plans_,
+              .pixel = pixel_,
+              .commands = {},
+              .note = note_,
+              .picture_width = width_,
+              .picture_height = height_,
+              .fraction = fraction_,
+              .now_s = now_s_};
+  for (int i = 0; i < 2; ++i) {
+    const SideControls& side = controls_.sides[i];
+    if (side.map != SideMap::picture && !maps_[i].shows(side.map, sides_[i])) {
+      shown.map_notes[i] = !resolution_.resting() ? "(when the camera rests)" : controls_.playing ? "(when paused)" : "(computing)";
+    }
+    shown.commands[i] = render_command(job_.scene_words, width_, height_, camera_.text(), motion_.words(), side);
+  }
+  return shown;
+}
+
+void Viewer::show(const Shown& shown) {
+  ScreenImage images[2];
+  for (int i = 0; i < 2; ++i) {
+    const bool map = controls_.sides[i].map != SideMap::picture && maps_[i].shows(controls_.sides[i].map, sides_[i]);
+    images[i] = {map ? maps_[i].texture() : sides_[i].picture(), map};
+  }
+  screen_.begin(width_ + panel_width, height_);
+  screen_.draw(images[0], images[1], controls_.line, width_);
+  show_overlay(controls_, shown);
+  show_panels(controls_, shown);
+  interface_->end();
+  screen_.finish();
+}
+
+void Viewer::take_screenshot() {
+  std::filesystem::path path;
+  do {
+    path = fmt::format("lightgrid_view_{:03}.png", screenshots_++);
+  } while (std::filesystem::exists(path));
+  screen_.save(path);
+  note_ = path.string();
+}
+
+}  // namespace lightgrid

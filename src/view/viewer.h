@@ -1,0 +1,85 @@
+// A window on a scene: two techniques side by side, flown through by a user or by a script.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "view/panels.h"
+#include "view/pointer.h"
+#include "view/reference.h"
+#include "view/resolution.h"
+#include "view/screen.h"
+#include "view/script.h"
+#include "view/window.h"
+
+namespace lightgrid {
+
+class Interface;
+
+struct ViewJob {
+  Scene scene;
+  View view;                // of the picture; the window adds its panel
+  std::string scene_words;  // the scene and its lights as words of a command line
+  std::string camera;       // as --camera was given
+  std::string device;       // OpenCL, by a part of its name
+  double seconds = 0;       // of the scene's animations
+  Controls controls;        // to start with
+
+  bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
+  Script script{"", ""};
+  int frames = 0;
+  std::filesystem::path screenshot;  // of the last frame; empty: none
+};
+
+class Viewer {
+ public:
+  // The window has room for the picture and its panel.
+  Viewer(Window& window, ViewJob job);
+  ~Viewer();
+
+  // Until the window is closed or the script ends.
+  void run();
+
+ private:
+  void frame(int number);
+  void take_input(int number);
+  void draw_sides();
+  void follow_maps();
+  void follow_pixel();
+  void show(const Shown& shown);
+  Shown shown();
+  void take_screenshot();
+  bool idle() const;
+
+  Window& window_;
+  ViewJob job_;
+  Renderer renderer_;
+  GpuScene gpu_;
+  Screen screen_;
+  std::unique_ptr<Interface> interface_;
+  Controls& controls_;
+  FlyCamera camera_;
+  Motion motion_;
+  Pointer pointer_;
+  Resolution resolution_;
+  ReferencePicture reference_;
+  Side sides_[2];
+  MapOfSide maps_[2];
+  bool map_announced_[2] = {};  // "computing" stood on screen for a frame
+  std::array<PlanHistory, 2> plans_;
+  std::array<std::optional<PixelLights>, 2> pixel_;
+  PicturePixel pixel_shown_;
+  size_t pixel_picture_[2] = {};
+  Input script_input_;
+  int width_ = 0, height_ = 0;              // of the picture
+  int drawn_width_ = 0, drawn_height_ = 0;  // of what is drawn of it
+  double seconds_ = 0, now_s_ = 0;          // of this frame, and since the start
+  double fraction_ = 1;
+  bool moved_ = false, drew_ = false;
+  int screenshots_ = 0;
+  std::string note_;
+};
+
+}  // namespace lightgrid

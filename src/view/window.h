@@ -1,0 +1,42 @@
+// A window with an OpenGL 4.5 core context, and what its user does.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gl/context.h"
+#include "view/controls.h"
+
+struct GLFWwindow;
+
+namespace lightgrid {
+
+class Window {
+ public:
+  // Throws Error(machine) where there is no display, or none with OpenGL 4.5; says what would help.
+  Window(int width, int height, const std::string& title);
+  ~Window();
+  Window(const Window&) = delete;
+
+  // The window's context, current on this thread. The window outlives it.
+  std::unique_ptr<GlContext> make_context();
+
+  // Takes events; waits for one for up to `seconds`.
+  void poll(double seconds);
+  bool closing() const;
+  void show();  // what was drawn into framebuffer 0
+
+  int width() const;  // pixels of its framebuffer
+  int height() const;
+  Input input() const;
+  // Whether a key was pressed since the last call; by GLFW's number.
+  bool was_pressed(int key);
+
+  GLFWwindow* handle() const { return window_; }
+
+ private:
+  GLFWwindow* window_ = nullptr;
+  bool down_[512] = {};
+};
+
+}  // namespace lightgrid

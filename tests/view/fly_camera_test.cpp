@@ -1,0 +1,144 @@
+// A camera that flies, the pointer's gestures, and how large the picture is drawn while it moves.
+#include "view/fly_camera.h"
+
+#include <gmock/gmock.h>
+
+#include "view/pointer.h"
+#include "view/resolution.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::StartsWith;
+
+// A box of 8 x 0 x 6 m: 10 m across.
+Scene ten_metres() {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {8, 0, 0}, {0, 0, 6}};
+  for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
+  mesh.indices = {0, 1, 2};
+  scene.meshes.push_back(mesh);
+  scene.materials.emplace_back();
+  scene.instances.emplace_back();
+  return scene;
+}
+
+View start_view() { return make_view(look_at({1, 2, 10}, {1, 2, 0}), 320, 180); }
+
+TEST(FlyCamera, StaysTheStartUntilItMoves) {
+  const Scene scene = ten_metres();
+  FlyCamera camera(scene, start_view(), "0");
+  EXPECT_EQ(camera.text(), "0");
+  EXPECT_FALSE(camera.move({}, 1));
+  EXPECT_FALSE(camera.turn(0, 0, 180));
+  EXPECT_EQ(camera.view(320, 180).clip_from_view, start_view().clip_from_view);
+  // Of another shape: the vertical field stays.
+  const View square = camera.view(180, 180);
+  EXPECT_EQ(square.clip_from_view[1][1], start_view().clip_from_view[1][1]);
+  EXPECT_EQ(square.clip_from_view[0][0], square.clip_from_view[1][1]);
+}
+
+TEST(FlyCamera, FliesWhereItLooks) {
+  const Scene scene = ten_metres();
+  FlyCamera camera(scene, start_view(), "");
+  camera.speed_m = 2;
+  std::array<bool, 7> held{};
+  held[int(FlightKey::forward)] = true;
+  EXPECT_TRUE(camera.move(held, 0.5));
+  const glm::dvec3 ahead = camera.view(320, 180).eye;
+  EXPECT_NEAR(ahead.x, 1, 1e-5);
+  EXPECT_NEAR(ahead.y, 2, 1e-5);
+  EXPECT_NEAR(ahead.z, 9, 1e-5);
+  held = {};
+  held[int(FlightKey::right)] = held[int(FlightKey::up)] = held[int(FlightKey::fast)] = true;
+  EXPECT_TRUE(camera.move(held, 0.5));
+  const glm::dvec3 aside = camera.view(320, 180).eye;
+  EXPECT_NEAR(aside.x, 5, 1e-5);
+  EXPECT_NEAR(aside.y, 6, 1e-5);
+  EXPECT_NEAR(aside.z, 9, 1e-5);
+}
+
+TEST(FlyCamera, TurnsWithTheDragAndNeverPastTheVertical) {
+  const Scene scene = ten_metres();
+  FlyCamera camera(scene, start_view(), "");
+  // A drag over the picture's height turns by the vertical field, 60 degrees: to the right shows what is left.
+  EXPECT_TRUE(camera.turn(180, 0, 180));
+  const glm::dvec3 left = -glm::transpose(glm::dmat3(camera.view(320, 180).view_from_world))[2];
+  EXPECT_NEAR(left.x, -std::sqrt(0.75), 1e-5);
+  EXPECT_NEAR(left.z, -0.5, 1e-5);
+  EXPECT_TRUE(camera.turn(0, 1800, 180));
+  const glm::dvec3 up = -glm::transpose(glm::dmat3(camera.view(320, 180).view_from_world))[2];
+  EXPECT_GT(up.y, 0.999);
+  EXPECT_LT(up.y, 1);
+}
+
+TEST(FlyCamera, IsTheTextThatItGives) {
+  const Scene scene = ten_metres();
+  FlyCamera camera(scene, start_view(), "");
+  camera.turn(31.7, -12.9, 180);
+  std::array<bool, 7> held{};
+  held[int(FlightKey::back)] = true;
+  camera.move(held, 0.123);
+  EXPECT_THAT(camera.text(), StartsWith("eye:"));
+  const View again = make_view(choose_camera(scene, camera.text()), 320, 180);
+  EXPECT_EQ(again.view_from_world, camera.view(320, 180).view_from_world);
+  EXPECT_EQ(again.clip_from_view, camera.view(320, 180).clip_from_view);
+}
+
+Input at(double x, double y, bool button) {
+  Input input;
+  input.x = x;
+  input.y = y;
+  input.button = button;
+  return input;
+}
+
+TEST(Pointer, TurnsDragsTheLineAndClicks) {
+  Pointer pointer;
+  pointer.follow(at(20, 30, false), 320, 180, 0.5, true);
+  const PointerResult turned = pointer.follow(at(40, 25, true), 320, 180, 0.5, true);
+  EXPECT_EQ(turned.turn_x, 20);
+  EXPECT_EQ(turned.turn_y, -5);
+  EXPECT_FALSE(pointer.follow(at(40, 25, false), 320, 180, 0.5, true).click);
+
+  pointer.follow(at(161, 90, false), 320, 180, 0.5, true);
+  const PointerResult dragged = pointer.follow(at(80, 90, true), 320, 180, 0.5, true);
+  EXPECT_EQ(dragged.line, 0.25);
+  EXPECT_EQ(dragged.turn_x, 0);
+  pointer.follow(at(80, 90, false), 320, 180, 0.25, true);
+
+  pointer.follow(at(10, 0, false), 320, 180, 0.25, true);
+  pointer.follow(at(10, 0, true), 320, 180, 0.25, true);
+  EXPECT_EQ(pointer.follow(at(10, 0, false), 320, 180, 0.25, true).click, (PicturePixel{10, 179}));
+}
+
+TEST(Pointer, LeavesWhatAPanelTakes) {
+  Pointer pointer;
+  pointer.follow(at(20, 30, false), 320, 180, 0.5, false);
+  pointer.follow(at(20, 30, true), 320, 180, 0.5, false);
+  const PointerResult dragged = pointer.follow(at(90, 30, true), 320, 180, 0.5, true);
+  EXPECT_EQ(dragged.turn_x, 0);
+  EXPECT_FALSE(pointer.follow(at(90, 30, false), 320, 180, 0.5, true).click);
+}
+
+TEST(Resolution, DropsWhileTheCameraMovesAndIsFullAtRest) {
+  Resolution resolution;
+  EXPECT_EQ(resolution.next(true, 0.1, 30), 1);
+  resolution.measured(120);  // of 33 ms: a quarter of the pixels
+  EXPECT_EQ(resolution.next(true, 0.1, 30), 0.5);
+  EXPECT_FALSE(resolution.resting());
+  resolution.measured(30);
+  EXPECT_EQ(resolution.next(false, 0.1, 30), 0.5);
+  EXPECT_EQ(resolution.next(false, 0.1, 30), 1);
+  EXPECT_TRUE(resolution.resting());
+}
+
+TEST(Resolution, StaysFullWhereNoRateIsHeld) {
+  Resolution resolution;
+  resolution.measured(1e6);
+  EXPECT_EQ(resolution.next(true, 0.1, 0), 1);
+}
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,46 @@
+// Pass times of the last frames, and the command line that gives a view again.
+#include "view/timings.h"
+
+#include <gmock/gmock.h>
+
+#include "view/command_text.h"
+
+namespace lightgrid {
+namespace {
+
+TEST(Timings, KeepTheLastFramesAndTheirMean) {
+  Timings timings;
+  for (size_t i = 0; i < Timings::kept_frames + 5; ++i) timings.add({{{"cull", double(i)}, {"shade", 2}}});
+  EXPECT_EQ(timings.frames().size(), Timings::kept_frames);
+  EXPECT_EQ(timings.frames().front().passes[0].ms, 5);
+  const FrameTimes mean = timings.mean(2);
+  ASSERT_EQ(mean.passes.size(), 2u);
+  EXPECT_EQ(mean.passes[0].ms, double(Timings::kept_frames) + 3.5);
+  EXPECT_EQ(mean.total_ms(), double(Timings::kept_frames) + 5.5);
+  EXPECT_TRUE(Timings().mean(2).passes.empty());
+}
+
+TEST(Timings, AddsUpAPassThatRanTwice) {
+  const FrameTimes frame = frame_times({{.name = "cull", .on = "cl", .ms = {1, 2}}, {.name = "idle", .on = "gl", .ms = {}}});
+  ASSERT_EQ(frame.passes.size(), 1u);
+  EXPECT_EQ(frame.passes[0].ms, 3);
+}
+
+TEST(CommandText, QuotesWhatAShellWouldRead) {
+  EXPECT_EQ(shell_word("eye:1,-2.5,3"), "eye:1,-2.5,3");
+  EXPECT_EQ(shell_word("a b"), "'a b'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
+TEST(CommandText, NamesTheSettingsThatTheTechniqueReads) {
+  SideControls side{.technique = "forward_plus"};
+  apply_setting(side.settings, "tile=32");
+  apply_setting(side.settings, "lidr-packing=sort");  // forward_plus does not read it
+  EXPECT_EQ(render_command("hall", 64, 36, "eye:0,1,0,target:0,1,-1,fov:60", " --time 2", side),
+            "lightgrid render hall --size 64x36 --camera eye:0,1,0,target:0,1,-1,fov:60 --time 2 -t forward_plus "
+            "--set tile=32 -o view.png");
+}
+
+}  // namespace
+}  // namespace lightgrid

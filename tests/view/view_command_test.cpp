@@ -1,0 +1,139 @@
+// The window as a script drives it, under Xvfb, judged by its screenshot; and without a display.
+#include <gmock/gmock.h>
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "support/png_pixels.h"
+#include "support/run_command.h"
+#include "support/run_program.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int width = 320, height = 180;
+constexpr int label_rows = 24;  // the sides' names lie over the picture
+
+bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
+
+// The program with its words in a display of its own.
+CommandOutcome run_in_display(const std::string& words) {
+  return run_command("xvfb-run -a -s '-screen 0 1280x1024x24' " + std::string(lightgrid_program) + " " + words + " 2>&1");
+}
+
+std::string view_words(const TempFolder& folder, const std::string& script, int frames) {
+  std::ofstream(folder.path / "script.txt") << script;
+  return "view spheres --size 320x180 --script " + (folder.path / "script.txt").string() + " --frames " + std::to_string(frames) +
+         " --screenshot " + (folder.path / "view.png").string();
+}
+
+// The greatest difference of two pictures' channels between two columns, below the labels.
+int greatest_difference(const PngPixels& a, const PngPixels& b, int first, int last) {
+  int greatest = 0;
+  for (int y = label_rows; y < height; ++y) {
+    for (int x = first; x < last; ++x) {
+      for (int c = 0; c < 3; ++c) greatest = std::max(greatest, std::abs(int(a.at(x, y, c)) - int(b.at(x, y, c))));
+    }
+  }
+  return greatest;
+}
+
+double mean_of(const PngPixels& image, int first, int last) {
+  double sum = 0;
+  for (int y = label_rows; y < height; ++y) {
+    for (int x = first; x < last; ++x) sum += image.at(x, y, 0) + image.at(x, y, 1) + image.at(x, y, 2);
+  }
+  return sum / (3.0 * (last - first) * (height - label_rows));
+}
+
+PngPixels render(const TempFolder& folder, std::vector<std::string> words) {
+  const std::string path = folder.path / "render.png";
+  words.insert(words.begin(), {"render", "spheres", "--size", "320x180", "-o", path});
+  const ProgramRun run = run_program(words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return read_png(path);
+}
+
+class ViewInDisplay : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_xvfb()) GTEST_SKIP() << "xvfb-run is not installed (Debian: xvfb)";
+  }
+  TempFolder folder_;
+};
+
+TEST_F(ViewInDisplay, FliesSwitchesTechniquesOpensMapsAndShowsThePicture) {
+  const std::string script =
+      "0 technique right clustered\n"
+      "2 key down w\n8 mouse move 40 90\n9 mouse drag 60 80\n10 mouse drag 90 85\n20 key up w\n"
+      "22 map listed\n24 map lit\n26 technique left deferred_tiled\n28 map lost\n30 map difference\n"
+      "32 mouse move 160 90\n33 mouse drag 200 90\n35 line 0.5\n"
+      "38 lights orbit\n38 play\n42 pause\n43 step\n44 lights none\n"
+      "46 technique left forward_plus\n46 set left tile=32\n46 map left picture\n46 map right listed\n"
+      "48 camera 0\n50 click 40 60\n";
+  const CommandOutcome run = run_in_display(view_words(folder_, script, 60));
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_EQ(run.output, "");
+  const PngPixels shot = read_png(folder_.path / "view.png");
+  ASSERT_GT(shot.width, width);
+  ASSERT_EQ(shot.height, height);
+  const PngPixels picture = render(folder_, {"-t", "forward_plus", "--set", "tile=32", "--camera", "0"});
+  // A ring marks the pixel that was clicked: the columns right of it are the picture alone.
+  EXPECT_LE(greatest_difference(shot, picture, 60, width / 2 - 2), 2);
+  EXPECT_GT(mean_of(shot, 60, width / 2), 5);
+  EXPECT_GT(greatest_difference(shot, picture, width / 2 + 2, width), 50);
+  EXPECT_GT(mean_of(shot, width / 2, width), 5);
+}
+
+TEST_F(ViewInDisplay, ShowsMovingLightsAsRenderDoes) {
+  const CommandOutcome run = run_in_display(view_words(folder_, "0 line 1\n1 lights drift\n1 time 1.5\n", 4));
+  ASSERT_EQ(run.status, 0) << run.output;
+  const PngPixels picture = render(folder_, {"-t", "forward_plus", "--light-motion", "drift", "--time", "1.5"});
+  EXPECT_LE(greatest_difference(read_png(folder_.path / "view.png"), picture, 0, width - 2), 2);
+}
+
+TEST_F(ViewInDisplay, DrawsLessWhileTheCameraMovesAndAllOfItAtRest) {
+  const std::string move = "0 rate 100000\n0 line 1\n2 key down w\n";
+  ASSERT_EQ(run_in_display(view_words(folder_, move, 8)).status, 0);
+  const PngPixels moving = read_png(folder_.path / "view.png");
+  ASSERT_EQ(run_in_display(view_words(folder_, move + "8 key up w\n", 24)).status, 0);
+  const PngPixels resting = read_png(folder_.path / "view.png");
+  ASSERT_EQ(run_in_display(view_words(folder_, "0 line 1\n2 key down w\n8 key up w\n", 24)).status, 0);
+  EXPECT_EQ(greatest_difference(resting, read_png(folder_.path / "view.png"), 0, width - 2), 0);
+  EXPECT_GT(greatest_difference(moving, resting, 0, width - 2), 10);
+}
+
+TEST_F(ViewInDisplay, EndsWithZeroWhenClosed) {
+  const CommandOutcome run = run_in_display(view_words(folder_, "3 quit\n", 1000));
+  EXPECT_EQ(run.status, 0) << run.output;
+}
+
+TEST_F(ViewInDisplay, EndsWithTwoWhereATechniqueDoesNotFitTheScene) {
+  const CommandOutcome run = run_in_display(view_words(folder_, "2 technique left lidr\n2 set left lidr-lights=15\n", 5));
+  EXPECT_EQ(WEXITSTATUS(run.status), 2) << run.output;
+}
+
+TEST(ViewCommand, EndsWithThreeWithoutADisplay) {
+  const ProgramRun run = run_program({"view", "spheres", "--size", "32x18"}, {"DISPLAY="});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.err, HasSubstr("display"));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+}
+
+TEST(ViewCommand, EndsWithTwoAndNamesTheLineAndTheWordOfAScript) {
+  const TempFolder folder;
+  std::ofstream(folder.path / "wrong.txt") << "0 play\n3 jump high\n";
+  const ProgramRun run = run_program({"view", "spheres", "--script", folder.path / "wrong.txt"}, {"DISPLAY="});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("wrong.txt:2: \"jump\""));
+  EXPECT_EQ(run_program({"view", "spheres", "--script", "/nonexistent"}, {"DISPLAY="}).status, 2);
+  EXPECT_EQ(run_program({"view", "spheres", "--left", "nosuch"}, {"DISPLAY="}).status, 2);
+}
+
+}  // namespace
+}  // namespace lightgrid
