@@ -23,7 +23,7 @@ bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
 
 // The program with its words in a display of its own.
 CommandOutcome run_in_display(const std::string& words) {
-  return run_command("xvfb-run -a -s '-screen 0 1280x1024x24' " + std::string(lightgrid_program) + " " + words + " 2>&1");
+  return run_command("LIGHTGRID_PROGRESS_S=86400 xvfb-run -a -s '-screen 0 1280x1024x24' " + std::string(lightgrid_program) + " " + words + " 2>&1");
 }
 
 std::string view_words(const TempFolder& folder, const std::string& script, int frames) {
