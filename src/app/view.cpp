@@ -28,7 +28,8 @@ std::string scene_words(const ViewOptions& o) {
   if (s.lights >= 0) words += fmt::format(" --lights {}", s.lights);
   if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
   if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
-  if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneOptions().seed) words += fmt::format(" --seed {}", s.seed);
+  if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneOptions().seed)
+    words += fmt::format(" --seed {}", s.seed);
   if (!o.device.empty()) words += " --device " + shell_word(o.device);
   return words;
 }
@@ -60,7 +61,9 @@ int view(const ViewOptions& o) {
 #else
 
 int view(const ViewOptions&) {
-  throw machine_error("view: built without a window; with Debian's libglfw3-dev and libimgui-dev installed, configure and build again");
+  throw machine_error(
+      "view: built without a window; with Debian's libglfw3-dev and libimgui-dev installed, configure and "
+      "build again");
 }
 
 #endif
@@ -69,7 +72,8 @@ int view(const ViewOptions&) {
 
 void add_view(CommandLine& line) {
   auto o = std::make_shared<ViewOptions>();
-  Subcommand command = line.add("view", "a window: fly through a scene, two techniques side by side", [o] { return view(*o); });
+  Subcommand command = line.add("view", "a window: fly through a scene, two techniques side by side",
+                                [o] { return view(*o); });
   add_scene_options(command, o->scene);
   command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
   command.option("--device", o->device, "OpenCL device, by a part of its name");

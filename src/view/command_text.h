@@ -10,7 +10,8 @@ namespace lightgrid {
 // A word as a shell reads it back.
 std::string shell_word(const std::string& word);
 
-// `scene_words`: the scene and its lights, as options. `camera`: --camera's text, or empty. `time_words`: Motion::words.
+// `scene_words`: the scene and its lights, as options. `camera`: --camera's text, or empty. `time_words`:
+// Motion::words.
 std::string render_command(const std::string& scene_words, int width, int height, const std::string& camera,
                            const std::string& time_words, const SideControls& side);
 

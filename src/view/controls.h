@@ -1,4 +1,5 @@
-// What the user of the window chose. Panels, the mouse, keys and scripts change it; the viewer follows it in the next frame.
+// What the user of the window chose. Panels, the mouse, keys and scripts change it; the viewer follows it in
+// the next frame.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ struct PicturePixel {
 struct Controls {
   std::array<SideControls, 2> sides;  // left, right
   double line = 0.5;                  // where the two meet, as a fraction of the picture's width
-  double rate = 30;                   // frames a second to hold while the camera moves; 0: the picture is always full
+  double rate = 30;  // frames a second to hold while the camera moves; 0: the picture is always full
   std::optional<std::string> camera;  // to go to, in the form of --camera
   LightMotion lights = LightMotion::none;
   bool playing = false;

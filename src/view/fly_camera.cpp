@@ -9,7 +9,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr double steepest_rad = 89.0 / 180 * std::numbers::pi;  // short of straight up, where yaw has no meaning
+constexpr double steepest_rad =
+    89.0 / 180 * std::numbers::pi;  // short of straight up, where yaw has no meaning
 constexpr double times_faster = 4;
 
 double scene_size_m(const Scene& scene) {
@@ -63,7 +64,9 @@ bool FlyCamera::turn(double dx_px, double dy_px, int height) {
 }
 
 bool FlyCamera::move(const std::array<bool, 7>& held, double seconds) {
-  const auto axis = [&](FlightKey plus, FlightKey minus) { return double(held[int(plus)]) - double(held[int(minus)]); };
+  const auto axis = [&](FlightKey plus, FlightKey minus) {
+    return double(held[int(plus)]) - double(held[int(minus)]);
+  };
   const glm::dvec3 forward = direction(yaw_, pitch_);
   const glm::dvec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
   const glm::dvec3 way = forward * axis(FlightKey::forward, FlightKey::back) +

@@ -9,12 +9,12 @@
 
 namespace lightgrid {
 
-// Its state is the text that --camera takes, with decimals that suit the scene's size. The view is made from that text, so
-// that a command line with it gives the same picture to the bit.
+// Its state is the text that --camera takes, with decimals that suit the scene's size. The view is made from
+// that text, so that a command line with it gives the same picture to the bit.
 class FlyCamera {
  public:
-  // The scene outlives it. `text`: what --camera was given. Until it is moved the view stays `start`, whatever that is; then it
-  // is upright and a perspective, with the near plane that choose_camera gives.
+  // The scene outlives it. `text`: what --camera was given. Until it is moved the view stays `start`,
+  // whatever that is; then it is upright and a perspective, with the near plane that choose_camera gives.
   FlyCamera(const Scene& scene, const View& start, std::string text);
 
   // At once to another camera, in the form of --camera. Throws Error(input) as choose_camera does.

@@ -8,7 +8,8 @@ namespace lightgrid {
 
 class Interface {
  public:
-  // The window outlives it and its context is current. `scripted`: the pointer is what begin() is given, not the user's.
+  // The window outlives it and its context is current. `scripted`: the pointer is what begin() is given, not
+  // the user's.
   Interface(Window& window, bool scripted);
   ~Interface();
   Interface(const Interface&) = delete;

@@ -5,9 +5,9 @@
 #include <set>
 #include <tuple>
 
+#include "compare/oracle.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
-#include "compare/oracle.h"
 
 namespace lightgrid {
 
@@ -43,11 +43,13 @@ PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel
   for (const uint32_t i : either) {
     if (i >= frame.lights.size()) continue;
     const int light = frame.scene_lights[i];
-    result.lights.push_back({light, scene.lights[light].name, glm::length(frame.lights[i].position - position),
-                             frame.lights[i].radius_m, listed.contains(i), lit.contains(i)});
+    result.lights.push_back({light, scene.lights[light].name,
+                             glm::length(frame.lights[i].position - position), frame.lights[i].radius_m,
+                             listed.contains(i), lit.contains(i)});
   }
   const auto rank = [](const PixelLight& l) { return std::tuple(!l.lit, l.listed, l.distance_m); };
-  std::ranges::sort(result.lights, [&](const PixelLight& a, const PixelLight& b) { return rank(a) < rank(b); });
+  std::ranges::sort(result.lights,
+                    [&](const PixelLight& a, const PixelLight& b) { return rank(a) < rank(b); });
   for (const PixelLight& light : result.lights) {
     result.listed += light.listed;
     result.lit += light.lit;

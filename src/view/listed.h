@@ -1,4 +1,5 @@
-// The lights that a side's last frame listed, held against the oracle: as maps over the picture, and at one pixel.
+// The lights that a side's last frame listed, held against the oracle: as maps over the picture, and at one
+// pixel.
 #pragma once
 
 #include <future>
@@ -6,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/lit_set.h"
 #include "compare/run_technique.h"
+#include "reference/lit_set.h"
 #include "view/controls.h"
 
 namespace lightgrid {
@@ -35,7 +36,8 @@ struct PixelLights {
   bool covered = false;   // a surface is there
   double distance_m = 0;  // of the surface along the view axis
   int listed = 0, lit = 0, lost = 0;
-  std::vector<PixelLight> lights;  // listed or lit ones: lost first, then lit, then the rest; each by distance
+  std::vector<PixelLight>
+      lights;  // listed or lit ones: lost first, then lit, then the rest; each by distance
 };
 PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel pixel);
 

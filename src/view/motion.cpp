@@ -13,12 +13,17 @@ const char* name_of(LightMotion motion) {
   return motion == LightMotion::orbit ? "orbit" : motion == LightMotion::drift ? "drift" : "none";
 }
 
-void add(std::vector<int>& to, const std::vector<int>& indices) { to.insert(to.end(), indices.begin(), indices.end()); }
+void add(std::vector<int>& to, const std::vector<int>& indices) {
+  to.insert(to.end(), indices.begin(), indices.end());
+}
 
 }  // namespace
 
 Motion::Motion(Scene& scene, LightMotion lights, double seconds)
-    : scene_(scene), rig_(make_light_rig(scene, lights)), animated_(animation_count(scene) > 0), seconds_(seconds) {}
+    : scene_(scene),
+      rig_(make_light_rig(scene, lights)),
+      animated_(animation_count(scene) > 0),
+      seconds_(seconds) {}
 
 SceneChanges Motion::follow(Controls& controls, double seconds_passed) {
   const double before = seconds_;

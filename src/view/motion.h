@@ -12,7 +12,8 @@ class Motion {
   // The scene outlives it; it is at `seconds` of its animations.
   Motion(Scene& scene, LightMotion lights, double seconds);
 
-  // Takes lights, playing, step and seconds of the controls, and clears the last two. Returns what changed in the scene.
+  // Takes lights, playing, step and seconds of the controls, and clears the last two. Returns what changed in
+  // the scene.
   SceneChanges follow(Controls& controls, double seconds_passed);
 
   double seconds() const { return seconds_; }

@@ -1,4 +1,5 @@
-// What is written over the picture: names of the sides, the line, the pixel that is inspected, and how large the picture is drawn.
+// What is written over the picture: names of the sides, the line, the pixel that is inspected, and how large
+// the picture is drawn.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -22,7 +23,8 @@ void label(ImDrawList& draw, const std::string& text, float x, float y, Align al
 std::string name_of(const SideControls& side, const std::string& note) {
   if (side.map == SideMap::picture) return side.technique;
   const char* map = map_names()[int(side.map)];
-  return note.empty() ? fmt::format("{}: {}", side.technique, map) : fmt::format("{}: {} {}", side.technique, map, note);
+  return note.empty() ? fmt::format("{}: {}", side.technique, map)
+                      : fmt::format("{}: {} {}", side.technique, map, note);
 }
 
 }  // namespace
@@ -36,8 +38,9 @@ void show_overlay(const Controls& controls, const Shown& shown) {
   label(draw, name_of(controls.sides[0], shown.map_notes[0]), 8, 4, Align::left);
   label(draw, name_of(controls.sides[1], shown.map_notes[1]), width - 8, 4, Align::right);
   if (shown.fraction < 1) {
-    const std::string text = fmt::format("moving: {:.0f} x {:.0f} of {} x {} to hold {:.0f} frames a second", width * shown.fraction,
-                                         height * shown.fraction, shown.picture_width, shown.picture_height, controls.rate);
+    const std::string text = fmt::format("moving: {:.0f} x {:.0f} of {} x {} to hold {:.0f} frames a second",
+                                         width * shown.fraction, height * shown.fraction, shown.picture_width,
+                                         shown.picture_height, controls.rate);
     label(draw, text, width / 2, height - 20, Align::centre);
   }
   if (controls.pixel) {

@@ -14,17 +14,23 @@ void show_lights(const PixelLights& pixel) {
     ImGui::TextUnformatted("no opaque surface");
     return;
   }
-  ImGui::TextUnformatted(fmt::format("{} listed, {} lit, {} lost", pixel.listed, pixel.lit, pixel.lost).c_str());
+  ImGui::TextUnformatted(
+      fmt::format("{} listed, {} lit, {} lost", pixel.listed, pixel.lit, pixel.lost).c_str());
   ImGui::TextUnformatted(fmt::format("surface {:.3g} m away", pixel.distance_m).c_str());
-  const float height = ImGui::GetTextLineHeightWithSpacing() * float(std::clamp<size_t>(pixel.lights.size(), 1, 7));
+  const float height =
+      ImGui::GetTextLineHeightWithSpacing() * float(std::clamp<size_t>(pixel.lights.size(), 1, 7));
   ImGui::BeginChild("lights", {0, height});
   for (size_t i = 0; i < std::min(pixel.lights.size(), most_rows); ++i) {
     const PixelLight& light = pixel.lights[i];
     const bool lost = light.lit && !light.listed;
-    const ImVec4 colour = lost ? ImVec4(1, 0.3f, 0.3f, 1) : light.lit ? ImVec4(1, 0.95f, 0.7f, 1) : ImVec4(0.55f, 0.55f, 0.55f, 1);
+    const ImVec4 colour = lost        ? ImVec4(1, 0.3f, 0.3f, 1)
+                          : light.lit ? ImVec4(1, 0.95f, 0.7f, 1)
+                                      : ImVec4(0.55f, 0.55f, 0.55f, 1);
     const std::string name = light.name.empty() ? fmt::format("light {}", light.light) : light.name;
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextUnformatted(fmt::format("{} {:.2f} of {:.2f} m{}", name, light.distance_m, light.radius_m, lost ? " LOST" : "").c_str());
+    ImGui::TextUnformatted(
+        fmt::format("{} {:.2f} of {:.2f} m{}", name, light.distance_m, light.radius_m, lost ? " LOST" : "")
+            .c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndChild();
@@ -37,7 +43,8 @@ void show_pixel(Controls& controls, const Shown& shown) {
     ImGui::TextDisabled("click a pixel of the picture");
     return;
   }
-  ImGui::TextUnformatted(fmt::format("pixel {},{} from the lower left", controls.pixel->x, controls.pixel->y).c_str());
+  ImGui::TextUnformatted(
+      fmt::format("pixel {},{} from the lower left", controls.pixel->x, controls.pixel->y).c_str());
   ImGui::SameLine();
   const bool clear = ImGui::SmallButton("clear");
   if (ImGui::BeginTable("pixel", 2)) {

@@ -16,7 +16,8 @@ void show_decision(const Decision& decision, bool is_new) {
                         : decision.needed ? ImVec4(0.55f, 0.9f, 0.6f, 1)
                                           : ImVec4(0.5f, 0.5f, 0.5f, 1);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextWrapped("%s", fmt::format("{} {}: {}", decision.needed ? "+" : "-", decision.effect, decision.why).c_str());
+  ImGui::TextWrapped(
+      "%s", fmt::format("{} {}: {}", decision.needed ? "+" : "-", decision.effect, decision.why).c_str());
   ImGui::PopStyleColor();
 }
 
@@ -43,7 +44,8 @@ void show_plan(const Shown& shown) {
     if (!ImGui::BeginTabItem(i ? "right" : "left")) continue;
     for (const bool needed : {true, false}) {
       for (const Decision& decision : shown.sides[i]->run().view().plan.decisions) {
-        if (decision.needed == needed) show_decision(decision, shown.plans[i].age_s(decision.effect, shown.now_s) < news_s);
+        if (decision.needed == needed)
+          show_decision(decision, shown.plans[i].age_s(decision.effect, shown.now_s) < news_s);
       }
     }
     ImGui::EndTabItem();

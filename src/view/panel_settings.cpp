@@ -56,7 +56,9 @@ void cells(Controls& controls, const Control& control) {
   }
 }
 
-bool reads(const SideControls& side, const std::string& key) { return reads_setting(find_technique(side.technique), key); }
+bool reads(const SideControls& side, const std::string& key) {
+  return reads_setting(find_technique(side.technique), key);
+}
 
 }  // namespace
 
@@ -69,7 +71,8 @@ void show_settings(Controls& controls, const Shown& shown) {
   cells(controls, choose_technique);
   row_name("show", "the picture, or a map of its lights or errors");
   cells(controls, [](SideControls& side) {
-    if (const char* chosen = combo("##map", map_names()[int(side.map)], map_names())) side.map = parse_map(chosen);
+    if (const char* chosen = combo("##map", map_names()[int(side.map)], map_names()))
+      side.map = parse_map(chosen);
   });
   for (const SettingHelp& setting : setting_help()) {
     if (!reads(controls.sides[0], setting.key) && !reads(controls.sides[1], setting.key)) continue;

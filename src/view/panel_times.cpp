@@ -12,7 +12,8 @@ namespace {
 constexpr float chart_height = 70;
 constexpr ImU32 chart_background = IM_COL32(30, 33, 38, 255);
 
-// The same colour for a pass on both sides: hues a golden angle apart, by the order that names are first seen in.
+// The same colour for a pass on both sides: hues a golden angle apart, by the order that names are first seen
+// in.
 ImU32 colour_of_pass(const std::vector<std::string>& names, const std::string& name) {
   const auto place = std::ranges::find(names, name) - names.begin();
   const float hue = std::fmod(0.58f + 0.381966f * float(place), 1.f);
@@ -56,13 +57,15 @@ void chart(const Timings& timings, const std::vector<std::string>& names, double
     float y = corner.y + chart_height;
     for (const PassMs& pass : frame.passes) {
       const float height = chart_height * float(pass.ms / top_ms);
-      draw.AddRectFilled({x, y - height}, {x + std::max(bar - 0.5f, 1.f), y}, colour_of_pass(names, pass.name));
+      draw.AddRectFilled({x, y - height}, {x + std::max(bar - 0.5f, 1.f), y},
+                         colour_of_pass(names, pass.name));
       y -= height;
     }
     x += bar;
   }
   draw.PopClipRect();
-  draw.AddText({corner.x + 4, corner.y + 2}, IM_COL32(180, 180, 180, 255), fmt::format("{:.1f} ms", top_ms).c_str());
+  draw.AddText({corner.x + 4, corner.y + 2}, IM_COL32(180, 180, 180, 255),
+               fmt::format("{:.1f} ms", top_ms).c_str());
   ImGui::Dummy({width, chart_height});
 }
 
@@ -73,7 +76,8 @@ void figures(const Timings& timings, const std::vector<std::string>& names) {
     ImGui::TextUnformatted(fmt::format("{:7.2f} {}", pass.ms, pass.name).c_str());
     ImGui::PopStyleColor();
   }
-  ImGui::TextUnformatted(fmt::format("{:7.2f} ms, {} frames", mean.total_ms(), timings.frames().size()).c_str());
+  ImGui::TextUnformatted(
+      fmt::format("{:7.2f} ms, {} frames", mean.total_ms(), timings.frames().size()).c_str());
 }
 
 }  // namespace

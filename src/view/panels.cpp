@@ -11,11 +11,14 @@ namespace {
 void show_status(const Controls& controls, const Shown& shown) {
   const double ms = shown.sides[0]->frame_ms() + shown.sides[1]->frame_ms();
   ImGui::TextUnformatted(fmt::format("{}: {} lights, {} in view", shown.scene.name, shown.scene.lights.size(),
-                                     shown.sides[0]->run().view().plan.lights_in_view).c_str());
-  ImGui::TextUnformatted(fmt::format("{} x {}, both sides {:.1f} ms", shown.picture_width, shown.picture_height, ms).c_str());
+                                     shown.sides[0]->run().view().plan.lights_in_view)
+                             .c_str());
+  ImGui::TextUnformatted(
+      fmt::format("{} x {}, both sides {:.1f} ms", shown.picture_width, shown.picture_height, ms).c_str());
   if (shown.fraction < 1) {
     ImGui::SameLine();
-    ImGui::TextColored({1, 0.8f, 0.3f, 1}, "%s", fmt::format("(moving: drawn at {:.0f} %)", 100 * shown.fraction).c_str());
+    ImGui::TextColored({1, 0.8f, 0.3f, 1}, "%s",
+                       fmt::format("(moving: drawn at {:.0f} %)", 100 * shown.fraction).c_str());
   }
   ImGui::TextDisabled("drag: look, WASD QE: fly, shift: faster, click: lights");
   for (size_t i = 0; i < 2; ++i) {
@@ -27,15 +30,18 @@ void show_status(const Controls& controls, const Shown& shown) {
   }
 }
 
-bool section(const char* name, bool open) { return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0); }
+bool section(const char* name, bool open) {
+  return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
 
 }  // namespace
 
 void show_panels(Controls& controls, const Shown& shown) {
   ImGui::SetNextWindowPos({float(shown.picture_width), 0});
   ImGui::SetNextWindowSize({float(panel_width), float(shown.picture_height)});
-  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
   ImGui::Begin("panel", nullptr, fixed);
   show_status(controls, shown);
   if (section("Techniques and settings", true)) show_settings(controls, shown);
@@ -69,7 +75,8 @@ void show_motion(Controls& controls, const Shown& shown) {
   if (ImGui::SliderFloat("frames/s to hold, 0: full picture", &rate, 0, 120, "%.0f")) controls.rate = rate;
   float speed = float(shown.camera.speed_m);
   ImGui::SetNextItemWidth(150);
-  if (ImGui::SliderFloat("metres/s", &speed, 0.01f, 100, "%.2f", ImGuiSliderFlags_Logarithmic)) shown.camera.speed_m = speed;
+  if (ImGui::SliderFloat("metres/s", &speed, 0.01f, 100, "%.2f", ImGuiSliderFlags_Logarithmic))
+    shown.camera.speed_m = speed;
 }
 
 void show_commands(Controls& controls, const Shown& shown) {

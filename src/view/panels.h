@@ -1,4 +1,5 @@
-// The panels beside the picture, and what is written over it. They read what the last frame was and change the controls.
+// The panels beside the picture, and what is written over it. They read what the last frame was and change
+// the controls.
 #pragma once
 
 #include <array>

@@ -30,7 +30,8 @@ PointerResult Pointer::follow(const Input& input, int width, int height, double 
     }
   } else {
     if (gesture_ == Gesture::look && moved_px_ <= click_reach_px) {
-      result.click = PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(height - 1 - int(y_), 0, height - 1)};
+      result.click =
+          PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(height - 1 - int(y_), 0, height - 1)};
     }
     gesture_ = Gesture::none;
   }

@@ -15,15 +15,15 @@ struct PointerResult {
 
 class Pointer {
  public:
-  // The picture fills the window's upper left, width x height. `free`: no panel takes the pointer. A drag that began over the
-  // picture goes on over panels.
+  // The picture fills the window's upper left, width x height. `free`: no panel takes the pointer. A drag
+  // that began over the picture goes on over panels.
   PointerResult follow(const Input& input, int width, int height, double line, bool free);
 
  private:
   enum class Gesture { none, line, look, elsewhere };
   Gesture gesture_ = Gesture::none;
-  double x_ = 0, y_ = 0;       // in the last frame
-  double moved_px_ = 0;        // since it was pressed
+  double x_ = 0, y_ = 0;  // in the last frame
+  double moved_px_ = 0;   // since it was pressed
 };
 
 }  // namespace lightgrid

@@ -15,7 +15,8 @@ class ReferencePicture {
   // The scene changed: lights may have moved.
   void scene_changed() { run_.reset(); }
 
-  // Of this view with the side's specular lobe. Drawn at each call: every light at every pixel, slow with many.
+  // Of this view with the side's specular lobe. Drawn at each call: every light at every pixel, slow with
+  // many.
   const Image& draw(const View& view, const Settings& settings);
 
  private:

@@ -1,7 +1,7 @@
 #include "view/resolution.h"
 
-#include <array>
 #include <algorithm>
+#include <array>
 
 namespace lightgrid {
 

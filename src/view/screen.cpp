@@ -47,7 +47,8 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
 }
 
 void Screen::finish() {
-  glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 

@@ -1,5 +1,5 @@
-// What the window shows: the two sides' images, and room for panels beside them. Drawn into a framebuffer of our own, so that
-// a screenshot does not depend on what covers the window.
+// What the window shows: the two sides' images, and room for panels beside them. Drawn into a framebuffer of
+// our own, so that a screenshot does not depend on what covers the window.
 #pragma once
 
 #include <filesystem>

@@ -54,14 +54,17 @@ std::vector<int> take_sides(Words& words) {
 }
 
 void expect_words(const Words& words, size_t count, const std::string& form) {
-  if (words.size() < count) throw wrong(words.empty() ? "" : words.back(), "is followed by too little: " + form);
+  if (words.size() < count)
+    throw wrong(words.empty() ? "" : words.back(), "is followed by too little: " + form);
   if (words.size() > count) throw wrong(words[count], "is one word too many: " + form);
 }
 
 Run key(Words words) {
   expect_words(words, 2, "key down|up NAME");
   if (words[0] != "down" && words[0] != "up") throw wrong(words[0], "is not down or up");
-  return [key = flight_key(words[1]), down = words[0] == "down"](Controls&, Input& input) { input.held[int(key)] = down; };
+  return [key = flight_key(words[1]), down = words[0] == "down"](Controls&, Input& input) {
+    input.held[int(key)] = down;
+  };
 }
 
 Run mouse(Words words) {
@@ -163,7 +166,8 @@ Words words_of(std::string_view line) {
   Words words;
   line = line.substr(0, line.find('#'));
   constexpr std::string_view blanks = " \t\r";
-  for (size_t at = line.find_first_not_of(blanks); at != std::string_view::npos; at = line.find_first_not_of(blanks, at)) {
+  for (size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;
+       at = line.find_first_not_of(blanks, at)) {
     const size_t end = std::min(line.find_first_of(blanks, at), line.size());
     words.emplace_back(line.substr(at, end - at));
     at = end;
@@ -202,7 +206,8 @@ Script::Script(std::string_view text, const std::string& name) {
 
 Script Script::read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw input_error("--script {}: cannot be read", path.string());
+  if (!file || std::filesystem::is_directory(path))
+    throw input_error("--script {}: cannot be read", path.string());
   const std::string text(std::istreambuf_iterator<char>(file), {});
   return Script(text, path.string());
 }

@@ -22,8 +22,8 @@ class Script {
   Script(std::string_view text, const std::string& name);
   static Script read(const std::filesystem::path& path);
 
-  // The actions of a frame, in the order of the file. Keys and the pointer stay as they are left; the button is held in
-  // frames that drag.
+  // The actions of a frame, in the order of the file. Keys and the pointer stay as they are left; the button
+  // is held in frames that drag.
   void play(int frame, Controls& controls, Input& input) const;
 
  private:

@@ -14,7 +14,8 @@ bool Side::choose(const SideControls& wanted, const View& view) {
   problem_.clear();
   stale_ = true;
   try {
-    run_ = std::make_unique<TechniqueRun>(renderer_, gpu_, view, wanted.settings, find_technique(wanted.technique));
+    run_ = std::make_unique<TechniqueRun>(renderer_, gpu_, view, wanted.settings,
+                                          find_technique(wanted.technique));
   } catch (const Error& error) {
     if (!run_) throw;
     problem_ = error.what();
@@ -66,8 +67,8 @@ void Side::keep_picture() {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   } else {
     glNamedFramebufferReadBuffer(image.framebuffer, GL_COLOR_ATTACHMENT0);
-    glBlitNamedFramebuffer(image.framebuffer, framebuffer_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitNamedFramebuffer(image.framebuffer, framebuffer_.name(), 0, 0, width_, height_, 0, 0, width_,
+                           height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
 }
 

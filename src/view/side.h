@@ -15,8 +15,8 @@ class Side {
   // Both outlive it.
   Side(Renderer& renderer, GpuScene& gpu) : renderer_(renderer), gpu_(gpu) {}
 
-  // Makes a run where the technique or the settings are others than before. Where they do not fit the scene, or fail to draw,
-  // problem() says so and the last picture stays. Returns whether it made one.
+  // Makes a run where the technique or the settings are others than before. Where they do not fit the scene,
+  // or fail to draw, problem() says so and the last picture stays. Returns whether it made one.
   bool choose(const SideControls& wanted, const View& view);
   // Another camera or size, or a scene that changed.
   void look(const View& view, const SceneChanges& changes);

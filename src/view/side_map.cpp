@@ -31,8 +31,8 @@ void MapOfSide::show_counts(SideMap wanted, Side& side, bool wait) {
                        : wanted == SideMap::lit  ? pairs->lit_of_pixel
                                                  : pairs->lost_of_pixel;
   const uint32_t top = wanted == SideMap::lost ? 1 : top_of_scale(counts);
-  legend_ = fmt::format("{} a pixel: black 0, yellow {} or more; {} pairs listed, {} lit, {} lost", map_names()[int(wanted)], top,
-                        pairs->listed, pairs->lit, pairs->lost);
+  legend_ = fmt::format("{} a pixel: black 0, yellow {} or more; {} pairs listed, {} lit, {} lost",
+                        map_names()[int(wanted)], top, pairs->listed, pairs->lit, pairs->lost);
   put(heat_map(side.width(), side.height(), counts, top), wanted, side);
 }
 
@@ -40,7 +40,9 @@ void MapOfSide::show_difference(Side& side, const Image& reference) {
   Image image;
   read_back(side.run().view(), side.run().frame().image, image);
   const ImageError error = compare_images(image, reference);
-  legend_ = fmt::format("difference from forward: black equal, blue 1e-7, red 1 of the brightest; greatest {:.2g}", error.max_rel);
+  legend_ =
+      fmt::format("difference from forward: black equal, blue 1e-7, red 1 of the brightest; greatest {:.2g}",
+                  error.max_rel);
   put(difference_image(image, reference), SideMap::difference, side);
 }
 

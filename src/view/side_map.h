@@ -11,8 +11,8 @@ namespace lightgrid {
 
 class MapOfSide {
  public:
-  // The map of the side's last picture, in work or done. Only for pictures of full size of a camera at rest; `wait`: until it
-  // is done. `reference`: draws `forward` on the same view; called for `difference` alone.
+  // The map of the side's last picture, in work or done. Only for pictures of full size of a camera at rest;
+  // `wait`: until it is done. `reference`: draws `forward` on the same view; called for `difference` alone.
   template <typename Reference>
   void follow(SideMap wanted, Side& side, bool wait, const Reference& reference) {
     if (shown_picture_ == side.pictures() && shown_ == wanted) return;
@@ -23,7 +23,9 @@ class MapOfSide {
     }
   }
 
-  bool shows(SideMap wanted, const Side& side) const { return shown_picture_ == side.pictures() && shown_ == wanted; }
+  bool shows(SideMap wanted, const Side& side) const {
+    return shown_picture_ == side.pictures() && shown_ == wanted;
+  }
   GLuint texture() const { return texture_.name(); }
   const std::string& legend() const { return legend_; }  // of the map that it shows
 

@@ -39,7 +39,8 @@ Viewer::~Viewer() = default;
 
 void Viewer::run() {
   Timer timer;
-  for (int number = 0; !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames); ++number) {
+  for (int number = 0; !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames);
+       ++number) {
     window_.poll(!job_.scripted && number > 2 && idle() ? idle_wait_s : 0);
     seconds_ = job_.scripted ? script_step_s : std::min(timer.elapsed_ms() / 1000, longest_step_s);
     timer = Timer();
@@ -76,7 +77,8 @@ void Viewer::take_input(int number) {
   if (job_.scripted) job_.script.play(number, controls_, script_input_);
   const Input input = job_.scripted ? script_input_ : window_.input();
   interface_->begin(input, width_ + panel_width, height_);
-  const PointerResult pointed = pointer_.follow(input, width_, height_, controls_.line, !interface_->takes_pointer());
+  const PointerResult pointed =
+      pointer_.follow(input, width_, height_, controls_.line, !interface_->takes_pointer());
   if (pointed.line) controls_.line = *pointed.line;
   if (pointed.click) controls_.pixel = pointed.click;
   moved_ = camera_.turn(pointed.turn_x, pointed.turn_y, height_);
@@ -94,7 +96,8 @@ void Viewer::take_input(int number) {
     moved_ = true;
   }
   if (controls_.pixel) {
-    controls_.pixel = PicturePixel{std::clamp(controls_.pixel->x, 0, width_ - 1), std::clamp(controls_.pixel->y, 0, height_ - 1)};
+    controls_.pixel = PicturePixel{std::clamp(controls_.pixel->x, 0, width_ - 1),
+                                   std::clamp(controls_.pixel->y, 0, height_ - 1)};
   }
 }
 
@@ -171,9 +174,12 @@ Shown Viewer::shown() {
   for (int i = 0; i < 2; ++i) {
     const SideControls& side = controls_.sides[i];
     if (side.map != SideMap::picture && !maps_[i].shows(side.map, sides_[i])) {
-      shown.map_notes[i] = !resolution_.resting() ? "(when the camera rests)" : controls_.playing ? "(when paused)" : "(computing)";
+      shown.map_notes[i] = !resolution_.resting() ? "(when the camera rests)"
+                           : controls_.playing    ? "(when paused)"
+                                                  : "(computing)";
     }
-    shown.commands[i] = render_command(job_.scene_words, width_, height_, camera_.text(), motion_.words(), side);
+    shown.commands[i] =
+        render_command(job_.scene_words, width_, height_, camera_.text(), motion_.words(), side);
   }
   return shown;
 }
@@ -181,7 +187,8 @@ Shown Viewer::shown() {
 void Viewer::show(const Shown& shown) {
   ScreenImage images[2];
   for (int i = 0; i < 2; ++i) {
-    const bool map = controls_.sides[i].map != SideMap::picture && maps_[i].shows(controls_.sides[i].map, sides_[i]);
+    const bool map =
+        controls_.sides[i].map != SideMap::picture && maps_[i].shows(controls_.sides[i].map, sides_[i]);
     images[i] = {map ? maps_[i].texture() : sides_[i].picture(), map};
   }
   screen_.begin(width_ + panel_width, height_);

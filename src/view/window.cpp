@@ -37,8 +37,9 @@ class WindowGlContext final : public GlContext {
 
 Window::Window(int width, int height, const std::string& title) {
   if (!glfwInit()) {
-    throw machine_error("view: no window: {}; it needs a display (DISPLAY), and xvfb-run gives one without a screen",
-                        glfw_error());
+    throw machine_error(
+        "view: no window: {}; it needs a display (DISPLAY), and xvfb-run gives one without a screen",
+        glfw_error());
   }
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -50,7 +51,8 @@ Window::Window(int width, int height, const std::string& title) {
   if (!window_) {
     const std::string why = glfw_error();
     glfwTerminate();
-    throw machine_error("view: this display has no OpenGL 4.5: {}; Debian's libgl1-mesa-dri brings one without a GPU", why);
+    throw machine_error(
+        "view: this display has no OpenGL 4.5: {}; Debian's libgl1-mesa-dri brings one without a GPU", why);
   }
   glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);
 }
@@ -91,7 +93,8 @@ int Window::height() const {
 }
 
 Input Window::input() const {
-  constexpr int keys[] = {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E, GLFW_KEY_LEFT_SHIFT};
+  constexpr int keys[] = {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S,         GLFW_KEY_D,
+                          GLFW_KEY_Q, GLFW_KEY_E, GLFW_KEY_LEFT_SHIFT};
   Input input;
   for (size_t i = 0; i < input.held.size(); ++i) input.held[i] = glfwGetKey(window_, keys[i]) == GLFW_PRESS;
   glfwGetCursorPos(window_, &input.x, &input.y);

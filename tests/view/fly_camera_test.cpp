@@ -62,7 +62,8 @@ TEST(FlyCamera, FliesWhereItLooks) {
 TEST(FlyCamera, TurnsWithTheDragAndNeverPastTheVertical) {
   const Scene scene = ten_metres();
   FlyCamera camera(scene, start_view(), "");
-  // A drag over the picture's height turns by the vertical field, 60 degrees: to the right shows what is left.
+  // A drag over the picture's height turns by the vertical field, 60 degrees: to the right shows what is
+  // left.
   EXPECT_TRUE(camera.turn(180, 0, 180));
   const glm::dvec3 left = -glm::transpose(glm::dmat3(camera.view(320, 180).view_from_world))[2];
   EXPECT_NEAR(left.x, -std::sqrt(0.75), 1e-5);

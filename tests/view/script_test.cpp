@@ -86,7 +86,9 @@ TEST(Script, NamesTheLineAndTheWordThatIsWrong) {
                                                        {"5 play on", "\"on\""},
                                                        {"99999999999 play", "\"99999999999\""}};
   for (const auto& [line, word] : cases) {
-    EXPECT_THAT(failure_of("# first\n\n" + std::string(line)), AllOf(HasSubstr("fly.txt:3: "), HasSubstr(word))) << line;
+    EXPECT_THAT(failure_of("# first\n\n" + std::string(line)),
+                AllOf(HasSubstr("fly.txt:3: "), HasSubstr(word)))
+        << line;
   }
 }
 

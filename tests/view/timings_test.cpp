@@ -21,7 +21,8 @@ TEST(Timings, KeepTheLastFramesAndTheirMean) {
 }
 
 TEST(Timings, AddsUpAPassThatRanTwice) {
-  const FrameTimes frame = frame_times({{.name = "cull", .on = "cl", .ms = {1, 2}}, {.name = "idle", .on = "gl", .ms = {}}});
+  const FrameTimes frame =
+      frame_times({{.name = "cull", .on = "cl", .ms = {1, 2}}, {.name = "idle", .on = "gl", .ms = {}}});
   ASSERT_EQ(frame.passes.size(), 1u);
   EXPECT_EQ(frame.passes[0].ms, 3);
 }
@@ -37,9 +38,10 @@ TEST(CommandText, NamesTheSettingsThatTheTechniqueReads) {
   SideControls side{.technique = "forward_plus"};
   apply_setting(side.settings, "tile=32");
   apply_setting(side.settings, "lidr-packing=sort");  // forward_plus does not read it
-  EXPECT_EQ(render_command("hall", 64, 36, "eye:0,1,0,target:0,1,-1,fov:60", " --time 2", side),
-            "lightgrid render hall --size 64x36 --camera eye:0,1,0,target:0,1,-1,fov:60 --time 2 -t forward_plus "
-            "--set tile=32 -o view.png");
+  EXPECT_EQ(
+      render_command("hall", 64, 36, "eye:0,1,0,target:0,1,-1,fov:60", " --time 2", side),
+      "lightgrid render hall --size 64x36 --camera eye:0,1,0,target:0,1,-1,fov:60 --time 2 -t forward_plus "
+      "--set tile=32 -o view.png");
 }
 
 }  // namespace

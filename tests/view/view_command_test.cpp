@@ -23,13 +23,14 @@ bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
 
 // The program with its words in a display of its own.
 CommandOutcome run_in_display(const std::string& words) {
-  return run_command("LIGHTGRID_PROGRESS_S=86400 xvfb-run -a -s '-screen 0 1280x1024x24' " + std::string(lightgrid_program) + " " + words + " 2>&1");
+  return run_command("LIGHTGRID_PROGRESS_S=86400 xvfb-run -a -s '-screen 0 1280x1024x24' " +
+                     std::string(lightgrid_program) + " " + words + " 2>&1");
 }
 
 std::string view_words(const TempFolder& folder, const std::string& script, int frames) {
   std::ofstream(folder.path / "script.txt") << script;
-  return "view spheres --size 320x180 --script " + (folder.path / "script.txt").string() + " --frames " + std::to_string(frames) +
-         " --screenshot " + (folder.path / "view.png").string();
+  return "view spheres --size 320x180 --script " + (folder.path / "script.txt").string() + " --frames " +
+         std::to_string(frames) + " --screenshot " + (folder.path / "view.png").string();
 }
 
 // The greatest difference of two pictures' channels between two columns, below the labels.
@@ -37,7 +38,8 @@ int greatest_difference(const PngPixels& a, const PngPixels& b, int first, int l
   int greatest = 0;
   for (int y = label_rows; y < height; ++y) {
     for (int x = first; x < last; ++x) {
-      for (int c = 0; c < 3; ++c) greatest = std::max(greatest, std::abs(int(a.at(x, y, c)) - int(b.at(x, y, c))));
+      for (int c = 0; c < 3; ++c)
+        greatest = std::max(greatest, std::abs(int(a.at(x, y, c)) - int(b.at(x, y, c))));
     }
   }
   return greatest;
@@ -93,7 +95,8 @@ TEST_F(ViewInDisplay, FliesSwitchesTechniquesOpensMapsAndShowsThePicture) {
 TEST_F(ViewInDisplay, ShowsMovingLightsAsRenderDoes) {
   const CommandOutcome run = run_in_display(view_words(folder_, "0 line 1\n1 lights drift\n1 time 1.5\n", 4));
   ASSERT_EQ(run.status, 0) << run.output;
-  const PngPixels picture = render(folder_, {"-t", "forward_plus", "--light-motion", "drift", "--time", "1.5"});
+  const PngPixels picture =
+      render(folder_, {"-t", "forward_plus", "--light-motion", "drift", "--time", "1.5"});
   EXPECT_LE(greatest_difference(read_png(folder_.path / "view.png"), picture, 0, width - 2), 2);
 }
 
@@ -114,7 +117,8 @@ TEST_F(ViewInDisplay, EndsWithZeroWhenClosed) {
 }
 
 TEST_F(ViewInDisplay, EndsWithTwoWhereATechniqueDoesNotFitTheScene) {
-  const CommandOutcome run = run_in_display(view_words(folder_, "2 technique left lidr\n2 set left lidr-lights=15\n", 5));
+  const CommandOutcome run =
+      run_in_display(view_words(folder_, "2 technique left lidr\n2 set left lidr-lights=15\n", 5));
   EXPECT_EQ(WEXITSTATUS(run.status), 2) << run.output;
 }
 
@@ -128,7 +132,8 @@ TEST(ViewCommand, EndsWithThreeWithoutADisplay) {
 TEST(ViewCommand, EndsWithTwoAndNamesTheLineAndTheWordOfAScript) {
   const TempFolder folder;
   std::ofstream(folder.path / "wrong.txt") << "0 play\n3 jump high\n";
-  const ProgramRun run = run_program({"view", "spheres", "--script", folder.path / "wrong.txt"}, {"DISPLAY="});
+  const ProgramRun run =
+      run_program({"view", "spheres", "--script", folder.path / "wrong.txt"}, {"DISPLAY="});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("wrong.txt:2: \"jump\""));
   EXPECT_EQ(run_program({"view", "spheres", "--script", "/nonexistent"}, {"DISPLAY="}).status, 2);
