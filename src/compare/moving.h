@@ -9,10 +9,10 @@
 
 namespace lightgrid {
 
-// Runs the techniques' views along a path, interleaved frame by frame. `runs` (null: not run) and `reference` are left at the
-// path's last view; their images and times of before are not kept. `advance` (may be empty) moves the scene to a frame and says
-// what changed; their GPU scene is `gpu`. Errors are against the reference's image of the same frame,
-// over all frames; pairs are summed. `rows` get RunResult::moving, in the order of `runs`.
+// Moves the runs along a path, interleaved frame by frame. A null run is passed over. Afterwards `runs` and `reference` are at
+// the path's last view, and their images are of it. `advance` (may be empty) moves the scene to a frame and says what changed;
+// `gpu` is the GPU scene of all runs. Errors are against the reference's image of the same frame, over all frames; pairs are
+// summed. `rows` get RunResult::moving, in the order of `runs`.
 struct MovingScene {
   GpuScene& gpu;
   std::vector<View> path;

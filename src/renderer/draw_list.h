@@ -47,8 +47,8 @@ using DrawList = std::vector<DrawItem>;
 // surfaces share a depth: what comes last.
 enum class DrawOrder { front_to_back, as_given };
 
-// Instances of a scene, with their transforms by instance. Conservative: what is left out changes no pixel.
-// far_m: the farthest distance of anything in view, by which layers are cut.
+// The visible clusters of `instances`. transforms: one for each instance of the scene. far_m: the farthest distance of
+// anything in view, by which layers are cut. Conservative: what is left out changes no pixel.
 DrawList make_draw_list(const GpuScene& gpu, const View& view, const std::vector<int>& instances,
                         const std::vector<InstanceTransform>& transforms, double far_m, DrawOrder order);
 

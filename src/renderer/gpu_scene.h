@@ -28,7 +28,7 @@ struct GpuMesh {
 
 class GpuScene {
  public:
-  // Both outlive it. Meshes that no instance shows, and textures that no such mesh's material has, stay out. A software
+  // Both outlive it. Meshes that no instance shows are left out, and so are textures that only such meshes use. A software
   // OpenGL gets colour textures in linear 16 bits, since it would pay for the sRGB curve at every texel of every sample.
   GpuScene(const Renderer& renderer, const Scene& scene);
 

@@ -25,7 +25,8 @@ class PassState {
  public:
   virtual ~PassState() = default;
   virtual size_t memory_bytes() const { return 0; }
-  // After the camera, the lights or the plan changed. False: it cannot follow, and is made anew at its next use.
+  // Called after the camera, the lights or the plan changed. False: the state does not fit any more; it is made anew at its
+  // next use.
   virtual bool follow(RenderView&) { return false; }
 };
 
