@@ -9,15 +9,16 @@
 
 namespace lightgrid {
 
-// Moves the runs along a path, interleaved frame by frame. A null run is passed over. Afterwards `runs` and `reference` are at
-// the path's last view, and their images are of it. `advance` (may be empty) moves the scene to a frame and says what changed;
-// `gpu` is the GPU scene of all runs. Errors are against the reference's image of the same frame, over all frames; pairs are
-// summed. `rows` get RunResult::moving, in the order of `runs`.
+// A camera path over a scene, which may move too.
 struct MovingScene {
-  GpuScene& gpu;
+  GpuScene& gpu;           // of all runs
   std::vector<View> path;
-  SceneMotion advance;
+  SceneMotion advance;     // empty: the scene rests
 };
+
+// Moves the runs along a path, interleaved frame by frame. A null run is passed over. Afterwards `runs` and `reference` are at
+// the path's last view, and their images are of it. Errors are against the reference's image of the same frame, over all
+// frames; pairs are summed. `rows` get RunResult::moving, in the order of `runs`.
 void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
                     std::vector<RunResult>& rows, const std::function<void(double done)>& progress);
 
