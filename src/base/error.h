@@ -1,4 +1,4 @@
-// The one exception type for what a user or a machine can cause. What only our own code can cause asserts.
+// The one exception type for faults that a user or a machine can cause. Faults of our own code assert.
 #pragma once
 
 #include <fmt/format.h>

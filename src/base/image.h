@@ -20,27 +20,27 @@ struct Image {
   const glm::vec4& at(int x, int y) const { return pixels[size_t(y) * width + x]; }
 };
 
-// The one tone map of this project: Khronos PBR Neutral (Khronos Group 2024), which takes off the 0.04 that a
-// dielectric reflects, leaves base colours below 0.8 as they are and rolls brighter ones off to white.
-// Scene-referred linear in, linear in [0, 1] out; negative is 0, infinite is white, NaN stays NaN.
+// The only tone map of this project: Khronos PBR Neutral (Khronos Group 2024). It subtracts the 0.04 that a
+// dielectric reflects, keeps base colours below 0.8 and compresses brighter ones towards white. Input:
+// linear, scene-referred. Output: linear in [0, 1]; negative gives 0, infinity white, NaN stays NaN.
 glm::vec3 tone_map_neutral(glm::vec3 linear);
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
 
-// Bytes as they go to a file: row 0 at the top, RGB, through the tone map. A pixel with a NaN in it is
-// magenta (255, 0, 255), so that it is seen. Deterministic.
+// Bytes as PNG files store them: row 0 at the top, RGB, tone-mapped. A pixel that contains NaN becomes
+// magenta (255, 0, 255), to be noticed. Deterministic.
 std::vector<uint8_t> srgb_bytes(const Image& image);
 
 // The same without the tone map: for images of numbers (difference_image, heat_map), whose legends need it.
 std::vector<uint8_t> srgb_bytes_as_is(const Image& image);
 
-// Eight bits, 1 to 4 channels, row 0 at the top, at least 1x1; with a palette where RGB has at most 256
-// colours.
+// Eight bits, 1 to 4 channels, row 0 at the bottom, at least 1x1. RGB with at most 256 colours is written
+// with a palette.
 std::vector<uint8_t> encode_png(int width, int height, int channels, const std::vector<uint8_t>& bytes);
 void save_png(const std::filesystem::path& path, const Image& image);
 void save_exr(const std::filesystem::path& path, const Image& image);  // 32-bit float RGB, linear
 
-// Throws Error(input) unless the extension is .png or .exr: for asking before the work.
+// Throws Error(input) unless the extension is .png or .exr; call it before long work.
 void check_image_path(const std::filesystem::path& path);
 
 // By extension: .png through the tone map, .exr linear; anything else is an input error.

@@ -20,8 +20,8 @@ struct Palette {
   std::vector<uint8_t> indices;
 };
 
-// Heat maps and difference images have at most 256 colours and come out at a third of the size with a
-// palette. No colours where there are more.
+// Heat maps and difference images have at most 256 colours; a palette cuts their size to a third. Returns no
+// colours if there are more.
 Palette find_palette(const std::vector<uint8_t>& rgb) {
   Palette palette;
   palette.indices.reserve(rgb.size() / 3);

@@ -10,7 +10,7 @@
 
 namespace lightgrid {
 
-// Calls body(i) for each i, on all cores; each i once, in no stated order. The first exception is passed on.
+// Calls body(i) once for each i, on all cores, in unspecified order. The first exception is rethrown.
 template <typename Body>
 void parallel_for(int count, const Body& body) {
   const int workers = std::clamp<int>(std::thread::hardware_concurrency(), 1, std::max(count, 1));

@@ -1,4 +1,4 @@
-// Wall-clock time, and what several runs of a thing took.
+// Wall-clock time, and statistics of repeated runs.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ class Timer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The median of an even number of samples is the mean of the two in the middle. Less than a tenth are above p90, which is one
-// of them.
+// The median of an even number of samples is the mean of the two middle ones. p90 is one of the samples;
+// fewer than a tenth of them are above it.
 struct Spread {
   double min = 0, median = 0, p90 = 0, max = 0;
   int runs = 0;

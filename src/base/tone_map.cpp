@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-// Brighter than this, infinity included, is white all the same; inf - inf and inf * 0 below would be NaN.
+// Anything brighter, infinity included, becomes white; inf - inf and inf * 0 below would give NaN.
 constexpr float brightest = 1e30f;
 
 constexpr glm::u8vec3 nan_marker = {255, 0, 255};
@@ -38,7 +38,7 @@ glm::vec3 tone_map_neutral(glm::vec3 linear) {
   constexpr float start_compression = 0.8f - 0.04f, desaturation = 0.15f;
   auto colour = glm::clamp(linear, 0.f, brightest);
 
-  // What a dielectric reflects of a white surrounding, about 0.04, is taken off again.
+  // Subtracts the reflection of a white surrounding by a dielectric, about 0.04.
   const float darkest = std::min({colour.r, colour.g, colour.b});
   colour -= darkest < 0.08f ? darkest - 6.25f * darkest * darkest : 0.04f;
 

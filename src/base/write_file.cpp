@@ -19,7 +19,7 @@ Error write_error(const fs::path& path, int code) {
   return {machine ? ErrorKind::machine : ErrorKind::input, message};
 }
 
-// Zero, or the errno of what failed.
+// Returns 0, or the errno of the call that failed.
 int write_to(const fs::path& path, const void* data, size_t size) {
   errno = 0;
   std::FILE* file = std::fopen(path.c_str(), "wb");

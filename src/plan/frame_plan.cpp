@@ -54,7 +54,7 @@ void plan_own_light(const Scene& scene, FramePlan& plan) {
                                              : "nothing opaque glows, is unlit or has an occlusion map, and no light is directional"});
 }
 
-// Looks at the instances in view: what they need, and who needed it first.
+// Collects what the instances in view need, each need with its first witness.
 void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   plan.features_of_instance.assign(scene.instances.size(), 0);
@@ -99,8 +99,7 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
     (directional ? plan.directional_lights : plan.local).push_back(i);
     const bool seen = directional || may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
     plan.lights_in_view += seen;
-    // A spot out of view still needs its cone: with it, its every contribution is zero; without, the light would
-    // be another one.
+    // A spot out of view still needs its cone: the cone makes its contribution zero in view.
     if (lights[i].type == LightType::spot && first_spot < 0) first_spot = i;
   }
   plan.local_lights = !plan.local.empty();
@@ -116,7 +115,7 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   plan.decisions.push_back({"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
 }
 
-// From the near plane to the farthest that anything in view can be.
+// From the near plane to the farthest surface in view.
 void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& needs, FramePlan& plan) {
   plan.slices = needs.slices ? plan.settings.slices : 1;
   double far_m = view.near_m;
@@ -172,7 +171,7 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   use(m.base_color_map, feature_base_color_map);
   if (!mesh.colors.empty()) features |= feature_vertex_color;
   if (m.alpha_mode == AlphaMode::mask) features |= feature_mask;
-  if (m.unlit) return features | feature_unlit;  // what lighting needs, an unlit surface does not
+  if (m.unlit) return features | feature_unlit;  // unlit surfaces need none of the features below
   use(m.metallic_roughness_map, feature_metallic_roughness_map);
   use(m.normal_map, feature_normal_map);
   use(m.occlusion_map, feature_occlusion_map);

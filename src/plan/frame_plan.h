@@ -1,5 +1,5 @@
-// What this scene, in this view, with these settings, needs a frame to do - and why. A pure function: what the plan
-// does not name is not compiled, allocated or run.
+// What this scene, view and settings require of a frame, and why. A pure function: what the plan does not
+// name is not compiled, allocated or run.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace lightgrid {
 
-// What a material asks of the shaders, as bits; each is one #define (defines_of).
+// What a material requires of the shaders, as bits; each is one #define (defines_of).
 enum MaterialFeature : uint32_t {
   feature_textured = 1,  // any map at all: first UV set
   feature_uv1 = 2,
@@ -31,7 +31,7 @@ enum MaterialFeature : uint32_t {
 
 std::vector<std::string> defines_of(uint32_t features);
 
-// What a mesh with its material asks of shaders and vertex streams.
+// What a mesh with its material requires of shaders and vertex streams.
 uint32_t material_features(const Scene& scene, const Mesh& mesh);
 
 struct Decision {
@@ -40,14 +40,14 @@ struct Decision {
   std::string why;     // the witness: `material 3 "glass" on node 12 "window"`, or why not
 };
 
-// What a technique asks of the plan.
+// What a technique requires of the plan.
 struct TechniqueNeeds {
   bool light_grid = false;
-  bool slices = false;   // whose tiles are cut into depth slices
+  bool slices = false;   // tiles are cut into depth slices
   bool stencil = false;  // beside the depth buffer
-  bool lists = false;    // whose light code reads lists alone, not masks
-  bool z_bins = false;   // whose shading passes over lights by z-bins, where the setting says so
-  bool light_volumes = false;  // lights drawn one by one: with stencil where volume-culling asks for it
+  bool lists = false;    // light code reads lists only, not masks
+  bool z_bins = false;   // shading skips lights by z-bins, if the setting z-bins says so
+  bool light_volumes = false;  // lights are drawn one by one; with stencil if volume-culling uses it
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
 };
 
@@ -56,11 +56,11 @@ struct FramePlan {
 
   // The instances this view may see (conservative frustum test), in scene order; blended ones back to front.
   std::vector<int> opaque, blended;
-  std::vector<uint32_t> features_of_instance;  // as long as the scene's instances; 0 where not seen
+  std::vector<uint32_t> features_of_instance;  // one for each of the scene's instances; 0 if not in view
 
-  bool light_grid = false;     // culling, its kernels and the grid's buffers
-  bool local_lights = false;   // some point or spot light
-  bool spots = false;          // cone code
+  bool light_grid = false;     // culling kernels and the grid's buffers
+  bool local_lights = false;   // at least one point or spot light
+  bool spots = false;          // compile cone code
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // and a grid of its own
@@ -69,13 +69,14 @@ struct FramePlan {
   bool stencil = false;        // 8 bits beside depth
   bool reversed_triangles = false;
   int index_bits = 16;
-  int z_bins = 1;              // 1: none
-  int slices = 1;              // cells a tile,
-  double slice_near_m = 0, slice_far_m = 0;  // between these distances
-  uint32_t features = 0;       // union over the instances seen: which vertex streams and textures exist
+  int z_bins = 1;              // 1: off
+  int slices = 1;              // cells a tile, ...
+  double slice_near_m = 0, slice_far_m = 0;  // ... between these distances
+  uint32_t features = 0;       // union over the instances in view: decides which vertex streams and textures
+                               // exist
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
-  int lights_in_view = 0;                      // whose range touches the view's frustum
+  int lights_in_view = 0;                      // lights whose range touches the view's frustum
 
   std::vector<Decision> decisions;
 };

@@ -12,11 +12,11 @@ namespace lightgrid {
 
 enum class Brdf { ggx, blinn };  // the specular lobe: shared/brdf.h
 
-// What keeps a deferred light from pixels that it does not reach (passes/shade_light_volumes.cpp).
+// How deferred light volumes skip pixels out of a light's reach (passes/shade_light_volumes.cpp).
 enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };
 
-// Light-indexed deferred rendering (docs/techniques/lidr.md): how several light indices share a pixel, what of a light's
-// volume is drawn, and in which order lights are.
+// Light-indexed deferred rendering (docs/techniques/lidr.md): how several light indices share a pixel, which
+// surfaces of a light's volume are drawn, and the order of the lights.
 enum class LidrPacking { bitshift, maxblend, sort };
 enum class LidrVolumes { stencil, front_faces };
 enum class LidrUnpack { integers, floats };
@@ -29,7 +29,7 @@ struct Settings {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;  // pixels a side: 8, 16, 32 or 64
-  int slices = 24;  // depth slices of techniques that have some: 1, 2, 4, 8, 16, 24, 32 or 64
+  int slices = 24;  // depth slices, for techniques that use them: 1, 2, 4, 8, 16, 24, 32 or 64
   SliceSpacing slice_spacing = SliceSpacing::exponential;
   int z_bins = 1;  // 1 (off), 16, 64 or 256
   GridLists grid_lists = GridLists::lists;
@@ -37,8 +37,10 @@ struct Settings {
   VolumeCulling volume_culling = VolumeCulling::back_faces;
   KernelShape kernel_shape = KernelShape::automatic;
   LidrPacking lidr_packing = LidrPacking::bitshift;
-  int lidr_overlap = 0;  // lights a pixel may have: 1, 2, 4, 8, 16, or 0: the most there is room for
-  int lidr_lights = 0;   // lights there may be: 15, 255, 65535, or 0: the least that holds the scene's
+  int lidr_overlap = 0;  // capacity of a pixel in lights: 1, 2, 4, 8, 16, or 0: as many as the packing can
+                         // hold
+  int lidr_lights = 0;   // capacity of an index: 15, 255, 65535 lights, or 0: the least that suffices for the
+                         // scene
   LidrVolumes lidr_volumes = LidrVolumes::stencil;
   LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrOrder lidr_order = LidrOrder::priority;
@@ -49,11 +51,11 @@ struct Settings {
   std::set<std::string> given{};  // keys that apply_setting has set
 };
 
-// Those that change no result, and that `lightgrid bench --tune` therefore tries.
+// Settings that change no result; `lightgrid bench --tune` tries them.
 const std::vector<std::string>& tunable_settings();
 
-// With what was found to be the fastest of those (cl/tuned_sizes.h), but for keys that apply_setting has set. What is no
-// tunable setting, or no value of it, is passed over.
+// `settings` with the fastest values found for tunable settings (cl/tuned_sizes.h), except for keys that
+// apply_setting has set. Other keys and unknown values are ignored.
 Settings with_tuned(Settings settings, const std::map<std::string, std::string>& tuned);
 
 // Applies "key=value". Throws Error(input) that lists the keys, or the values of a key.

@@ -28,7 +28,7 @@ bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, con
     const double reach = std::abs(glm::dot(normal, axes[0])) * half.x + std::abs(glm::dot(normal, axes[1])) * half.y +
                          std::abs(glm::dot(normal, axes[2])) * half.z;
     const double distance = glm::dot(normal, place) + frustum.planes[i].w;
-    // A part in 10^6 stands for the float rounding of the vertices that the box stands for.
+    // 1e-6 covers the float rounding of the vertices in the box.
     if (distance < -reach - 1e-6 * (glm::length(place) + reach)) return false;
   }
   return true;

@@ -1,4 +1,4 @@
-// What a view may see. Conservative: what is reported outside is outside; in double.
+// What a view may see. Conservative: a result "outside" is certain. In double.
 #pragma once
 
 #include "scene/camera.h"
@@ -6,8 +6,8 @@
 
 namespace lightgrid {
 
-// The view's side and near planes in view space, inward: dot(normal, p) + offset >= 0. The far plane only where
-// finite.
+// The view's side and near planes in view space, inward: dot(normal, p) + offset >= 0. The far plane is
+// included only if finite.
 struct Frustum {
   glm::dvec4 planes[6];
   int count = 0;

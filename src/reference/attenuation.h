@@ -1,4 +1,4 @@
-// How much of a light's intensity arrives at a point (KHR_lights_punctual), in double.
+// The fraction of a light's intensity that arrives at a point (KHR_lights_punctual), in double.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@ namespace lightgrid {
 
 inline double length_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
-// Cosine between the spot's direction and the way from the light to the point at `offset` from it; 0 at the
-// light itself, as it is for a shader whose vector to the light is zero there.
+// Cosine between the spot's direction and the direction from the light to the point at `offset` from it. 0 at
+// the light itself, as in the shaders, whose vector to the light is zero there.
 inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, double distance) {
   const double along =
       offset.x * light.direction.x + offset.y * light.direction.y + offset.z * light.direction.z;

@@ -30,16 +30,16 @@ Cell cell_of_tile(const View& view, int px0, int py0, int px1, int py1, double n
           view.orthographic};
 }
 
-// The squared distance at a depth is convex, with a continuous slope, and made of parabolas: one for each
-// choice of the sides that the point lies outside of. Its minimum over the depths is that of one of the
-// parabolas or at an end, so the nine bottoms, clamped to the ends, hold it.
+// The squared distance as a function of depth is convex, has a continuous slope and consists of parabolas:
+// one for each choice of the sides that the point is outside of. Its minimum is at the vertex of one of the
+// parabolas or at an end, so testing the nine vertices, clamped to the ends, finds it.
 double distance_to_cell(const Cell& cell, const glm::dvec3& p) {
   if (cell.orthographic) return distance_at_depth(cell, p, std::clamp(-p.z, cell.near, cell.far));
   double nearest = std::numeric_limits<double>::infinity();
   for (double slope_x : {0.0, cell.x0, cell.x1}) {
     for (double slope_y : {0.0, cell.y0, cell.y1}) {
-      // Bottom of (x - slope_x d)^2 [if outside in x] + (y - slope_y d)^2 [if outside in y] + (-z - d)^2. A
-      // side of slope 0 adds a constant, as does no side at all.
+      // Vertex of (x - slope_x d)^2 [if outside in x] + (y - slope_y d)^2 [if outside in y] + (-z - d)^2. A
+      // side of slope 0 adds a constant, and so does the absence of a side.
       const double bottom =
           (p.x * slope_x + p.y * slope_y - p.z) / (slope_x * slope_x + slope_y * slope_y + 1);
       nearest = std::min(nearest, distance_at_depth(cell, p, std::clamp(bottom, cell.near, cell.far)));

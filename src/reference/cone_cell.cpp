@@ -1,8 +1,8 @@
-// The sector meets the cell if the cell's point nearest to the apex, among those within the cone's angle, is
-// within the radius. That nearest point is stationary on its stratum: interior (only the apex itself), face,
-// edge or corner of the cell, each inside the cone or on its boundary. Each stratum has at most two
-// stationary points, all in closed form, so testing those of every stratum decides it; a cone wider than a
-// half-space needs nothing else.
+// The sector meets the cell if the nearest point to the apex, among the cell's points within the cone's
+// angle, is within the radius. That point is stationary on its stratum: interior (only the apex itself),
+// face, edge or corner of the cell, each inside the cone or on its boundary. Each stratum has at most two
+// stationary points, all in closed form, so testing those of every stratum is enough; cones wider than a
+// half-space need no special case.
 #include "reference/cone_cell.h"
 
 #include <algorithm>
@@ -19,15 +19,15 @@ using glm::dvec3;
 constexpr double angle_slack = 1e-8;
 constexpr double radius_slack = 1e-9;
 constexpr double rounding =
-    1e-14;  // of coordinates: bounds the error of a stationary point, some ten operations
+    1e-14;  // of coordinates: bounds the error of a stationary point, about ten operations
 
 struct Plane {
   dvec3 normal;   // unit, into the cell
   double offset;  // normal . q + offset is the distance inside
 };
 
-// foot + s * direction for begin <= s <= end. The foot is the line's nearest point to the apex, so that what
-// lies near the apex is computed from small numbers, however far away the corners are.
+// foot + s * direction for begin <= s <= end. The foot is the line's nearest point to the apex, so that
+// points near the apex are computed from small numbers, however far away the corners are.
 struct Edge {
   dvec3 foot, direction;  // unit; zero where the edge is a point
   double begin, end;      // the end may be infinite
@@ -101,24 +101,24 @@ dvec3 any_perpendicular(const dvec3& v) {
 }
 
 // The face's stationary points: its nearest to the apex, and its nearest on the cone's boundary, which lies
-// in the plane of the axis and the normal. A face that has the apex on its inner side holds none: from any of
-// its points the way to the apex leads into the cell and stays in the cone.
+// in the plane of the axis and the normal. A face with the apex on its inner side has none: from each of its
+// points the segment to the apex leads into the cell and stays in the cone.
 template <typename Visit>
 bool any_on_face(const Plane& plane, const Cone& cone, const Visit& visit) {
   if (plane.offset >= 0) return false;
   if (visit(-plane.offset * plane.normal)) return true;
   const dvec3 across = plane.normal - glm::dot(plane.normal, cone.axis) * cone.axis;
   const double length = glm::length(across);
-  // A plane square to the axis cuts a circle, all points of which are as near as each other.
+  // A plane perpendicular to the axis cuts a circle, whose points are equally near.
   const dvec3 side = length > 1e-12 ? across / length : any_perpendicular(cone.axis);
   const dvec3 ray = cone.cosine * cone.axis + cone.sine * side;
   const double t = -plane.offset / glm::dot(plane.normal, ray);
   return t > 0 && std::isfinite(t) && visit(t * ray);
 }
 
-// The edge's parameters where it crosses the cone's boundary: |q| sin(half_angle - angle(q)) = 0, from the
-// squares (which also hold the mirrored cone), then set right by Newton steps on the equation itself, as
-// squares lose half the digits at 90 degrees. Returns how many.
+// The edge's parameters where it crosses the cone's boundary: |q| sin(half_angle - angle(q)) = 0. Starts from
+// the squared equation (which also holds on the mirrored cone), then corrects by Newton steps on the equation
+// itself: squaring loses half the digits near 90 degrees. Returns their number.
 int cone_crossings(const Edge& edge, const Cone& cone, double crossings[2]) {
   const dvec3 foot_across = glm::cross(edge.foot, cone.axis),
               step_across = glm::cross(edge.direction, cone.axis);
@@ -158,7 +158,7 @@ bool any_on_edge(const Edge& edge, const Cone& cone, const Visit& visit) {
   return std::any_of(crossings, crossings + count, visit_at);
 }
 
-// True if some stationary point is in the cell, to rounding, and is accepted at its distance from the apex.
+// True if a stationary point lies in the cell, to rounding, and its distance from the apex is accepted.
 template <typename Accepts>
 bool any_stationary_point(const Polyhedron& shape, const Cone& cone, double apex_distance,
                           const Accepts& accepts) {

@@ -23,7 +23,7 @@ std::vector<glm::dvec3> covered_positions(const View& view, const std::vector<fl
   return positions;
 }
 
-// The blocks of one tile, put together.
+// The blocks of one tile, merged.
 struct Tile {
   uint64_t covered = 0;
   std::map<uint32_t, uint64_t> lit_pixels;  // by light
@@ -42,7 +42,7 @@ Tile gather(const LitBlocks& blocks, int tile, int tile_x, int tile_y) {
   return out;
 }
 
-// Adds the tile up and returns its own listed / lit; 0 where nothing is lit.
+// Adds the tile to `a` and returns its own listed / lit; 0 if no pair is lit.
 double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, ListAccuracy& sum) {
   const std::unordered_set<uint32_t> listed(begin, end);
   uint64_t lit = 0;

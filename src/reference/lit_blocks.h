@@ -1,5 +1,5 @@
-// The lit set of an image, kept by blocks of pixels: the oracle is asked once, and the lists of many settings are held
-// against its answer.
+// The lit set of an image, by blocks of pixels. The oracle runs once; the lists of many settings are then
+// compared with its result.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,16 @@ struct LitBlocks {
   std::vector<std::vector<Entry>> lit;
 };
 
-// As count_pairs: `depth` is width * height, row 0 at the bottom, 0 where nothing is; is_lit decides.
+// As count_pairs: `depth` is width * height, row 0 at the bottom, 0 for background; is_lit decides.
 LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights);
 
-// (pixel, light) pairs over the covered pixels, and how they spread over the tiles.
+// (pixel, light) pairs over the covered pixels, and their distribution over the tiles.
 struct ListAccuracy {
   uint64_t listed = 0, lit = 0;
   uint64_t lost = 0;            // lit but not listed
-  uint64_t perfect = 0;         // listed, had each tile the lights alone that light one of its pixels
+  uint64_t perfect = 0;         // listed, if each tile listed only the lights that light one of its pixels
   uint64_t tiles_lit = 0;       // tiles with a lit pair
-  uint64_t tiles_in_vain = 0;   // tiles that list for their pixels, of which none is lit
+  uint64_t tiles_in_vain = 0;   // tiles that list lights, none of which lights a pixel
   double p99 = 0, worst = 0;    // listed / lit of a tile, over tiles_lit
 };
 

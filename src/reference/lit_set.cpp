@@ -13,17 +13,17 @@ namespace lightgrid {
 
 namespace {
 
-// What the pixels of one tile add up to.
+// Sums over the pixels of one tile.
 struct Tally {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
 };
 
-// Which lights the list in hand holds. Marks are never cleared: each list has a mark of its own.
+// The set of lights of the current list. Marks are never cleared: each list has its own mark.
 class Membership {
  public:
   explicit Membership(size_t lights) : mark_of_light_(lights, 0) {}
 
-  // Returns the entries that are no light or a repetition.
+  // Returns the number of entries that are no light or a repetition.
   uint64_t read(const ListedLights& lists, uint32_t cell) {
     ++mark_;
     if (cell >= lists.count.size() || cell >= lists.first.size()) return 1;

@@ -18,7 +18,7 @@ double view_y_of_pixel(const View& view, double py) {
 glm::dvec3 position_from_depth(const View& view, int px, int py, double depth) {
   const glm::dmat4& clip = view.clip_from_view;
   const double x = view_x_of_pixel(view, px + 0.5), y = view_y_of_pixel(view, py + 0.5);
-  // The terms in x and y of the depth row are those of an oblique near plane; zero in all others.
+  // The x and y terms of the depth row are nonzero only for an oblique near plane.
   const double tilt = clip[0][2] * x + clip[1][2] * y;
   if (view.orthographic) return {x, y, (depth - tilt - clip[3][2]) / clip[2][2]};
   const double distance = clip[3][2] / (depth + clip[2][2] - tilt);

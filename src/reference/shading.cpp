@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double dielectric_f0 = 0.04;  // an index of refraction of 1.5
+constexpr double dielectric_f0 = 0.04;  // for an index of refraction of 1.5
 
 // Schlick 1994.
 template <typename Reflectance>
@@ -22,7 +22,7 @@ Reflectance fresnel(const Reflectance& f0, double v_dot_h) {
   return f0 + (1.0 - f0) * std::pow(1 - std::abs(v_dot_h), 5);
 }
 
-// What a surface reflects of constant radiance from all sides: this program's own simplification, without Fresnel.
+// Reflection of constant radiance from all sides: this program's own simplification, without Fresnel.
 dvec3 ambient_reflectance(const Surface& s) {
   return s.base_color * (1 - s.metallic) + glm::mix(dvec3(dielectric_f0), s.base_color, s.metallic);
 }
@@ -42,7 +42,7 @@ double smith_visibility(double n_dot_v, double n_dot_l, double alpha) {
                 n_dot_v * std::sqrt(n_dot_l * n_dot_l * (1 - a2) + a2));
 }
 
-// Blinn-Phong as wide as GGX of that alpha: (n + 2) / (8 pi) cos^n.
+// Blinn-Phong with the width of GGX at that alpha: (n + 2) / (8 pi) cos^n.
 double blinn_lobe(const dvec3& normal, const dvec3& half, double alpha) {
   const double exponent = 2 / (alpha * alpha) - 2, cosine = std::max(glm::dot(normal, half), 0.0);
   return (exponent + 2) / (8 * std::numbers::pi) * std::pow(cosine, exponent);
@@ -66,8 +66,8 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
 
 dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
   const dvec3 sum = to_eye + to_light;
-  // Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there: nothing is
-  // diffuse.
+  // Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there, so the diffuse
+  // part is 0.
   if (glm::dot(sum, sum) < 1e-8) return dvec3(0);
   const dvec3 half = glm::normalize(sum);
   const double roughness = std::max(surface.roughness, 0.045), alpha = roughness * roughness;
@@ -76,7 +76,7 @@ dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, B
   const double specular =
       lobe == Brdf::blinn ? blinn_lobe(surface.normal, half, alpha)
                           : smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(surface.normal, half, alpha);
-  // The specification's own form: two materials, mixed.
+  // The form of the specification: a mix of two materials.
   const double v_dot_h = glm::dot(to_eye, half);
   const dvec3 diffuse = surface.base_color * std::numbers::inv_pi;
   const dvec3 dielectric = glm::mix(diffuse, dvec3(specular), fresnel(dielectric_f0, v_dot_h));
@@ -103,7 +103,7 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
   assert(depth.size() == size_t(view.width) * view.height);
   std::vector<dvec3> radiance(pixels.size());
   const auto position_of = [&](uint32_t p) { return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]); };
-  // Without a window every light reaches everything: there is nothing to look for.
+  // Without a window every light reaches everything, so all lights are used.
   const std::vector<ViewLight> none;
   for_each_tile(view.width, pixels, position_of, settings.window ? lights : none, [&](const TileOfPixels& tile) {
     std::vector<ViewLight> near;

@@ -15,10 +15,10 @@ struct Surface {
   glm::dvec3 base_color{1}, emissive{0};
   double metallic = 0, roughness = 1;  // perceptual roughness; floored at 0.045
   double occlusion = 1;
-  bool unlit = false;  // base_color is all there is
+  bool unlit = false;  // base_color is the result
 };
 
-// Reflected over arriving radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr.
+// Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr.
 glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light, Brdf lobe = Brdf::ggx);
 
 struct ShadeSettings {
@@ -32,14 +32,14 @@ glm::dvec3 shade(const Surface& surface, const glm::dvec3& position, bool orthog
                  const std::vector<ViewLight>& lights, const ShadeSettings& settings);
 
 // Radiance of `pixels` (y * width + x each, all covered), in their order. `surface_at` is called from several
-// threads. Lights whose window is zero on a whole tile are passed over, which changes no bit.
+// threads. Lights whose window is zero on a whole tile are skipped, which changes no bit.
 std::vector<glm::dvec3> shade_pixels(const View& view, const std::vector<float>& depth,
                                      const std::function<Surface(uint32_t pixel)>& surface_at,
                                      const std::vector<ViewLight>& lights, const ShadeSettings& settings,
                                      const std::vector<uint32_t>& pixels);
 
-// At most `most` of `pixels`, spread evenly: one from each of `most` equal runs, at a place in the run that
-// follows the golden ratio, so that no period of the image is met. Ascending where `pixels` is;
+// At most `most` of `pixels`, spread evenly: one from each of `most` equal runs, at a position within the run
+// that follows the golden ratio, to avoid aliasing with periodic images. Ascending if `pixels` is;
 // deterministic.
 std::vector<uint32_t> sample_pixels(const std::vector<uint32_t>& pixels, size_t most);
 

@@ -1,5 +1,6 @@
-// The BRDF of this program, glTF 2.0, appendix B: mix(dielectric, metal, metallic), where the dielectric is Lambert under a
-// specular lobe of f0 = 0.04 and the metal a specular lobe of f0 = base colour; Schlick's Fresnel.
+// The BRDF of this program, glTF 2.0, appendix B: mix(dielectric, metal, metallic). The dielectric is Lambert
+// under a specular lobe with f0 = 0.04, the metal a specular lobe with f0 = base colour; both use Schlick's
+// Fresnel.
 //   BLINN: Blinn-Phong in place of GGX.
 #pragma once
 
@@ -33,7 +34,7 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
   return p;
 }
 
-// What a surface reflects of constant radiance from all sides, without occlusion.
+// Reflection of constant radiance from all sides, without occlusion.
 SHARED_FUNCTION Real3 reflected_ambient(ShadingPoint p, real r, real g, real b) {
   Real3 reflected_part = add3(scale3(p.diffuse, REAL(SHADING_PI / (1.0f - DIELECTRIC_F0))), p.f0);
   return real3(r * reflected_part.x, g * reflected_part.y, b * reflected_part.z);
@@ -42,8 +43,8 @@ SHARED_FUNCTION Real3 reflected_ambient(ShadingPoint p, real r, real g, real b) 
 // BRDF times the cosine at the surface. to_light is a unit vector.
 SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   real n_dot_l = min_real(max_real(dot3(p.normal, to_light), REAL(0.0f)), REAL(1.0f));
-  // The half vector is left unnormalised: |h|^2 goes into the formulas instead. It vanishes only where viewer and
-  // light face each other through the surface, and n_dot_l is 0.
+  // The half vector is not normalised: the formulas contain |h|^2 instead. It vanishes only where viewer and
+  // light are on opposite sides of the surface, and there n_dot_l is 0.
   Real3 h = add3(to_light, p.to_viewer);
   real h_squared = max_real(dot3(h, h), REAL(1e-8f));
   // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
@@ -53,9 +54,9 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   real grazing = max_real(1.0f - 0.5f * sqrt_real(h_squared), REAL(0.0f));
   real grazing2 = grazing * grazing;
   real grazing5 = grazing2 * grazing2 * grazing;
-  // Schlick's Fresnel is linear in f0, so the mix of the dielectric's and the metal's specular parts is one term with the
-  // mixed f0: f0 + (1 - f0) g = f0 (1 - g) + g. The diffuse part belongs to the dielectric alone, under its own Fresnel:
-  // 1 - (0.04 + 0.96 g) = 0.96 (1 - g), of which p.diffuse has the 0.96. The two share the factor 1 - g.
+  // Schlick's Fresnel is linear in f0, so the mix of both specular parts is one term with the mixed f0: f0 +
+  // (1 - f0) g = f0 (1 - g) + g. Only the dielectric has a diffuse part, with its own Fresnel: 1 - (0.04 +
+  // 0.96 g) = 0.96 (1 - g); p.diffuse contains the 0.96. Both share the factor 1 - g.
   real facing = n_dot_l * (1.0f - grazing5);
   real rim = n_dot_l * grazing5 * specular;
   return real3((p.diffuse.x + p.f0.x * specular) * facing + rim, (p.diffuse.y + p.f0.y * specular) * facing + rim,

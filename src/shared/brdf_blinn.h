@@ -1,5 +1,5 @@
-// Blinn-Phong (Blinn 1977), normalized as a distribution of half vectors, with V = 1/4: (n + 2) / (8 pi) cos^n. The
-// exponent that is as wide as GGX's lobe: n = 2 / alpha^2 - 2 (Walter et al. 2007).
+// Blinn-Phong (Blinn 1977), normalised as a distribution of half vectors, with V = 1/4: (n + 2) / (8 pi)
+// cos^n. The exponent n = 2 / alpha^2 - 2 gives the width of GGX's lobe (Walter et al. 2007).
 #pragma once
 
 #include "shared/shading_point.h"
@@ -11,10 +11,11 @@ namespace lightgrid {
 // The exponent.
 SHARED_FUNCTION real lobe_of(ShadingPoint p) { return 2.0f / p.alpha_squared - 2.0f; }
 
-// D V, 1 / sr. h is the unnormalised half vector: |h|^2, its cosine and sine^2 with the normal times |h| and |h|^2.
+// D V, 1 / sr. h is the unnormalised half vector; the others are |h|^2, n.h (a cosine times |h|) and sine^2
+// times |h|^2.
 SHARED_FUNCTION real specular_lobe(ShadingPoint p, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
-  // log cos^2 = log(1 - sin^2). Rounding 1 - sin^2 would cost up to n / 2 roundings (exponents reach half a million), so
-  // what is lost there is put back (Kahan's log1p).
+  // log cos^2 = log(1 - sin^2). The rounding of 1 - sin^2 would grow to n / 2 roundings (exponents reach half
+  // a million), so the lost part is added again (Kahan's log1p).
   real sine2 = min_real(across_squared / h_squared, REAL(1.0f));
   EXACTLY real cosine2 = max_real(1.0f - sine2, REAL(1e-30f));
   EXACTLY real rounded = 1.0f - cosine2;

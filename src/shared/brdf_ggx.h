@@ -7,14 +7,15 @@
 namespace lightgrid {
 #endif
 
-// Smith's term of the viewer: sqrt(n_dot_v^2 (1 - alpha^2) + alpha^2).
+// Smith's term for the viewer: sqrt(n_dot_v^2 (1 - alpha^2) + alpha^2).
 SHARED_FUNCTION real lobe_of(ShadingPoint p) {
   return sqrt_real(p.n_dot_v * p.n_dot_v * (1.0f - p.alpha_squared) + p.alpha_squared);
 }
 
-// D V, 1 / sr. h is the unnormalised half vector: |h|^2, its cosine and sine^2 with the normal times |h| and |h|^2.
+// D V, 1 / sr. h is the unnormalised half vector; the others are |h|^2, n.h (a cosine times |h|) and sine^2
+// times |h|^2.
 SHARED_FUNCTION real specular_lobe(ShadingPoint p, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
-  // At least |h|^2 alpha^2 where a light shines; the floor is below that, and keeps a vanished h from 0/0.
+  // At least |h|^2 alpha^2 where n_dot_l > 0. The floor is smaller, and prevents 0/0 where h vanishes.
   real width = max_real(across_squared + n_dot_h * n_dot_h * p.alpha_squared, REAL(1e-14f));
   // D = (alpha |h|^2 / width)^2 / pi, times V = 0.5 / (...), in one division.
   real peak = p.alpha * h_squared;

@@ -1,4 +1,4 @@
-// One view of one set of lights in the numbers that the culling kernels need.
+// One view of one set of lights, as the culling kernels read it.
 #pragma once
 
 #include "shared/language.h"
@@ -13,18 +13,19 @@ typedef struct CullParams {
   float y_axis_x, y_axis_y, y_axis_z;
   float d_axis_x, d_axis_y, d_axis_z;
   float eye_x, eye_y, eye_z;                    // relative to the lights' origin, metres
-  float eye_rest_x, eye_rest_y, eye_rest_z;     // what float leaves of it
-  // Pixel coordinate p to the slope x / d or y / d there; orthographic: to x or y itself, metres (view_params.h).
+  float eye_rest_x, eye_rest_y, eye_rest_z;     // rounding error of the floats above
+  // Slope x / d or y / d at pixel coordinate p; orthographic: x or y itself, metres (view_params.h).
   float slope_x_scale, slope_x_offset;
   float slope_y_scale, slope_y_offset;
-  // The way back: slope * scale + offset is the tile coordinate (tile column or row, with a fraction).
+  // The inverse: slope * scale + offset is the tile coordinate (tile column or row, with a fraction).
   float tile_x_scale, tile_x_offset;
   float tile_y_scale, tile_y_offset;
-  float inset;                  // pixels by which a cell is smaller than its pixels: 0.5 for their centres, else 0
+  float inset;                  // pixels by which a cell is smaller than its pixels: 0.5 if it contains pixel
+                                // centres only, else 0
   // Depth value to distance: perspective depth_b / ((depth + depth_a) + depth_a_rest), orthographic
   // (depth_b - depth) * depth_a.
   float depth_a, depth_a_rest, depth_b;
-  float depth_step;             // one step of the depth format, where it is coarser than slack covers; else 0
+  float depth_step;             // one step of the depth format, if coarser than the slack covers; else 0
   float near_distance;
   // Slack for the rounding of tile sides (docs/hard_cases.md#slack): perspective, of a distance; orthographic, metres.
   float side_slack, side_slack_m;

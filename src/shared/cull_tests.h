@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// What a test puts a light's sphere to, besides the cell's interval of distances. All parts must hold.
+// What a light's sphere is tested against, besides the cell's interval of distances. All parts must hold.
 struct CullTestRow {
   CullTest test;
   const char* name;  // the setting cull-test

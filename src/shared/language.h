@@ -1,5 +1,5 @@
-// What lets one header be C++, OpenCL C and GLSL. Shared structs hold 32-bit scalars only: they then have the same
-// layout in C++, in OpenCL C and in a GLSL std140 block, with no padding to keep in mind.
+// Lets one header compile as C++, OpenCL C and GLSL. Shared structs hold 32-bit scalars only, so that they
+// have the same layout in C++, in OpenCL C and in a GLSL std140 block, without padding.
 #pragma once
 
 #if defined(__OPENCL_VERSION__)

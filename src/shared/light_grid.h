@@ -1,5 +1,5 @@
-// How a pixel finds its cell of the light grid, and how tiles lie in bins: the same integer code for kernels, shaders
-// and tests.
+// How a pixel finds its cell of the light grid, and how tiles are ordered in bins: the same integer code for
+// kernels, shaders and tests.
 #pragma once
 
 #include "shared/language.h"
@@ -16,13 +16,13 @@ SHARED_FUNCTION uint cell_of_pixel(uint x, uint y, uint tile_size, uint tiles_x)
   return (y / tile_size) * tiles_x + x / tile_size;
 }
 
-// The same tile's cell in a slice, from that in the first one.
+// The cell of the same tile in another slice; first_cell is the tile's cell in slice 0.
 SHARED_FUNCTION uint cell_in_slice(uint first_cell, uint slice, uint tiles_x, uint tiles_y) {
   return slice * tiles_x * tiles_y + first_cell;
 }
 
-// A bin's tiles in the order in which their lists lie in memory: Morton's (1966), so that 4 slots from a multiple of 4 on
-// are a quad of 2 x 2 tiles, and 16 a block of 4 x 4.
+// A bin's tiles in the order of their lists in memory: Morton order (1966). Four slots from a multiple of 4
+// are a quad of 2 x 2 tiles; sixteen from a multiple of 16 are a block of 4 x 4.
 SHARED_FUNCTION uint tile_x_of_slot(uint slot) { return (slot & 1u) | (slot >> 1 & 2u) | (slot >> 2 & 4u); }
 SHARED_FUNCTION uint tile_y_of_slot(uint slot) { return (slot >> 1 & 1u) | (slot >> 2 & 2u) | (slot >> 3 & 4u); }
 SHARED_FUNCTION uint slot_of_tile(uint x, uint y) {

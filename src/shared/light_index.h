@@ -1,5 +1,5 @@
-// How a light's index lies in the channels of light index images (docs/techniques/lidr.md): the same integer code for
-// shaders and C++. Index 0 is none; light i has index i + 1.
+// How a light's index is stored in the channels of light index images (docs/techniques/lidr.md): the same
+// integer code for shaders and C++. Index 0 means none; light i has index i + 1.
 #pragma once
 
 #include "shared/language.h"
@@ -12,16 +12,16 @@
 namespace lightgrid {
 #endif
 
-// What is drawn into a channel, of those that one light is drawn into. shift: bits that bit shifting gives a light in each
-// channel of 8; most: of the channel's values.
+// The value of one of the channels that a light is drawn into. shift: bits of a light in each 8-bit channel,
+// for bit shifting; most: the largest value of a channel.
 SHARED_FUNCTION uint light_index_channel(uint packing, uint index, uint channel, uint shift, uint most) {
   if (packing == LIDR_BITSHIFT) return (index >> (shift * channel) & ((1u << shift) - 1u)) << (8u - shift);
   if (packing == LIDR_MAXBLEND) return channel == 0u ? index : most - index;
   return index >> (8u * channel) & 255u;
 }
 
-// What four channels, the lowest byte first, hold of the index in a slot. Each light moved those before it down by a slot:
-// slot 0 is the newest, at the top of each byte.
+// The part of the index in a slot that four channels hold, the lowest byte first. Each light shifts the
+// earlier ones down by a slot: slot 0 is the newest, at the top of each byte.
 SHARED_FUNCTION uint light_index_in_word(uint word, uint slot, uint shift) {
   uint index = 0u;
   uint down = 8u - shift * (slot + 1u);

@@ -1,5 +1,6 @@
-// Unit vectors as two numbers: the octahedron |x| + |y| + |z| = 1, its lower half folded over (Cigolle et al., "A Survey
-// of Efficient Representations for Independent Unit Vectors", JCGT 2014). Both -1 to 1.
+// Unit vectors as two numbers: the octahedron |x| + |y| + |z| = 1, its lower half folded over (Cigolle et
+// al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014). Both numbers are in
+// [-1, 1].
 #pragma once
 
 #include "shared/real.h"

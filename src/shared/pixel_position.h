@@ -1,5 +1,5 @@
-// A pixel's place in view space from its depth: every technique shades from this one, so that they agree on which lights
-// reach a pixel. The tile tests contain it: docs/hard_cases.md#slack.
+// A pixel's position in view space from its depth. Every technique shades with this function, so that all
+// agree on the lights that reach a pixel. The tile tests bound its rounding: docs/hard_cases.md#slack.
 #pragma once
 
 #include "shared/real.h"

@@ -1,6 +1,6 @@
 // One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its range. Never NaN:
 // attenuation and BRDF are finite, and their product with the intensity may overflow to infinity.
-//   SPOTS: some light has a cone.
+// SPOTS: at least one light has a cone.
 #pragma once
 
 #include "shared/brdf.h"
@@ -9,9 +9,9 @@
 namespace lightgrid {
 #endif
 
-// 1 / distance^2 grows no further, 3e-16 m from the light. That is below any length for which lights are listed
-// (docs/hard_cases.md), and the most that keeps its product with the BRDF finite: GGX reaches 2e7 at the roughness floor.
-// Without that, infinity would meet a colour or a cosine of 0.
+// Limit of 1 / distance^2, reached 3e-16 m from the light. That is shorter than any distance for which lights
+// are listed (docs/hard_cases.md). Larger values could make the product with the BRDF infinite: GGX reaches
+// 2e7 at the roughness floor, and infinity times a colour or cosine of 0 is NaN.
 #define LARGEST_ATTENUATION 1e31f
 
 SHARED_STRUCT(PunctualLight) {
@@ -22,7 +22,7 @@ SHARED_STRUCT(PunctualLight) {
 #endif
 };
 
-// What of a light arrives at a point.
+// The part of a light that arrives at a point.
 SHARED_STRUCT(Arrival) {
   Real3 to_light;  // unit
   real attenuation;
@@ -36,7 +36,8 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   real inverse_distance = inverse_sqrt_real(max_real(distance_squared, REAL(1.2e-38f)));
   Arrival arrival;
   arrival.to_light = scale3(to_light, inverse_distance);
-  // No branch on the range: what is past it is multiplied by an exact zero. All factors are finite, so that it stays 0.
+  // No branch on the range: beyond it, the result is multiplied by an exact zero. All factors are finite, so
+  // it stays 0.
   real window = max_real(1.0f - ratio * ratio, REAL(0.0f));
   arrival.attenuation = window * min_real(inverse_distance * inverse_distance, REAL(LARGEST_ATTENUATION));
 #ifdef SPOTS

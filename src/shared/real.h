@@ -33,7 +33,7 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define SHARED_STRUCT(name) struct name
 #define REAL(x) real(x)
 #if defined(LIGHTGRID_GLSL)
-#define EXACTLY precise  // no compiler may rearrange what this is computed from
+#define EXACTLY precise  // the compiler may not rearrange the computation of this value
 #define real float
 #define Real3 vec3
 #define Float4 vec4

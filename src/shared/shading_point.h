@@ -1,5 +1,5 @@
-// What is the same for every light at a point: the glTF 2.0 metallic-roughness material (specification, appendix B) seen
-// from one side. View space.
+// The part of shading that all lights at a point share: the glTF 2.0 metallic-roughness material
+// (specification, appendix B) seen from one side. View space.
 #pragma once
 
 #include "shared/real.h"
@@ -10,7 +10,7 @@ namespace lightgrid {
 
 #define SHADING_PI 3.14159265358979f
 #define DIELECTRIC_F0 0.04f  // reflectance at normal incidence for an index of refraction of 1.5
-#define ROUGHNESS_FLOOR 0.045f  // below it GGX's peak leaves the range in which float keeps its shape
+#define ROUGHNESS_FLOOR 0.045f  // below it, float cannot represent the shape of GGX's peak
 
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal, to_viewer;
@@ -18,7 +18,7 @@ SHARED_STRUCT(ShadingPoint) {
   Real3 f0;       // mix(0.04, base colour, metallic)
   real alpha, alpha_squared;
   real n_dot_v;
-  real lobe;  // what the specular lobe needs of viewer and roughness (lobe_of)
+  real lobe;  // the specular lobe's term of viewer and roughness (lobe_of)
 };
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

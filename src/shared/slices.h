@@ -1,8 +1,8 @@
-// How a pixel finds its depth slice and its z-bin: comparisons with a table of edges, the same code for shaders, kernels
-// and C++. No logarithm, of which two devices may disagree.
+// How a pixel finds its depth slice and its z-bin: comparisons with a table of edges, the same code for
+// shaders, kernels and C++. Logarithms are avoided because they differ between devices.
 //
-// What is compared is a depth key: a depth value as it was stored, negated where depth is reversed, so that it grows with
-// distance. Nothing is rounded between the depth buffer and the slice.
+// The compared value is a depth key: a depth value as stored, negated where depth is reversed, so that it
+// grows with distance. Nothing is rounded between the depth buffer and the slice.
 #pragma once
 
 #include "shared/language.h"
@@ -10,7 +10,7 @@
 #define MOST_SLICES 64u
 #define MOST_Z_BINS 256u
 
-// Inner edges, ascending, then infinity.
+// Inner edges, ascending, padded with infinity.
 #ifdef LIGHTGRID_GLSL
 #ifdef SLICES
 layout(std140, binding = 2) uniform SliceEdgesBlock { float keys[MOST_SLICES]; } slice_edges;
@@ -32,7 +32,8 @@ namespace lightgrid {
 #endif
 #endif
 
-// The number of edges that the key has reached, of a power of two less one: 0 before the first and where the key is NaN.
+// Counts the edges at or below the key. `most` is a power of two minus one. 0 before the first edge and for a
+// NaN key.
 #define RETURN_REACHED(most, EDGE)                             \
   uint reached = 0u;                                           \
   for (uint ahead = most / 2u; ahead > 0u; ahead /= 2u) {      \
@@ -46,8 +47,8 @@ SHARED_FUNCTION uint slice_of_key(float key EDGES) { RETURN_REACHED(MOST_SLICES,
 #if !defined(LIGHTGRID_GLSL) || defined(Z_BINS)
 SHARED_FUNCTION uint z_bin_of_key(float key EDGES) { RETURN_REACHED(MOST_Z_BINS, Z_BIN_EDGE) }
 
-// A light's z-bins: the first in the low half of a word, the one after the last in the high half. Is one of them from `first`
-// to `last`?
+// A light's z-bins in one word: the first in the low half, one past the last in the high half. True if any of
+// them lies in [first, last].
 SHARED_FUNCTION bool bins_meet(uint bins, uint first, uint last) { return last >= (bins & 0xffffu) && first < bins >> 16; }
 SHARED_FUNCTION bool bins_hold(uint bins, uint bin) { return bins_meet(bins, bin, bin); }
 #endif

@@ -1,4 +1,4 @@
-// A view in the numbers that kernels and shaders need, and the way from a pixel to its place in view space.
+// A view as kernels and shaders read it; gives a pixel's position in view space.
 #pragma once
 
 #include "shared/language.h"
@@ -16,8 +16,8 @@ typedef struct ViewParams {
 #else
 layout(std140, binding = 0) uniform ViewParamsBlock {
 #endif
-  // Pixel coordinate p (0 at the left or bottom edge of the image, pixel centres at .5) to the slope x / distance
-  // or y / distance there; orthographic views: to x or y itself, in metres.
+  // Slope x / distance or y / distance at pixel coordinate p (0 at the left or bottom edge of the image,
+  // pixel centres at .5); orthographic views: x or y itself, in metres.
   float slope_x_scale, slope_x_offset;
   float slope_y_scale, slope_y_offset;
   // Reversed depth to distance along the view axis, in metres: perspective depth_b / (depth + depth_a),
