@@ -48,14 +48,14 @@ const char* to_string(BridgeKind kind) { return kind == BridgeKind::mapped ? "ma
 
 SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
     : cl_(&cl), kind_(kind), bytes_(bytes) {
-  const size_t allocated = std::max<size_t>(bytes, 16);  // neither API makes an empty buffer
+  const size_t allocated = std::max<size_t>(bytes, 16);  // neither API allows empty buffers
   try {
     gl_buffer_ = make_buffer(allocated, kind == BridgeKind::mapped ? mapping : 0);
     if (kind == BridgeKind::staged) staging_ = make_buffer(allocated, mapping);
     mapped_ = glMapNamedBufferRange(staging_ ? staging_ : gl_buffer_, 0, static_cast<GLsizeiptr>(allocated),
                                     mapping);
     if (!mapped_) throw machine_error("OpenGL could not map a buffer of {} bytes", bytes);
-    // OpenGL promises 64 bytes (MIN_MAP_BUFFER_ALIGNMENT), the most that a kernel's float16 needs.
+    // OpenGL guarantees 64 bytes (MIN_MAP_BUFFER_ALIGNMENT), the alignment of a kernel's float16.
     if (kind == BridgeKind::mapped && reinterpret_cast<std::uintptr_t>(mapped_) % sizeof(cl_float16) != 0) {
       throw machine_error("OpenGL mapped a buffer at {}, not on {} bytes; LIGHTGRID_BRIDGE=staged needs no alignment", mapped_,
                           sizeof(cl_float16));
@@ -91,7 +91,7 @@ SharedBuffer& SharedBuffer::operator=(SharedBuffer&& other) noexcept {
 
 void SharedBuffer::release() {
   if (!cl_) return;
-  // Kernels still queued may use the memory that goes away.
+  // Queued kernels may use the memory that is freed here.
   if (cl_buffer_()) clFinish(cl_->queue()());
   cl_buffer_ = {};
   if (copied_) glDeleteSync(copied_);

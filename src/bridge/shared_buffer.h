@@ -1,4 +1,4 @@
-// One buffer that OpenCL writes or reads and OpenGL reads or writes.
+// A buffer that OpenCL and OpenGL share; either may write it.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,21 @@ enum class BridgeKind {
   staged,  // two memories: copied through the host at each hand-over
 };
 
-// What these two devices allow: mapped on PoCL's CPU beside a software GL.
+// The kind for these two devices: mapped on PoCL's CPU with a software GL.
 // LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison); any other value is an input error.
 BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl);
 
-// OpenCL promises nothing for host memory that is used without map and unmap; PoCL's CPU device keeps one copy.
+// OpenCL guarantees nothing for host memory used without map and unmap, but PoCL's CPU device keeps only one
+// copy.
 bool may_share_memory(const ClDeviceInfo& cl, bool gl_is_software);
 
 const char* to_string(BridgeKind kind);
 
-// Fixed size, made once and reused; bytes are the same whichever way they travel. The GL context that was
-// current when it was made is current at every call, its end included, and the device outlives it.
+// Fixed size, created once and reused; the kind does not change the bytes. The GL context that was current at
+// its creation is current at every call, including destruction, and the device outlives it.
 class SharedBuffer {
  public:
-  // The contents are undefined. Throws Error(machine), naming the size, where memory runs out.
+  // The contents are undefined. Throws Error(machine), naming the size, if memory does not suffice.
   SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes);
   ~SharedBuffer();
   SharedBuffer(SharedBuffer&&) noexcept;
@@ -38,24 +39,23 @@ class SharedBuffer {
   cl::Buffer& cl_buffer() { return cl_buffer_; }
   GLuint gl_buffer() const { return gl_buffer_; }
 
-  // After OpenCL wrote the first `bytes`: waits for the queue, and for GL's copy of the last time, and makes them visible to
-  // GL.
+  // After OpenCL wrote the first `bytes`: waits for the queue, and for GL's previous copy, and makes them
+  // visible to GL.
   void hand_to_gl(size_t bytes);
-  // After GL wrote the first `bytes` (a glReadPixels into it, say): waits for GL and makes them visible to
-  // OpenCL.
+  // After GL wrote the first `bytes` (by glReadPixels, say): waits for GL and makes them visible to OpenCL.
   void hand_to_cl(size_t bytes);
 
  private:
   void release();
   void wait_for_copy();
 
-  ClDevice* cl_ = nullptr;  // null once moved from
+  ClDevice* cl_ = nullptr;  // null after a move
   BridgeKind kind_ = BridgeKind::staged;
   size_t bytes_ = 0;
   GLuint gl_buffer_ = 0;
-  GLuint staging_ = 0;      // staged only: memory that both the host and GL's copies reach
+  GLuint staging_ = 0;      // staged only: memory that the host and GL's copies share
   void* mapped_ = nullptr;  // mapped: the GL buffer's memory; staged: that of `staging_`
-  GLsync copied_ = nullptr; // staged: signalled when OpenGL has read the staging memory; null: it has
+  GLsync copied_ = nullptr; // staged: signalled when OpenGL has read the staging memory; null: already read
   cl::Buffer cl_buffer_;
 };
 

@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-// Empty where the variable is not set.
+// Empty if the variable is not set.
 std::filesystem::path path_in(const char* variable) {
   const char* value = std::getenv(variable);
   return value ? std::filesystem::path(value) : std::filesystem::path();

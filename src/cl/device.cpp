@@ -12,7 +12,8 @@
 namespace lightgrid {
 namespace {
 
-// One thread at a time: PoCL 3.1 starts in the first call, and until it has, tells other threads that it has no device.
+// One thread at a time: PoCL 3.1 initialises in the first call, and reports no device to other threads until
+// it is done.
 std::vector<cl::Device> all_devices() {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
@@ -37,7 +38,7 @@ std::vector<cl::Device> all_devices() {
 }
 
 ClDeviceInfo describe(const cl::Device& device) try {
-  // Some drivers end their strings with a zero or blanks that would show in messages and keys.
+  // Some drivers end their strings with a zero or blanks, which would show in messages and keys.
   auto trimmed = [](std::string text) {
     while (!text.empty() && (text.back() == '\0' || std::isspace(static_cast<unsigned char>(text.back()))))
       text.pop_back();

@@ -20,24 +20,24 @@ struct ClDeviceInfo {
   bool denormals = false;       // does not flush them, in single precision
 };
 
-// Why this device's light grids may differ from other devices' in some bytes; empty where nothing is known that would.
+// Why this device's light grids may differ from other devices' in some bytes; empty if no reason is known.
 std::string why_not_the_same_bytes(const ClDeviceInfo& device);
 
 class ClDevice {
  public:
-  // The first device whose "platform name" holds `substring` (any case), or with "#2" the one at that index of
-  // list_cl_devices(), for devices of the same name; empty: a GPU if there is one, else the first. Throws Error(machine)
-  // that lists the devices there are and, with none, the package that brings one.
+  // The first device whose "platform name" contains `substring` (any case), or with "#2" the one at that
+  // index of list_cl_devices(), for devices of the same name; empty: a GPU if there is one, else the first.
+  // Throws Error(machine) that lists the available devices or, with none, the package that installs one.
   explicit ClDevice(const std::string& substring = "");
 
-  // What a host program has made already: a device, a context of it, and a queue of both, all three kept alive here.
-  // Throws Error(input) where the queue is not of them or not in order. Launches are timed only with profiling enabled.
+  // A device, context and queue of the host program, all three kept alive here. Throws Error(input) if the
+  // queue belongs to others or is out of order. Launches are timed only if the queue has profiling enabled.
   ClDevice(const cl::Device& device, const cl::Context& context, const cl::CommandQueue& queue);
 
   const ClDeviceInfo& info() const { return info_; }
   cl::Device& device() { return device_; }
   cl::Context& context() { return context_; }
-  cl::CommandQueue& queue() { return queue_; }  // in order; profiling enabled where it was made here
+  cl::CommandQueue& queue() { return queue_; }  // in order; with profiling if it was created here
   ClProfiler& profiler() { return profiler_; }
 
  private:
@@ -48,10 +48,10 @@ class ClDevice {
   ClProfiler profiler_;
 };
 
-// In the order of the platforms and of each platform's devices; empty where there is none.
+// In the order of the platforms and of each platform's devices; empty if there is none.
 std::vector<ClDeviceInfo> list_cl_devices();
 
-// The index of the one that ClDevice(substring) takes; throws as it does.
+// The index of the device that ClDevice(substring) uses; throws as it does.
 size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::string& substring);
 
 }  // namespace lightgrid

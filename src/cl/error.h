@@ -1,4 +1,4 @@
-// Names for OpenCL's error codes, and its exceptions as ours.
+// Names for OpenCL's error codes, and conversion of its exceptions to Error.
 #pragma once
 
 #include <string>
@@ -11,8 +11,7 @@ namespace lightgrid {
 // "CL_OUT_OF_RESOURCES"; an unknown code in digits.
 std::string cl_error_name(cl_int code);
 
-// "clCreateBuffer failed with CL_MEM_OBJECT_ALLOCATION_FAILURE", after `context` and a colon where it is
-// given.
+// "clCreateBuffer failed with CL_MEM_OBJECT_ALLOCATION_FAILURE", after `context` and a colon if given.
 Error cl_machine_error(const cl::Error& error, const std::string& context = "");
 
 }  // namespace lightgrid

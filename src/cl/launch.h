@@ -9,7 +9,7 @@
 namespace lightgrid {
 
 // Sets `arguments` in order (buffers, numbers, plain structs, cl::Local(bytes)) and enqueues; does not wait.
-// The profiler counts it under `label`. Where `local` is given, `global` is a multiple of it.
+// The profiler counts it under `label`. `global` is a multiple of `local`, if given.
 template <typename... Arguments>
 void launch(ClDevice& device, const std::string& label, cl::Kernel& kernel, const cl::NDRange& global,
             const cl::NDRange& local, const Arguments&... arguments) {

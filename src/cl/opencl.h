@@ -1,5 +1,5 @@
-// The OpenCL C++ bindings, as this project uses them: version 1.2 of the interface, which every driver has,
-// and exceptions (cl/error.h makes them ours).
+// The OpenCL C++ bindings as this project uses them: version 1.2 of the API, which every driver has, and
+// exceptions (cl/error.h converts them).
 #pragma once
 
 #define CL_HPP_ENABLE_EXCEPTIONS

@@ -25,7 +25,7 @@ std::vector<ClProfiler::Row> ClProfiler::collect() {
   std::vector<Row> rows;
   try {
     for (const Timed& timed : pending_) {
-      if (!timed.event()) continue;  // what was to fill it failed, and said so
+      if (!timed.event()) continue;  // the call that should have filled it failed and reported that
       timed.event.wait();
       Row& row = row_of(rows, timed.label);
       ++row.launches;

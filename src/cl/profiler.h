@@ -1,4 +1,4 @@
-// What ran on an OpenCL queue: launches counted always, timed per label when asked for.
+// Counts of launches and transfers on an OpenCL queue; times per label on request.
 #pragma once
 
 #include <deque>
@@ -17,13 +17,13 @@ class ClProfiler {
     double ms = 0;  // on the device, start to end, summed over the launches
   };
 
-  // Off at first: events cost a little each, and are kept until collected.
+  // Off by default: each event has a cost and is kept until collected.
   void time_launches(bool on) { timing_ = on; }
 
-  // Counts one launch or transfer under `label`. Returns where its event goes, or null while timing is off.
+  // Counts one launch or transfer under `label`. Returns a place for its event, or null while timing is off.
   cl::Event* event(const std::string& label);
 
-  // Waits for the timed launches, adds them up by label in order of first use, and forgets them.
+  // Waits for the timed launches, sums them by label in order of first use, and clears them.
   std::vector<Row> collect();
 
   // Launches and transfers so far, timed or not.
@@ -39,7 +39,7 @@ class ClProfiler {
   bool timing_ = false;
   int count_ = 0;
   std::vector<Row> counts_;    // by label; ms unused
-  std::deque<Timed> pending_;  // a deque, so that event() can hand out addresses
+  std::deque<Timed> pending_;  // a deque, so that addresses returned by event() stay valid
 };
 
 }  // namespace lightgrid

@@ -10,8 +10,7 @@
 namespace lightgrid {
 namespace {
 
-// No -cl-mad-enable and no fast-math, ever: culling is byte-equal on every device
-// (docs/devices.md#same-bits).
+// Never -cl-mad-enable or fast-math: culling is byte-equal on every device (docs/devices.md#same-bits).
 std::string common_options(const ClDeviceInfo& device) {
   std::string options = "-cl-std=CL1.2";
   if (device.exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
@@ -23,7 +22,7 @@ bool disk_is_off() {
   return setting && (std::string_view(setting) == "off" || std::string_view(setting) == "driver");
 }
 
-// An empty program where the driver does not take the binary, as after an update that kept its version.
+// Empty if the driver rejects the binary, as after an update that kept its version.
 cl::Program load_binary(ClDevice& device, const std::string& options,
                         const std::vector<unsigned char>& binary) {
   try {

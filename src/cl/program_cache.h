@@ -13,12 +13,12 @@ namespace lightgrid {
 
 class ProgramCache {
  public:
-  // Binaries live under `folder` (default: $XDG_CACHE_HOME/lightgrid/cl or ~/.cache/lightgrid/cl), keyed by
-  // source, options, device and driver. Files are written whole and renamed, so that two processes may share
-  // the folder; a file that does not load is rebuilt and replaced. LIGHTGRID_CL_CACHE=off switches the disk
-  // part off; "driver" does the same and leaves the driver its own cache. PoCL compiles each kernel a second time to give
-  // out its binary: without ours a first build took less than half as long, and each later start 35 ms a kernel more (by
-  // hand, `verify --filter depth/all_sky$` with empty and with warm caches).
+  // Binaries are stored in `folder` (default: $XDG_CACHE_HOME/lightgrid/cl or ~/.cache/lightgrid/cl), keyed
+  // by source, options, device and driver. Files are written whole and renamed, so that two processes may
+  // share the folder; a file that does not load is rebuilt and replaced. LIGHTGRID_CL_CACHE=off disables the
+  // disk cache; "driver" does the same but keeps the driver's own cache. PoCL compiles each kernel a second
+  // time to return its binary: without our cache a first build took less than half as long, and each later
+  // start 35 ms a kernel more (measured with `verify --filter depth/all_sky$`, empty and warm caches).
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
   // The kernel `entry` of the embedded file "kernels/<entry>.cl" with its includes, built with the options

@@ -1,5 +1,5 @@
-// One built OpenCL program on disk. The file holds its whole key, so that two keys never share a program, and
-// a checksum of the binary, since some drivers crash on a damaged one instead of refusing it.
+// One built OpenCL program on disk. The file contains its whole key, so that two keys never share a program,
+// and a checksum of the binary, since some drivers crash on a damaged one instead of rejecting it.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,10 @@ namespace lightgrid {
 std::filesystem::path program_file_path(const std::filesystem::path& folder, const std::string& entry,
                                         const std::string& key);
 
-// Empty where the file is absent, cut short, damaged or of another key.
+// Empty if the file is absent, truncated, damaged or of another key.
 std::vector<unsigned char> read_program_file(const std::filesystem::path& file, const std::string& key);
 
-// Whole or not at all: written beside it and renamed. A folder that cannot be written is no error: a cache
-// may fail.
+// Writes a temporary file and renames it. A folder that cannot be written is no error: the cache is optional.
 void write_program_file(const std::filesystem::path& file, const std::string& key,
                         const std::vector<unsigned char>& binary);
 

@@ -30,8 +30,8 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
   checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, 0, bytes, from); });
 }
 
-// A fill takes its pattern when it is enqueued; a write that does not wait reads the host's memory at some later time.
-// A pattern's size is a power of two and divides the offset.
+// A fill copies its pattern when enqueued; a write that does not wait reads the host's memory at some later
+// time. A pattern's size is a power of two and divides the offset.
 void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
   assert(bytes % 4 == 0);
   for (size_t offset = 0, size = largest_pattern; offset < bytes; size /= 2) {

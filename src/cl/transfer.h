@@ -1,5 +1,5 @@
-// Transfers on a device's queue. What OpenCL refuses is Error(machine) that begins with `what`; no cl::Error leaves these.
-// Zero bytes are no transfer: OpenCL 1.2 refuses them.
+// Transfers on a device's queue. Failures throw Error(machine) whose message begins with `what`; no cl::Error
+// escapes. Zero bytes are skipped: OpenCL 1.2 rejects them.
 #pragma once
 
 #include "cl/device.h"
@@ -10,8 +10,8 @@ namespace lightgrid {
 void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, void* to, size_t bytes, size_t offset = 0);
 void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes);
 
-// Enqueues and does not wait; `from` may go or change as soon as this returns. For a few hundred bytes: each 128 are a
-// command of their own. Multiples of 4 bytes.
+// Enqueues and does not wait; `from` may be freed or changed as soon as this returns. For a few hundred
+// bytes: each 128 bytes are a separate command. Multiples of 4 bytes.
 void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes);
 
 // Enqueues and does not wait. `bytes` is a multiple of 4.

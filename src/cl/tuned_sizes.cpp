@@ -14,12 +14,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A driver's update may change what is fastest: it is part of the key.
+// A driver update may change what is fastest: it is part of the key.
 std::string key_of(const ClDeviceInfo& device) {
   return fmt::format("{} | {} | {} | {}", device.platform, device.name, device.version, device.driver);
 }
 
-// An object by device; an empty one where the file holds none.
+// An object by device; empty if the file has none.
 Json read_all(const std::filesystem::path& file) {
   std::error_code unreadable;
   if (file.empty() || !std::filesystem::is_regular_file(file, unreadable)) return Json::object();

@@ -1,4 +1,4 @@
-// The kernels that turn lights and bounds into a grid, in one of two shapes with one contract.
+// The kernels that turn lights and depth bounds into a grid, in two shapes with the same contract.
 #pragma once
 
 #include <memory>
@@ -21,9 +21,9 @@ struct PipelineOptions {
   std::string defines;        // and of cells and index type
   bool avx512 = false;
   bool slices = false;  // cells a tile: more than one
-  bool cones = false;   // some light is a spot
+  bool cones = false;   // at least one light is a spot
   int index_bytes = 2;
-  int group_size = 0;  // CullerOptions'
+  int group_size = 0;  // as in CullerOptions
   bool operator==(const PipelineOptions&) const = default;
 };
 
@@ -32,12 +32,13 @@ class CullPipeline {
   explicit CullPipeline(const PipelineOptions& options) : options(options) {}
   const PipelineOptions options;
   virtual ~CullPipeline() = default;
-  // Makes or grows its buffers for the job's sizes. Candidates and staged lists (or marks) get room as params say.
+  // Creates or enlarges its buffers for the job. params gives the capacity for candidates and staged lists
+  // (or marks).
   virtual void prepare(const CullParams& params) = 0;
   // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
   // asked for, [3] whether some bin found no room, [4] and [5] low and high word of the number of indices.
   virtual void enqueue(const CullJob& job) = 0;
-  virtual size_t candidate_bytes() const = 0;  // of one
+  virtual size_t candidate_bytes() const = 0;  // of one candidate
   virtual size_t memory_bytes() const = 0;
 };
 

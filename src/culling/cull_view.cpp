@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr int most_tiles = 32000;  // a side; tile coordinates are kept in 15 bits
+constexpr int most_tiles = 32000;  // a side; tile coordinates are stored in 15 bits
 
 template <size_t most>
 std::array<float, most> keys_of(const CullView& view, const std::vector<float>& edges) {
@@ -59,7 +59,7 @@ float depth_key(const CullView& view, float depth) { return has_standard_depth(v
 
 bool is_orthographic(const CullView& view) { return view.clip_from_view[2][3] == 0; }
 
-// clip z / w falls with distance where depth is reversed.
+// With reversed depth, clip z / w decreases with distance.
 bool has_standard_depth(const CullView& view) {
   return is_orthographic(view) ? view.clip_from_view[2][2] < 0 : view.clip_from_view[3][2] < 0;
 }
@@ -80,8 +80,8 @@ double distance_of_key(const CullView& view, double key) {
 
 namespace {
 
-// Lights past farthest_light (1e16 m) are scaled towards the eye, and what they light with them: not nearer than this
-// much of the direction's length along the axis. A slice that begins farther off could miss them.
+// Lights past farthest_light (1e16 m) are scaled towards the eye, together with the surfaces that they light.
+// Scaled surfaces stay at least `most` away along the axis; a slice that begins farther away could miss them.
 void check_edge_distance(const CullView& view, const std::vector<float>& edges, const char* name) {
   if (edges.empty() || is_orthographic(view)) return;
   const glm::dmat4& clip = view.clip_from_view;
@@ -106,7 +106,7 @@ void check_finite(const CullView& view) {
   }
 }
 
-// What must be 0 in a projection along -z, and what it is called where it is not.
+// An entry that must be 0 in a projection along -z, and its name in an error message.
 struct ZeroEntry {
   int row, column;
   const char* otherwise;
@@ -153,14 +153,14 @@ void check_projection(const CullView& view) {
   }
 }
 
-// Kernels take these numbers in float, and slack counts on products that are finite and normal.
+// Kernels read these numbers as float; the slack assumes finite, normal products.
 void check_range(const CullView& view) {
   const glm::dmat4& clip = view.clip_from_view;
   for (const double value : {2 / clip[0][0], 2 / clip[1][1], clip[2][0], clip[2][1], clip[3][0], clip[3][1], clip[2][2],
                              clip[3][2], clip[0][0], clip[1][1]}) {
     if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
   }
-  // The nearest surface that the image can show.
+  // The nearest surface in the image.
   const double near = is_oblique(view) ? near_distance(straightened(view, DepthFormat::d32f, 1).view) : near_distance(view);
   if (!is_orthographic(view)) {
     if (!(near > 0)) throw input_error("view: the near plane is at {} m, not in front of the eye", near);
@@ -242,11 +242,11 @@ CullParams cull_params(const CullView& view, int tile) {
   p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile), p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
   p.depth_a = v.depth_a, p.depth_b = v.depth_b;
   p.depth_a_rest = v.orthographic ? 0 : two_floats(clip[2][2]).rest;
-  // Blended surfaces may lie past the farthest surface, where lights are scaled towards the eye; none comes
-  // nearer than this.
+  // Blended surfaces may lie past the farthest surface, where lights are scaled towards the eye; 1e12 m is
+  // nearer than any scaled light.
   p.near_distance = v.orthographic ? v.near_distance : std::min(v.near_distance, 1e12f);
-  // A tile's side p * scale + offset rounds by 3u (|side| + |offset|), in the kernels and again in shading; the
-  // first term is within SLACK. docs/hard_cases.md#slack
+  // A tile's side p * scale + offset rounds by 3u (|side| + |offset|), in the kernels and again in shading;
+  // SLACK covers the first term. docs/hard_cases.md#slack
   const float side_slack = 8 * 0x1p-24f * (std::abs(p.slope_x_offset) + std::abs(p.slope_y_offset));
   (v.orthographic ? p.side_slack_m : p.side_slack) = side_slack;
   p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);

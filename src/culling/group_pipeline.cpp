@@ -9,9 +9,9 @@ namespace lightgrid {
 namespace {
 
 constexpr size_t project_items = 128, bin_blocks = 4, block_tiles = 4;  // kernels/common/group_grid.h
-constexpr size_t usual_items = 256;  // of kernels whose groups may have any size
+constexpr size_t usual_items = 256;  // of kernels whose work-groups may have any size
 
-// Nothing where it is the kernel's own default.
+// Empty if `items` is the kernel's own default.
 std::string group_define(size_t items) { return items == usual_items ? "" : fmt::format(" -DGROUP={}", items); }
 
 class GroupPipeline : public CullPipeline {

@@ -11,10 +11,12 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t items_a_unit = 16;  // few enough to keep their room warm, enough to share out evenly
-constexpr size_t spare = 64;  // values that a vector load or store may reach past the last
+constexpr size_t items_a_unit = 16;  // few enough that their buffers stay in the cache, enough to balance
+                                     // load
+constexpr size_t spare = 64;  // values that a vector load or store may access past the last
 
-// Near the golden section of n, and coprime to it: steps of this size visit all of n, spread evenly from early on.
+// Near the golden section of n, and coprime to it: steps of this size visit all of n and are spread evenly
+// from the start.
 size_t spreading_step(size_t n) {
   size_t step = std::max<size_t>(1, size_t(0.382 * double(n)));
   while (std::gcd(step, n) > 1) --step;

@@ -9,7 +9,7 @@ namespace {
 constexpr float endless = std::numeric_limits<float>::infinity();
 constexpr double small_part = 0x1p-8;  // of a radius
 
-// A light has a position and a radius; what lacks either is listed nowhere.
+// A light has a position and a radius; without either it is listed nowhere.
 bool is_light(const CullLight& light) {
   return light.radius_m >= 0 && std::isfinite(light.position.x) && std::isfinite(light.position.y) &&
          std::isfinite(light.position.z);
@@ -21,15 +21,15 @@ double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v
 
 double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-// 0 for no values.
+// 0 if there are no values.
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
   return values[values.size() / 2];
 }
 
-// Coordinates of actual lights, so that moving all lights by an exact amount moves the origin by that amount.
-// Lights parked far off to switch them off do not count, as long as any other is there.
+// Coordinates of actual lights: moving all lights by an exact amount moves the origin by that amount. Lights
+// parked far away, to switch them off, are ignored if there are others.
 glm::dvec3 median_position(std::span<const CullLight> lights) {
   std::vector<const CullLight*> near, far;
   for (const CullLight& light : lights) {
@@ -44,7 +44,7 @@ glm::dvec3 median_position(std::span<const CullLight> lights) {
   return middle;
 }
 
-// The difference may overflow, its half cannot.
+// The difference may overflow; half of it cannot.
 glm::dvec3 half_offset(const CullLight& light, const glm::dvec3& origin) {
   return light.position * 0.5 - origin * 0.5;
 }
@@ -63,9 +63,9 @@ float radius_rounded_up(double radius) {
   return value > 0 ? std::nextafter(value, endless) : 0.0f;
 }
 
-// A far light whose sphere stays away from the eye lights only surfaces past farthest_surface, in cells that
-// span every distance. Scaling it towards the eye keeps the directions in which such a cell sees it. The
-// scaling is towards the origin instead; the radius pays for the eye's distance from there.
+// A far light whose sphere does not reach the eye lights only surfaces past farthest_surface, in cells that
+// span every distance. Scaling towards the eye keeps the directions in which such a cell sees the light. The
+// scaling here is towards the origin; the radius is grown for the distance between eye and origin.
 UploadedSphere far_sphere(const CullLight& light, const glm::dvec3& origin, double eye_reach) {
   const glm::dvec3 half = half_offset(light, origin);
   const double size = largest(half);
@@ -83,7 +83,7 @@ UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin,
   return {glm::vec3(offset), radius_rounded_up(light.radius_m + half_ulp * sum_of(offset))};
 }
 
-// The cosine of the cone that is uploaded: the cone is wider by the cosine's rounding. 2 where the sphere
+// The uploaded cosine of the cone: the cone is widened by the cosine's rounding. 2 means that the sphere
 // alone decides.
 float uploaded_cosine(const CullLight& light, const glm::dvec3& origin) {
   return has_cone(light) && !is_far(light, origin) ? float(std::max(0.0, light.cos_outer - 1e-6)) : 2.0f;
@@ -114,7 +114,7 @@ LightOrigin choose_origin(std::span<const CullLight> lights) {
 std::vector<float> light_arrays(std::span<const CullLight> lights, const glm::dvec3& origin, double eye_reach,
                                 size_t stride) {
   std::vector<float> values(world_arrays * stride);
-  std::fill_n(values.begin() + 3 * stride, stride, -far_away);  // those past the last
+  std::fill_n(values.begin() + 3 * stride, stride, -far_away);  // padding
   for (size_t i = 0; i < lights.size(); ++i) {
     const CullLight& light = lights[i];
     const UploadedSphere sphere = uploaded_sphere(light, origin, eye_reach);

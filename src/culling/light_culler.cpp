@@ -28,7 +28,7 @@ constexpr uint most_regions = 64, most_region_bins = 16;
 constexpr size_t most_lights = size_t(1) << 30;  // kernels count lights, and a bin's pairs of lights and tiles, in 32 bits
 constexpr size_t most_entries = 0xffffffffu;
 constexpr size_t counter_count = 8;
-// Two take turns: depth_bounds counts in one and clears the other, which is cheaper than a command that clears it.
+// Used in turn: depth_bounds counts in one and clears the other, which costs less than a separate fill.
 constexpr uint invalid_tiles_counters[2] = {2, 6};
 
 int planes_of(DepthBoundsMode mode) {
@@ -39,7 +39,7 @@ int planes_of(DepthBoundsMode mode) {
 float rounded_up(double value) { return std::nextafter(float(value), infinity); }
 float rounded_down(double value) { return std::nextafter(float(value), -infinity); }
 
-// Where a tile's value of a plane lies: kernels/common/depth_bounds.h.
+// Index of a tile's value in plane `plane`: kernels/common/depth_bounds.h.
 size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, uint ty) {
   const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
   return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
@@ -55,8 +55,9 @@ size_t bytes_of(const cl::Buffer& buffer) {
   return bytes;
 }
 
-// One step of the stored format where it is coarser than slack covers, else 0. 32-bit floats near 1, where
-// standard depth has the distance, are up to 2^-24 apart; near 0, where reversed depth has it, much closer.
+// One step of the stored format if it is coarser than the slack covers, else 0. 32-bit floats near 1, where
+// standard depth stores far surfaces, are up to 2^-24 apart; near 0, where reversed depth stores them, much
+// less.
 float depth_step(DepthFormat format, bool standard_depth) {
   if (format == DepthFormat::d16) return 1.0f / 65535;
   if (format == DepthFormat::d24) return 1.0f / 16777215;
@@ -64,9 +65,9 @@ float depth_step(DepthFormat format, bool standard_depth) {
 }
 
 // Near and far of each range between two edges, metres. A pixel's range follows from comparing its stored
-// depth with the edges' keys, so a range ends where its key lies, which differs from the edge by the key's own
-// rounding: centimetres in standard depth near 1. One step of the depth format on either side is for the
-// surface's true distance, and rounding for what shading makes of it.
+// depth with the edges' keys, so a range ends at its key, which differs from the edge by the key's own
+// rounding: centimetres in standard depth near 1. One step of the depth format on either side covers the
+// surface's true distance; a rounding term covers the distance that shading computes.
 template <size_t most>
 std::vector<cl_float2> ranges_between(const CullView& view, const std::vector<float>& edges,
                                       const std::array<float, most>& keys, const CullParams& p) {
@@ -140,7 +141,7 @@ void LightCuller::upload_lights(const glm::dvec3& origin, double eye_reach) {
   uploaded_origin_ = origin;
 }
 
-// Uploads the positions relative to the eye where no fixed origin serves.
+// Uploads the positions relative to the eye if no fixed origin is accurate enough.
 void LightCuller::follow_eye() {
   const bool fixed = fixed_origin_ && glm::length(eye_ * 0.5 - *fixed_origin_ * 0.5) < farthest_surface / 2;
   const glm::dvec3 origin = fixed ? *fixed_origin_ : eye_;
@@ -176,7 +177,7 @@ void LightCuller::set_view(const CullView& view) {
   }
 }
 
-// Every slot outside the view stays empty; those inside begin as given.
+// Slots outside the view stay empty; those inside get `near` and `far`.
 cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
   std::vector<float> values(size_t(params_.bins_x) * params_.bins_y * planes * BIN_SIZE);
   for (size_t i = 0; i < values.size(); ++i) values[i] = i / BIN_SIZE % planes % 2 == 0 ? far_away : -far_away;
@@ -261,7 +262,7 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   const bool lanes = options_.shape == KernelShape::lanes;
   if (!opaque_()) opaque_ = empty_bounds(planes_of(options_.depth_bounds), far_away, -far_away);
   if (!blend_()) blend_ = options_.blend ? empty_bounds(2, far_away, -far_away) : device_buffer(device_, 0);
-  // Depth's sense is the view's: a kernel is built for the one met.
+  // The kernel depends on the view's depth direction: it is rebuilt when that changes.
   if (!bounds_kernel_() || bounds_kernel_standard_ != bool(params_.standard_depth)) {
     bounds_kernel_standard_ = params_.standard_depth;
     std::string defines =
@@ -280,7 +281,7 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   upload_params();
   const cl::Buffer values_in = oblique_ ? straight_depth(depth, depth_first, depth_row) : depth.values;
   const uint tiles_x = params_.tiles_x, tiles_y = params_.tiles_y;
-  // An item, or a group, takes tiles side by side.
+  // An item, or a group, processes several tiles side by side.
   const uint group = lanes ? 1 : depth_group_, values = uint(options_.tile * options_.samples);
   const uint tiles = lanes ? depth_tiles_an_item : std::max(depth_group_ / values, 1u);
   const uint counter = invalid_tiles_counter_ == invalid_tiles_counters[0] ? invalid_tiles_counters[1] : invalid_tiles_counters[0];
@@ -391,7 +392,7 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
       cull_into(grid, bounds, storage, cells);
     } catch (...) {
       set_room(before);
-      pipelines_[int(bounds.mode)].reset();  // gives back what it grew to
+      pipelines_[int(bounds.mode)].reset();  // frees its buffers
       throw;
     }
     if (options_.lists == GridLists::masks) make_masks(grid, storage);
@@ -404,7 +405,7 @@ void LightCuller::set_room(const Room& room) {
   params_.index_capacity = room.index_capacity;
 }
 
-// What the last grid had, or a guess.
+// The last grid's sizes, or an estimate.
 LightCuller::Room LightCuller::first_room(size_t index_bytes) const {
   const size_t tiles = size_t(params_.tiles_x) * params_.tiles_y;
   const size_t most_indices = std::min(most_entries, device_.info().max_allocation_bytes / index_bytes);
@@ -412,15 +413,15 @@ LightCuller::Room LightCuller::first_room(size_t index_bytes) const {
           uint(std::min(most_indices, std::max<size_t>(params_.index_capacity, tiles * 64)))};
 }
 
-// The whole chain is enqueued at the sizes of last time, with one wait at its end. Where something did not fit, nothing was
-// written past its room, and the chain runs again with more: with a quarter more than was asked for, since lights and
-// views move, or with just that much where there is not as much memory.
+// The whole chain is enqueued with the last call's sizes, with one wait at its end. If something did not fit,
+// nothing was written out of bounds; the chain runs again with a quarter more than was needed, since lights
+// and views move, or with exactly that if memory does not suffice for more.
 void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells) {
   const size_t index_bytes = grid.index_bits / 8, largest = device_.info().max_allocation_bytes;
   const char* advice = !row_of(options_.cull_test).planes ? "cull tests sphere and aabb count each light in every tile of the view: use planes, "
                                         "planes_aabb or exact, or fewer lights"
                                       : "use fewer or smaller lights";
-  Room needed{1, 1, 0};  // as far as is known
+  Room needed{1, 1, 0};  // lower bounds so far
   set_room(first_room(index_bytes));
   for (;;) {
     cl_uint counters[counter_count];
@@ -449,7 +450,7 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
       grow(counters[1], 64, "units of 16 list entries", &Room::staging_units);
     } else if (total > params_.index_capacity) {
       grow(total, index_bytes, "light indices", &Room::index_capacity);
-    } else if (counters[3]) {  // what was asked for went round 2^32
+    } else if (counters[3]) {  // the need exceeded 2^32
       throw machine_error("light culling: candidates and lists need more memory than {} can be asked for; {}",
                           device_.info().name, advice);
     } else {

@@ -5,15 +5,17 @@
 //   culler.set_view(view);                                      // each frame
 //   LightGrid grid = culler.cull(culler.depth_bounds(depth).opaque, storage);
 //
-// The method is tiled light culling (Olsson, Assarsson, "Tiled Shading", JGT 2011; Harada, McKee, Yang, "Forward+",
-// Eurographics 2012), in clusters where the view has slices (Olsson, Billeter, Assarsson, "Clustered Deferred and
-// Forward Shading", HPG 2012), coarse to fine. A list may hold a light too many, never one too few, for surfaces 10^-15 to
-// 10^15 m from the eye and lights anywhere: docs/hard_cases.md#the-domain has the limits and what happens past them.
+// The method is tiled light culling (Olsson, Assarsson, "Tiled Shading", JGT 2011; Harada, McKee, Yang,
+// "Forward+", Eurographics 2012), in clusters if the view has slices (Olsson, Billeter, Assarsson, "Clustered
+// Deferred and Forward Shading", HPG 2012), coarse to fine. A list may hold a light too many, never one too
+// few, for surfaces 10^-15 to 10^15 m from the eye and lights anywhere: docs/hard_cases.md#the-domain has the
+// limits and what happens past them.
 //
-// Errors are of type Error (base/error.h) alone: input where an argument is wrong or set_view was not called yet, machine
-// where the device or its memory does not suffice. Calls enqueue on the device's one queue; those that return host values,
-// and cull, wait for it. Nothing that is enqueued reads the culler's own memory: the culler may be changed, moved or
-// destroyed before the queue gets there. Objects of one device are for one thread at a time.
+// All errors are of type Error (base/error.h): input if an argument is wrong or set_view was not called yet,
+// machine if the device or its memory does not suffice. Calls enqueue on the device's one queue; cull, and
+// calls that return host values, wait for it. Enqueued work never reads the culler's own memory: the culler
+// may be changed, moved or destroyed before the queue has finished. Objects of one device are for one thread
+// at a time.
 #pragma once
 
 #include <limits>
@@ -29,27 +31,28 @@
 
 namespace lightgrid {
 
-// A point light, or a spot: what it may reach is a sphere, or the part of it in a cone. World space, metres.
+// A point or spot light: it reaches a sphere, or the part of the sphere in a cone. World space, metres.
 struct CullLight {
   glm::dvec3 position{0};  // finite
-  // Past it the light adds nothing. Infinite: a light without end; 0: the point alone; negative or NaN: listed nowhere.
+  // Zero contribution past it. Infinite: no range; 0: the point alone; negative or NaN: listed nowhere.
   double radius_m = std::numeric_limits<double>::infinity();
-  glm::dvec3 direction{0, 0, -1};  // unit, the way a spot shines
+  glm::dvec3 direction{0, 0, -1};  // unit, the spot's axis
   // Cosine of a spot's outer half-angle; below 0 (no cone, or one past 90 degrees) the sphere decides.
   double cos_outer = -1;
 };
 
-// A depth buffer of this view in OpenCL memory: 32-bit floats, row 0 at the bottom, with `samples` values side by side
-// for each pixel. A value is z / w of clip_from_view, 0 to 1; the far end of that (0 in reversed depth, 1 in standard)
-// means that no surface is there. The view may be a part of a larger image.
+// A depth buffer of this view in OpenCL memory: 32-bit floats, row 0 at the bottom, with `samples` values
+// side by side for each pixel. A value is z / w of clip_from_view, 0 to 1; the far end of that (0 in reversed
+// depth, 1 in standard) means no surface. The view may be a part of a larger image.
 struct DepthInput {
   cl::Buffer values;   // of the culler's context; (y + height - 1) * row_pixels + x + width pixels or more
   int row_pixels = 0;  // pixels from row to row, x + width or more; 0: the view's width
   int x = 0, y = 0;    // the view's lower left pixel in the image, 0 or more
 };
 
-// Intervals of distances, one or two a tile, on the device, for views of this size. How they lie there is the kernels'
-// affair: LightCuller::read_bounds. The buffer is the culler's own and is written again by the next depth_bounds.
+// Intervals of distances, one or two a tile, on the device, for views of this size. Their layout is private
+// to the kernels: use LightCuller::read_bounds. The culler owns the buffer and overwrites it in the next
+// depth_bounds.
 struct TileBounds {
   cl::Buffer values;
   DepthBoundsMode mode = DepthBoundsMode::minmax;
@@ -57,7 +60,8 @@ struct TileBounds {
 
 struct DepthBounds {
   TileBounds opaque;  // of the surfaces in the depth buffer
-  TileBounds blend;   // from the near plane to where a blended surface can be seen; null unless options asked for it
+  TileBounds blend;   // from the near plane to the farthest visible blended surface; null unless
+                      // CullerOptions::blend
 };
 
 struct DepthInterval {
@@ -65,16 +69,16 @@ struct DepthInterval {
   bool operator==(const DepthInterval&) const = default;
 };
 
-// Where a light grid is kept, of one culler at a time. ClGridStorage keeps it in OpenCL buffers of its own; a renderer
-// may give memory that its graphics interface sees too. Sizes are bytes; a call may ask for more than the grid needs.
+// Memory of a light grid, for one culler at a time. ClGridStorage uses OpenCL buffers of its own; a renderer
+// may use memory shared with its graphics API. Sizes are bytes; a call may request more than the grid needs.
 class GridStorage {
  public:
   virtual ~GridStorage() = default;
-  // A buffer of at least `bytes` in the culler's context; what it held may be lost when it grows, not otherwise.
+  // A buffer of at least `bytes` in the culler's context; growing it may lose its contents.
   virtual cl::Buffer& cells(size_t bytes) = 0;
   virtual cl::Buffer& indices(size_t bytes) = 0;
-  virtual cl::Buffer& masks(size_t bytes) = 0;  // asked for only where CullerOptions wants masks
-  virtual cl::Buffer& z_bins(size_t bytes) = 0;  // only where the view has z-bins
+  virtual cl::Buffer& masks(size_t bytes) = 0;  // called only with GridLists::masks
+  virtual cl::Buffer& z_bins(size_t bytes) = 0;  // called only if the view has z-bins
 };
 
 class ClGridStorage : public GridStorage {
@@ -92,20 +96,20 @@ class ClGridStorage : public GridStorage {
   size_t cells_bytes_ = 0, indices_bytes_ = 0, masks_bytes_ = 0, z_bins_bytes_ = 0;
 };
 
-// The finished grid in its storage. Cells: uint2(first, count) into the indices, x fastest, then y from the bottom,
-// then slice from the near plane; cell_of_pixel (shared/light_grid.h) finds a pixel's first one. Indices: of
-// set_lights' lights, each cell's sorted and without repetition. Masks, where they were asked for: mask_words 32-bit words a
-// cell, in the cells' order, in which light i is bit i % 32 of word i / 32; they say what the lists say. Z-bins, where the view
-// has some: a word a light, of which bins_hold (shared/slices.h) tells a pixel in z-bin z_bin_of_key whether the light may
-// reach it; shading passes over listed lights that it holds not for. Same bytes on every device, in every kernel shape, for
-// any number of threads.
+// The finished grid in its storage. Cells: uint2(first, count) into the indices, x fastest, then y from the
+// bottom, then slice from the near plane; cell_of_pixel (shared/light_grid.h) finds a pixel's first one.
+// Indices: into set_lights' lights, each cell's sorted and without repetition. Masks, with GridLists::masks:
+// mask_words 32-bit words a cell, in the cells' order, in which light i is bit i % 32 of word i / 32; they
+// hold the same sets as the lists. Z-bins, if the view has any: a word a light. shared/slices.h tests it
+// against a pixel's z-bin (z_bin_of_key); shading skips a listed light whose z-bins do not include the
+// pixel's. Same bytes on every device, in every kernel shape, for any number of threads.
 struct LightGrid {
   int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
   uint64_t index_count = 0;                  // of all lists together, below 2^32
   int index_bits = 16;                       // 16 or 32 each
   size_t cell_bytes = 0, index_bytes = 0;    // in use; the storage's buffers may be larger
-  size_t mask_words = 0, mask_bytes = 0;     // 0 where there are no masks
-  size_t z_bin_bytes = 0;                    // 0 where there are no z-bins
+  size_t mask_words = 0, mask_bytes = 0;     // 0 without masks
+  size_t z_bin_bytes = 0;                    // 0 without z-bins
 };
 
 // A grid on the host, in the same order; indices are widened to 32 bits.
@@ -113,18 +117,18 @@ struct HostGrid {
   int cells_x = 0, cells_y = 0, slices = 1;
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;
-  std::vector<uint32_t> masks;    // empty where there are none
-  std::vector<uint32_t> z_bins;   // likewise; else a word a light
+  std::vector<uint32_t> masks;    // empty without masks
+  std::vector<uint32_t> z_bins;   // a word a light; empty without z-bins
   bool operator==(const HostGrid&) const = default;
 };
 // Waits.
 HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage);
 
-// What the depth values were rounded to before they became floats: bounds are widened by a step of it. A surface so far
-// off that the format rounds its depth to the far end counts as none.
+// The format of the depth values before they became floats: bounds are widened by one step of it. A surface
+// so far away that the format rounds its depth to the far end counts as background.
 enum class DepthFormat { d32f, d24, d16 };
 
-// shared/cull_settings.h says what the choices are, and where they come from.
+// shared/cull_settings.h describes the choices and their sources.
 struct CullerOptions {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
@@ -133,20 +137,21 @@ struct CullerOptions {
   DepthFormat depth_format = DepthFormat::d32f;
   int samples = 1;             // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
   GridLists lists = GridLists::lists;  // masks: bitmasks as well
-  bool blend = false;          // blended surfaces need bounds of their own
-  int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights. More than those take 32 in any case
-  bool pixel_centres = true;   // cells span their pixels' centres, which is all that is shaded; false: whole pixels
-  bool portable = false;       // no builtins of one kind of CPU
-  int group_size = 0;          // work-items that cull a block of 4 x 4 tiles in the group shape: 64, 128, 256, 512 or 1024,
-                               // as far as the device allows; 0: 256
+  bool blend = false;          // depth bounds and a grid for blended surfaces
+  int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights. More lights always take 32
+  bool pixel_centres = true;   // cells span the centres of their pixels, as shading does; false: whole pixels
+  bool portable = false;       // no builtins that only some CPUs have
+  int group_size = 0;          // work-items that cull a block of 4 x 4 tiles in the group shape: 64, 128,
+                               // 256, 512 or 1024, as far as the device allows; 0: 256
 };
 
-// All that the culling kernels read, as it lies in the device's memory: for a check that does their work by other means.
+// All input of the culling kernels, with the layout of the device's memory: for checks that compute the grid
+// otherwise.
 struct CullInputs {
   CullParams params{};
   DepthBoundsMode mode = DepthBoundsMode::minmax;
   std::vector<float> lights, bounds;  // kernels/common/light_arrays.h, depth_bounds.h
-  std::vector<glm::vec2> slices;      // near and far of each, metres; of a single one infinite
+  std::vector<glm::vec2> slices;      // near and far of each, metres; a single slice is infinite
 };
 
 class CullPipeline;
@@ -155,46 +160,46 @@ struct StraightView;
 
 class LightCuller {
  public:
-  // Both outlive it. Kernels are built where they are first needed, or taken from the cache. Throws Error(input) for a
-  // value that CullerOptions does not list.
+  // Device and cache outlive it. Kernels are built at first use or taken from the cache. Throws Error(input)
+  // for a value that CullerOptions does not list.
   LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options);
   ~LightCuller();
   LightCuller(LightCuller&&) noexcept;
 
-  // The lights, in the order their indices mean: uploaded here, once, for any number of views. Waits. Throws
+  // The lights, in the order of their indices: uploaded once, for any number of views. Waits. Throws
   // Error(machine) for 2^30 lights or more.
   void set_lights(std::span<const CullLight> lights);
-  // Throws Error(input) as check_view does. Before any of the calls below.
+  // Throws Error(input) as check_view does. Call before the functions below.
   void set_view(const CullView& view);
 
-  // The view's tiles, of which the last ones may be cut, each to the distances of the surfaces in it. `depth` is not
-  // read where options say DepthBoundsMode::none. Throws Error(input) where the buffer does not cover the view.
+  // The distances of the surfaces in each of the view's tiles; the last tiles may be cut. `depth` is not read
+  // with DepthBoundsMode::none. Throws Error(input) if the buffer does not cover the view.
   DepthBounds depth_bounds(const DepthInput& depth);
-  // Given intervals instead, one a tile, x fastest, then y from the bottom: at most tiles_x * tiles_y of params();
-  // tiles past the last are empty, and more are Error(input). They are taken as they are, not widened.
+  // Bounds from the given intervals, one a tile, x fastest, then y from the bottom: at most tiles_x * tiles_y
+  // of params(); missing tiles are empty, and more are Error(input). The intervals are not widened.
   TileBounds bounds_of(std::span<const DepthInterval> intervals);
-  // One a tile, in that order; of two halves, both together. Waits.
+  // One interval a tile, in that order; the two halves of a tile are merged. Waits.
   std::vector<DepthInterval> read_bounds(const TileBounds& bounds);
 
-  // The grid of the lights, the view and the bounds (of this view), in `storage`. Memory is sized by what a first pass
-  // counts, grows, and the work is done again where it was short. Growth asks for a quarter more than is needed, and for
-  // just that where the device or `storage` throws Error. More than 2^32 - 1 indices or more memory than there is, is
-  // Error(machine), after which the culler is as it was; nothing is ever left out.
+  // The grid of the lights, the view and the bounds (of this view), in `storage`. If memory sized by the last
+  // grid does not suffice, it grows and the work is repeated. It grows to a quarter more than is needed, or
+  // to the exact size if the device or `storage` throws Error. More than 2^32 - 1 indices or insufficient
+  // memory is Error(machine), after which the culler is unchanged; nothing is ever left out.
   LightGrid cull(const TileBounds& bounds, GridStorage& storage);
 
-  // What cull(bounds) would read. Waits.
+  // The input of cull(bounds). Waits.
   CullInputs read_inputs(const TileBounds& bounds);
 
-  // Tiles of the last depth_bounds in which some value was no depth: NaN, infinite, negative or past 1. They span every
-  // distance. Waits.
+  // Tiles of the last depth_bounds with an invalid depth value: NaN, infinite, negative or past 1. Such tiles
+  // span every distance. Waits.
   uint32_t invalid_depth_tiles();
 
-  size_t memory_bytes() const;  // of all buffers but the grid's own
+  size_t memory_bytes() const;  // of all buffers except the grid's
   KernelShape shape() const { return options_.shape; }
-  const CullParams& params() const { return params_; }  // tiles_x, tiles_y and what else kernels know of the view
+  const CullParams& params() const { return params_; }  // tiles_x, tiles_y and the rest of the kernels' view
 
  private:
-  // Sizes of the buffers between kernels, and of the indices: as CullParams has them.
+  // Sizes of the buffers between kernels, and of the indices; units as in CullParams.
   struct Room {
     uint pool_blocks = 0, staging_units = 0, index_capacity = 0;
     bool operator==(const Room&) const = default;
@@ -224,22 +229,22 @@ class LightCuller {
   CullerOptions options_;
   bool cones_ = false;
   std::optional<bool> avx512_;  // whether the device builds AVX-512 kernels
-  std::vector<CullLight> host_lights_;         // to be uploaded again where the origin must follow the eye
+  std::vector<CullLight> host_lights_;         // to upload again when the origin follows the eye
   std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
-  std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: none are there yet
+  std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: not uploaded yet
   double cone_slack_m_ = 0;
   glm::dvec3 eye_{0};                          // world
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
-  std::optional<CullParams> uploaded_;  // what params_buffer_ holds when the queue is done
-  std::unique_ptr<StraightView> oblique_;  // where the view's near plane is oblique
+  std::optional<CullParams> uploaded_;  // contents of params_buffer_ when the queue is done
+  std::unique_ptr<StraightView> oblique_;  // if the view's near plane is oblique
   std::unique_ptr<GrowingBuffer> straight_depth_;
   cl::Kernel straighten_kernel_;
   cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
   cl::Buffer params_buffer_, slices_, z_bins_, opaque_, blend_, counters_;
   uint z_bin_count_ = 1, depth_group_ = 0;
-  uint invalid_tiles_counter_ = 0;  // which of counters_ the last depth_bounds counts in; 0: there was none
+  uint invalid_tiles_counter_ = 0;  // index in counters_ that the last depth_bounds counts in; 0: none yet
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
   std::unique_ptr<GrowingBuffer> lights_;

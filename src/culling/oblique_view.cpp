@@ -13,7 +13,7 @@ struct Slopes {
   double largest() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
-// Of the image's two sides: NDC = clip[axis][axis] * slope - clip[2][axis].
+// The slopes of the image's two sides: NDC = clip[axis][axis] * slope - clip[2][axis].
 Slopes slopes_of(const CullView& view, int axis) {
   const double scale = view.clip_from_view[axis][axis], offset = view.clip_from_view[2][axis];
   return {(-1 + offset) / scale, (1 + offset) / scale};
@@ -25,9 +25,9 @@ bool is_oblique(const CullView& view) {
   return !is_orthographic(view) && (view.clip_from_view[0][2] != 0 || view.clip_from_view[1][2] != 0);
 }
 
-// A surface at distance D has depth = tilt + b / D - a with tilt = tilt_x x + tilt_y y, a = clip[2][2], b = clip[3][2].
-// So u = depth + a - tilt = b / D, and u over its largest value in the image is the reversed depth of a near plane at
-// the least distance there is.
+// A surface at distance D has depth = tilt + b / D - a with tilt = tilt_x x + tilt_y y, a = clip[2][2], b =
+// clip[3][2]. So u = depth + a - tilt = b / D. Dividing u by its largest value in the image gives the
+// reversed depth of a view whose near plane is at the least distance.
 StraightView straightened(const CullView& view, DepthFormat format, int samples) {
   const glm::dmat4& clip = view.clip_from_view;
   const double tilt_x = clip[0][2], tilt_y = clip[1][2], a = clip[2][2], b = clip[3][2];

@@ -1,5 +1,5 @@
-// The ways to an OpenGL context, one file each. They open their library at run time and throw Error(machine)
-// that says in one clause why they could not.
+// The backends for an OpenGL context, one file each. They open their library at run time; if that fails, they
+// throw Error(machine) with the reason in one clause.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace lightgrid {
 
 std::unique_ptr<GlContext> create_osmesa_context();
 
-// Hardware first. With `hardware_only`, a context that turns out to be a software renderer's counts as none.
+// Hardware first. With `hardware_only`, software renderers are rejected.
 std::unique_ptr<GlContext> create_egl_context(bool hardware_only);
 
 }  // namespace lightgrid

@@ -17,8 +17,8 @@ std::string gl_string(GLenum name) {
 }
 
 #ifndef NDEBUG
-// Aborts rather than throws: the driver's C frames lie between here and the call. Shader compilers report
-// through here too, and out of memory is the machine's doing: both are for the caller to check.
+// Aborts rather than throws: the driver's C frames lie between here and the call. Shader compiler messages
+// and out-of-memory errors also arrive here; the caller checks for both.
 void APIENTRY on_debug_message(GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                                const void*) {
   if (source != GL_DEBUG_SOURCE_API || type != GL_DEBUG_TYPE_ERROR) return;

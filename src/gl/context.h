@@ -13,25 +13,26 @@ GlBackend parse_gl_backend(const std::string& name);
 
 class GlContext {
  public:
-  // Makes a context and makes it current on this thread. automatic: EGL where it gives a hardware device, else
-  // OSMesa, else EGL. Throws Error(machine) that says what was tried and which package would help.
+  // Creates a context and makes it current on this thread. automatic: EGL if it offers a hardware device,
+  // else OSMesa, else EGL. Throws Error(machine) that lists the attempts and the package that would help.
   static std::unique_ptr<GlContext> create(GlBackend backend = GlBackend::automatic);
   virtual ~GlContext() = default;
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  // Makes it this thread's context and loads the functions of gl.h from its library: OSMesa's and EGL's differ.
+  // Makes it this thread's context and loads the functions of gl.h from its library: OSMesa's and EGL's
+  // differ.
   virtual void make_current() = 0;
 
   std::string backend;   // "osmesa" or "egl"
   std::string vendor, renderer, version;
-  bool software = false;  // llvmpipe or softpipe: its memory is the CPU's own
+  bool software = false;  // llvmpipe or softpipe: renders in the CPU's memory
 
  protected:
   GlContext() = default;
 
-  // For the backends, once their context is current: the names above, and in debug builds the debug output, where
-  // an OpenGL error prints its message and aborts. Throws Error(machine) below OpenGL 4.5.
+  // For the backends, once their context is current: sets the names above and, in debug builds, the debug
+  // output, which prints each OpenGL error and aborts. Throws Error(machine) below OpenGL 4.5.
   void describe();
 };
 

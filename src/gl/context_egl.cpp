@@ -26,7 +26,7 @@ struct Egl {
 #undef LIGHTGRID_EGL_MEMBER
 };
 
-// Never closed again: drivers' threads do not survive being unloaded.
+// Never closed: drivers' threads crash when their library is unloaded.
 const Egl& egl() {
   static const Egl functions = [] {
     void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
@@ -55,7 +55,7 @@ void* get_gl_function(const char* name) { return reinterpret_cast<void*>(egl().e
 
 class EglGlContext final : public GlContext {
  public:
-  // Displays are not terminated: EGL gives every caller in the process the same one.
+  // Displays are not terminated: EGL returns the same one to every caller in the process.
   explicit EglGlContext(EGLDisplay display) : display_(display) {
     if (!egl().eglInitialize(display, nullptr, nullptr)) throw failure("eglInitialize");
     if (!has_extension(egl().eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
@@ -87,7 +87,7 @@ class EglGlContext final : public GlContext {
   ~EglGlContext() override { release(); }
 
   void make_current() override {
-    // The bound API belongs to the thread, which may be another than the one that made the context.
+    // The bound API belongs to the thread, which may differ from the thread that created the context.
     egl().eglBindAPI(EGL_OPENGL_API);
     if (!egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
       throw failure("eglMakeCurrent");
@@ -121,7 +121,7 @@ class EglGlContext final : public GlContext {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-// Displays of the graphics cards there are, the driver's own order; a software renderer is not among them.
+// Displays of the graphics cards, in the driver's order; software renderers are excluded.
 std::vector<EGLDisplay> hardware_displays(const char* client_extensions) {
   if (!has_extension(client_extensions, "EGL_EXT_platform_device")) return {};
   const auto query_devices =

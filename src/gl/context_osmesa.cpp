@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-// From Mesa's GL/osmesa.h, which cannot be included beside glcorearb.h and has left newer Mesa packages.
+// From Mesa's GL/osmesa.h, which conflicts with glcorearb.h and is missing from newer Mesa packages.
 using OsmesaContext = struct OsmesaContextData*;
 constexpr int osmesa_format = 0x22, osmesa_depth_bits = 0x30, osmesa_stencil_bits = 0x31,
               osmesa_profile = 0x33, osmesa_core_profile = 0x34, osmesa_context_major_version = 0x36,
@@ -24,7 +24,7 @@ struct Osmesa {
   void* (*get_proc_address)(const char*) = nullptr;
 };
 
-// Never closed again: Mesa's threads and LLVM do not survive being unloaded.
+// Never closed: Mesa's threads and LLVM crash when their library is unloaded.
 const Osmesa& osmesa() {
   static const Osmesa functions = [] {
     void* library = nullptr;
@@ -90,7 +90,7 @@ class OsmesaGlContext final : public GlContext {
     osmesa().destroy(context_);
   }
 
-  // OSMesa asks for a window's memory; all drawing goes to framebuffer objects.
+  // OSMesa requires memory for a window; all drawing goes to framebuffer objects.
   static constexpr int window_size = 8;
   std::array<unsigned char, window_size* window_size* 4> window_ = {};
   OsmesaContext context_ = nullptr;

@@ -1,4 +1,5 @@
-// OpenGL's pending errors as ours. Debug builds abort at the call that made one; release builds learn of it here.
+// Converts OpenGL's pending errors to Error. Debug builds abort at the failing call; release builds detect it
+// here.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@ namespace lightgrid {
 
 std::string gl_error_name(GLenum error);
 
-// Throws Error(machine) that names the error and `where`, if an earlier call left one; no error is pending afterwards.
+// Throws Error(machine) that names the error and `where` if one is pending, and clears all pending errors.
 void check_gl(const char* where);
 
 }  // namespace lightgrid

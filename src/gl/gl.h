@@ -1,5 +1,5 @@
-// OpenGL 4.5 core: types from Khronos' glcorearb.h, functions found at run time by the current context's loader.
-// Functions keep their OpenGL names; one more line in the list makes another available.
+// OpenGL 4.5 core: types from Khronos' glcorearb.h, functions found at run time by the current context's
+// loader. Functions keep their OpenGL names; add a line to the list to load another.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -86,7 +86,7 @@ namespace lightgrid {
 LIGHTGRID_GL_FUNCTIONS(LIGHTGRID_GL_DECLARE)
 #undef LIGHTGRID_GL_DECLARE
 
-// Fills in the functions of the context that is current. Throws Error(machine) naming the first that is missing.
+// Loads the functions of the current context. Throws Error(machine) naming the first that is missing.
 void load_gl_functions(void* (*get_proc_address)(const char*));
 
 }  // namespace lightgrid

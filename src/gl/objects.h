@@ -1,4 +1,4 @@
-// OpenGL objects that free themselves, counted while they live (tests of the frame plan read the counts).
+// OpenGL objects that free themselves. Live objects are counted, for tests of the frame plan.
 #pragma once
 
 #include <cstddef>
@@ -42,14 +42,15 @@ using GlFramebuffer = GlObject<GlKind::framebuffer>;
 using GlSampler = GlObject<GlKind::sampler>;
 using GlVertexArray = GlObject<GlKind::vertex_array>;
 
-// Both throw Error(machine) with the size where there is no room, and where an earlier call left an error.
+// Both throw Error(machine) with the size if memory does not suffice, and if an earlier call left an error.
 GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags = 0);
 GlTexture make_texture_2d(GLenum format, int width, int height, int levels = 1);
 GlTexture make_buffer_texture(GLenum format, GLuint buffer);
 GlSampler make_sampler();
 GlVertexArray make_vertex_array();
 
-// A framebuffer of colour attachments and a depth texture, perhaps with stencil (0: none), checked for completeness.
+// A framebuffer of colour attachments and a depth texture (0: none), possibly with stencil; checked for
+// completeness.
 GlFramebuffer make_framebuffer(const std::vector<GLuint>& colors, GLuint depth);
 
 }  // namespace lightgrid

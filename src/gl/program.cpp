@@ -9,7 +9,7 @@ namespace {
 class Shader {
  public:
   explicit Shader(GLenum stage) : name(glCreateShader(stage)) {}
-  ~Shader() { glDeleteShader(name); }  // one that is attached lives on with its program
+  ~Shader() { glDeleteShader(name); }  // an attached shader lives as long as its program
   Shader(const Shader&) = delete;
   Shader& operator=(const Shader&) = delete;
   const GLuint name;

@@ -11,12 +11,12 @@ namespace lightgrid {
 
 class GlProgram {
  public:
-  // Vertex and fragment shader by their embedded paths, each after "#define NAME" for every name in `defines`.
-  // A failure to compile is our own: it throws Error(machine) with the log, since drivers differ.
+  // Vertex and fragment shader by their embedded paths, each after "#define NAME" for every name in
+  // `defines`. A compile error throws Error(machine) with the log: drivers differ in what they accept.
   GlProgram(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines);
 
   GLuint name() const { return object_.name(); }
-  GLint uniform(const std::string& name) const;  // -1 where the program has none; cached
+  GLint uniform(const std::string& name) const;  // -1 if the program does not have it; cached
 
  private:
   GlObject<GlKind::program> object_;

@@ -1,10 +1,10 @@
-// The state of a context that passes change.
+// The context state that passes change.
 #pragma once
 
 namespace lightgrid {
 
-// Sets what passes enable, mask and bind back to what a new context has. A frame begins with it: what an exception in the
-// middle of a pass left behind is not the next frame's.
+// Resets everything that passes enable, mask and bind to the state of a new context. Each frame starts with
+// it, so that an exception in the middle of a pass does not affect the next frame.
 void reset_gl_state();
 
 }  // namespace lightgrid

@@ -5,10 +5,10 @@
 namespace lightgrid {
 namespace {
 
-// Large enough that a draw's cost is its triangles, small enough that a cluster is mostly in view or out of
-// it.
+// Large enough that triangles dominate the cost of a draw, small enough that most clusters are either in view
+// or outside.
 constexpr size_t max_vertices = 128, max_triangles = 128;
-// How much meshlets favour triangles that face one way: so that whole clusters turn away from the eye.
+// Weight by which meshlets prefer triangles that face one way, so that whole clusters are back-facing.
 constexpr float cone_weight = 0.5f;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Meshes cut into clusters of neighbouring triangles, so that what the view cannot see is not drawn.
+// Meshes cut into clusters of neighbouring triangles, so that invisible ones are not drawn.
 #pragma once
 
 #include <span>
@@ -8,11 +8,13 @@
 
 namespace lightgrid {
 
-// Appends the mesh's indices to `indices`, cluster by cluster (meshoptimizer's meshlets), and returns the clusters.
-// keep_order: one cluster with the triangles as they are, for blended meshes, where order decides what lies over what.
+// Appends the mesh's indices to `indices`, cluster by cluster (meshoptimizer's meshlets), and returns the
+// clusters. keep_order: one cluster with the triangles in the given order, for blended meshes, where the
+// order is visible.
 std::vector<TriangleCluster> append_clusters(const Mesh& mesh, bool keep_order, std::vector<uint32_t>& indices);
 
-// Bounds and cones of the same clusters after the mesh's vertices moved. `indices`: all that append_clusters appended for it.
+// Updates bounds and cones of the same clusters after vertices moved. `indices`: all that append_clusters
+// appended.
 void refresh_clusters(const Mesh& mesh, std::span<const uint32_t> indices, std::vector<TriangleCluster>& clusters);
 
 }  // namespace lightgrid

@@ -1,4 +1,4 @@
-// What culling takes, made of a scene and a view of it. Needs no OpenGL.
+// The culler's input for a scene and a view of it. Needs no OpenGL.
 #pragma once
 
 #include <span>
@@ -9,14 +9,14 @@
 
 namespace lightgrid {
 
-// Without slices; with those and the z-bins of a plan.
+// Without slices; with the plan: with its slices and z-bins.
 CullView cull_view(const View& view);
 CullView cull_view(const View& view, const FramePlan& plan);
 
-// The lights `indices` of a scene. World space, metres.
+// The lights of a scene at `indices`. World space, metres.
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices);
 
-// The options of a culler that serves a plan.
+// The culler options of a plan.
 CullerOptions culler_options(const FramePlan& plan);
 
 }  // namespace lightgrid

@@ -6,8 +6,8 @@
 
 namespace lightgrid {
 
-// A software rasteriser starts on what was drawn only when it is flushed. Handing it a part at a time lets it
-// work while the vertices of the next part are shaded.
+// A software rasteriser starts only at a flush. Flushing a part at a time lets it rasterise while the
+// vertices of the next part are shaded.
 static constexpr GLsizei indices_per_flush = 3 * 25'000;
 
 void InstanceDrawer::bind(int index, const SceneProgram& program) {

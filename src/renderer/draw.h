@@ -1,4 +1,4 @@
-// Drawing lists of a view.
+// Drawing of draw lists.
 #pragma once
 
 #include <functional>
@@ -9,13 +9,13 @@ namespace lightgrid {
 
 enum class DrawStreams { positions_where_possible, all };
 
-// Draws parts of instances; sets only what the last bind left otherwise.
+// Draws parts of instances; changes only state that differs from the last bind.
 class InstanceDrawer {
  public:
   InstanceDrawer(RenderView& v, DrawStreams streams) : v_(v), streams_(streams) {}
 
-  // The program with the instance's material and matrices, winding by the sign of the determinant, and face culling by
-  // double-sidedness. Uniforms of the caller's own may be set after it.
+  // Binds the program with the instance's material and matrices; sets winding by the sign of the determinant,
+  // and face culling unless double-sided. The caller may set its own uniforms afterwards.
   void bind(int instance, const SceneProgram& program);
   void draw(const IndexRanges& ranges);
 
@@ -27,11 +27,12 @@ class InstanceDrawer {
   GLsizei unflushed_indices_ = 0;
 };
 
-// Draws a list with the programs of its instances' features. `features_read`: those that make variants.
+// Draws a list with a program for each instance's features. `features_read`: the features that select
+// variants.
 void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs,
                const std::function<uint32_t(uint32_t features)>& features_read = nullptr);
 
-// A triangle over the whole image (shaders/screen.vert).
+// A triangle that covers the image (shaders/screen.vert).
 void draw_screen(const GlProgram& program);
 
 }  // namespace lightgrid

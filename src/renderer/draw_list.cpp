@@ -10,7 +10,7 @@
 namespace lightgrid {
 namespace {
 
-// Float rounding of vertices, depth and intervals, all told under a part in 10^5 of the distance.
+// Bounds the float rounding of vertices, depth and intervals together: under 1e-5 of the distance.
 constexpr double rounding = 1e-5;
 
 bool faces_away(const TriangleCluster& cluster, const glm::dvec3& eye_in_object) {
@@ -20,7 +20,7 @@ bool faces_away(const TriangleCluster& cluster, const glm::dvec3& eye_in_object)
          (cluster.cone_cutoff + rounding) * glm::length(from_eye);
 }
 
-// Is the box behind the farthest surface of every tile that it may cover?
+// True if the box is behind the farthest surface of every tile that it may cover.
 bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParams& view,
             const TileDistances& tiles) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -50,10 +50,10 @@ bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParam
   return true;
 }
 
-// Layers of distance from the eye, nearest first: what is drawn in their order is mostly drawn front to back.
+// Layers of distance from the eye, nearest first: drawing in their order is mostly front to back.
 constexpr int distance_layers = 5;
 
-// Each layer ends at twice the distance of the one before it; the last holds all beyond.
+// Each layer ends at twice the distance of the previous one; the last has no end.
 int layer_of(const Aabb& box, const glm::dmat4& view_from_object, double far_m) {
   const glm::dvec3 middle = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
   const double distance = -(view_from_object * glm::dvec4(middle, 1)).z;
@@ -64,7 +64,7 @@ int layer_of(const Aabb& box, const glm::dmat4& view_from_object, double far_m) 
 
 using Layers = std::array<std::vector<uint32_t>, distance_layers>;
 
-// Of one instance, by layer; a cluster is in the layer of its middle.
+// The visible clusters of one instance, by layer; a cluster belongs to the layer of its centre.
 Layers visible_clusters(const GpuScene& gpu, const View& view, const Frustum& frustum, int instance,
                         const glm::dmat4& view_from_object, double far_m) {
   const Scene& scene = gpu.scene();

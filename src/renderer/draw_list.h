@@ -1,4 +1,4 @@
-// What a view draws of its scene: clusters of triangles in its frustum, turned towards it, in drawing order.
+// The triangles that a view draws: clusters in its frustum that face it, in drawing order.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ namespace lightgrid {
 struct InstanceTransform {
   glm::dmat4 view_from_object;
   glm::mat4 clip_from_object;
-  glm::mat3 directions, normals;  // view from object: of directions, and of normals (its inverse transpose)
-  bool mirrored = false;          // a negative determinant: front faces turn clockwise
+  glm::mat3 directions, normals;  // view from object, for directions and for normals (inverse transpose)
+  bool mirrored = false;          // negative determinant: front faces are clockwise
 };
 
 InstanceTransform instance_transform(const View& view, const Instance& instance);
@@ -31,7 +31,7 @@ struct IndexRanges {
 
 IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters);
 
-// The same triangles, last to first. For scenes with reversed triangles.
+// The same triangles, last to first. Requires reversed triangles (GpuScene).
 IndexRanges in_reverse(const IndexRanges& ranges, const GpuScene& gpu);
 
 // Clusters of one instance that are drawn together.
@@ -43,21 +43,21 @@ struct DrawItem {
 
 using DrawList = std::vector<DrawItem>;
 
-// front_to_back: by layers of distance, and within each as given. Passes that draw the same list agree on what is seen where
-// surfaces share a depth: what comes last.
+// front_to_back: by layers of distance, and within each layer as given. Passes that draw the same list agree
+// on the visible surface where depths are equal: the last one.
 enum class DrawOrder { front_to_back, as_given };
 
-// The visible clusters of `instances`. transforms: one for each instance of the scene. far_m: the farthest distance of
-// anything in view, by which layers are cut. Conservative: what is left out changes no pixel.
+// The visible clusters of `instances`. transforms: one for each instance of the scene. far_m: the farthest
+// distance of anything in view; it determines the layers. Conservative: what is left out changes no pixel.
 DrawList make_draw_list(const GpuScene& gpu, const View& view, const std::vector<int>& instances,
                         const std::vector<InstanceTransform>& transforms, double far_m, DrawOrder order);
 
-// What the depth prepass knows of each tile on the host: nothing behind its greatest distance is seen.
+// The depth prepass' result for each tile, on the host: nothing behind its greatest distance is visible.
 struct TileDistances {
-  std::vector<DepthInterval> intervals;  // least and greatest distance; empty: nothing is known
+  std::vector<DepthInterval> intervals;  // least and greatest distance; empty: unknown
 };
 
-// The list without clusters that lie behind every tile they may cover. Conservative.
+// The list without clusters that are behind every tile they may cover. Conservative.
 DrawList without_hidden(const DrawList& list, const GpuScene& gpu, const std::vector<InstanceTransform>& transforms,
                         const ViewParams& view, const TileDistances& distances);
 

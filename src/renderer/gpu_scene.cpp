@@ -69,7 +69,7 @@ GLint min_filter_of(Filter filter) {
   return GL_LINEAR;
 }
 
-// Steps of 2^-16 are finer than the sRGB curve's own, which are 3e-4 at black.
+// Steps of 2^-16 are finer than those of the sRGB curve, 3e-4 at black.
 std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
   static const auto table = [] {
     std::array<uint16_t, 256> values;
@@ -81,7 +81,7 @@ std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
   return linear;
 }
 
-// The corners of a triangle keep their order: rasterised from other corners, its depths would round differently.
+// The corners of a triangle keep their order: in another order its depths would round differently.
 void append_reversed_triangles(std::vector<uint32_t>& indices) {
   const size_t count = indices.size();
   indices.resize(2 * count);
@@ -126,8 +126,8 @@ void GpuScene::upload_meshes(const std::vector<bool>& used) {
     if (used[i]) features |= material_features(scene_, scene_.meshes[i]);
   }
 
-  // One buffer a stream. Where a mesh lacks a stream that another has, `absent` stands in; where no material reads the
-  // stream, one value serves every vertex.
+  // One buffer a stream. If only some meshes have a stream, `absent` fills it for the others; if no material
+  // reads the stream, one value serves every vertex.
   const auto stream = [&](GLuint location, auto Mesh::*member, auto absent, bool any) {
     using Value = decltype(absent);
     std::vector<Value> all;

@@ -1,4 +1,4 @@
-// A scene in OpenGL's memory: every mesh, material and texture, uploaded once, whatever its views see of it.
+// A scene in OpenGL's memory: every mesh, material and texture, uploaded once, independent of its views.
 #pragma once
 
 #include <map>
@@ -11,12 +11,12 @@
 
 namespace lightgrid {
 
-// A run of neighbouring triangles, small enough to be seen or not as a whole. Object space.
+// A run of neighbouring triangles, small enough to be culled as a whole. Object space.
 struct TriangleCluster {
   uint32_t first_index = 0, index_count = 0;  // in the scene's one index buffer
   Aabb bounds;
-  // All its triangles face away from an eye e with dot(normalize(apex - e), axis) >= cutoff; a cutoff of 1 or more:
-  // no eye sees none of them.
+  // All its triangles face away from an eye e with dot(normalize(apex - e), axis) >= cutoff. A cutoff of 1 or
+  // more never culls.
   glm::vec3 cone_apex{0}, cone_axis{0};
   float cone_cutoff = 2;
 };
@@ -28,26 +28,27 @@ struct GpuMesh {
 
 class GpuScene {
  public:
-  // Both outlive it. Meshes that no instance shows are left out, and so are textures that only such meshes use. A software
-  // OpenGL gets colour textures in linear 16 bits, since it would pay for the sRGB curve at every texel of every sample.
+  // Both outlive it. Meshes that no instance shows are left out, and so are their textures. A software OpenGL
+  // gets colour textures as linear 16 bits, because it would decode sRGB at every texel of every sample.
   GpuScene(const Renderer& renderer, const Scene& scene);
 
-  // After the scene changed: uploads the vertices of meshes that deformed, and nothing else. Instances, lights and cameras are
-  // read from the scene by the views.
+  // After the scene changed: uploads the vertices of meshes that deformed, and nothing else. Views read
+  // instances, lights and cameras from the scene.
   void update(const SceneChanges& changes);
 
   const Scene& scene() const { return scene_; }
   const GpuMesh& mesh(int index) const { return meshes_[index]; }
 
-  // Vertex arrays of the scene's one vertex and index buffer: positions alone for the depth prepass, or all streams.
+  // Vertex arrays over the scene's one vertex and index buffer: positions alone for the depth prepass, or all
+  // streams.
   GLuint positions_only() const { return positions_only_.name(); }
   GLuint all_streams() const { return all_streams_.name(); }
 
   // Binds the material's uniform block and the textures of `features` (MaterialFeature).
   void bind_material(int material, uint32_t features) const;
 
-  // Makes room for reversed triangles: from then on the index buffer holds all triangles once more, last to first, each with
-  // its corners in the same order. The indices [a, b) are there as [2 index_count() - b, 2 index_count() - a).
+  // Appends all triangles to the index buffer once more, last to first, each with its corners in the same
+  // order. The indices [a, b) are repeated at [2 index_count() - b, 2 index_count() - a).
   void add_reversed_triangles();
   uint32_t index_count() const { return index_count_; }
 

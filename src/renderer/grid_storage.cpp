@@ -15,7 +15,7 @@ cl::Buffer& grown(Renderer& renderer, SharedTexture& shared, size_t bytes, GLenu
                           "larger tiles, fewer slices or fewer lights", bytes, texels);
     }
     shared.texture = GlTexture();
-    shared.buffer.reset();  // first, so that both need not fit at once
+    shared.buffer.reset();  // freed first, so that both need not fit at once
     shared.buffer.emplace(*renderer.cl, renderer.bridge, bytes);
     shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
   }

@@ -1,4 +1,4 @@
-// A light grid in memory that OpenCL writes and OpenGL reads.
+// Memory of a light grid that OpenCL writes and OpenGL reads.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// A buffer shared by OpenCL and OpenGL, with the texture through which shaders read it.
+// A buffer shared by OpenCL and OpenGL, with its texture for the shaders.
 struct SharedTexture {
   std::optional<SharedBuffer> buffer;
   GlTexture texture;

@@ -12,8 +12,8 @@ LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& 
   LightTexels texels;
   for (int i : plan.local) {
     const ViewLight& light = lights[i];
-    // A light without a range has one of 7e18 m. Past it the square of the distance leaves float's range, and the window is
-    // 0 there, not infinity times 0.
+    // A light without a range gets a range of 7e18 m. Past it the squared distance overflows float, and the
+    // window is 0 instead of infinity times 0.
     const double inverse_radius_squared = std::clamp(1.0 / (light.radius_m * light.radius_m), 2e-38, 3e38);
     const glm::dvec3 position = glm::clamp(light.position, -max_float, max_float);
     texels.places.emplace_back(glm::vec3(position), float(inverse_radius_squared));

@@ -1,4 +1,4 @@
-// Lights as shaders and light kernels read them: four floats each.
+// Lights as shaders and kernels read them: four floats each.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Time per pass. Off, it costs nothing and adds no wait; on, each pass ends with a wait for its device, so that
-// the time is the pass's own (and the frame a little longer than without).
+// Time per pass. When off, it has no cost and adds no wait; when on, each pass ends with a wait for its
+// device, so that times are separate (and the frame takes a little longer).
 #pragma once
 
 #include <functional>
@@ -18,11 +18,11 @@ struct PassRecord {
 
 class PassTimer {
  public:
-  // Waits for the device that `on` names.
+  // Waits for the device "gl" or "cl".
   using Wait = std::function<void(const std::string& on)>;
   explicit PassTimer(Wait wait) : wait_(std::move(wait)) {}
 
-  // Measures from its making to its end.
+  // Measures its own lifetime.
   class Scope {
    public:
     Scope(PassTimer* timer, size_t record) : timer_(timer), record_(record) {}

@@ -86,7 +86,7 @@ void RenderView::make_draw_lists() {
   blended = make_draw_list(gpu, view, plan.blended, transforms, plan.slice_far_m, DrawOrder::as_given);
 }
 
-// Keeps what still fits; what does not is made anew at its next use.
+// Keeps resources that still fit; drops the others, to be created again at their next use.
 void RenderView::follow_plan(const FramePlan& before) {
   if (!same_culler(before, plan)) culler_.reset();
   if (before.index_bits != plan.index_bits) {

@@ -1,5 +1,6 @@
-// A scene seen by one camera for one technique: matrices, plan, targets, draw lists, the culler's view. Made once, then
-// moved by look(): what the camera does not change stays, and nothing of the scene is uploaded again.
+// A scene seen by one camera for one technique: matrices, plan, targets, draw lists, the culler's view.
+// Created once, then moved by look(): what the camera does not change is kept, and nothing of the scene is
+// uploaded again.
 #pragma once
 
 #include <map>
@@ -20,13 +21,13 @@ namespace lightgrid {
 
 struct RenderView;
 
-// What one pass keeps from frame to frame beyond targets and programs: RenderView::state makes it.
+// State that one pass keeps from frame to frame beyond targets and programs: RenderView::state creates it.
 class PassState {
  public:
   virtual ~PassState() = default;
   virtual size_t memory_bytes() const { return 0; }
-  // Called after the camera, the lights or the plan changed. False: the state does not fit any more; it is made anew at its
-  // next use.
+  // Called after the camera, the lights or the plan changed. Returns false if the state no longer fits; it is
+  // then created again at its next use.
   virtual bool follow(RenderView&) { return false; }
 };
 
@@ -35,9 +36,10 @@ struct RenderView {
   RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const TechniqueNeeds& needs);
   RenderView(const RenderView&) = delete;
 
-  // Another camera, another size, or other instances and lights in the scene. Targets stay where the size does.
+  // Another camera, another size, or other instances and lights in the scene. Targets are kept unless the
+  // size changes.
   void look(const View& view);
-  // After look(), where point or spot lights of the scene moved or changed.
+  // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
 
   Renderer& renderer;
@@ -49,12 +51,12 @@ struct RenderView {
   PassTimer timer;
   Targets targets;
 
-  std::vector<InstanceTransform> transforms;  // by instance; of those that the plan names
+  std::vector<InstanceTransform> transforms;  // by instance; set for those in the plan
   DrawList opaque, blended;                   // nearest first; back to front
 
-  // The programs of a pass over the scene's surfaces, by material features. `defines` hold for all of them.
+  // The programs of a pass over the scene's surfaces, by material features. All of them get `defines`.
   ScenePrograms& programs(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
-  // One program of the plan's view, for what draws no material.
+  // One program for draws without a material.
   const GlProgram& program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
 
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
@@ -69,7 +71,7 @@ struct RenderView {
 
   SharedBuffer& depth_copy();  // memory for a copy of the depth image that OpenCL reads
 
-  // The one T of this view: T(RenderView&) at first use.
+  // The view's only T; T(RenderView&) creates it at first use.
   template <typename T>
   T& state() {
     std::unique_ptr<PassState>& slot = states_[typeid(T)];
@@ -77,7 +79,7 @@ struct RenderView {
     return static_cast<T&>(*slot);
   }
 
-  LightCuller& culler();  // made at first use; holds lights only where there is a grid
+  LightCuller& culler();  // created at first use; has lights only if the plan has a light grid
   SharedGridStorage& opaque_grid();
   SharedGridStorage& blend_grid();
 

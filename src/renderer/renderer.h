@@ -1,4 +1,4 @@
-// The machine's side of rendering: what lives as long as the program, whatever scenes and views come and go.
+// The machine's side of rendering: lives as long as the program, longer than scenes and views.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace lightgrid {
 
-// Work that a moving camera should not cause. Totals since the renderer was made.
+// Work that a moving camera should not cause. Totals since the renderer was created.
 struct RendererCounts {
   int gl_programs = 0;     // GLSL programs compiled and linked
   int cl_programs = 0;     // OpenCL programs built or loaded from disk
@@ -23,9 +23,9 @@ struct RendererCounts {
 
 class Renderer {
  public:
-  // Opens both devices. Throws Error(machine) where one is missing.
+  // Opens both devices. Throws Error(machine) if one is missing.
   Renderer(const std::string& cl_substring, GlBackend backend);
-  // With a context that is current: a window's.
+  // With a current context, such as a window's.
   Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> context);
   Renderer(Renderer&&) = default;
 
@@ -33,9 +33,9 @@ class Renderer {
   std::unique_ptr<ClDevice> cl;
   std::unique_ptr<ProgramCache> kernels;
   BridgeKind bridge = BridgeKind::staged;
-  TunedSizes tuned{};  // of settings that are left open
+  TunedSizes tuned{};  // of settings that are not given
 
-  // A GLSL program, compiled at first use: embedded shader files, each after one "#define" a name.
+  // A GLSL program, compiled at first use: embedded shader files, each after one "#define" per name.
   const GlProgram& program(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines);
 
   RendererCounts counts() const;

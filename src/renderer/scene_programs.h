@@ -1,5 +1,5 @@
-// The programs of one pass over a scene's surfaces. Their strings are built once for each set of material features, not in
-// each draw.
+// The programs of one pass over a scene's surfaces. Their strings are built once for each set of material
+// features, not in each draw.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lightgrid {
 
-// A program and the uniforms that drawing sets; -1 where it has none.
+// A program and the uniforms that drawing sets; -1 if the program lacks one.
 struct SceneProgram {
   explicit SceneProgram(const GlProgram& program);
   GLuint name;
@@ -21,10 +21,10 @@ struct SceneProgram {
 
 class ScenePrograms {
  public:
-  // Embedded shader files. `defines` hold for all variants and come after those of the features.
+  // Embedded shader files. `defines` apply to all variants and follow those of the features.
   ScenePrograms(Renderer& renderer, std::string vertex, std::string fragment, std::vector<std::string> defines);
 
-  // Of surfaces with these features. Compiled at first use; stays where it is.
+  // The program for these features, compiled at first use. The reference stays valid.
   const SceneProgram& of(uint32_t features);
 
  private:

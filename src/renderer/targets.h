@@ -1,4 +1,5 @@
-// The images that passes draw into: of the view's size, made at first use, kept under their names from frame to frame.
+// The images that passes draw into: of the view's size, created at first use, kept by name from frame to
+// frame.
 #pragma once
 
 #include <map>
@@ -9,7 +10,7 @@
 
 namespace lightgrid {
 
-// What an image's memory is counted as.
+// The category under which an image's memory is counted.
 enum class TargetUse { image, gbuffer, light_index };
 
 class Targets {

@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-// A uniform block of shared/slices.h: std140 gives each float a vec4's room.
+// A uniform block of shared/slices.h: std140 pads each float to a vec4.
 std::vector<glm::vec4> block_of_keys(std::span<const float> keys) {
   std::vector<glm::vec4> block;
   for (const float key : keys) block.emplace_back(key, 0, 0, 0);

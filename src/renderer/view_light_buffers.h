@@ -9,7 +9,7 @@ namespace lightgrid {
 
 class ViewLightBuffers {
  public:
-  // Uploads what the view and the plan give. Buffers stay where their sizes do.
+  // Uploads the view and the plan's lights. Buffers are kept unless their sizes change.
   void update(const Scene& scene, const View& view, const FramePlan& plan, const ViewParams& params);
   void bind() const;
   size_t light_bytes() const { return light_bytes_; }
@@ -18,7 +18,7 @@ class ViewLightBuffers {
   struct Sized {
     GlBuffer buffer;
     size_t bytes = 0;
-    bool put(size_t size, const void* data);  // true: the buffer is a new one
+    bool put(size_t size, const void* data);  // true: a new buffer was created
   };
   Sized view_block_, slice_block_, z_bin_block_;
   Sized light_buffers_[4];
