@@ -1,5 +1,5 @@
 // The cell of the light grid that shading finds.
-//   GIVEN_DEPTH: for depth values out of a texture.
+//   GIVEN_DEPTH: from depth values in a texture.
 #include "shared/view_params.h"
 #include "shaders/lights/cell.glsl"
 

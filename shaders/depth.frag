@@ -1,4 +1,4 @@
-// The depth prepass writes depth alone; masked surfaces first ask their mask.
+// The depth prepass writes depth alone; masked surfaces first test their mask.
 #ifdef MASK
 #include "shaders/common/material.glsl"
 

@@ -1,4 +1,4 @@
-// Positions only: the depth prepass reads nothing else, except where an alpha mask decides what is there.
+// Positions only: the depth prepass reads nothing else, except for alpha masks.
 
 #include "shaders/common/vertex_position.glsl"
 

@@ -1,6 +1,6 @@
 // Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS for its
 // masks, LIGHTS_LIDR for light index images, LIGHTS_OBJECT for some of those that reach the object, else every light.
-// BLEND: output is multiplied by coverage and laid over what is there.
+// BLEND: output is multiplied by coverage, for blending over the image.
 // FIRST_OF_DRAWS, ADDED: of an object's draws, the first, and a further one that only adds light. What alpha is for:
 // src/passes/shade_objects.cpp.
 

@@ -1,4 +1,5 @@
-// Surfaces as light passes find them in the geometry buffer, in 32-bit float: what surfaces.frag is compared with.
+// Surfaces as light passes read them from the geometry buffer, in 32-bit float, for comparison with
+// surfaces.frag.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 

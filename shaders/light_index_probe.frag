@@ -1,4 +1,4 @@
-// An index of its own at each pixel, to see what this machine's blending makes of it.
+// A separate index at each pixel, to test this machine's blending.
 #include "shaders/common/light_index.glsl"
 
 layout(binding = 12) uniform usampler2D indices;

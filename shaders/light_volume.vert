@@ -1,4 +1,4 @@
-// The volume of a light, for its light or for marking what is inside.
+// The volume of a light, for shading it or for marking its inside.
 #include "shaders/common/light_volume.glsl"
 
 flat out uint light;

@@ -1,4 +1,4 @@
-// Which object is drawn.
+// Writes the object's index.
 uniform uint object;
 
 layout(location = 0) out uint object_here;

@@ -1,6 +1,6 @@
-// Vertices of the scene into clip space, with what the fragment shader needs to know of the surface.
-// The position is computed by the same expression in the depth prepass (depth.vert) and must round the same: both
-// are invariant, so that the shading pass can ask for equal depth.
+// Transforms the scene's vertices to clip space, and passes the surface to the fragment shader. The depth
+// prepass (depth.vert) computes the position by the same expression and must round the same: both are
+// invariant, so that the shading pass can test for equal depth.
 
 #include "shaders/common/vertex_position.glsl"
 
@@ -32,8 +32,8 @@ void main() {
   gl_Position = clip_position();
   normal_view = normal_from_object * normal;
 #ifdef NORMAL_MAP
-  // A tangent transforms as a direction does, not as a normal. A mirroring matrix turns the cross product that makes
-  // the bitangent of the two.
+  // A tangent transforms as a direction, not as a normal. A mirroring matrix inverts the cross product that
+  // gives the bitangent.
   tangent_view = vec4(view_from_object * tangent.xyz, tangent.w * sign(determinant(view_from_object)));
 #endif
 #ifdef TEXTURED

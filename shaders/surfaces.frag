@@ -1,4 +1,5 @@
-// What the oracle shades from: the surface at each pixel in 32-bit float, by the same code as the shading passes.
+// Input of the oracle's shading: the surface at each pixel in 32-bit float, by the same code as the shading
+// passes.
 #include "shaders/common/surface.glsl"
 
 layout(location = 0) out vec4 normal_roughness;

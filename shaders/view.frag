@@ -1,21 +1,21 @@
-// The picture of a window (src/view): the left side's image left of the line, the right side's from there on.
+// The picture of a window (src/view): the left image left of the line, the right image from there on.
 layout(binding = 0) uniform sampler2D left_image;   // linear RGB
 layout(binding = 1) uniform sampler2D right_image;
 
 uniform vec2 size;        // of the picture, pixels
 uniform float line;       // pixels from its left
-uniform int mapped_left;  // 1: colours of a map, which take no tone map
+uniform int mapped_left;  // 1: colours of a map, without tone mapping
 uniform int mapped_right;
 
 layout(location = 0) out vec4 color;
 
-// Images of another size are stretched.
+// Images of another size are scaled.
 vec3 image_at(sampler2D image, vec2 place) {
   if (ivec2(size) == textureSize(image, 0)) return texelFetch(image, ivec2(place), 0).rgb;
   return texture(image, place / size).rgb;
 }
 
-// Khronos PBR Neutral, as src/base/tone_map.cpp has it.
+// Khronos PBR Neutral, as in src/base/tone_map.cpp.
 vec3 tone_map(vec3 linear) {
   const float start = 0.76, desaturation = 0.15, brightest = 1e30;
   vec3 mapped = clamp(linear, 0.0, brightest);

@@ -4,11 +4,12 @@
 //                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
 //   32 bits        first   normal (3), perceptual roughness
 //                  second  base color (3), 1 + metallic; negative for unlit surfaces, 0 where nothing is
-// In 32 bits the normal is kept as it is: the two roundings of an octahedral one show in the lobes of polished surfaces.
+// In 32 bits the normal is stored directly: the two roundings of an octahedral one are visible in lobes of polished
+// surfaces.
 
 #include "shared/octahedral.h"
 
-// Steps of a normal's channel to either side of 0, which is a step itself: a wall along an axis keeps its normal.
+// Steps of a normal's channel on either side of 0. 0 is itself a step: axis-aligned walls keep their normals.
 #if defined(GBUFFER_8)
 #define NORMAL_STEPS 127.0
 #elif defined(GBUFFER_16)
@@ -19,7 +20,7 @@ struct GBufferTexels {
   vec4 normal_roughness_metallic, base_color_lit;
 };
 
-// What light passes know of a surface.
+// A surface as light passes read it.
 struct LitSurface {
   vec3 normal;  // view space, unit
   vec3 base_color;
@@ -29,7 +30,7 @@ struct LitSurface {
 
 vec2 signs(vec2 v) { return vec2(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0); }
 
-// The other way round: shared/octahedral.h.
+// The inverse: shared/octahedral.h.
 vec2 octahedral(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;
@@ -48,10 +49,10 @@ LitSurface lit_surface(GBufferTexels t) {
 GBufferTexels gbuffer_texels(LitSurface s) {
   vec2 normal = octahedral(s.normal);
   vec3 color = s.base_color;
-  // Rounded here: drivers convert to fixed point in ways of their own.
+  // Rounded here: drivers differ in their conversion to fixed point.
   normal = floor(normal * NORMAL_STEPS + (NORMAL_STEPS + 1.5)) / (2.0 * NORMAL_STEPS + 1.0);
 #ifdef GBUFFER_8
-  color = sqrt(color);  // spends the 256 steps as an eye would
+  color = sqrt(color);  // distributes the 256 steps perceptually
 #endif
   return GBufferTexels(vec4(normal, s.roughness, s.metallic), vec4(color, s.lit ? 1.0 : 0.0));
 }

@@ -1,5 +1,5 @@
-// A light's index as the channels of the light index images have it; the colour mask chooses among groups of channels.
-// Packings and defines: src/passes/frame/light_index_layout.h.
+// A light's index as channels of the light index images; the colour mask selects the group of channels.
+// Packings and defines: src/passes/light_index/layout.h.
 #include "shared/light_index.h"
 
 vec4 channels_of(uint index, uint target) {

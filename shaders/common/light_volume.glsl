@@ -1,6 +1,6 @@
-// The corners of a light's volume (src/passes/frame/light_volumes.h), one light an instance. Near and far do not clip
-// (GL_DEPTH_CLAMP); what is nearer than the near plane is cut off by a plane of our own, since depth would be of no use
-// there: in a stencil count of faces behind a surface such parts count for nothing.
+// The corners of a light's volume (src/passes/light_volumes/light_volumes.h), one light an instance. Near and
+// far do not clip (GL_DEPTH_CLAMP). A clip plane of our own cuts off parts nearer than the near plane: their
+// clamped depth would be meaningless, and a stencil count of faces behind a surface does not need them.
 layout(location = 0) in vec3 position;
 layout(location = 1) in mat4 clip_from_mesh;  // and 2, 3, 4
 layout(location = 5) in uint light_of_volume;

@@ -1,6 +1,6 @@
-// The glTF 2.0 metallic-roughness material at a fragment. Each effect's code is there only under its define. A program
-// made for exactly the effects of its materials need not ask; one with every effect on (EVERYTHING_ON) asks each
-// material's flag, and gives the same bits.
+// The glTF 2.0 metallic-roughness material at a fragment. Each effect's code is compiled only under its
+// define. A program made for exactly the effects of its materials needs no tests; one with every effect on
+// (EVERYTHING_ON) tests each material's flags and gives the same bits.
 //   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP,
 //   EMISSIVE_MAP, MASK, UNLIT
 
@@ -38,7 +38,7 @@ layout(binding = 4) uniform sampler2D emissive_map;
 #endif
 
 #ifdef TEXTURED
-// slot: which of the material's five textures.
+// slot: index of the material's texture, 0 to 4.
 vec2 uv_of(uint slot) {
   vec2 uv = fragment_uv0;
 #ifdef UV1
@@ -61,7 +61,8 @@ vec4 material_base_color() {
 #endif
 #ifdef VERTEX_COLOR
 #ifdef EVERYTHING_ON
-  if (fragment_color.a > -0.5)  // -1 stands for a mesh without colours: interpolated ones are not always one
+  if (fragment_color.a > -0.5)  // -1 marks a mesh without colours: interpolated ones are not always exactly
+                                // one
 #endif
     color *= fragment_color;
 #endif

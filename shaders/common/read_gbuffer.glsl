@@ -1,4 +1,4 @@
-// The surface of a pixel out of the geometry buffer and the depth image.
+// Reads a pixel's surface from the geometry buffer and the depth image.
 #include "shaders/common/gbuffer.glsl"
 #include "shaders/common/position.glsl"
 

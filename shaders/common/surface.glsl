@@ -1,4 +1,4 @@
-// All that shading needs to know of the surface at a fragment.
+// The surface at a fragment, as shading reads it.
 
 #include "shaders/common/material.glsl"
 
@@ -20,7 +20,7 @@ struct Surface {
 
 vec3 shading_normal() {
   vec3 n = normalize(normal_view);
-  float side = gl_FrontFacing ? 1.0 : -1.0;  // a back face is only ever seen of a double-sided material
+  float side = gl_FrontFacing ? 1.0 : -1.0;  // back faces are visible only with double-sided materials
 #ifdef NORMAL_MAP
   if (has(MATERIAL_NORMAL_MAP)) {
     vec3 mapped = texture(normal_map, uv_of(2u)).xyz * 2.0 - 1.0;
@@ -29,7 +29,7 @@ vec3 shading_normal() {
     float length_squared = dot(t, t);
     t *= inversesqrt(max(length_squared, 1e-12));
     vec3 b = cross(n, t) * tangent_view.w;
-    // Without a tangent the geometric normal stands.
+    // Without a tangent the geometric normal is used.
     n = length_squared > 1e-12 ? normalize(mapped.x * t + mapped.y * b + mapped.z * n) : n;
   }
 #endif

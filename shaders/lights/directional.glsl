@@ -1,4 +1,4 @@
-// Directional lights reach every pixel: they stand in no grid, and every technique adds them the same way.
+// Directional lights reach every pixel: they are in no grid, and every technique adds them the same way.
 layout(binding = 11) uniform samplerBuffer directional_lights;  // two texels each: direction to the light; illuminance
 
 vec3 directional_light_sum(ShadingPoint p) {

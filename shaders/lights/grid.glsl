@@ -4,8 +4,8 @@
 layout(binding = 12) uniform usamplerBuffer grid_cells;    // first, count
 layout(binding = 13) uniform usamplerBuffer grid_indices;
 
-// The first entry from i on whose light reaches the bin. A loop of its own, so that pixels beside each other are at lights
-// of their own, and none waits while another one's is shaded.
+// The first entry from i on whose light reaches the bin. A separate loop, so that neighbouring pixels process
+// different lights, and none waits while another one is shaded.
 uint next_entry(uint i, uint end, uint bin) {
   while (i < end && !reaches_bin(texelFetch(grid_indices, int(i)).r, bin)) ++i;
   return i;

@@ -1,9 +1,9 @@
-// The lights whose indices the pixel's light index images hold, oldest first. Packings and defines:
-// src/passes/frame/light_index_layout.h, and
+// The lights in the pixel's light index images, oldest first. Packings and defines:
+// src/passes/light_index/layout.h, and
 //   LIDR_SHIFTED: bitshift; LIDR_GREATEST: maxblend; else sort
 //   LIDR_FLOAT: unpacks as the article does, without integers
-//   LIDR_REPEATS: one light may stand there twice in a row, and counts once
-// Loops run as often as there are lights: where pixels are shaded several at once, code under an if may cost all of them.
+//   LIDR_REPEATS: one light may occur twice in a row, and counts once
+// Loops run once a light: where several pixels are shaded at once, code under an if may cost all of them.
 #include "shared/light_index.h"
 
 layout(binding = 12) uniform sampler2D light_index_images[LIDR_TARGETS];
@@ -30,7 +30,8 @@ vec3 light_sum(ShadingPoint p) {
       word[w] = packUnorm4x8(texel_of(group * words + w)) & LIDR_PRESENT;
       used |= word[w];
     }
-    // An index has some bit set: the lowest of all channels is in the oldest slot, and none after it is empty.
+    // An index has at least one bit set: the lowest set bit of all channels is in the oldest slot; all later
+    // slots are in use.
     used = (used | used >> 8u | used >> 16u | used >> 24u) & 255u;
     uint count = used == 0u ? 0u : (7u - uint(findLSB(used))) / LIDR_SHIFT + 1u;
     for (uint slot = count; slot-- > 0u;) {
@@ -46,7 +47,7 @@ const uint places = LIDR_GROUPS * LIDR_SLOTS;
 uint lidr_found[places];  // 0: none
 
 #if defined(LIDR_SHIFTED)
-// ceil and 254.5: floor or a product with 255 may miss the number that was stored.
+// ceil and 254.5: floor or a product with 255 may miss the stored number.
 void unpack_group(uint group) {
   const uint words = (LIDR_CHANNELS + 3u) / 4u;
   const float slot_size = float(1u << LIDR_SHIFT);

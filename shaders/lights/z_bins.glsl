@@ -1,4 +1,5 @@
-// Which lights of its list a pixel may pass over, since none of their z-bins is its own. They would add an exact zero.
+// The lights of its list that a pixel may skip, because none of their z-bins is its own. They would add an
+// exact zero.
 //   Z_BINS: there are z-bins.
 #include "shared/slices.h"
 

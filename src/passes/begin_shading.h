@@ -1,11 +1,11 @@
-// How forward shading of opaque surfaces begins, whatever its lights come from.
+// The start of forward shading of opaque surfaces, for every light source.
 #pragma once
 
 #include "passes/frame.h"
 
 namespace lightgrid {
 
-// The image, cleared to the background and ready for surfaces at the depth that the prepass left.
+// The image, cleared to the background and ready for surfaces at the prepass' depth.
 inline ShadedImage begin_shading(RenderView& v) {
   const ShadedImage image{v.color_framebuffer()};
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);

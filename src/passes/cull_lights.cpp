@@ -1,4 +1,4 @@
-// Lights against the cells of the light grid, in OpenCL; the grid goes over to OpenGL as buffer textures.
+// Culls lights against the cells of the light grid, in OpenCL; hands the grid to OpenGL as buffer textures.
 #include "passes/passes.h"
 
 namespace lightgrid {

@@ -1,4 +1,4 @@
-// The depth image goes over to OpenCL, which reduces it to an interval of distances a tile.
+// Hands the depth image to OpenCL, which reduces it to an interval of distances a tile.
 #include "passes/passes.h"
 
 namespace lightgrid {

@@ -1,4 +1,4 @@
-// Depth first, so that shading runs once a pixel and culling knows how deep each tile is.
+// Depth first, so that each pixel is shaded once and culling has depth bounds for each tile.
 #include "passes/passes.h"
 #include "renderer/draw.h"
 
@@ -9,7 +9,8 @@ DepthImage depth_prepass(RenderView& v) {
   const GLuint framebuffer = v.depth_framebuffer();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, v.view.width, v.view.height);
-  // Reversed depth: float's fine steps near 0 meet the far distances (Reed, "Depth Precision Visualized", 2015).
+  // Reversed depth: float's fine steps near 0 serve the far distances (Reed, "Depth Precision Visualized",
+  // 2015).
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
@@ -18,7 +19,7 @@ DepthImage depth_prepass(RenderView& v) {
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &nothing);
 
-  // Only alpha masks read more than positions.
+  // Alpha masks read more than positions.
   constexpr uint32_t read_by_masks = feature_textured | feature_uv1 | feature_uv_transform | feature_vertex_color |
                                      feature_base_color_map | feature_mask;
   draw_list(v, v.opaque, DrawStreams::positions_where_possible, v.programs("shaders/depth.vert", "shaders/depth.frag", {}),

@@ -1,4 +1,4 @@
-// Surfaces into the geometry buffer, once a pixel and material; lights come after, and look at no material.
+// Writes surfaces into the geometry buffer, once a pixel; light passes then need no materials.
 #include "passes/gbuffer.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ const GBufferLayout& layout_of(const Settings& settings) {
                        [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
 }
 
-// A pixel, beside depth.
+// Bytes a pixel, besides depth.
 size_t written_bytes(const GBuffer& gbuffer) {
   return gbuffer.layout->bytes() + (gbuffer.own_light == OwnLight::in_image ? 16 : 0);
 }
@@ -62,7 +62,7 @@ GBuffer fill_gbuffer(RenderView& v, OwnLight own_light) {
   auto pass = v.timer.pass("fill_gbuffer", "gl");
   const GBuffer gbuffer = gbuffer_of(v, own_light);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as where others shade at equal depth
+  glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as in forward shading
   glDepthMask(GL_TRUE);
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);

@@ -1,5 +1,5 @@
-// Object-light pairs on the CPU: boxes of instances, then of their clusters, against balls and cones of
-// lights.
+// Object-light pairs on the CPU: tests boxes of instances, then of their clusters, against spheres and cones
+// of lights.
 #include <algorithm>
 #include <iterator>
 #include <numeric>

@@ -1,4 +1,4 @@
-// What the passes of one frame hand to each other: values, made anew in each frame.
+// The values that the passes of one frame pass on to each other, created anew in each frame.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lightgrid {
 
-// Nearest opaque surfaces: reversed 32-bit float depth, 1 at the near plane, 0 where nothing is.
+// Nearest opaque surfaces: reversed 32-bit float depth, 1 at the near plane, 0 for background.
 struct DepthImage {
   GLuint framebuffer = 0;  // without colour
 };
@@ -19,15 +19,15 @@ struct DepthBuffer {
   cl::Buffer values;
 };
 
-// A light grid as shading code in OpenGL reads it: as lists, or as masks.
+// A light grid as OpenGL's shaders read it: as lists, or as masks.
 struct GridTextures {
   GLuint cells = 0, indices = 0;  // buffer textures
   GLuint masks = 0;
-  GLuint z_bins = 0;  // of each light, where the plan has some
+  GLuint z_bins = 0;  // a word a light, if the plan has z-bins
   size_t bytes = 0;
 };
 
-// For each pixel the indices of its lights, packed, and what shaders/lights/lidr.glsl must know to read them.
+// For each pixel the packed indices of its lights, with the parameters that shaders/lights/lidr.glsl needs.
 struct LightIndexImages {
   std::vector<GLuint> images;
   std::vector<std::string> defines;
@@ -36,11 +36,11 @@ struct LightIndexImages {
 
 struct ShadedImage {
   GLuint framebuffer = 0;         // linear RGBA, 32-bit float
-  SharedBuffer* in_cl = nullptr;  // set if the final image is in this buffer alone, row 0 at the bottom; the framebuffer is
-                                  // then stale
+  SharedBuffer* in_cl = nullptr;  // set if the final image is only in this buffer, row 0 at the bottom; the
+                                  // framebuffer is then stale
 };
 
-// What a technique made, for what reads the frame afterwards: the image, the oracle, figures of memory.
+// A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
   std::optional<LightGrid> grid;        // of opaque surfaces, in RenderView::opaque_grid()

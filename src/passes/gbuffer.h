@@ -1,5 +1,5 @@
-// The geometry buffer: what deferred light passes know of each pixel's surface. A pixel's position is not in
-// it: it follows from depth (shaders/common/position.glsl).
+// The geometry buffer: the surface of each pixel for deferred light passes. A pixel's position is not stored:
+// it follows from depth (shaders/common/position.glsl).
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace lightgrid {
 
-// Four channels, in OpenGL's memory as glReadPixels(GL_RGBA, type) gives them: a plain copy.
+// Four channels, stored in OpenGL as glReadPixels(GL_RGBA, type) returns them, so that reading is a plain
+// copy.
 struct GBufferImage {
   const char* name;  // of the target (Targets), counted as memory_bytes.gbuffer
   GLenum format, type;
@@ -69,8 +70,8 @@ GBuffer fill_gbuffer(RenderView& v, OwnLight own_light = OwnLight::in_image);
 // These surfaces alone, at the depth that a prepass left.
 GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, OwnLight own_light = OwnLight::in_image);
 
-// The defines of shaders that read the geometry buffer, which bind_gbuffer makes it ready for
-// (shaders/common/read_gbuffer.glsl).
+// The defines of shaders that read the geometry buffer (shaders/common/read_gbuffer.glsl), whose textures
+// bind_gbuffer binds.
 std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer);
 void bind_gbuffer(const GBuffer& gbuffer);
 

@@ -1,4 +1,5 @@
-// Light volumes into images of light indices, for shading to look lights up by (docs/techniques/lidr.md).
+// Draws light volumes into images of light indices, from which shading reads its lights
+// (docs/techniques/lidr.md).
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -12,15 +13,16 @@
 namespace lightgrid {
 namespace {
 
-// The stencil's lowest bit is clear where the surface is inside the volume in hand; the bits above count down what room is
-// left. Taking one from an even number does both: it sets the lowest bit and takes one from the count.
+// The stencil's lowest bit is clear where the surface is inside the current volume; the bits above count the
+// remaining slots down. Decrementing an even value does both: it sets the lowest bit and takes one from the
+// count.
 constexpr GLuint not_inside = 1;
-constexpr GLuint has_room = 128;  // the count has not come below half of all
+constexpr GLuint has_room = 128;  // top bit: the count is not exhausted
 
-// Volumes that are drawn together.
+// Volumes that one call draws.
 struct Batch {
   size_t first, count;
-  uint32_t group;  // sort: whose channels
+  uint32_t group;  // sort: the group whose channels are written
 };
 
 struct Order {
@@ -36,7 +38,7 @@ class LightIndexState : public PassState {
     find_influence(v);
   }
 
-  // Lights that come into view need groups too.
+  // Lights that come into view need groups as well.
   bool follow(RenderView& v) override {
     if (group_of_light.size() != v.plan.local.size()) return false;
     grouped = false;
@@ -46,7 +48,7 @@ class LightIndexState : public PassState {
 
   LightIndexLayout layout;
   std::vector<double> influence;          // of each light
-  std::vector<uint32_t> group_of_light;   // where no camera changes it
+  std::vector<uint32_t> group_of_light;   // while it does not depend on the camera
   bool grouped = false;
   Order order;
 
@@ -56,13 +58,13 @@ class LightIndexState : public PassState {
     const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view);
     for (int i : v.plan.local) {
       const glm::dvec3& i_rgb = lights[i].radiant_intensity;
-      // The integral of intensity / distance^2 over the ball, but for a factor.
+      // The integral of intensity / distance^2 over the sphere, up to a factor.
       influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
     }
   }
 };
 
-// Most influence first, where the setting asks; else as in the scene.
+// Most influence first if lidr-order says so, else scene order.
 void put_in_order(const RenderView& v, const LightIndexState& state, std::vector<LightVolume>& volumes) {
   if (v.plan.settings.lidr_order == LidrOrder::scene) return;
   std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) {
@@ -73,8 +75,8 @@ void put_in_order(const RenderView& v, const LightIndexState& state, std::vector
 LightExtent extent_in_space(const LightVolume& v) { return {v.center - v.radius, v.center + v.radius, v.center, v.radius}; }
 LightExtent extent_on_screen(const LightVolume& v) { return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)}; }
 
-// Sort: what finds no group is left out. Inside volumes, lights apart in space are apart in the image, and that stays so for
-// whatever camera; behind front faces, those apart on the screen.
+// Sort: lights without a group are left out. With stencil, lights that do not touch in space share no pixel,
+// whatever the camera; with front faces, the rectangles on screen must not touch.
 void put_in_groups(const RenderView& v, LightIndexState& state, std::vector<LightVolume>& volumes) {
   const bool on_screen = v.plan.settings.lidr_volumes == LidrVolumes::front_faces;
   if (on_screen || !state.grouped) {
@@ -89,8 +91,8 @@ void put_in_groups(const RenderView& v, LightIndexState& state, std::vector<Ligh
   std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) { return group(a) < group(b); });
 }
 
-// Rounds in which no two volumes share a pixel, so that the stencil holds one at a time; or, where nothing is marked and each
-// draw knows its channels, all in one.
+// Rounds in which no two volumes share a pixel, because the stencil marks one volume at a time. A single
+// round if nothing is marked and each draw's channels are fixed.
 std::vector<uint32_t> rounds_of(const RenderView& v, const LightIndexLayout& layout, const std::vector<LightVolume>& volumes) {
   const bool sorted = layout.packing == LidrPacking::sort, marked = v.plan.settings.lidr_volumes == LidrVolumes::stencil;
   if (!marked && (sorted || layout.groups == 1)) return std::vector<uint32_t>(volumes.size(), 0);
@@ -104,8 +106,8 @@ Order order_of(const RenderView& v, LightIndexState& state, std::vector<LightVol
   put_in_order(v, state, volumes);
   if (sorted) put_in_groups(v, state, volumes);
   const std::vector<uint32_t> rounds = rounds_of(v, state.layout, volumes);
-  // Within a round of a group any order is as good: one that takes few calls. Where all is one round, the order tells who
-  // stays where there is no room.
+  // Within a round of a group any order gives the same image; this one needs few calls. If there is only one
+  // round, the order decides which lights are kept when slots run out.
   const auto batch_of = [&](uint32_t i) {
     return std::tuple(sorted ? state.group_of_light[volumes[i].light] : 0, rounds[i], volumes[i].crosses_near, volumes[i].mesh);
   };
@@ -132,7 +134,8 @@ class Drawing {
   void draw(const Batch& batch) const {
     const bool counted = layout_.packing != LidrPacking::sort;
     if (inside_) mark_inside(batch);
-    // Later groups first: what takes the last place of one group would otherwise find the first of the next.
+    // Later groups first: otherwise a light that fills one group's last slot would also be written to the
+    // next group.
     for (uint32_t group = counted ? layout_.groups : 1; group-- > 0;) {
       write_group(layout_, counted ? group : batch.group);
       if (counted) ask_for_room(group); else ask_for_none();
@@ -140,15 +143,16 @@ class Drawing {
     }
   }
 
-  // The count of room that the stencil starts from.
+  // The initial stencil value: the number of free slots.
   GLint cleared_stencil() const {
     if (layout_.packing == LidrPacking::sort) return 255;
     return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside : has_room - 1 + layout_.overlap);
   }
 
  private:
-  // Surfaces behind a front face; write_marked then asks for a back face behind them. Where the near plane cuts holes into
-  // front faces, each face behind a surface turns the bit over: an odd number of them is the inside of any closed mesh.
+  // Marks surfaces behind a front face; write_marked then tests for a back face behind them. If the near
+  // plane cuts holes into front faces, each face behind a surface inverts the bit: an odd number means
+  // inside, for any closed mesh.
   void mark_inside(const Batch& batch) const {
     write_group(layout_, no_channels);
     const bool count = crosses_near(batch);
@@ -161,9 +165,10 @@ class Drawing {
     volumes_.draw(batch.first, batch.count);
   }
 
-  // A place in this group, perhaps of a surface marked. What is marked and has a back face before it is not inside after all.
+  // Tests for a free slot in this group and, with stencil, for the mark. A marked surface behind a back face
+  // is not inside and loses its mark.
   void ask_for_room(uint32_t group) const {
-    const GLuint step = inside_ ? 2 : 1;  // what a place takes from the stencil
+    const GLuint step = inside_ ? 2 : 1;  // stencil steps a slot takes
     const GLuint of_group = layout_.groups > 1 ? step * layout_.slots : 0;
     glStencilMask(255);
     glStencilFunc(GL_EQUAL, GLint(has_room | (group == 0 ? of_group : 0)), has_room | of_group | (inside_ ? not_inside : 0));
@@ -182,7 +187,8 @@ class Drawing {
     volumes_.draw(batch.first, batch.count);
   }
 
-  // Whatever is behind a front face, or, where the near plane cuts holes into these, wherever a back face is.
+  // Writes to surfaces behind a front face or, if the near plane cuts holes into these, wherever there is a
+  // back face.
   void write_behind_front_faces(const Batch& batch) const {
     glEnable(GL_CULL_FACE);
     glCullFace(crosses_near(batch) ? GL_FRONT : GL_BACK);

@@ -1,4 +1,4 @@
-// Lights added one by one to the image of a geometry buffer.
+// Passes that add lights one by one to the image of a geometry buffer.
 #pragma once
 
 #include "passes/gbuffer.h"
@@ -6,11 +6,11 @@
 
 namespace lightgrid {
 
-// Adds each point and spot light, in the order of their indices, to `gbuffer.image`: where its volume says
-// that it may reach, as the setting volume-culling has it (docs/techniques/deferred.md).
+// Adds each point and spot light, in index order, to `gbuffer.image`, on the pixels that its volume selects
+// by the setting volume-culling (docs/techniques/deferred.md).
 void shade_light_volumes(RenderView& v, const GBuffer& gbuffer);
 
-// The (pixel, light) pairs for which the last frame's passes ran the shader. For the oracle, not part of a
+// The (pixel, light) pairs for which the last frame ran the light shader. For the oracle, not part of a
 // frame.
 ListedLights listed_of_light_volumes(RenderView& v);
 

@@ -1,4 +1,5 @@
-// Which lights reach each object: for forward techniques that draw an object with its lights and know no grid.
+// The lights that reach each object: for forward techniques that draw objects with their lights, without a
+// grid.
 #pragma once
 
 #include "passes/frame.h"
@@ -7,25 +8,26 @@
 
 namespace lightgrid {
 
-// Objects are parts of instances: clusters of triangles that follow each other and are reached by the same lights.
+// Objects are parts of instances: successive clusters that the same lights reach.
 class ObjectLights : public PassState {
  public:
   struct Object {
     int instance;
-    std::vector<uint32_t> clusters;             // of its mesh
-    uint32_t first_light = 0, light_count = 0;  // in lights, ascending
-    IndexRanges ranges;                         // of the clusters
+    std::vector<uint32_t> clusters;             // clusters of the instance's mesh
+    uint32_t first_light = 0, light_count = 0;  // range in lights, ascending
+    IndexRanges ranges;                         // of these clusters
   };
 
   explicit ObjectLights(RenderView&) {}
   size_t memory_bytes() const override { return buffer_bytes_; }
   bool follow(RenderView&) override { return true; }  // every frame updates it
 
-  // The objects of a draw list, in its order; then their lights into the buffer that shaders/lights/object.glsl reads.
+  // Finds the objects of a draw list, in its order, and uploads their lights to the buffer that
+  // shaders/lights/object.glsl reads.
   void update(const RenderView& v, const DrawList& list);
 
   const std::vector<Object>& objects() const { return objects_; }
-  const std::vector<uint32_t>& lights() const { return lights_; }  // positions in FramePlan::local
+  const std::vector<uint32_t>& lights() const { return lights_; }  // indices into FramePlan::local
   GLuint texture() const { return texture_.name(); }
 
  private:
@@ -45,7 +47,7 @@ class BlendedObjectLights : public ObjectLights {
   using ObjectLights::ObjectLights;
 };
 
-// The passes: object-light pairs of opaque surfaces and of blended ones, found on the CPU.
+// The pass: object-light pairs of opaque or blended surfaces, found on the CPU.
 const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces);
 const ObjectLights& find_blended_object_lights(RenderView& v);
 
@@ -53,11 +55,11 @@ const ObjectLights& find_blended_object_lights(RenderView& v);
 // order of their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
 ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart);
 
-// Blended objects over the image, back to front, each in one draw with all of its lights: a second one would lay
-// the surface over itself.
+// Blended objects over the image, back to front, each in one draw with all of its lights: a second draw would
+// blend the surface over itself.
 void shade_blended(RenderView& v, const ShadedImage& image, const ObjectLights& objects);
 
-// What the last frame of shade_objects shaded each pixel with. For the oracle, not part of a frame.
+// The lights that the last frame of shade_objects used at each pixel. For the oracle, not part of a frame.
 ListedLights listed_of_objects(RenderView& v);
 
 }  // namespace lightgrid

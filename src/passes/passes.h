@@ -1,5 +1,5 @@
-// The passes that several techniques share, in the order in which a frame runs them. Each takes what it reads and returns
-// what it made; a technique is a short recipe over these.
+// The passes that several techniques share, in the order of a frame. Each takes its input and returns its
+// output; a technique is a short sequence of them.
 #pragma once
 
 #include "base/image.h"
@@ -10,39 +10,40 @@ namespace lightgrid {
 
 DepthImage depth_prepass(RenderView& v);
 
-// A copy of the depth image for OpenCL.
+// Copies the depth image to OpenCL.
 DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth);
 
-// An interval of distances a tile. Without depth bounds the buffer is not read.
+// An interval of distances a tile. With depth-bounds=none the buffer is not read.
 DepthBounds depth_bounds(RenderView& v, const DepthBuffer& depth);
-DepthBounds depth_bounds(RenderView& v, const DepthImage& depth);  // copies the image first, where it is read
+DepthBounds depth_bounds(RenderView& v, const DepthImage& depth);  // copies the image first, if it is read
 
-// What each tile hides, on the host. Nothing is known where depth bounds are switched off.
+// The depth bounds on the host, for culling hidden surfaces. Empty with depth-bounds=none.
 TileDistances tile_distances(RenderView& v, const DepthBounds& bounds);
 
-// The opaque surfaces of the view that no tile hides.
+// The view's opaque surfaces, without those that every tile hides.
 DrawList visible_surfaces(RenderView& v, const TileDistances& distances);
 
-// The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane. In the view's storage, for OpenCL.
+// The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane. Kept in the view's
+// storage.
 LightGrid cull_lights(RenderView& v, const DepthBounds& bounds);
 LightGrid cull_lights_for_blended(RenderView& v, const DepthBounds& bounds);
 
 // Hands a grid to OpenGL.
 GridTextures grid_to_gl(RenderView& v, const LightGrid& grid, SharedGridStorage& storage);
 
-// Draws light volumes into light index images, at the depth that the prepass left. Throws Error(input) where no images hold
-// what the settings ask for, and Error(machine) where this machine's blending would change an index.
+// Draws light volumes into light index images, at the prepass' depth. Throws Error(input) if no layout fits
+// the settings, and Error(machine) if this machine's blending would change an index.
 LightIndexImages light_index(RenderView& v);
-// Those of the last frame, for the oracle.
+// The lists of the last frame, for the oracle.
 ListedLights read_light_index(RenderView& v);
 
-// Shades opaque surfaces with each pixel's lights, at the depth that the prepass left.
+// Shades opaque surfaces with each pixel's lights, at the prepass' depth.
 ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSource& lights);
 
-// Lays blended surfaces over the image, back to front.
+// Blends blended surfaces over the image, back to front.
 void shade_blended(RenderView& v, const ShadedImage& image, const LightSource& lights);
 
-// Into `image`, which keeps its memory from frame to frame.
+// Copies the image to the host; `image` keeps its memory from frame to frame.
 void read_back(RenderView& v, const ShadedImage& shaded, Image& image);
 
 }  // namespace lightgrid

@@ -1,5 +1,5 @@
-// Blended surfaces, back to front, over what is opaque: in front of it by the depth test, and with a light grid of their own,
-// or lights by object, since they stand anywhere between the near plane and the opaque surface behind them.
+// Blended surfaces, back to front, over opaque ones, with depth test. They have a light grid of their own, or
+// lights by object, since they may lie anywhere between the near plane and the opaque surface behind them.
 #include "passes/object_lights.h"
 #include "passes/passes.h"
 #include "renderer/draw.h"
@@ -17,7 +17,7 @@ void blend(RenderView& v, const ShadedImage& image, const LightSource& lights, c
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours come multiplied by coverage
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied by coverage
   lights.bind(v);
   std::vector<std::string> defines = lights.defines;
   defines.emplace_back("BLEND");

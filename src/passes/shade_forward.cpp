@@ -1,4 +1,4 @@
-// Forward shading of the surfaces that the depth prepass found: each pixel once, at equal depth.
+// Forward shading of the surfaces in the depth prepass: each pixel once, at equal depth.
 #include "passes/begin_shading.h"
 #include "passes/passes.h"
 #include "renderer/draw.h"

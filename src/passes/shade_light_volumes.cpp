@@ -1,14 +1,14 @@
-// Lights on the geometry buffer, one after the other, kept from pixels that they do not reach by one of the
-// means of Engel, "Designing a Renderer for Multiple Lights" (ShaderX7, 2009):
+// Adds lights one after the other to the geometry buffer's image, and skips pixels out of their reach by one
+// of the methods of Engel, "Designing a Renderer for Multiple Lights" (ShaderX7, 2009):
 //
-//   scissor       The whole screen, cut to the rectangle of the light's tangents.
+// scissor       The whole screen, cut to the rectangle of the light's tangents.
 //
-//   depth-bounds  That; pixels of other depths leave the shader first. Few OpenGLs have a test of their own.
+// depth-bounds  The same; pixels outside the depth interval leave the shader early. Few OpenGLs have such a test.
 //
-//   back-faces    The volume's back faces, where they are behind the surface: also with the eye in the volume.
+// back-faces    The volume's back faces where they are behind the surface: works with the eye inside the volume.
 //
-//   stencil       Faces behind the surface are counted, back plus one, front minus one; what is not 0 is inside.
-//                 Then the same back faces, where it is not 0, which set it to 0 again.
+// stencil       Faces behind the surface are counted, back plus one, front minus one; nonzero means inside.
+//               Then the same back faces are drawn where it is nonzero, and reset it to 0.
 #include <algorithm>
 #include <numeric>
 
@@ -40,7 +40,7 @@ class VolumeDraws {
 
   const GlProgram& program() const { return *program_; }
 
-  // Volumes first ... end - 1 into the framebuffer that is bound, which has the frame's depth.
+  // Draws volumes first ... end - 1 into the bound framebuffer, which has the frame's depth.
   void draw(size_t first, size_t end) {
     if (!drawn_as_volumes()) return draw_rectangles(first, end);
     volumes_.begin();
@@ -115,7 +115,7 @@ class VolumeDraws {
   const GlProgram *program_ = nullptr, *marking_ = nullptr;
 };
 
-// To add light to what is there.
+// Sets state for adding light to the image.
 void begin_adding(RenderView& v, const GBuffer& gbuffer, GLuint framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, v.view.width, v.view.height);
@@ -127,11 +127,10 @@ void begin_adding(RenderView& v, const GBuffer& gbuffer, GLuint framebuffer) {
   bind_gbuffer(gbuffer);
 }
 
-// Lights that one image of marks tells apart: shaders/deferred_light.frag.
+// Number of lights that one image of marks can distinguish: shaders/deferred_light.frag.
 constexpr uint32_t lights_a_mark = 48;
 
-// Draws the marks of all lights, some at a time, and calls visit(pixel, light) for each time that a shader
-// ran.
+// Draws the marks of all lights in batches, and calls visit(pixel, light) for each shader invocation.
 template <typename Visit>
 void visit_pairs(RenderView& v, const Visit& visit) {
   const GBuffer gbuffer = gbuffer_of(v);

@@ -1,11 +1,12 @@
-// Forward shading object by object, in as many draws as its lights take. The first draw of an object replaces what is
-// there, so that of two surfaces of one depth the later one is seen, as in shade_forward. Further draws add light.
+// Forward shading object by object, in as many draws as its lights take. The first draw of an object replaces
+// the image, so that of two surfaces of one depth the later one is visible, as in shade_forward. Further
+// draws add light.
 //
-// Triangles of one object may share a depth as well (coplanar parts of a mesh). The first draw leaves the last of them;
-// each further draw must add the light of that one alone. It draws the triangles in reverse order, and the image's alpha
-// lets the first fragment of a pixel pass and no other: draws expect an alpha of 1 and 0 in turn, multiply what they add
-// by whether it is there (the blend factor), and leave the other value. The first draw writes the value that makes the
-// last draw leave 1.
+// Triangles of one object may also share a depth (coplanar parts of a mesh). The first draw leaves the last
+// of them; each further draw must add light to that one only. It draws the triangles in reverse order, and
+// the image's alpha accepts only the first fragment of a pixel. Draws expect an alpha of 1 and 0 in turn. The
+// blend factor multiplies the added light by 1 if the alpha is as expected and by 0 otherwise; the draw
+// leaves the other value. The first draw writes the value that makes the last draw leave 1.
 #include <algorithm>
 
 #include "passes/begin_shading.h"
@@ -19,8 +20,8 @@ namespace {
 // The forward programs of an object's draws.
 struct ObjectPrograms {
   ScenePrograms& base;             // without point and spot lights
-  ScenePrograms& base_and_lights;  // with some of the object's
-  ScenePrograms& lights;           // with those alone
+  ScenePrograms& base_and_lights;  // with the first of the object's
+  ScenePrograms& lights;           // with further ones alone
 
   static ScenePrograms& of(RenderView& v, const LightSource& source, const char* define) {
     std::vector<std::string> defines = source.defines;
@@ -39,7 +40,7 @@ class ObjectDraws {
   ObjectDraws(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object, InstanceDrawer& drawer)
       : v_(v), programs_(programs), object_(object), drawer_(drawer) {}
 
-  // Replaces what is there. Lights [0, count) of the object; 0: none.
+  // Replaces the image. Uses lights [0, count) of the object; 0: none.
   void draw_first(uint32_t count, int alpha) {
     const SceneProgram& program = bind(count > 0 ? programs_.base_and_lights : programs_.base, 0, count);
     glUniform1f(program.alpha, GLfloat(alpha));
@@ -70,7 +71,7 @@ class ObjectDraws {
   ObjectPrograms& programs_;
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
-  IndexRanges reversed_;  // of the object's, made at first use
+  IndexRanges reversed_;  // of the object's ranges, computed at first use
   int alpha_ = 1;
 };
 

@@ -157,7 +157,7 @@ void image_to_gl(RenderView& v, SharedBuffer& image) {
 
 void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
   auto pass = v.timer.pass("shade_tiles", "cl");
-  constexpr size_t side = 16;  // of the pixels that a group takes
+  constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y)
                                     : cl::NDRange(whole(v.view.width), whole(v.view.height));

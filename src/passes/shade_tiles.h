@@ -5,8 +5,8 @@
 
 namespace lightgrid {
 
-// Adds the lights of the grid's lists, which are in the view's storage of opaque surfaces, to what the geometry buffer's image shows. Where blended surfaces follow, OpenGL gets
-// the image back; else it stays where OpenCL left it.
+// Adds the lights of the grid's lists (in the view's storage of opaque surfaces) to the geometry buffer's
+// image. If blended surfaces follow, the image is copied back to OpenGL; else it stays in OpenCL's buffer.
 ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const LightGrid& grid);
 
 }  // namespace lightgrid

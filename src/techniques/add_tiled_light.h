@@ -1,4 +1,4 @@
-// What deferred_tiled and forward_plus_compute share: they differ in how the geometry buffer is filled.
+// The part that deferred_tiled and forward_plus_compute share; they fill the geometry buffer differently.
 #pragma once
 
 #include "passes/gbuffer.h"
@@ -11,10 +11,11 @@ inline OwnLight own_light_of(const RenderView& v) {
   return v.plan.light_grid && !v.plan.own_light ? OwnLight::in_light_pass : OwnLight::in_image;
 }
 
-// Culls lights, adds those of each tile's list to the geometry buffer's image, and lays blended surfaces over it.
+// Culls lights, adds those of each tile's list to the geometry buffer's image, and blends blended surfaces
+// over it.
 Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const DepthBounds& bounds);
 
-// The same where no light has a position: the geometry buffer's image is finished but for blended surfaces.
+// The same without point and spot lights: the geometry buffer's image lacks only blended surfaces.
 Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer);
 
 }  // namespace lightgrid

@@ -1,5 +1,5 @@
-// Forward shading from light lists of clusters: tiles cut into depth slices. One grid serves opaque and blended surfaces
-// where there are no depth bounds (docs/techniques/clustered.md).
+// Forward shading from light lists of clusters: tiles cut into depth slices. Without depth bounds one grid
+// serves opaque and blended surfaces (docs/techniques/clustered.md).
 #include "techniques/technique.h"
 
 namespace lightgrid {

@@ -1,5 +1,5 @@
-// Surfaces into a geometry buffer, then the lights one after the other, each on
-// the pixels that its volume covers.
+// Surfaces into a geometry buffer, then the lights one after the other, each on the pixels that its volume
+// covers.
 #include "passes/light_passes.h"
 #include "passes/object_lights.h"
 #include "techniques/technique.h"

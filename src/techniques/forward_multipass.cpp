@@ -1,4 +1,4 @@
-// Each object once for its own light, then once more for each light that reaches it, added up.
+// Each object once for base lighting, then once more for each light that reaches it, added up.
 #include "passes/object_lights.h"
 #include "techniques/technique.h"
 

@@ -1,5 +1,5 @@
-// Forward+ whose light loop runs in OpenCL, 16 pixels at once on a CPU: a depth prepass, culling, then the visible surfaces
-// alone go through memory to the loop.
+// Forward+ with its light loop in OpenCL, 16 pixels at once on a CPU: a depth prepass, culling, then only the
+// visible surfaces go through memory to the loop.
 #include "techniques/add_tiled_light.h"
 
 namespace lightgrid {

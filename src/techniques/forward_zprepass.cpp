@@ -1,5 +1,4 @@
-// Each object with up to eight of the lights that reach it in a draw; what more
-// there are in further draws, added up.
+// Each object with up to eight of its lights in a draw; the other lights in further draws, added up.
 #include "passes/object_lights.h"
 #include "techniques/technique.h"
 

@@ -16,7 +16,7 @@ static Frame render(RenderView& v) {
   const LightIndexImages index = light_index(v);
   const LightSource lights = from_light_index(v, index);
   const ShadedImage image = shade_forward(v, surfaces, lights);
-  // A stencil knows what is inside a volume of opaque surfaces alone.
+  // Stencil marks opaque surfaces only.
   if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
     shade_blended(v, image, lights);
   } else {

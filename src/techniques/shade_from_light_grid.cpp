@@ -1,4 +1,4 @@
-// What forward_plus and clustered share: they differ in what the plan makes of a tile.
+// The part that forward_plus and clustered share; the plan's slices make the difference.
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -8,7 +8,7 @@ Frame shade_from_light_grid(RenderView& v) {
   const DepthBounds bounds = depth_bounds(v, depth);
   const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
   Frame frame;
-  if (!v.plan.light_grid) {  // no light has a position: there is nothing to list
+  if (!v.plan.light_grid) {  // no light has a position: nothing to list
     frame.image = shade_forward(v, surfaces, every_light(v));
     shade_blended(v, frame.image, every_light(v));
     return frame;

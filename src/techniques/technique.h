@@ -1,4 +1,4 @@
-// A technique: a name, and a recipe over passes.
+// A technique: a name, and a sequence of passes.
 #pragma once
 
 #include <map>
@@ -15,20 +15,21 @@ struct Technique {
   const char* summary;  // one line
   const char* source;   // paper or article, year
   TechniqueNeeds needs;
-  std::vector<const char*> settings;  // keys of those that it reads (plan/settings.h)
+  std::vector<const char*> settings;  // keys of the settings that it reads (plan/settings.h)
   Frame (*render)(RenderView& v);
-  // What the last frame shaded each pixel of its opaque surfaces with. Null: the frame's light grid or, without one,
-  // every light.
+  // The lights that the last frame used at each pixel of opaque surfaces. Null: those of the frame's light
+  // grid or, without one, every light.
   ListedLights (*listed)(RenderView& v) = nullptr;
-  // A pixel has places for a limited number of lights; those past it are left out.
+  // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
 };
 
-// The recipe of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended surfaces.
+// The frame of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended
+// surfaces.
 Frame shade_from_light_grid(RenderView& v);
 
-// Blended surfaces over the frame's image, from a grid of their own, which the frame gets, or, where there are no depth
-// bounds, from that of opaque ones.
+// Blends blended surfaces over the frame's image. With depth bounds, they get a grid of their own, stored in
+// the frame; without, they use that of opaque surfaces.
 void shade_blended_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame);
 
 const std::vector<const Technique*>& techniques();
@@ -37,12 +38,12 @@ const std::vector<const Technique*>& techniques();
 const std::vector<const char*>& common_settings();
 bool reads_setting(const Technique& technique, const std::string& key);
 
-// Those of `settings` that the technique reads, as to_strings has them.
+// The subset of `settings` that the technique reads, as to_strings returns them.
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings);
 
 std::string technique_names();  // "forward, forward_plus, …"
 
-// Throws Error(input) that lists the names there are.
+// Throws Error(input) that lists the known names.
 const Technique& find_technique(const std::string& name);
 
 }  // namespace lightgrid

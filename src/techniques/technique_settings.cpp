@@ -1,4 +1,4 @@
-// The settings that a technique reads, of all there are.
+// The settings that a technique reads.
 #include <algorithm>
 
 #include "techniques/technique.h"

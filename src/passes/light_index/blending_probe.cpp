@@ -14,8 +14,8 @@ namespace {
 
 constexpr size_t pixels = size_t(probe_size) * probe_size;
 
-// All slots of a group of 8-bit channels: the bytes that they shall end as tell all that was drawn into them before. Over
-// the pixels each channel ends as each byte.
+// Fills all slots of a group of 8-bit channels; a channel's final byte encodes everything drawn into it. Over
+// the pixels each channel ends as each possible byte.
 std::vector<uint32_t> shifted_indices(const LightIndexLayout& layout, uint32_t round) {
   const uint32_t slot = layout.slots - 1 - round % layout.slots;
   std::vector<uint32_t> indices(pixels, 0);
@@ -28,7 +28,7 @@ std::vector<uint32_t> shifted_indices(const LightIndexLayout& layout, uint32_t r
   return indices;
 }
 
-// Each pair of indices, or, of 16 bits, each index with another. An index 0 is never drawn here.
+// Each pair of indices or, for 16-bit channels, each index with another. Never index 0.
 std::vector<uint32_t> paired_indices(const LightIndexLayout& layout, uint32_t round) {
   std::vector<uint32_t> indices(pixels);
   for (uint32_t p = 0; p < pixels; ++p) {
@@ -58,7 +58,8 @@ std::vector<std::vector<uint32_t>> rounds_of(const LightIndexLayout& layout) {
   return rounds;
 }
 
-// What unpacking must give: lights in the order drawn, or, of two at once, the lower first and once.
+// Expected result of unpacking: lights in the order drawn or, for two at once, the lower first, without
+// repeats.
 std::vector<uint32_t> lights_drawn(const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds, size_t pixel) {
   std::vector<uint32_t> lights;
   for (uint32_t first = 0; first < layout.overlap; first += layout.slots) {
@@ -75,7 +76,7 @@ std::vector<uint32_t> lights_drawn(const LightIndexLayout& layout, const std::ve
   return lights;
 }
 
-// Integers have no linear filter, even where nothing is filtered.
+// Integer textures allow no linear filter, even unused.
 GlTexture index_image() {
   GlTexture image = make_texture_2d(GL_R32UI, probe_size, probe_size);
   glTextureParameteri(image.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -101,7 +102,7 @@ std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& lay
   begin_light_indices(layout);
   glUseProgram(v.program("shaders/screen.vert", "shaders/light_index_probe.frag", layout.defines()).name());
   glBindVertexArray(nothing.name());
-  glBindTextureUnit(12, indices.name());  // materials leave samplers at the units before
+  glBindTextureUnit(12, indices.name());  // the units before are used by materials
   for (size_t r = 0; r < rounds.size(); ++r) {
     glTextureSubImage2D(indices.name(), 0, 0, 0, probe_size, probe_size, GL_RED_INTEGER, GL_UNSIGNED_INT, rounds[r].data());
     write_group(layout, uint32_t(r) / layout.slots);

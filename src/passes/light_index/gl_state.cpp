@@ -6,14 +6,14 @@ void begin_light_indices(const LightIndexLayout& layout) {
   glDisable(GL_DITHER);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDisable(GL_BLEND);
-  if (layout.slots == 1) return;  // nothing is there before
+  if (layout.slots == 1) return;  // a single slot has nothing to shift
   glEnable(GL_BLEND);
   if (layout.packing == LidrPacking::maxblend) {
     glBlendEquation(GL_MAX);
     return;
   }
-  // What is there moves down by a slot. A quarter of a step more lets both rounding and truncation end at the right number,
-  // as the article's 0.251 does for 2 bits.
+  // Existing contents move down by a slot. An extra quarter of a step makes both rounding and truncation give
+  // the right number, as the article's 0.251 does for 2 bits.
   const float down = 1.0f / float(1u << layout.shift) + 0.25f / 255;
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_CONSTANT_COLOR);

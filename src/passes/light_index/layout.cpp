@@ -20,7 +20,7 @@ uint32_t number_of(LidrPacking packing) {
   return packing == LidrPacking::sort ? LIDR_SORT : packing == LidrPacking::maxblend ? LIDR_MAXBLEND : LIDR_BITSHIFT;
 }
 
-// How the packing lays such a row out, be it possible or not.
+// The layout of such a row, possible or not.
 LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights) {
   const uint32_t index_bits = lights == 15 ? 4 : lights == 255 ? 8 : 16;
   LightIndexLayout row{.packing = packing, .overlap = overlap, .lights = lights};
@@ -62,7 +62,7 @@ GLenum LightIndexLayout::format() const {
 }
 
 std::vector<std::string> LightIndexLayout::defines() const {
-  // A channel that an image lacks reads as 0, and as 1 where it is alpha.
+  // A missing channel reads as 0, or as 1 for alpha.
   const uint32_t present = target_channels() == 4 ? ~0u : (1u << 8 * target_channels()) - 1;
   const char* kind = packing == LidrPacking::sort ? "LIDR_APART" : packing == LidrPacking::maxblend ? "LIDR_GREATEST" : "LIDR_SHIFTED";
   return {kind, fmt::format("LIDR_PACKING {}u", number_of(packing)), fmt::format("LIDR_GROUPS {}u", groups),

@@ -1,5 +1,5 @@
-// A row of the table of packings: how many lights of how many a pixel may have, and the images that this takes
-// (docs/techniques/lidr.md#the-table-of-packings).
+// A row of the table of packings: the number of lights, how many of them a pixel can hold, and the images
+// required (docs/techniques/lidr.md#the-table-of-packings).
 #pragma once
 
 #include <span>
@@ -13,30 +13,30 @@ namespace lightgrid {
 
 struct LightIndexLayout {
   LidrPacking packing = LidrPacking::bitshift;
-  uint32_t overlap = 0;           // lights that a pixel may have
-  uint32_t lights = 0;            // that there may be: 15, 255 or 65,535
-  uint32_t groups = 1, slots = 1; // overlap = groups * slots; each group of slots has channels of its own
+  uint32_t overlap = 0;           // lights a pixel
+  uint32_t lights = 0;            // lights an index distinguishes: 15, 255 or 65,535
+  uint32_t groups = 1, slots = 1; // overlap = groups * slots; each group of slots has its own channels
   uint32_t channels = 1;          // of a group
   uint32_t channel_bits = 8;
-  uint32_t shift = 8;             // bitshift: bits of each channel that a slot has
+  uint32_t shift = 8;             // bitshift: bits of each channel that one slot takes
 
   uint32_t most() const { return (1u << channel_bits) - 1; }
   uint32_t targets() const { return (groups * channels + 3) / 4; }
-  uint32_t target_channels() const { return targets() > 1 ? 4 : groups * channels; }  // of each
+  uint32_t target_channels() const { return targets() > 1 ? 4 : groups * channels; }  // channels of each image
   GLenum format() const;
   size_t pixel_bytes() const { return size_t(targets()) * target_channels() * channel_bits / 8; }
 
-  // What shaders/light_index.frag and shaders/lights/lidr.glsl are compiled with.
+  // Defines for shaders/light_index.frag and shaders/lights/lidr.glsl.
   std::vector<std::string> defines() const;
   std::string name() const;  // "bitshift, 4 overlaps of 255 lights"
 };
 
-// The row that the settings ask for; what they leave open is the least that holds `lights`, and the most overlaps. Throws
-// Error(input) that says why, where there is no such row.
+// The row that the settings select. If they leave it open: the fewest lights that suffice for `lights`, and
+// the most overlaps. Throws Error(input) with the reason if there is no such row.
 LightIndexLayout light_index_layout(const Settings& settings, size_t lights);
 
-// The lights of a pixel, oldest first, from its channels: targets() * 4 values, those of one image after those of another.
-// drop_repeats: a light that stands there twice in a row counts once.
+// The lights of a pixel, oldest first, from its channels: targets() * 4 values, image after image.
+// drop_repeats: an index twice in a row counts once.
 void unpack_light_index(const LightIndexLayout& layout, std::span<const uint16_t> channels, bool drop_repeats,
                         std::vector<uint32_t>& lights);
 

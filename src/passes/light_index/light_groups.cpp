@@ -17,7 +17,7 @@ bool touch(const LightExtent& a, const LightExtent& b) {
   return glm::dot(apart, apart) <= reach * reach;
 }
 
-// Extents by the cells of a grid that they lie in; those in too many cells in a list of their own.
+// Extents by the cells of a hash grid that they overlap; those in too many cells are in a separate list.
 class Neighbours {
  public:
   explicit Neighbours(const std::vector<LightExtent>& extents) : extents_(extents) {
@@ -34,7 +34,7 @@ class Neighbours {
     all_.push_back(extent);
   }
 
-  // Calls `found` for each extent that may touch this one, some of them more than once.
+  // Calls `found` for each extent that may touch this one; repetitions are possible.
   template <typename Found>
   void near(const LightExtent& extent, const Found& found) const {
     for (uint32_t other : large_) found(other);
@@ -62,7 +62,7 @@ class Neighbours {
     return true;
   }
 
-  // Two cells of one key only make more candidates.
+  // Hash collisions only add candidates.
   static uint64_t key(int64_t x, int64_t y, int64_t z) {
     return uint64_t(x) * 0x9e3779b97f4a7c15 ^ uint64_t(y) * 0xc2b2ae3d27d4eb4f ^ uint64_t(z) * 0x165667b19e3779f9;
   }

@@ -1,4 +1,4 @@
-// Lights put into groups of which no two touch, so that those of a group may share one channel of an image, or one draw call.
+// Groups of lights that do not touch, so that a group can share one channel of an image, or one draw call.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace lightgrid {
 
-// What of a light must not touch another's: a ball within a box, or, with an infinite radius, the box.
+// The extent of a light: a sphere within a box or, with an infinite radius, the whole box.
 struct LightExtent {
   glm::dvec3 low, high;
   glm::dvec3 center{0};
@@ -18,12 +18,13 @@ struct LightExtent {
 
 inline constexpr uint32_t no_group = 0xffffffffu;
 
-// The first group of `groups` in which each extent touches none that came before it, or no_group. So the first are those
-// that find room: give the most important first.
+// For each extent the first of `groups` groups in which it touches no earlier extent, or no_group. Early
+// extents are placed first: sort by importance.
 std::vector<uint32_t> group_lights(const std::vector<LightExtent>& extents, uint32_t groups);
 
-// The round in which each may be drawn, from 0: with others that it does not touch, and after all that it touches and that
-// come before it. So what shares a pixel keeps its order, and the rounds are few.
+// The round, from 0, in which each may be drawn: its extent touches no other of the round, and all earlier
+// extents that it touches have earlier rounds. So lights that share a pixel keep their order, with few
+// rounds.
 std::vector<uint32_t> draw_rounds(const std::vector<LightExtent>& extents);
 
 }  // namespace lightgrid

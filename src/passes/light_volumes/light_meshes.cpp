@@ -27,7 +27,7 @@ double plane_distance(const Shape& shape, const Triangle& t) {
   return glm::dot(glm::normalize(glm::cross(b - a, c - a)), a);
 }
 
-// Vertices are rounded to float once; volumes have slack for that (light_volumes.cpp).
+// Vertices are rounded to float once; the slack of volumes covers that (light_volumes.cpp).
 LightMesh finished(const Shape& shape) {
   LightMesh mesh;
   for (const glm::dvec3& p : shape.points) mesh.positions.emplace_back(p);
@@ -95,7 +95,7 @@ LightMesh box_mesh() {
 }
 
 LightMesh cone_mesh(double half_angle_rad) {
-  // The flat sides touch the cone in their middles, so their edges are a little farther out.
+  // The flat sides are tangent to the cone along their centre lines, so their edges are slightly farther out.
   const double edge_angle = std::atan2(std::sin(half_angle_rad), std::cos(half_angle_rad) * std::cos(pi / sides));
   Shape shape;
   const int tip = 0, apex = 1;

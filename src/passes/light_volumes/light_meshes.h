@@ -1,4 +1,4 @@
-// Closed triangle meshes that stand for what a light reaches: around the unit ball, or around a cone of it.
+// Closed triangle meshes that enclose the reach of a light: the unit sphere, or a cone of it.
 #pragma once
 
 #include <vector>
@@ -13,20 +13,21 @@ struct LightMesh {
   std::vector<uint16_t> indices;
 };
 
-// The unit ball is inside; an icosahedron whose faces are cut into four `subdivisions` times.
+// Encloses the unit sphere; an icosahedron whose faces are cut into four `subdivisions` times.
 LightMesh ball_mesh(int subdivisions);
 
 // From -1 to 1 on each axis.
 LightMesh box_mesh();
 
-// Points within the half-angle of the +z axis, up to pi / 2, whose distance from the origin, the apex, is 1 at most.
+// Encloses points within the half-angle of the +z axis, up to pi / 2, at distance 1 or less from the apex,
+// the origin.
 LightMesh cone_mesh(double half_angle_rad);
 
-// The cone of slope 1 around +z up to z = 1, for narrow cones: scaled in x and y it is that of any slope.
+// The cone of slope 1 around +z up to z = 1, for narrow cones: scaling x and y gives any slope.
 LightMesh pyramid_mesh();
 
-// A triangle of clip space over the whole screen at depth 0, seen from behind. Not closed: it stands for the far side of
-// a volume that holds all that is to be seen.
+// A clip-space triangle over the whole screen at depth 0, seen from behind. Not closed: it is the far side of
+// a volume that contains everything visible.
 LightMesh everything_mesh();
 
 }  // namespace lightgrid

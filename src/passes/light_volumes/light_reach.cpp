@@ -7,8 +7,8 @@
 namespace lightgrid {
 namespace {
 
-// Float rounding of vertices, depth, lights and positions, all told under a part in 10^5 of the distances;
-// and what has no bound that is of use, depth across triangles seen edge-on: a part in 256 of the radius (as
+// Bounds the float rounding of vertices, depth, lights and positions together: under 1e-5 of the distances.
+// 1/256 of the radius is for depth across triangles seen edge-on, which has no useful bound (as in
 // light_volumes.cpp).
 constexpr double rounding = 1e-5, of_radius = 1.0 / 256;
 
@@ -34,15 +34,15 @@ LightReach::LightReach(const ViewLight& light)
 }
 
 bool LightReach::may_reach(const ViewBox& box) const {
-  if (!(radius_ > 0)) return false;  // a light without extent lights nothing
+  if (!(radius_ > 0)) return false;  // radius 0 lights nothing
   const double slack = rounding * (sum(position_) + sum(box.center) + sum(box.half));
   const double reach = radius_ * (1 + rounding + of_radius) + slack;
   const glm::dvec3 from_light = box.center - position_;
   const glm::dvec3 outside = glm::max(glm::abs(from_light) - box.half, 0.0);
   if (glm::dot(outside, outside) > reach * reach) return false;
   if (!cone_) return true;
-  // The ball around the box against the cone's side: the distance from it, negative inside. An apex in the
-  // ball passes.
+  // The sphere around the box against the cone's side: the distance from it, negative inside. An apex in the
+  // sphere passes.
   const double ball = glm::length(box.half) + slack + of_radius * std::min(radius_, 1e30);
   const double along = glm::dot(from_light, direction_);
   const double across = std::sqrt(std::max(glm::dot(from_light, from_light) - along * along, 0.0));

@@ -1,11 +1,11 @@
-// Whether a light may reach a box: in double, and conservative.
+// Whether a light may reach a box: in double, conservative.
 #pragma once
 
 #include "scene/view_lights.h"
 
 namespace lightgrid {
 
-// Along the axes of view space.
+// Axis-aligned in view space.
 struct ViewBox {
   glm::dvec3 center, half;
 };
@@ -16,13 +16,13 @@ class LightReach {
  public:
   explicit LightReach(const ViewLight& light);
 
-  // False only where no pixel of a surface in the box gets anything of the light.
+  // False only if the light adds nothing to any pixel of a surface in the box.
   bool may_reach(const ViewBox& box) const;
 
  private:
   glm::dvec3 position_, direction_;
   double radius_;
-  double cos_ = -1, sin_ = 0;  // of the cone's half-angle, where it is one: below 90 degrees
+  double cos_ = -1, sin_ = 0;  // of the cone's half-angle, for cones below 90 degrees
   bool cone_ = false;
 };
 

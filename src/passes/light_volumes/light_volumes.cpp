@@ -13,21 +13,22 @@ namespace {
 constexpr double u = 0x1p-24;
 using std::numbers::pi;
 
-// As shaders/common/light_volume.glsl reads it.
+// Layout of the attributes in shaders/common/light_volume.glsl.
 struct VolumeInstance {
   glm::mat4 clip_from_mesh;
   uint32_t light;
 };
 
-// Balls by the number of times that faces are cut, then cones by their half-angle.
+// Spheres by number of subdivisions, then cones by half-angle.
 constexpr uint32_t first_ball = 1, balls = 3, box = 4, pyramid = 5, first_cone = 6;
-constexpr double narrow_rad = 30 * pi / 180;  // up to here a pyramid is close enough
+constexpr double narrow_rad = 30 * pi / 180;  // up to here a pyramid is tight enough
 constexpr double cone_step_rad = 10 * pi / 180;
 constexpr int cones = 6;  // 40, 50 ... 90 degrees
-// No vertex of a mesh is farther out than this many times its size: the box's corner.
+// No vertex of a mesh is farther out than this many times the mesh's size; the box's corner is.
 constexpr double farthest_corner = 1.74;
 
-// Pixels of radius from which faces are cut once, and twice: below, corners cost more than the pixels they would spare.
+// Radii in pixels from which faces are cut once, and twice: below, extra vertices cost more than the pixels
+// they save.
 constexpr double cut_once_px = 32, cut_twice_px = 250;
 
 double pixel_size(const View& view, double distance) {
@@ -35,11 +36,11 @@ double pixel_size(const View& view, double distance) {
   return std::max(x, y) * (view.orthographic ? 1 : std::max(distance, view.near_m));
 }
 
-// How far outside its true surface a volume must reach, where its corners are within `reach` of the light.
-//   lights and shading in float: as culling's (docs/hard_cases.md#slack)
-//   corners snapped to the rasteriser's grid, and those of clipped triangles once more: two steps of it
-//   depth across a triangle: a plane of numbers up to the nearest corner's depth, 32 roundings of that
-//   what has no bound that is of use, depth across triangles seen edge-on: a part in 256 of the radius
+// How far outside its true surface a volume must reach, if its corners are within `reach` of the light.
+//   lights and shading in float: as in culling (docs/hard_cases.md#slack)
+//   corners snapped to the rasteriser's grid, those of clipped triangles twice: two steps of the grid
+//   depth interpolated across a triangle: 32 roundings of the nearest corner's depth
+//   depth across triangles seen edge-on has no useful bound: 1/256 of the radius
 double slack(const View& view, const ViewLight& light, double reach, int subpixel_bits) {
   const glm::dvec3 p = light.position;
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
@@ -49,10 +50,11 @@ double slack(const View& view, const ViewLight& light, double reach, int subpixe
          light.radius_m / 256;
 }
 
-// The half-angle that shading cannot round past, as in culling: the cosine 10^-6 smaller.
+// The half-angle, widened for the rounding of the cosine in shading, as in culling: cosine minus 10^-6.
 double widened_angle(const ViewLight& light) { return std::acos(std::clamp(light.cos_outer - 1e-6, -1.0, 1.0)); }
 
-// Slack for its own enlargement, or none where that does not end: a light before the near plane that ends far away.
+// Slack that includes its own enlargement; none if that does not converge: a light before the near plane that
+// ends far away.
 std::optional<double> settled_slack(const View& view, const ViewLight& light, double per_slack, int subpixel_bits) {
   double given = 0;
   for (int i = 0; i < 8; ++i) {
@@ -70,7 +72,7 @@ glm::dmat4 placed(const glm::dvec3& at, const glm::dmat3& axes) {
   return matrix;
 }
 
-// Axes whose third is `direction`.
+// Orthonormal axes, the third along `direction`.
 glm::dmat3 axes_along(const glm::dvec3& direction) {
   const glm::dvec3 other = std::abs(direction.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(other, direction));
@@ -84,11 +86,11 @@ uint32_t ball_for(const View& view, const ViewLight& light, VolumeMeshes meshes)
   return first_ball + (pixels > cut_once_px) + (pixels > cut_twice_px);
 }
 
-// Mesh and matrix, or mesh `everything`.
+// Sets mesh and matrix, or mesh `everything`.
 void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes, int subpixel_bits, LightVolume& volume) {
   const double angle = light.type == LightType::spot ? widened_angle(light) : pi;
   const bool cone = angle < pi / 2 && meshes != VolumeMeshes::box;
-  // A cone grown by its slack is the cone from an apex farther back, by slack / sin(angle).
+  // A cone grown by its slack equals the cone moved back by slack / sin(angle).
   const double back = cone ? 1 / std::sin(angle) : 0;
   const std::optional<double> given = settled_slack(view, light, 1 + back, subpixel_bits);
   volume.mesh = LightVolume::everything;
@@ -109,7 +111,7 @@ void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes,
   volume.view_from_mesh = placed(light.position - light.direction * (back * *given), axes);
 }
 
-// From the corners' places in clip space.
+// From the corners' positions in clip space.
 void find_pixels(const View& view, const glm::dvec2& low, const glm::dvec2& high, LightVolume& volume) {
   const glm::dvec2 size(view.width, view.height);
   volume.low_px = glm::clamp((low * 0.5 + 0.5) * size, glm::dvec2(0), size);
@@ -124,7 +126,7 @@ void cover_screen(const View& view, LightVolume& volume) {
   find_pixels(view, glm::dvec2(-1), glm::dvec2(1), volume);
 }
 
-// What follows from mesh and matrix. False: all corners are on the far side of one of the view's planes.
+// Derives the rest from mesh and matrix. False: all corners are outside one of the view's planes.
 bool place_volume(const View& view, const Frustum& frustum, LightVolume& volume) {
   const LightMesh& mesh = light_meshes()[volume.mesh];
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
@@ -148,7 +150,7 @@ bool place_volume(const View& view, const Frustum& frustum, LightVolume& volume)
   volume.center = 0.5 * (low + high), volume.radius = 0;
   for (const glm::dvec3& p : corners) volume.radius = std::max(volume.radius, glm::length(p - volume.center));
   volume.clip_from_mesh = glm::mat4(view.clip_from_view * volume.view_from_mesh);
-  // Rounding: a part in 10^5 of the distance, as for clusters.
+  // Rounding: 1e-5 of the distance, as for clusters.
   volume.crosses_near = nearest < view.near_m + 1e-5 * (std::abs(view.near_m) + volume.radius);
   if (volume.crosses_near) screen_low = glm::dvec2(-1), screen_high = glm::dvec2(1);
   find_pixels(view, screen_low, screen_high, volume);

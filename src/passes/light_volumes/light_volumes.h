@@ -1,8 +1,8 @@
-// What each point and spot light reaches, as a mesh to draw.
+// The reach of each point and spot light, as a mesh to draw.
 //
-// A volume contains the light's ball, or the part of it in its cone, with slack for all that rounds between here and a
-// shaded pixel: a pixel that a light reaches is inside the volume as OpenGL draws it. Slack covers a rasteriser whose
-// corners lie on a grid of 2^-subpixel_bits pixels.
+// A volume contains the light's sphere, or the part of it in its cone, with slack for all rounding up to a
+// shaded pixel: every pixel that a light reaches is inside the volume as OpenGL draws it. The slack assumes a
+// rasteriser that snaps corners to a grid of 2^-subpixel_bits pixels.
 #pragma once
 
 #include <span>
@@ -14,50 +14,50 @@
 namespace lightgrid {
 
 struct LightVolume {
-  static constexpr uint32_t everything = 0;  // a mesh drawn in clip space, for what no ball or cone can hold
+  static constexpr uint32_t everything = 0;  // a mesh in clip space, for lights that no sphere or cone can
+                                             // enclose
 
-  uint32_t light;             // of those given, which are FramePlan::local's
-  uint32_t mesh;              // of light_meshes()
-  glm::dmat4 view_from_mesh;  // of `everything`: nothing
+  uint32_t light;             // index into the given lights, which are FramePlan::local's
+  uint32_t mesh;              // index into light_meshes()
+  glm::dmat4 view_from_mesh;  // unused for `everything`
   glm::mat4 clip_from_mesh;
-  glm::dvec3 center;          // a ball around the mesh, view space; `everything`: of infinite radius
+  glm::dvec3 center;          // a sphere around the mesh, view space; `everything`: infinite radius
   double radius;
-  bool crosses_near;          // a part is nearer than the near plane: its front faces have a hole there
-  glm::dvec2 low_px, high_px; // on screen: no pixel has its centre in it outside these
-  glm::ivec2 first, end;      // the pixels of that: first <= p < end
+  bool crosses_near;          // a part is nearer than the near plane: front faces have a hole there
+  glm::dvec2 low_px, high_px; // bounds on screen, pixels
+  glm::ivec2 first, end;      // pixels with their centre in these bounds: first <= p < end
 };
 
-// Every mesh that a volume may have.
+// Every mesh that a volume may use.
 const std::vector<LightMesh>& light_meshes();
 
-// In the lights' order. A light that cannot reach anything in view has none: it is off the screen, or its radius is not
-// above 0.
-// `meshes`: those of balls; under `box` also those of cones.
+// In the lights' order. Lights that cannot reach anything in view are omitted: off the screen, or of radius 0
+// or below. `meshes` selects the meshes of spheres; `box` also those of cones.
 std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLight> lights, VolumeMeshes meshes,
                                        int subpixel_bits);
 
-// Draws volumes through shaders/common/light_volume.glsl. One vertex buffer for all meshes; matrix and light are attributes of
-// an instance.
+// Draws volumes with shaders/common/light_volume.glsl. One vertex buffer for all meshes; matrix and light are
+// attributes of an instance.
 class LightVolumes : public PassState {
  public:
   explicit LightVolumes(RenderView& v);
   size_t memory_bytes() const override;
   bool follow(RenderView& v) override;
 
-  // The frame's volumes, made anew and uploaded: what a camera or lights that move cost in each frame.
+  // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights.
   const std::vector<LightVolume>& update(RenderView& v, VolumeMeshes meshes);
-  // The same in an order of the caller's: what draw() then counts by.
+  // The same in the caller's order, to which the indices of draw() refer.
   void upload(std::vector<LightVolume> volumes);
   const std::vector<LightVolume>& volumes() const { return volumes_; }
   // Point and spot lights of the last update, by LightVolume::light.
   const std::vector<ViewLight>& lights() const { return lights_; }
 
-  // Between these, the vertex array is bound, near and far do not clip but for GL_CLIP_DISTANCE0 at the near plane, faces
-  // are counter-clockwise and none is culled. Stencil, depth test and blending are the caller's.
+  // Between begin() and end(), the vertex array is bound, only GL_CLIP_DISTANCE0 at the near plane clips in
+  // depth, faces are counter-clockwise and none is culled. Stencil, depth test and blending are the caller's.
   void begin() const;
   void end() const;
 
-  // Volumes first ... first + count - 1, in this order; those that follow each other with one mesh in one call.
+  // Draws volumes first ... first + count - 1 in this order, successive ones with the same mesh in one call.
   void draw(size_t first, size_t count) const;
 
  private:

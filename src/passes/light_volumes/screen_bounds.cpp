@@ -7,8 +7,7 @@
 namespace lightgrid {
 namespace {
 
-// As light_volumes.cpp: float rounding under a part in 10^5 of the distances, and a part in 256 of the
-// radius.
+// As in light_volumes.cpp: float rounding under 1e-5 of the distances, and 1/256 of the radius.
 double reach(const ViewLight& light) {
   const glm::dvec3 p = glm::abs(light.position);
   return light.radius_m * (1 + 1.0 / 256) + 1e-5 * (p.x + p.y + p.z + light.radius_m);
@@ -25,7 +24,7 @@ double least_slope(double c, double d, double r) {
   return c * d + root > 0 ? (c - r) * (c + r) / (c * d + root) : none;
 }
 
-// Pixels between slopes (orthographic: coordinates), one more on each side.
+// Pixels between slopes (orthographic: coordinates), plus one on each side.
 glm::ivec2 pixels_between(const glm::dvec2& slopes, double clip_scale, double clip_offset, int size) {
   const glm::dvec2 ndc = slopes * clip_scale + clip_offset;
   const glm::dvec2 pixels = (ndc * 0.5 + 0.5) * double(size);
@@ -63,7 +62,7 @@ ScreenBounds screen_bounds(const View& view, const ViewLight& light, const Light
   cut_to_tangents(view, light, bounds);
   const double nearest = std::max(-light.position.z - reach(light), -volume.center.z - volume.radius);
   const double farthest = std::min(-light.position.z + reach(light), -volume.center.z + volume.radius);
-  // Two steps of float more, for its own rounding.
+  // Two more float steps for the rounding here.
   bounds.depth.x = float(depth_at(view, farthest)) * (1 - 0x1p-22f);
   bounds.depth.y = float(depth_at(view, nearest)) * (1 + 0x1p-22f);
   return bounds;

@@ -1,5 +1,4 @@
-// Where on the screen, and between which depths, a light may reach anything: rectangles and intervals instead
-// of meshes.
+// The pixels and depths that a light may reach, as rectangles and intervals instead of meshes.
 #pragma once
 
 #include "passes/light_volumes/light_volumes.h"
@@ -11,8 +10,8 @@ struct ScreenBounds {
   glm::vec2 depth{0, 1};  // values of the depth image, ascending
 };
 
-// The rectangle is that of the ball's tangents, where it has some, and within the volume's own. The
-// interval is the ball's along the view axis, and within the volume's.
+// The rectangle is bounded by the sphere's tangents, if it has any, and by the volume's rectangle. The
+// interval is that of the sphere along the view axis, within the volume's.
 ScreenBounds screen_bounds(const View& view, const ViewLight& light, const LightVolume& volume);
 
 }  // namespace lightgrid

@@ -9,13 +9,14 @@ namespace lightgrid {
 
 inline constexpr uint32_t no_cell = 0xffffffffu;
 
-// What `draw` writes at each pixel as an unsigned integer, else no_cell. Over the depth image of the last frame.
+// The unsigned integer that `draw` writes at each pixel, else no_cell. Uses the depth image of the last
+// frame.
 std::vector<uint32_t> indices_drawn(RenderView& v, const std::function<void()>& draw);
 
-// Of each pixel that shows an opaque surface, else no_cell. Uses the depth image of the last frame.
+// The cell of each pixel that shows an opaque surface, else no_cell. Uses the depth image of the last frame.
 std::vector<uint32_t> shaded_cells(RenderView& v);
 
-// Of each pixel, were its depth the one given.
+// The cell of each pixel if it had the given depth.
 std::vector<uint32_t> cells_at_depths(RenderView& v, const std::vector<float>& depths);
 
 }  // namespace lightgrid

@@ -1,4 +1,4 @@
-// The depth that a frame left, on the host: not part of any technique's frame.
+// The depth image of a frame on the host: not part of any technique's frame.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace lightgrid {
 
-// The depth image of the last frame: width * height, row 0 at the bottom, 0 where nothing is.
+// The depth image of the last frame: width * height, row 0 at the bottom, 0 for background.
 std::vector<float> read_depth(RenderView& v);
 
 }  // namespace lightgrid

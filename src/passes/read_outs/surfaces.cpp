@@ -47,7 +47,7 @@ SurfaceImages read_surfaces(RenderView& v) {
   glDepthFunc(GL_EQUAL);
   draw_list(v, v.opaque, DrawStreams::all, programs);
   SurfaceImages surfaces{targets.read(0), targets.read(1), targets.read(2), {}};
-  // Where blended surfaces are: everything they cover differs from a cleared target.
+  // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
   if (!v.plan.blended.empty()) {
     targets.clear(0);

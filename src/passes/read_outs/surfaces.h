@@ -1,4 +1,4 @@
-// The surfaces that shading saw, for the oracle: not part of any technique's frame.
+// The surfaces as shading read them, for the oracle: not part of any technique's frame.
 #pragma once
 
 #include "base/image.h"
@@ -10,13 +10,13 @@ struct SurfaceImages {
   Image normal_roughness;      // view-space shading normal; perceptual roughness
   Image base_color_metallic;
   Image emissive_occlusion;    // occlusion -1: unlit
-  std::vector<bool> blended;   // pixels over which a blended surface lies
+  std::vector<bool> blended;   // pixels covered by a blended surface
 };
 
 // Draws and reads them. Uses the depth image of the last frame.
 SurfaceImages read_surfaces(RenderView& v);
 
-// Of the last frame, as light passes find them in its geometry buffer; without emission, and nothing of blended ones.
+// The surfaces of the last frame from its geometry buffer; without emission and blended surfaces.
 SurfaceImages read_gbuffer_surfaces(RenderView& v);
 
 }  // namespace lightgrid
