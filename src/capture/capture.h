@@ -1,4 +1,4 @@
-// A frame as files, from a scene: depth as every technique with a prepass has it, lights and view.
+// Captures a frame from a scene: the depth of the prepass, lights and view.
 #pragma once
 
 #include "capture/frame_file.h"
@@ -6,7 +6,7 @@
 
 namespace lightgrid {
 
-// Draws the depth prepass. settings.tile becomes the frame's.
+// Draws the depth prepass. settings.tile becomes the frame's tile size.
 CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings);
 
 }  // namespace lightgrid

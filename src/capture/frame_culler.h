@@ -14,15 +14,15 @@ Settings frame_settings(const CapturedFrame& frame, const std::vector<std::strin
 
 CullerOptions culler_options(const Settings& settings);
 
-// What the grid of a technique has: slices and z-bins where its plan has them or their number was set by name. Throws
-// Error(input) where it shades from no grid.
+// The grid needs of a technique: slices and z-bins if its plan has them or their number was set by name.
+// Throws Error(input) if it shades from no grid.
 TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings);
 
-// With one slice where the grid has none, and z-bins likewise.
+// One slice if the grid has no slices, and one z-bin likewise.
 Settings grid_settings(Settings settings, const TechniqueNeeds& needs);
 
-// The frame's view in those slices and z-bins, from the near plane to frame.surfaces_far_m or, where nobody knows it,
-// to the farthest surface.
+// The frame's view with those slices and z-bins, from the near plane to frame.surfaces_far_m or, if that is
+// unknown, to the farthest surface.
 CullView cull_view_of(const CapturedFrame& frame, const Settings& settings);
 
 cl::Buffer upload_depth(ClDevice& device, const CapturedFrame& frame);
@@ -30,22 +30,22 @@ cl::Buffer upload_depth(ClDevice& device, const CapturedFrame& frame);
 // Keys of the settings that culling reads.
 const std::vector<std::string>& culling_settings();
 
-// Of the point and spot lights.
+// The point and spot lights.
 std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
 
 class FrameCuller {
  public:
-  // What settings leave open is as tuned for the device. settings.tile decides, not the frame's own. Uploads depth and
-  // lights; the frame may go then.
+  // Settings that are not given take the device's tuned values. settings.tile is used, not the frame's own.
+  // Uploads depth and lights; the frame may be destroyed afterwards.
   FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings,
               const TechniqueNeeds& needs = {});
 
-  // Depth bounds and cull, to the finished grid. Waits.
+  // Depth bounds and culling, to the finished grid. Waits.
   void run();
 
-  // Of the last run.
+  // Results of the last run.
   FrameGrid grid();
-  std::vector<DepthInterval> intervals();  // a tile each, x fastest, then y from the bottom
+  std::vector<DepthInterval> intervals();  // one a tile, x fastest, then y from the bottom
   uint32_t invalid_depth_tiles() { return culler_.invalid_depth_tiles(); }
 
  private:

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "frames are little-endian");
 
-// The file's size, before anything is made that large.
+// The file's size, checked before anything is allocated.
 uintmax_t size_of(const fs::path& path) {
   std::error_code failure;
   if (!fs::is_regular_file(path, failure)) throw input_error("{}: no such file", path.string());
@@ -64,7 +64,7 @@ size_t local_count(const CapturedFrame& frame) {
                               [](const Light& l) { return l.type != LightType::directional; }));
 }
 
-// None where the file does not name them.
+// Empty if the file lacks them.
 std::vector<float> read_edges(const JsonFile& file, const char* field, size_t most) {
   std::vector<float> edges;
   if (!file.has(field)) return edges;
@@ -76,7 +76,7 @@ std::vector<float> read_edges(const JsonFile& file, const char* field, size_t mo
   return edges;
 }
 
-// What grid.json says, each value within what the frame allows.
+// The fields of grid.json, each checked against the frame.
 FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
   FrameGrid grid;
   grid.tile = file.whole("tile", 1, max_frame_side);
@@ -103,7 +103,7 @@ FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
   return grid;
 }
 
-// A file of as many words as `expected` says; `of` says what they are.
+// Reads a file of exactly `expected` words; `of` describes them.
 std::vector<uint32_t> read_words(const fs::path& path, uintmax_t expected, const char* of) {
   const uintmax_t found = size_of(path);
   if (found != expected * 4) throw input_error("{}: {} bytes are not the {} of {}", path.string(), found, expected * 4, of);
@@ -222,7 +222,7 @@ std::vector<float> covered_depth(const CapturedFrame& frame) {
     if (!(value < 1)) {
       value = 0;
     } else if (value <= 0) {
-      value = std::numeric_limits<float>::denorm_min();  // at the near plane, or before it
+      value = std::numeric_limits<float>::denorm_min();  // at or before the near plane
     }
   }
   return depth;

@@ -1,6 +1,6 @@
 // Captured frames: a depth image, lights and a view as files, from `lightgrid capture` or another engine
-// (docs/frames.md). What is wrong in one is an Error(input) of one line that names file, field and value; no
-// file's claim about a size is believed before the file is seen to have it.
+// (docs/frames.md). A fault is an Error(input) of one line that names file, field and value. Sizes stated in
+// a file are checked against the file's length before use.
 #pragma once
 
 #include <filesystem>
@@ -17,44 +17,44 @@ namespace lightgrid {
 
 struct CapturedFrame {
   std::string name;  // of its folder, or of its scene
-  // clip_from_view as the frame has it: depth reversed or standard. near_m and far_m are told, not used.
+  // clip_from_view as the frame has it: depth reversed or standard. near_m and far_m are informative.
   View view;
   int tile = 16;
-  double surfaces_far_m = 0;  // no surface in view can be farther; 0: nobody knows
+  double surfaces_far_m = 0;  // bound of the distance of visible surfaces; 0: unknown
   std::vector<Light> lights;
-  std::vector<float> depth;  // z/w of clip_from_view, row 0 at the bottom; any float may stand here
+  std::vector<float> depth;  // z/w of clip_from_view, row 0 at the bottom; may hold any float
 };
 
-// A grid as it lies in a frame, with what made it.
+// A grid as stored in a frame, with the settings that made it.
 struct FrameGrid {
   HostGrid lists;
   int tile = 16;
   std::vector<float> slice_edges;               // inner edges, metres; empty for one slice
   std::vector<float> z_bin_edges;               // likewise; empty for no z-bins
-  std::map<std::string, std::string> settings;  // as to_strings gives them
+  std::map<std::string, std::string> settings;  // as to_strings returns them
 };
 
 CapturedFrame read_frame(const std::filesystem::path& folder);
 
-// The frame's own grid, which may be absent: then no grid.json is there. Checked against the frame: cells of
-// its size, lists that lie within the indices, indices that are lights.
+// The frame's own grid; absent without grid.json. Checked against the frame: number of cells, lists within
+// the indices, indices of existing lights.
 std::optional<FrameGrid> read_frame_grid(const std::filesystem::path& folder, const CapturedFrame& frame);
 
-// view.json, lights.json and depth.f32, into a folder made where it is missing.
+// Writes view.json, lights.json and depth.f32; creates the folder if missing.
 void write_frame(const std::filesystem::path& folder, const CapturedFrame& frame);
 
-// grid.json, grid.u32 and indices.u32, likewise; masks.u32 and z_bins.u32 where the grid has such.
+// Writes grid.json, grid.u32 and indices.u32; masks.u32 and z_bins.u32 if the grid has them.
 void write_frame_grid(const std::filesystem::path& folder, const FrameGrid& grid);
 
-// The point and spot lights as the view sees them, in the order that indices count them.
+// The point and spot lights in view space, in the order of the grid's indices.
 std::vector<ViewLight> local_lights(const CapturedFrame& frame);
 std::vector<Light> local_world_lights(const CapturedFrame& frame);
 
-// Is the near plane at depth 1?
+// True if the near plane is at depth 1.
 bool depth_is_reversed(const View& view);
 
-// The depth image as the oracle reads it (reference/lit_set.h): positive where a surface is, 0 at the far
-// plane of either kind of depth. Values stay those of clip_from_view.
+// The depth image for the oracle (reference/lit_set.h): positive on surfaces, 0 at the far plane of either
+// depth direction. Otherwise values of clip_from_view.
 std::vector<float> covered_depth(const CapturedFrame& frame);
 
 }  // namespace lightgrid

@@ -9,16 +9,16 @@
 
 namespace lightgrid {
 
-// Cells reach to the centres of their outer pixels (CullerOptions::pixel_centres).
+// Cells extend to the centres of their outer pixels (CullerOptions::pixel_centres).
 inline constexpr double cell_inset = 0.5;
 
-bool is_covered(const CapturedFrame& frame, int x, int y);  // a surface is there
+bool is_covered(const CapturedFrame& frame, int x, int y);  // shows a surface
 
-// The cells that shading takes: by the depths themselves, compared with the edges' (shared/slices.h).
+// The cells that shading uses: compares the depths themselves with the edges' keys (shared/slices.h).
 class PixelCells {
  public:
   PixelCells(const CapturedFrame& frame, const FrameGrid& grid);
-  int slice(int x, int y) const;      // 0 where nothing is
+  int slice(int x, int y) const;      // 0 for background
   uint32_t z_bin(int x, int y) const;
   uint32_t cell(int x, int y) const;
 
@@ -30,7 +30,7 @@ class PixelCells {
   std::array<float, MOST_Z_BINS> z_bins_;
 };
 
-// The grid's lists, or its masks where it has some, as the oracle reads them; without lights that z-bins pass over.
+// The grid's lists, or its masks if it has any, as the oracle reads them; without lights that z-bins skip.
 ListedLights listed_lights(const CapturedFrame& frame, const FrameGrid& grid);
 
 }  // namespace lightgrid

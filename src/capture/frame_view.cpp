@@ -9,12 +9,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double largest = 1e12;  // of a matrix element; beyond any world, and its square fits a float
+constexpr double largest = 1e12;  // of a matrix element; larger than any world, and its square fits a float
 constexpr double least_scale = 1e-9, largest_scale = 1e9;
 constexpr double rotation_tolerance = 5e-6;  // engines keep matrices in float
 constexpr double near_tolerance = 1e-3;      // relative
 
-// Files hold rows, GLM columns.
+// Files store rows, GLM columns.
 glm::dmat4 matrix_of(const JsonFile& file, const char* field) {
   const std::vector<double> rows = file.numbers(field, 16, -largest, largest);
   glm::dmat4 m;
@@ -46,9 +46,9 @@ void read_projection(const JsonFile& file, View& view) {
                     "is neither [0,0,-1,0], a perspective view along -z, nor [0,0,0,1], an orthographic one");
   }
   const double w = view.orthographic ? m[3][3] : -m[2][3];
-  if (w != 1) m /= w;  // all multiples are one projection
-  // Where x, y and depth may have an offset: from the third column in perspective, from the fourth where
-  // orthographic.
+  if (w != 1) m /= w;  // multiples are the same projection
+  // The column with the offsets of x, y and depth: the third in perspective, the fourth in orthographic
+  // views.
   const int offset = view.orthographic ? 3 : 2, other = view.orthographic ? 2 : 3;
   if (m[1][0] != 0 || m[other][0] != 0) throw row_error(0, "has more than a scale and an offset of x");
   if (m[0][1] != 0 || m[other][1] != 0) throw row_error(1, "has more than a scale and an offset of y");
@@ -63,7 +63,7 @@ void read_projection(const JsonFile& file, View& view) {
   }
 }
 
-// The distance along the view axis at which depth has a value. Infinite or negative where it never has.
+// The distance along the view axis with this depth. Infinite or negative if there is none.
 double distance_at(const View& view, double depth) {
   const double a = view.clip_from_view[2][2], b = view.clip_from_view[3][2];
   return view.orthographic ? (b - depth) / a : b / (depth + a);

@@ -16,7 +16,7 @@ struct FrameView {
   double surfaces_far_m = 0;  // CapturedFrame's
 };
 
-// Throws Error(input) for what is no perspective or orthographic view along -z with depth from zero to one.
+// Throws Error(input) unless the view is perspective or orthographic along -z with depth from zero to one.
 FrameView read_view_file(const std::filesystem::path& path);
 std::string view_file_text(const FrameView& frame);
 

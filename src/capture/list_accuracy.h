@@ -1,4 +1,4 @@
-// How many (pixel, light) pairs the lists of a captured frame hold for each that is truly lit.
+// How many (pixel, light) pairs a captured frame's lists hold for each lit pair.
 #pragma once
 
 #include <string>

@@ -15,14 +15,14 @@
 namespace lightgrid {
 namespace {
 
-// A contestant's run, until the technique or the machine refuses.
+// A contestant's run, until it fails.
 struct Entry {
   const Contestant* contestant;
   std::unique_ptr<TechniqueRun> run;
   std::optional<Error> refusal;
 };
 
-// Does `work`; a refusal ends the entry's run, unless it is kept, and its reason is recorded.
+// Runs `work`. An Error is recorded as the refusal and ends the entry's run, unless keep_run.
 template <typename Work>
 void attempt(Entry& entry, const Work& work, bool ends_run = true) {
   if (entry.refusal) return;
@@ -63,7 +63,7 @@ void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options
   }
 }
 
-// Where nothing ran there is nothing to report but the first reason.
+// If nothing ran, throws the first reason.
 void require_one(const std::vector<Entry>& entries) {
   for (const Entry& entry : entries) {
     if (entry.run) return;
@@ -80,7 +80,7 @@ RunResult refused_row(const Entry& entry, const RunResult& reference) {
   return row;
 }
 
-// The brute-force image: a contestant's or its own run, at all pixels or at a sample of them.
+// The brute-force image: of a contestant or of its own run, at all pixels or at a sample of them.
 struct Reference {
   std::unique_ptr<TechniqueRun> own;
   TechniqueRun* run = nullptr;
@@ -101,7 +101,8 @@ std::string time_in_words(double ms) {
   return ms < 120e3 ? fmt::format("{:.0f} s", ms / 1000) : fmt::format("{:.0f} min", ms / 60e3);
 }
 
-// Chooses between all pixels and a sample. In a sample's favour contestants of the reference's technique are refused.
+// Chooses between all pixels and a sample. With a sample, contestants with the reference's technique are
+// refused.
 void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Renderer& renderer, GpuScene& gpu,
                              const View& view, const std::vector<Contestant>& contestants, const CompareOptions& options,
                              const std::string& technique) {
@@ -160,8 +161,8 @@ void add_row(CompareReport& report, TechniqueRun& run, const Reference& referenc
   report.lit = std::move(pairs.lit_of_pixel);
 }
 
-// Each image and the reference's against the oracle: at a sample of pixels, and where the images differ most, so that no
-// difference is missed.
+// Compares each image and the reference's with the oracle: at a sample of pixels, and where the images differ
+// most, so that no large difference is missed.
 void measure_against_oracle(CompareReport& report, const Reference& reference, const std::vector<float>& depth, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
   const SurfaceOracle oracle(reference.run->view(), depth);
@@ -232,7 +233,7 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   for (size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries[i];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
-    // What refuses here keeps its run: it may be the reference.
+    // A refusal here keeps the run: it may be the reference.
     if (entry.run) attempt(entry, [&] { add_row(report, *entry.run, reference, depth); }, false);
     if (entry.refusal) {
       report.rows.push_back(refused_row(entry, reference.run->result()));

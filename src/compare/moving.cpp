@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-// After these, nothing is built for the first time.
+// Everything is built by then.
 constexpr size_t frames_to_settle = 2;
 
 // One technique along the path.
@@ -17,7 +17,7 @@ struct Path {
   TechniqueRun* run;
   RunResult* row;
   std::vector<double> frame_ms, resting_ms;  // with look() and without, of the frames after frames_to_settle
-  std::vector<glm::vec3> difference;     // from the reference, of the last frame
+  std::vector<glm::vec3> difference;     // from the reference, in the last frame
   double flicker_sum = 0, flicker_max = 0;
   uint64_t flicker_count = 0;
   double error_sum = 0;

@@ -1,4 +1,4 @@
-// Techniques while the camera moves: times, errors, flicker, and the work that a moving camera should not cause.
+// Techniques while the camera moves: times, errors, flicker, and work that a moving camera should not cause.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,15 @@ namespace lightgrid {
 
 // A camera path over a scene, which may move too.
 struct MovingScene {
-  GpuScene& gpu;           // of all runs
+  GpuScene& gpu;           // shared by all runs
   std::vector<View> path;
   SceneMotion advance;     // empty: the scene rests
 };
 
-// Moves the runs along a path, interleaved frame by frame. A null run is passed over. Afterwards `runs` and `reference` are at
-// the path's last view, and their images are of it. Errors are against the reference's image of the same frame, over all
-// frames; pairs are summed. `rows` get RunResult::moving, in the order of `runs`.
+// Moves the runs along a path, interleaved frame by frame. Null runs are skipped. Afterwards `runs` and
+// `reference` are at the path's last view, and so are their images. Errors are against the reference's image
+// of the same frame, over all frames; pairs are summed. Sets RunResult::moving in `rows`, in the order of
+// `runs`.
 void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
                     std::vector<RunResult>& rows, const std::function<void(double done)>& progress);
 

@@ -25,7 +25,7 @@ std::vector<T> read_buffer(GLuint buffer, size_t count) {
 
 void add_lists(SharedGridStorage& storage, const LightGrid& grid, ListedLights& lists) {
   const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  storage.cells_.buffer->hand_to_gl(grid.cell_bytes);  // which light code in OpenCL had no need of
+  storage.cells_.buffer->hand_to_gl(grid.cell_bytes);  // light code in OpenCL did not need them in OpenGL
   storage.indices_.buffer->hand_to_gl(grid.index_bytes);
   for (const glm::uvec2& cell : read_buffer<glm::uvec2>(storage.cells_.buffer->gl_buffer(), count)) {
     lists.first.push_back(cell.x), lists.count.push_back(cell.y);

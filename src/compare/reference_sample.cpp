@@ -9,7 +9,8 @@
 namespace lightgrid {
 namespace {
 
-// While it lives, surfaces pass the depth tests of shading inside the blocks alone: elsewhere depth is 1, nearer than all.
+// While it exists, only surfaces inside the blocks pass shading's depth test: elsewhere depth is 1, nearer
+// than everything.
 class DepthOfBlocks {
  public:
   DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v)) {
@@ -74,7 +75,7 @@ double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffle
     render_forward_at(v, {shuffled.begin(), shuffled.begin() + std::ptrdiff_t(count)}, image);
     return timer.elapsed_ms();
   };
-  const double without_pixels = (time_of(0), time_of(0));  // the first one builds programs
+  const double without_pixels = (time_of(0), time_of(0));  // the first call builds programs
   for (size_t count = 8;; count = std::min(8 * count, shuffled.size())) {
     const double ms = std::max(time_of(count) - without_pixels, 0.0);
     if (ms >= 250 || count == shuffled.size()) return without_pixels + ms * double(shuffled.size()) / double(count);

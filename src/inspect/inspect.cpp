@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-// Stands for infinity where a product with 0 must be 0, as in the kernels.
+// Replaces infinity where a product with 0 must be 0, as in the kernels.
 constexpr double far_away = 1e18;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
@@ -76,7 +76,7 @@ struct NamedMargin {
   double margin_m;
 };
 
-// Of the tests that these settings use, in their order.
+// Margins of the tests that these settings use, in their order.
 std::vector<NamedMargin> margins_in_use(const TestMargins& m, CullTest test) {
   std::vector<NamedMargin> used = {{"interval", m.interval}};
   const CullTestRow& parts = row_of(test);
@@ -94,7 +94,7 @@ NamedMargin least(const std::vector<NamedMargin>& used) {
                            [](auto& a, auto& b) { return a.margin_m < b.margin_m; });
 }
 
-// What decided: the first test that drops the light; of a listed light, the one with the least to spare.
+// The deciding test: the first that drops the light or, for a listed light, the one with the least margin.
 NamedMargin deciding(const std::vector<NamedMargin>& used, bool listed) {
   if (listed) return least(used);
   for (const NamedMargin& m : used) {
@@ -103,7 +103,7 @@ NamedMargin deciding(const std::vector<NamedMargin>& used, bool listed) {
   return {"other", least(used).margin_m};
 }
 
-// The intervals of distances within the cell's own that these depth bounds tell apart; none where they tell
+// The intervals of distances within the cell that these depth bounds distinguish; empty if they distinguish
 // none.
 std::vector<DepthInterval> pieces_of(const Cell& cell, const std::vector<glm::dvec3>& surfaces,
                                      DepthBoundsMode mode) {
@@ -119,14 +119,14 @@ std::vector<DepthInterval> pieces_of(const Cell& cell, const std::vector<glm::dv
     const float distance = float(-p.z);
     const int i = length > 0 ? std::clamp(int((distance - near) / length), 0, count - 1) : 0;
     DepthInterval& piece = pieces[i];
-    piece = mask ? DepthInterval{near + i * length, near + (i + 1) * length}  // a bit says no more
+    piece = mask ? DepthInterval{near + i * length, near + (i + 1) * length}  // a slot's bit has no finer depth
                  : DepthInterval{std::min(piece.near, distance), std::max(piece.far, distance)};
   }
   std::erase_if(pieces, [](const DepthInterval& piece) { return !(piece.near <= piece.far); });
   return pieces;
 }
 
-// A mask's slots hold distances only; a half is a cell of its own, tested like one.
+// A mask's slots bound distances only; a half is a cell of its own and tested as one.
 double pieces_margin(const Cell& cell, const std::vector<DepthInterval>& pieces, const ViewLight& light,
                      const Settings& settings) {
   double best = -endless;
@@ -187,7 +187,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
   return pixel;
 }
 
-// As the frame counts, of the lights that lists count.
+// Indices into the frame's lights, by the index in lists.
 std::vector<int> local_numbers(const CapturedFrame& frame) {
   std::vector<int> numbers;
   for (size_t i = 0; i < frame.lights.size(); ++i) {

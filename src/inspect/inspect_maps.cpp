@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-// The 99th percentile over pixels that list something, so that a few long lists leave the rest its colours.
+// The 99th percentile over pixels with listed lights, so that a few long lists do not compress the scale.
 uint32_t scale_top(std::vector<uint32_t> counts) {
   std::erase(counts, 0u);
   if (counts.empty()) return 1;

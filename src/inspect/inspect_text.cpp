@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Those to show: all listed or lost ones, and the first dropped ones.
+// The lights to show: all listed or lost ones, and the first dropped ones.
 std::vector<const LightVerdict*> shown(const PixelInspection& pixel, int most_dropped) {
   std::vector<const LightVerdict*> rows;
   int dropped = 0;

@@ -45,7 +45,7 @@ class Lookup {
 
 const Ramp& difference_ramp() {
   static const Ramp ramp = make_ramp([](float t) {
-    // Blue, cyan, green, yellow, red: all light enough to tell from black.
+    // Blue, cyan, green, yellow, red: all clearly brighter than black.
     constexpr std::array<glm::vec3, 5> stops = {{{0.20f, 0.32f, 0.95f},
                                                  {0.10f, 0.75f, 0.85f},
                                                  {0.30f, 0.75f, 0.25f},

@@ -45,7 +45,7 @@ std::string told(const json& value) {
   std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
   if (text.size() <= longest_value_told) return text;
   size_t end = longest_value_told;
-  while (end > 0 && (text[end] & 0xc0) == 0x80) --end;  // not through the middle of a character
+  while (end > 0 && (text[end] & 0xc0) == 0x80) --end;  // keeps characters whole
   return text.substr(0, end) + "…";
 }
 

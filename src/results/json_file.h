@@ -1,4 +1,4 @@
-// A small JSON file of ours, or of another program, field by field: each is checked, and what is wrong is an
+// A small JSON file of this program or another, read field by field. Each field is checked; a fault is an
 // Error(input) of one line that names file, field and value.
 #pragma once
 
@@ -16,19 +16,19 @@ inline constexpr uintmax_t max_json_file_bytes = 1 << 20;
 
 class JsonFile {
  public:
-  // Reads the file whole. It must hold an object, and at most max_json_file_bytes.
+  // Reads the whole file. It must hold an object, and at most max_json_file_bytes.
   explicit JsonFile(const std::filesystem::path& path);
 
-  bool has(const std::string& field) const;  // there, and not null
+  bool has(const std::string& field) const;  // present and not null
   const nlohmann::json& at(const std::string& field) const;
 
   double number(const std::string& field, double low, double high) const;
   int whole(const std::string& field, int low, int high) const;
-  // An array of `count` numbers; any count where it is -1.
+  // An array of `count` numbers; -1: any count.
   std::vector<double> numbers(const std::string& field, int count, double low, double high) const;
   std::vector<int> wholes(const std::string& field, int count, int low, int high) const;
 
-  // "FILE: FIELD VALUE FAULT", with a long value cut short.
+  // "FILE: FIELD VALUE FAULT", with long values truncated.
   Error error(const std::string& field, const std::string& fault) const;
   Error error(const std::string& field, const nlohmann::json& value, const std::string& fault) const;
   const std::string& path() const { return path_; }
@@ -40,7 +40,7 @@ class JsonFile {
   nlohmann::json json_;
 };
 
-// An object as text, one field a line: a matrix over sixteen lines is no help to a reader.
+// An object as text, one field a line, so that a matrix does not take sixteen lines.
 std::string text_by_fields(const nlohmann::ordered_json& object);
 
 }  // namespace lightgrid

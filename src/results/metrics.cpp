@@ -21,7 +21,7 @@ bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit
 
 bool has_nan(const glm::vec4& pixel) { return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b); }
 
-// The smallest value that at least 99 of 100 samples do not exceed.
+// The smallest sample that at least 99 of 100 samples do not exceed.
 double p99_of(std::vector<double>& samples) {
   const size_t index = (samples.size() * 99 + 99) / 100 - 1;
   std::nth_element(samples.begin(), samples.begin() + index, samples.end());

@@ -1,4 +1,4 @@
-// Differences between images, in numbers and in pictures.
+// Differences between images, as numbers and as pictures.
 #pragma once
 
 #include "base/image.h"
@@ -6,8 +6,8 @@
 
 namespace lightgrid {
 
-// Both images of one size; the three colour channels. Equal infinities differ by 0. NaN in either counts as
-// an infinite error, and so does any difference from a reference that is black all over, for max_rel.
+// Images of equal size; over the three colour channels. Equal infinities differ by 0. NaN in either image
+// counts as an infinite error; so does, for max_rel, any difference from a reference that is entirely black.
 ImageError compare_images(const Image& image, const Image& reference);
 
 uint64_t count_nan_pixels(const Image& image);
@@ -15,19 +15,19 @@ uint64_t count_nan_pixels(const Image& image);
 // Pixels with an infinite colour channel and no NaN: radiance past the largest float.
 uint64_t count_inf_pixels(const Image& image);
 
-// The largest finite colour channel; 0 where there is none above it.
+// The largest finite colour channel; at least 0.
 float brightest_channel(const Image& image);
 
 // |a - b| of the largest channel on a log scale: black is equal, then difference_ramp() from blue (1e-7 of
-// the reference's brightest channel and below) to red (1 and above); white is NaN in either. Linear RGB meant
-// to be stored without a tone map (srgb_bytes_as_is).
+// the reference's brightest channel and below) to red (1 and above); white is NaN in either. Linear RGB, to be
+// stored without a tone map (srgb_bytes_as_is).
 Image difference_image(const Image& image, const Image& reference);
 
 // Counts as colours: 0 is black, then viridis_ramp() up to `top` and above. Stored like a difference image.
 Image heat_map(int width, int height, const std::vector<uint32_t>& counts, uint32_t top);
 
-// The colours of the two above, lowest first, as sRGB bytes: what their legends show. 254 steps each, which
-// with black and white leaves a picture within the 256 colours of a palette.
+// The colours of the two above, lowest first, as sRGB bytes, for legends. 254 steps each, which with black
+// and white fit a palette of 256 colours.
 using Ramp = std::vector<glm::u8vec3>;
 const Ramp& difference_ramp();
 const Ramp& viridis_ramp();  // Smith and van der Walt 2015

@@ -1,4 +1,4 @@
-// What one technique did on one view, as `render --json` and `compare`'s results.json tell it
+// Results of one technique on one view, as in `render --json` and `compare`'s results.json
 // (docs/results_json.md).
 #pragma once
 
@@ -21,36 +21,37 @@ struct PassResult {
   size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs, not measured
 };
 
-// (pixel, light) pairs over the image. lit: by the double-precision oracle.
+// (pixel, light) pairs over the image. lit: according to the oracle.
 struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
 };
 
-// An image and the reference's, each against the double-precision oracle at the same pixels: a sample of the view and
-// the pixels at which the two differ most. Over the reference's brightest channel.
+// This image and the reference's, each compared with the oracle at the same pixels: a sample of the view and
+// the pixels at which the two differ most. Relative to the reference's brightest channel.
 struct OracleError {
   double max_rel = 0, rmse_rel = 0;
   double of_reference_max_rel = 0;
 };
 
-// Linear light, over all pixels and the three colour channels; where the reference is a sample, over its pixels.
+// Linear light, over all pixels and the three colour channels; if the reference is a sample, over its pixels.
 struct ImageError {
   double max_abs = 0;
-  double max_rel = 0;  // max_abs over the reference's brightest channel
+  double max_rel = 0;  // max_abs relative to the reference's brightest channel
   double rmse = 0;
-  double p99 = 0;  // of absolute error per pixel, its largest channel
+  double p99 = 0;  // of each pixel's largest absolute error
   std::optional<double> flip_mean;
   bool bit_identical = true;
-  std::optional<OracleError> oracle;  // absent where none was asked for
+  std::optional<OracleError> oracle;  // absent if not requested
 };
 
-// Over a camera path. Errors against the reference's image of the same frame, over its brightest channel of all frames.
+// Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest
+// channel of all frames.
 struct MovingResult {
   size_t frames = 0;
-  Spread frame_ms;    // the move and the frame, without the first two
-  Spread resting_ms;  // the same frames again, of a camera at rest
+  Spread frame_ms;    // move and frame, without the first two
+  Spread resting_ms;  // the same frames again with the camera at rest
   double max_abs = 0, max_rel = 0, rmse_rel = 0;
-  // How much the difference from the reference changes from frame to frame: flicker that the scene does not have.
+  // Change of the difference from the reference between frames: flicker that the scene does not have.
   double temporal_max_rel = 0, temporal_rmse_rel = 0;
   PairCounts pairs;
   uint64_t nan_pixels = 0;
@@ -65,17 +66,17 @@ struct SkippedEffect {
 
 struct RunResult {
   std::string technique;
-  std::string refused;  // why the machine or the technique cannot do this; empty where it ran
+  std::string refused;  // why the machine or the technique cannot do this; empty if it ran
   std::map<std::string, std::string> settings;
   int lights_total = 0, lights_in_view = 0;
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
-  std::optional<PairCounts> pairs;  // absent where no oracle was asked for
+  std::optional<PairCounts> pairs;  // absent without the oracle
   std::optional<ImageError> error;  // technique error: this image against the float image with every light
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
-  std::optional<MovingResult> moving;  // absent where no camera path was asked for
+  std::optional<MovingResult> moving;  // absent without a camera path
 };
 
 // Settings by the keys of results.json, numbers as numbers.
@@ -83,33 +84,33 @@ nlohmann::json settings_json(const std::map<std::string, std::string>& settings)
 
 nlohmann::json to_json(const RunResult& result);
 
-// Two spaces a level and a newline at the end; bytes that are not UTF-8 (a path may hold some) become U+FFFD.
+// Two spaces a level and a newline at the end; bytes that are not UTF-8 (possible in a path) become U+FFFD.
 std::string json_text(const nlohmann::json& value);
 std::string json_text(const RunResult& result);
 
-// The parts of the error that are the same for every technique (docs/conventions.md#errors).
+// Errors that all techniques share (docs/conventions.md#errors).
 struct ReferenceErrors {
   ImageError model;              // range window on against off, both in double
   ImageError precision;          // every light in float against every light in double
-  uint64_t pixels_left_out = 0;  // covered by blended surfaces, which the oracle does not shade
+  uint64_t pixels_left_out = 0;  // covered by blended surfaces, which the oracle cannot shade
 };
 
-// Everything the report of one view shows.
+// Everything that the report of one view shows.
 struct CompareReport {
   std::string scene;
   int width = 0, height = 0;
   std::string cl_device, gl_device, commit;
   std::string reference;  // the technique the images are compared with
-  uint64_t reference_pixels = 0;  // at how many pixels: all, or a sample where all would take too long
+  uint64_t reference_pixels = 0;  // number of pixels compared: all, or a sample if all would take too long
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear
-  Image reference_image;                      // needed only where no row is the reference
+  Image reference_image;                      // set only if no row is the reference
   std::vector<std::vector<uint32_t>> listed;  // one a row, lights listed per pixel, row 0 at the bottom
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
 };
 
 nlohmann::json to_json(const CompareReport& report);
-std::string json_text(const CompareReport& report);  // what results.json of one view holds
+std::string json_text(const CompareReport& report);  // the text of results.json for one view
 
 }  // namespace lightgrid

@@ -1,4 +1,4 @@
-// Numbers and views in words, as the report's sentences have them.
+// Numbers and views as text for the report.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace lightgrid {
 
 std::string with_commas(uint64_t value);  // 2420 -> "2,420"
 
-// Three digits that count: "2,420", "214", "11.3", "0.59".
+// Three significant digits: "2,420", "214", "11.3", "0.59".
 std::string short_number(double value);
 
 std::string spelled_setting(std::string key);            // as the command line spells it: "lidr_overlap" -> "lidr-overlap"
