@@ -22,8 +22,8 @@ Pose pose_at(const Rig& rig, double seconds, int animation) {
   return seconds == 0 && animation < 0 ? rest_pose(rig) : animated_pose(rig, seconds, animation);
 }
 
-// Light directions and camera axes on nodes that have none in a pose: rare, so the rest pose is made on
-// demand.
+// Light directions and camera axes of the rest pose, for nodes without any in the current pose. Rare, so
+// computed on demand.
 class RestFallback {
  public:
   explicit RestFallback(const Rig& rig) : rig_(rig) {}
@@ -62,7 +62,7 @@ bool move_camera(Camera& camera, const glm::dmat4& world, RestFallback& rest) {
   return rigid && assign(camera.world_from_view, *rigid);
 }
 
-// The morph weights and joint matrices that give a mesh its shape.
+// The morph weights and joint matrices that determine a mesh's shape.
 struct ShapeInputs {
   std::vector<double> weights;
   std::vector<glm::dmat4> joints;
@@ -109,7 +109,7 @@ std::vector<int> move_all(std::vector<Item>& items, const Pose& pose, RestFallba
   return changed;
 }
 
-// `before` is empty where the present shapes are unknown: all are made again.
+// `before` is empty if the present shapes are unknown: then all are recomputed.
 std::vector<int> deform_meshes(Scene& scene, const Pose& pose, const std::optional<Pose>& before,
                                double seconds) {
   std::vector<int> changed;
@@ -134,7 +134,7 @@ SceneChanges set_time(Scene& scene, double seconds, int animation) {
   std::optional<Pose> before;
   if (!std::isnan(scene.time_s)) before = pose_at(*scene.rig, scene.time_s, scene.animation);
 
-  // Meshes first: only they can fail, and the next call then makes and lists all of them.
+  // Meshes first: only they can fail, and the next call then recomputes and lists all of them.
   scene.time_s = std::numeric_limits<double>::quiet_NaN();
   SceneChanges changes;
   changes.meshes = deform_meshes(scene, pose, before, seconds);

@@ -7,9 +7,9 @@
 
 namespace lightgrid {
 
-// What set_time or a light motion changed, as indices into the arrays of Scene, ascending. Nothing else
-// differs from before: the number of instances, meshes, lights and cameras, and of each mesh's vertices and
-// indices, never changes.
+// Indices into the arrays of Scene, ascending, of what set_time or a light motion changed. Everything else is
+// unchanged: the number of instances, meshes, lights and cameras, and of each mesh's vertices and indices,
+// never changes.
 struct SceneChanges {
   std::vector<int> instances;  // world_from_object
   std::vector<int> meshes;     // all arrays but indices, and bounds
@@ -18,29 +18,29 @@ struct SceneChanges {
   bool empty() const { return instances.empty() && meshes.empty() && lights.empty() && cameras.empty(); }
 };
 
-// Poses the scene at `seconds` of one animation of its file, or of all of them at once (-1; where two animate
-// the same property the later one holds), and says what changed. Times outside an animation take its first or
-// last key (glTF 2.0, 3.11).
+// Poses the scene at `seconds` of one animation of its file, or of all of them at once (-1; of two that
+// animate the same property the later one applies), and returns what changed. Times outside an animation use
+// its first or last key (glTF 2.0, 3.11).
 //
-// Time 0 with animation -1 is the file at rest, as load_gltf gives it: nodes, joints and morph weights as the
-// file has them without its animations. That may differ from the first keys; to see those at 0, name the
+// Time 0 with animation -1 is the file at rest, as load_gltf returns it: nodes, joints and morph weights as
+// in the file without its animations. That may differ from the first keys; to pose those at 0, select the
 // animation.
 //
 // The result depends on the rig, `seconds` and `animation` alone, not on earlier poses. Instances on a node
 // that is scaled to no volume shrink to a point and cover no pixel; a light or camera on such a node keeps
-// the direction it has at rest. Lights and cameras that the caller has added or replaced (Light::node -1)
-// stay. Without a rig nothing happens.
+// its direction at rest. Lights and cameras that the caller has added or replaced (Light::node -1) stay.
+// Without a rig nothing changes.
 //
-// Throws Error(input): a time that is not finite, an animation out of range, a pose that is not finite. After
-// the last of these meshes may be half done: the next call that succeeds makes and lists all that deform.
+// Throws Error(input) for a time that is not finite, an animation out of range or a pose that is not finite.
+// In the last case meshes may be partly updated; the next successful call updates and lists all that deform.
 SceneChanges set_time(Scene& scene, double seconds, int animation = -1);
 
-// The time of the last key, in seconds, of one animation or (-1) of all; 0 where nothing is animated. Throws
-// Error(input): an animation out of range.
+// The time of the last key, in seconds, of one animation or (-1) of all; 0 if nothing is animated. Throws
+// Error(input) for an animation out of range.
 double duration_of(const Scene& scene, int animation = -1);
 
-// `seconds` for an animation that repeats: as it is up to the duration, then by whole durations less. Never 0
-// after the start, which would be the rest pose.
+// `seconds` for an animation that repeats: unchanged up to the duration, then reduced by whole durations.
+// Never 0 after the start, because 0 means the rest pose.
 double looped_time(const Scene& scene, double seconds, int animation = -1);
 
 // The number of animations of the file, named or not.

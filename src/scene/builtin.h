@@ -11,14 +11,14 @@ namespace lightgrid {
 
 struct BuiltinScene {
   const char* name;
-  const char* summary;  // one line for `lightgrid scenes`
+  const char* summary;  // one line, for `lightgrid scenes`
   Scene (*make)();
 };
 
 // hall, spheres, terrain, street.
 const std::vector<BuiltinScene>& builtin_scenes();
 
-// nullptr where there is none of that name.
+// nullptr if there is none of that name.
 const BuiltinScene* find_builtin_scene(std::string_view name);
 
 }  // namespace lightgrid

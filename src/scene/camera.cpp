@@ -13,7 +13,7 @@
 namespace lightgrid {
 namespace {
 
-// Far beyond any scene, and small enough that squares of differences stay finite.
+// Beyond any scene, and small enough that squares of differences stay finite.
 constexpr double max_coordinate_m = 1e12;
 
 // GLM's normalize squares first, which loses lengths below 1e-154.
@@ -26,7 +26,7 @@ bool is_direction(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && v != glm::dvec3(0);
 }
 
-// The rigid part: looks where the matrix looks, then up as it has it; a mirrored camera is turned right.
+// The rigid part of the matrix: keeps its direction, then its up; mirrored cameras are unmirrored.
 glm::dmat3 rigid_rotation(const Camera& camera) {
   const glm::dmat3 axes(camera.world_from_view);
   if (!is_direction(axes[1]) || !is_direction(axes[2])) {
@@ -78,7 +78,7 @@ glm::dmat4 orthographic(const Camera& camera, double aspect) {
   return clip_from_view;
 }
 
-// The scene's size in metres, 1 where it has none.
+// The scene's size in metres, 1 if it has none.
 double size_of(const WorldBox& box) {
   const double size = box.empty() ? 0 : glm::length(box.max - box.min);
   return size > 0 && std::isfinite(size) ? size : 1;

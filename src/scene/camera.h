@@ -1,4 +1,4 @@
-// Which camera, and the matrices of a view through it.
+// Cameras, and the matrices of a view.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace lightgrid {
 
-// A camera with an image size: all that culling and shading know of the viewer. View space is right-handed,
-// looks along -z, y up. Clip space has depth zero to one, reversed: near at 1, far (or infinity) at 0.
+// A camera with an image size: the viewer, as culling and shading read it. View space is right-handed, looks
+// along -z, y up. Clip space has depth zero to one, reversed: near at 1, far (or infinity) at 0.
 struct View {
   int width = 0, height = 0;
   glm::dmat4 view_from_world{1};
@@ -21,23 +21,22 @@ struct View {
 };
 
 // The camera's vertical field is kept and the image's own aspect used (Camera::aspect and half_width_m are
-// not). A camera matrix with scale, shear or mirroring is made rigid: direction first, then up. Throws
-// Error(input) for a field, near, far or matrix that makes no projection; an orthographic camera needs a
-// finite far.
+// ignored). A camera matrix with scale, shear or mirroring is made rigid: direction first, then up. Throws
+// Error(input) if field, near, far or matrix give no projection; an orthographic camera needs a finite far.
 View make_view(const Camera& camera, int width, int height);
 
-// Subtracts the eye in double before it rotates, so that a scene and a camera moved together by an exact
-// amount give the same bits; view_from_world * world_from_object does not.
+// Subtracts the eye in double before rotating, so that a scene and a camera moved together by an exact amount
+// give the same bits; view_from_world * world_from_object does not.
 glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_object);
 
-// A camera at `eye` that looks at `target` with y up (where it looks straight up or down: -z up). Unnamed, 60
+// A camera at `eye` that looks at `target` with y up (-z up if it looks straight up or down). Unnamed, 60
 // degrees, near 0.1 m, far infinite.
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
 
-// NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg" (fov vertical, 60 where absent). Empty: the scene's first
-// camera, or, without one, a camera that sees the whole scene in an image of this aspect
+// NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg" (fov vertical, default 60). Empty: the scene's first
+// camera, or, without one, a camera that shows the whole scene in an image of this aspect
 // (scene/overview_camera.h). Near is at most a thousandth of the scene's size; far is infinite. Throws
-// Error(input) for a name or form unknown, a number that is none, a field outside 0..180 degrees, and a target
+// Error(input) for an unknown name or form, an invalid number, a field outside 0..180 degrees, and a target
 // at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish, double aspect = 1);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_views = 100'000;
 
-// `start` from another place, its view space turned by `turn` (world from world).
+// `start` from another position, with its view space turned by `turn` (world from world).
 View moved(const View& start, const glm::dvec3& eye, const glm::dmat3& turn) {
   View view = start;
   const glm::dmat3 rotation = glm::dmat3(start.view_from_world) * glm::transpose(turn);
@@ -115,7 +115,7 @@ class KeyFile {
   std::vector<Key> keys_;
 };
 
-// N of "NAME:N", or nothing where the text is of another form.
+// N of "NAME:N", or empty if the text has another form.
 std::optional<int> count_of(const std::string& text, const std::string& name) {
   if (!text.starts_with(name + ":")) return {};
   const char* first = text.data() + name.size() + 1;

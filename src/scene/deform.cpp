@@ -17,8 +17,8 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-// Calls set(value, sum of weighted displacements) for each value, if some target of weight other than 0
-// displaces the attribute.
+// Calls set(value, sum of weighted displacements) for each value, if a target of nonzero weight displaces the
+// attribute.
 template <int N, typename Value, typename Set>
 void displace(std::span<const MorphTarget> targets, std::span<const double> weights,
               std::vector<glm::vec<N, float>> MorphTarget::*attribute, std::vector<Value>& values,

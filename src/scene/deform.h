@@ -10,19 +10,19 @@
 namespace lightgrid {
 
 // Adds each target's displacements times its weight to the attributes that `mesh` has: positions, normals,
-// tangents (not their handedness), texture coordinates and colours. Normals and tangents come out as unit
-// vectors, colours within 0 to 1. Targets of weight 0 do nothing. `weights`: one a target, or none.
+// tangents (not their handedness), texture coordinates and colours. Normals and tangents are normalised,
+// colours clamped to 0 to 1. Targets of weight 0 are ignored. `weights`: one a target, or none.
 void apply_morph_targets(std::span<const MorphTarget> targets, std::span<const double> weights, Mesh& mesh);
 
-// Moves positions, normals and tangents by the joints, into world space: a skinned mesh's own node does not
-// matter. Weights are divided by their sum; a vertex without weights stays where the file has it. All joints
-// of `skin` must be in `joints`.
+// Moves positions, normals and tangents by the joints, into world space: a skinned mesh's own node is
+// ignored. Weights are divided by their sum; a vertex without weights keeps its position in the file.
+// `joints` contains all joints of `skin`.
 void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mesh& mesh);
 
-// Makes normals and tangents where they are missing and needed, drops tangents nobody uses, sets bounds.
+// Computes normals and tangents that are missing and needed, drops unused tangents, sets bounds.
 void complete_mesh(TangentNeed tangents, Mesh& mesh);
 
-// All three, from shape.base into `mesh`, whose name and material stay.
+// Runs all three, from shape.base into `mesh`, whose name and material stay.
 void deform(const DeformingMesh& shape, std::span<const double> weights, std::span<const glm::dmat4> joints,
             Mesh& mesh);
 

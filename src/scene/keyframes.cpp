@@ -23,7 +23,7 @@ double length_of(const std::vector<double>& v) {
   return std::sqrt(sum);
 }
 
-// `absent` where the length is 0: the spline of two opposite quaternions passes through 0.
+// `absent` if the length is 0: the spline between two opposite quaternions passes through 0.
 std::vector<double> normalized_or(std::vector<double> v, const std::vector<double>& absent) {
   const double length = length_of(v);
   if (!(length > 1e-12)) return absent;

@@ -8,7 +8,7 @@
 namespace lightgrid {
 
 // Before the first key: its value; after the last key: its value. Rotations are unit quaternions (x, y, z,
-// w), linear ones by the shorter of both arcs. Where keys share a time, the last of them counts from that
+// w), interpolated along the shorter arc if linear. If keys share a time, the last of them applies from that
 // time on.
 std::vector<double> sample_channel(const AnimationChannel& channel, double seconds);
 

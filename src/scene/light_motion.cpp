@@ -33,7 +33,7 @@ glm::dvec3 orbit_offset(const Light& light, Random& random, double seconds) {
 glm::dvec3 drift_offset(const Light& light, Random& random, double seconds) {
   glm::dvec3 offset(0);
   for (int axis = 0; axis < 3; ++axis) {
-    // Two periods of no common multiple that is short.
+    // Two periods without a short common multiple.
     const double slow_s = random.uniform(11, 23), fast_s = random.uniform(5, 9);
     const double slow_rad = turn_rad * random.uniform(), fast_rad = turn_rad * random.uniform();
     offset[axis] = 0.7 * swing(seconds, slow_s, slow_rad) + 0.3 * swing(seconds, fast_s, fast_rad);

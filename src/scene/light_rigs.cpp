@@ -25,13 +25,13 @@ Triangle world_triangle(const Scene& scene, const Instance& instance, size_t fir
                       glm::dvec4(mesh.positions[mesh.indices[first_index + i]], 1));
   };
   Triangle triangle{corner(0), corner(1), corner(2)};
-  // A mirrored instance shows its triangles' other side.
+  // Mirrored instances have reversed triangles.
   if (glm::determinant(glm::dmat3(instance.world_from_object)) < 0) std::swap(triangle.b, triangle.c);
   return triangle;
 }
 
-// Every triangle of every instance, with the running sum of areas: a position in the sum picks a triangle by
-// area.
+// Every triangle of every instance, with the running sum of areas: a value below the sum selects a triangle
+// by area.
 class Surface {
  public:
   explicit Surface(const Scene& scene) : scene_(scene) {
@@ -90,7 +90,7 @@ void check(const Scene& scene, const ScatterSettings& settings, double area) {
 }
 
 Light scatter_one(const Surface& surface, uint64_t seed, int index, float min_radius, float max_radius) {
-  // A generator of its own for each light: the others' number does not matter.
+  // A separate generator for each light: independent of the number of lights.
   Random random(Random::mix(seed) + Random::mix(uint64_t(index) + 1));
   const double share = double(random.next() >> 11) * 0x1p-53;
   const double along = std::sqrt(double(random.uniform())), across = random.uniform();
@@ -121,7 +121,7 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
   check(scene, settings, surface.area());
   float min_radius = settings.min_radius_m, max_radius = settings.max_radius_m;
   if (max_radius == 0 && settings.count > 0) {
-    // count * pi * radius^2 = lights_per_point * area, then some larger and some smaller.
+    // count * pi * radius^2 = lights_per_point * area; radii vary around it.
     const double radius = std::sqrt(lights_per_point * surface.area() / (std::numbers::pi * settings.count));
     const WorldBox box = world_box(scene);
     const double bounded = std::min(radius, glm::length(box.max - box.min) / 4);

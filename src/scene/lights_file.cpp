@@ -19,8 +19,9 @@ using Json = nlohmann::json;
 constexpr int max_json_depth = 32;
 constexpr double max_float = std::numeric_limits<float>::max();
 
-// Follows a parse without keeping anything: for messages that say where it stopped, since the parser's own say only
-// line and column. (Parser callbacks would do, but scan the whole list at the end of each of its lights.)
+// Follows a parse without storing anything, for messages with the position of a fault, since the parser's own
+// messages give only line and column. (Parser callbacks would work, but rescan the whole list at the end of
+// each light.)
 class Place : public Json::json_sax_t {
  public:
   explicit Place(const std::filesystem::path& path) : path_(path) {}
@@ -90,7 +91,7 @@ Json read_json(const std::filesystem::path& path) {
   return Json::parse(text);
 }
 
-// One light's fields, each checked.
+// One light's fields, with checks.
 class Fields {
  public:
   Fields(const std::filesystem::path& path, size_t index, const Json& json) : json_(json) {
@@ -151,9 +152,9 @@ LightType light_type(const Fields& fields) {
 glm::vec3 direction(const Fields& fields) {
   const glm::dvec3 given = fields.vector("direction", -max_float, max_float);
   const double length = glm::length(given);
-  // Denormal lengths included: their quotient is no direction.
+  // Also rejects denormal lengths: their quotient is no direction.
   if (!(length > 1e-150)) throw fields.error("direction", "is zero", "[0, 0, 0]");
-  // As it is where it is a unit vector to a float's precision, so that what was saved is what is loaded.
+  // Unchanged if it is a unit vector to a float's precision, so that a saved direction is loaded unchanged.
   return glm::vec3(std::abs(length - 1) < 1e-6 ? given : given / length);
 }
 
@@ -191,7 +192,7 @@ Light plain_light(const Fields& fields) {
   return light;
 }
 
-// The shortest decimal that reads back as the float: 0.1, where the float's double has seventeen digits.
+// The shortest decimal that reads back as the float: 0.1, where the float as a double has seventeen digits.
 double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
 
 Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }

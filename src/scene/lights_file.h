@@ -10,19 +10,19 @@
 
 namespace lightgrid {
 
-// Red Eclipse maps are z up, in map units; this project takes 8 units to the metre (a player there is 14
-// units high: 1.75 m), and turns them y up. Radius 0 (unlimited) becomes an infinite radius.
+// Red Eclipse maps are z up, in map units; this project uses 8 units a metre (a player there is 14 units
+// high: 1.75 m), and turns them y up. Radius 0 (unlimited) becomes an infinite radius.
 inline constexpr double metres_per_redeclipse_unit = 0.125;
 
 // {"lights": [{"name", "type": "point|spot|directional", "position", "direction", "radius", "inner_cone",
-//   "outer_cone", "color", "intensity"}]}, world space, metres, radians (half-angles). Absent: type point,
-//   radius infinite, colour white, intensity 1, cones 0 and pi/4; position is asked of point and spot,
-//   direction of spot and directional. Other keys are ignored.
-// A light with "rgb255" is one of a Red Eclipse map: a point with colour rgb255 / 255 and radiant intensity
-//   (radius / 2)^2 candela, 1 lux half the radius away; with radius 0 as one of 16 m has it.
+// "outer_cone", "color", "intensity"}]}, world space, metres, radians (half-angles). Defaults: type point,
+// radius infinite, colour white, intensity 1, cones 0 and pi/4. Point and spot lights require a position,
+// spot and directional lights a direction. Other keys are ignored.
+// A light with "rgb255" is from a Red Eclipse map: a point light with colour rgb255 / 255 and radiant intensity
+// (radius / 2)^2 candela, 1 lux at half the radius; radius 0 gives the intensity of 16 m.
 // Throws Error(input) that names the file, the light and the field: NaN, numbers beyond a float's range (colour
-// times intensity too), a negative radius, colour or intensity, a zero direction and cones outside 0 <= inner < outer <= pi are
-// errors; so is a file above max_lights_file_bytes.
+// times intensity too), a negative radius, colour or intensity, a zero direction and cones outside
+// 0 <= inner < outer <= pi are errors; so is a file above max_lights_file_bytes.
 std::vector<Light> load_lights_file(const std::filesystem::path& path);
 
 inline constexpr uintmax_t max_lights_file_bytes = uintmax_t(128) << 20;
@@ -30,8 +30,8 @@ inline constexpr uintmax_t max_lights_file_bytes = uintmax_t(128) << 20;
 // The optional "camera" of a lights file in the command line's form ("eye:…"), or empty.
 std::string camera_of_lights_file(const std::filesystem::path& path);
 
-// What load_lights_file reads back as equal lights: positions to the last bit of a double, the rest of a
-// float. Fields that a light's type does not use are left out.
+// load_lights_file reads equal lights back: positions to the last bit of a double, the rest of a float.
+// Fields that a light's type does not use are omitted.
 void save_lights_file(const std::filesystem::path& path, const std::vector<Light>& lights);
 
 }  // namespace lightgrid

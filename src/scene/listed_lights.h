@@ -1,4 +1,4 @@
-// Which lights a technique shaded each pixel with, for the oracle to judge.
+// The lights that a technique used at each pixel, for the oracle.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ struct ListedLights {
   std::vector<uint32_t> indices;        // of point and spot lights in scene order (FramePlan::local)
 };
 
-// Puts lists of these counts one after the other: sets `first`, and sizes `indices`. Throws Error(machine) where that is
-// more than half of the machine's memory.
+// Places lists of these counts one after the other: sets `first`, and sizes `indices`. Throws Error(machine)
+// if that takes more than half of the machine's memory.
 void place_lists(ListedLights& lists);
 
-// One cell of lights 0 ... count - 1 for all pixels: what a technique without lists does.
+// One cell of lights 0 ... count - 1 for all pixels: the lists of a technique without a grid.
 ListedLights list_every_light(uint32_t count);
 
 }  // namespace lightgrid

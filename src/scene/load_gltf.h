@@ -7,23 +7,22 @@
 
 namespace lightgrid {
 
-// Bounds on what a file may ask for, so that no input can exhaust the machine.
+// Limits on a file's sizes, so that no input can exhaust the machine.
 struct GltfLimits {
   int max_image_side = 8192;
   size_t max_image_bytes = size_t(1) << 30;  // all images, decoded
-  size_t max_vertices = 50'000'000;          // all meshes, and those that morph targets displace
+  size_t max_vertices = 50'000'000;          // all meshes, and vertices displaced by morph targets
   size_t max_instances = 1'000'000;
   size_t max_animation_values = 50'000'000;  // key times and values of all animations
   int max_node_depth = 1000;
   size_t max_file_bytes = size_t(2) << 30;
 };
 
-// Loads .gltf or .glb by content, scene `scene` of the file or its default one at -1.
-// The scene is at rest: nodes, joints and morph weights as the file has them. Where it has animations of this
-// scene's nodes, Scene::rig holds them, and set_time (scene/animation.h) plays them. Throws Error(input) in
-// one line that names the file, the field and the value. What is optional and not supported (an extension,
-// points) is one warning on stderr each. Reads only regular files in the file's own folder and below.
-// Deterministic.
+// Loads .gltf or .glb by content, scene `scene` of the file or its default one at -1. The scene is at rest:
+// nodes, joints and morph weights as in the file. If it has animations of this scene's nodes, Scene::rig
+// holds them, and set_time (scene/animation.h) plays them. Throws Error(input) in one line that names the
+// file, the field and the value. Each optional and unsupported feature (an extension, points) gives one
+// warning on stderr. Reads only regular files in the file's own folder and below. Deterministic.
 Scene load_gltf(const std::filesystem::path& path, int scene = -1, const GltfLimits& limits = {});
 
 }  // namespace lightgrid

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double filled = 0.9;  // of the image's width or height
 
-// The pyramid |x - eye.x| <= slope.x (eye.z - z), and so for y, that holds all points and has the least eye.z. x and y are
-// independent but for eye.z: x + slope z <= eye.x + slope eye.z and -x + slope z <= -eye.x + slope eye.z hold for all points
-// where they hold for the greatest left sides, whose sum bounds eye.z.
+// The pyramid |x - eye.x| <= slope.x (eye.z - z), likewise for y, that contains all points and has the least
+// eye.z. x and y share only eye.z: x + slope z <= eye.x + slope eye.z and -x + slope z <= -eye.x + slope
+// eye.z hold for all points if they hold for the greatest left sides, whose sum bounds eye.z.
 struct Fit {
   glm::dvec2 slope;
   glm::dvec2 greatest{-std::numeric_limits<double>::infinity()}, greatest_mirrored = greatest;
@@ -48,11 +48,11 @@ Camera overview_camera(const Scene& scene, double aspect) {
     const glm::dvec3 moved = view_from_world * (glm::dvec3(instance.world_from_object[3]) - center);
     for (const uint32_t index : mesh.indices) fit.add(rotated * glm::dvec3(mesh.positions[index]) + moved);
   }
-  // A scene without triangles, or one whose numbers leave double, is looked at from its box's corner.
+  // Without triangles, or with numbers that overflow double, looks from the box's corner.
   const double size = box.empty() ? 1 : glm::length(box.max - box.min);
   glm::dvec3 eye = fit.eye();
   if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z)) eye = {0, 0, std::isfinite(size) ? size : 1};
-  // The pyramid's tip may touch the model, whose corner then fills the image and hides the rest: keep a distance.
+  // The eye may touch the model, whose corner then fills the image and hides the rest: keep a distance.
   const double scale = size > 0 && std::isfinite(size) ? size : 1;
   if (std::isfinite(fit.nearest)) eye.z = std::max(eye.z, fit.nearest + 0.05 * scale);
   camera.near_m = 1e-3 * scale;

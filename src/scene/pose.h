@@ -1,4 +1,4 @@
-// Where the nodes of a rig are at a time, and what follows for what hangs on them.
+// The nodes of a rig at a time, and the matrices derived from them.
 #pragma once
 
 #include <map>
@@ -16,24 +16,23 @@ struct Pose {
 
 Pose rest_pose(const Rig& rig);
 
-// Animation `animation`, or at -1 all of them, the later over the earlier. Throws Error(input) where
-// interpolation leads to a matrix or weight that is not finite.
+// Animation `animation`, or at -1 all of them, later ones overriding earlier ones. Throws Error(input) if
+// interpolation gives a matrix or weight that is not finite.
 Pose animated_pose(const Rig& rig, double seconds, int animation);
 
 glm::dmat4 parent_from_node(const NodeTransform& transform);
 
-// Whether the matrix maps volumes to nothing. Normals do not exist then.
+// True if the matrix maps volumes to zero; normals do not exist then.
 bool is_flat(const glm::dmat4& world_from_node);
 
-// What Instance::world_from_object is on this node: the node's matrix. A flat one is replaced by a scale of
-// 2^-40 about the node's position: the instance covers no pixel, and its normal matrix stays finite.
+// Instance::world_from_object for this node: the node's matrix. A flat one is replaced by a scale of 2^-40
+// about the node's position: the instance covers no pixel, and its normal matrix stays finite.
 glm::dmat4 world_of_instance(const glm::dmat4& world_from_node);
 
-// The node's -z as a unit vector (KHR_lights_punctual); nothing where the node scales it to 0.
+// The node's -z as a unit vector (KHR_lights_punctual); empty if the node scales it to 0.
 std::optional<glm::vec3> light_direction(const glm::dmat4& world_from_node);
 
-// The node's matrix without scale and shear, direction first, then up; nothing where the node scales an axis
-// to 0.
+// The node's matrix without scale and shear, direction first, then up; empty if the node scales an axis to 0.
 std::optional<glm::dmat4> rigid_part(const glm::dmat4& world_from_node);
 
 // The world matrix of each joint times its inverse bind matrix.

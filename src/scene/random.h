@@ -1,5 +1,5 @@
 // SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014): the same
-// numbers on every machine, which the distributions of the standard library do not promise.
+// numbers on every machine, which the standard library's distributions do not guarantee.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What can move in a scene: the nodes, animations, skins and morph targets of a glTF file (glTF 2.0, Khronos,
-// 2021, sections 3.5, 3.7.2.2, 3.7.3 and 3.11). Plain data that never changes after loading;
+// The moving parts of a scene: the nodes, animations, skins and morph targets of a glTF file (glTF 2.0,
+// Khronos, 2021, sections 3.5, 3.7.2.2, 3.7.3 and 3.11). Plain data that never changes after loading;
 // scene/animation.h applies it.
 #pragma once
 
@@ -23,8 +23,8 @@ struct NodeTransform {
 struct RigNode {
   std::string label;                 // for messages: node 3 "arm"
   int parent = -1;                   // an earlier node; -1: a root
-  NodeTransform rest;                // where no animation moves it
-  std::optional<glm::dmat4> matrix;  // affine; in place of `rest`: such a node cannot be animated
+  NodeTransform rest;                // used unless an animation moves it
+  std::optional<glm::dmat4> matrix;  // affine; replaces `rest`: such a node cannot be animated
 };
 
 enum class AnimatedPath { translation, rotation, scale, weights };
@@ -37,7 +37,7 @@ struct AnimationChannel {
   Interpolation interpolation = Interpolation::linear;
   int components = 3;  // translation and scale 3, rotation 4 (x, y, z, w), weights: one for each morph target
   std::vector<float> times;  // seconds, from 0 on, not decreasing; at least one
-  // `components` for each time; for cubic_spline as many of the in-tangent, of the value and of the out-tangent.
+  // `components` for each time; for cubic_spline in-tangent, value and out-tangent, `components` each.
   std::vector<float> values;
 };
 
@@ -51,7 +51,7 @@ struct RigSkin {
   std::vector<glm::dmat4> inverse_binds;  // one a joint
 };
 
-// Displacements of each vertex at weight 1. Empty where the target does not displace this attribute.
+// Displacements of each vertex at weight 1. Empty if the target does not displace this attribute.
 struct MorphTarget {
   std::vector<glm::vec3> positions, normals, tangents;
   std::vector<glm::vec2> uv0, uv1;
@@ -64,17 +64,17 @@ struct SkinWeights {
   std::vector<glm::vec4> weights;
 };
 
-// Which tangents a mesh must have: none, or the file's, or (where it has none) tangents along u of a texture
+// The tangents that a mesh needs: none, or the file's, or (if it has none) tangents along u of a texture
 // coordinate set.
 enum class TangentNeed { none, along_uv0, along_uv1 };
 
-// The shape that morph targets and joints start from. Only meshes that change their shape have one.
+// The shape to which morph targets and joints apply. Only meshes that deform have one.
 struct DeformingMesh {
-  int mesh = 0;  // of Scene::meshes: the result
+  int mesh = 0;  // index in Scene::meshes of the result
   std::string label;
-  Mesh base;  // as the file has it; normals and tangents may be missing
+  Mesh base;  // as in the file; normals and tangents may be missing
   TangentNeed tangents = TangentNeed::none;
-  int weights_node = -1;             // whose morph weights; -1: base is morphed already
+  int weights_node = -1;             // the node with the morph weights; -1: base is already morphed
   std::vector<double> rest_weights;  // one a target, or none: all 0
   std::vector<MorphTarget> targets;
   int skin = -1;  // of Rig::skins; -1: not skinned

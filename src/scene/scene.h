@@ -1,6 +1,6 @@
-// A scene as plain data. World space is right-handed, y up, in metres (glTF's own); angles are in radians,
-// colours linear. Nodes are already flattened: every instance carries its world matrix in double, at the current
-// time of the scene. What moves them is in `rig`; set_time (scene/animation.h) applies it.
+// A scene as plain data. World space is right-handed, y up, in metres (as in glTF); angles are in radians,
+// colours linear. Nodes are already flattened: every instance has its world matrix in double, at the current
+// time of the scene. Moving parts are in `rig`; set_time (scene/animation.h) applies it.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ struct Aabb {
 struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;   // never empty: flat normals are made where the file has none
+  std::vector<glm::vec3> normals;   // never empty: flat normals are computed if the file has none
   std::vector<glm::vec4> tangents;  // xyz and handedness; present whenever the material has a normal map
   std::vector<glm::vec2> uv0, uv1;
   std::vector<glm::vec4> colors;  // linear RGBA, multiplies base colour
   std::vector<uint32_t> indices;  // three a triangle, counter-clockwise front
-  int material = 0;               // always valid: a default material is added where the file has none
+  int material = 0;               // always valid: a default material is added if the file has none
   Aabb bounds;                    // of positions
 };
 
@@ -52,13 +52,13 @@ struct Bitmap {
 
 struct Texture {
   int bitmap = -1;
-  bool srgb = false;  // colours are stored through the sRGB curve, data is not
+  bool srgb = false;  // colours are stored with the sRGB curve, data is not
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
   Filter min_filter = Filter::linear_mipmap_linear;
   bool mag_linear = true;
 };
 
-// A texture as one material uses it: KHR_texture_transform is folded into uv_from_vertex.
+// A texture as one material uses it: KHR_texture_transform is included in uv_from_vertex.
 struct TextureSlot {
   int texture = -1;                              // -1: none
   int uv_set = 0;                                // 0 or 1
@@ -85,28 +85,28 @@ struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
-  int node = -1;  // of the rig, which moves it; -1: stays
+  int node = -1;  // of the rig, which moves it; -1: static
 };
 
 enum class LightType { point, spot, directional };
 
-// KHR_lights_punctual. A light's range is the radius at which its contribution is exactly zero, through the
+// KHR_lights_punctual. A light's range is the radius at which its contribution becomes exactly zero, by the
 // window that the extension recommends: clamp(1 - (d / radius)^4, 0, 1) / d^2.
 struct Light {
   std::string name;
   LightType type = LightType::point;
   glm::dvec3 position{0};         // world, metres; unused by directional
-  glm::vec3 direction{0, 0, -1};  // world, unit; where the light shines
+  glm::vec3 direction{0, 0, -1};  // world, unit; the light's axis
   glm::vec3 color{1};
   float intensity = 1;                                      // candela for point and spot, lux for directional
   float radius_m = std::numeric_limits<float>::infinity();  // infinite: no window, reaches everything
   float inner_cone_rad = 0;                                 // half-angles, 0 <= inner < outer; only spots
   float outer_cone_rad = 0.78539816f;
-  int node = -1;  // of the rig, which moves it; -1: stays
+  int node = -1;  // of the rig, which moves it; -1: static
 };
 
-// Whether colour times intensity passes the largest float in some channel. Shaders could not hold such a light: whatever
-// reads lights refuses it.
+// Whether colour times intensity exceeds the largest float in any channel. Shaders cannot represent such a
+// light, so all readers of lights reject it.
 bool intensity_overflows(const Light& light);
 
 struct Camera {
@@ -118,7 +118,7 @@ struct Camera {
   double half_width_m = 1, half_height_m = 1;  // orthographic
   double near_m = 0.1;
   double far_m = std::numeric_limits<double>::infinity();
-  int node = -1;  // of the rig, which moves it; -1: stays
+  int node = -1;  // of the rig, which moves it; -1: static
 };
 
 struct Rig;  // scene/rig.h
@@ -132,11 +132,11 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  glm::vec3 ambient{0.02f};  // constant radiance from all sides; what occlusion maps darken
-  glm::vec3 background{0};   // radiance where nothing is
-  std::shared_ptr<const Rig> rig;  // what moves; null: nothing. Copies of a scene share it
+  glm::vec3 ambient{0.02f};  // constant radiance from all sides; occlusion maps darken it
+  glm::vec3 background{0};   // radiance without any surface
+  std::shared_ptr<const Rig> rig;  // moving parts; null: none. Copies of a scene share it
   double time_s = 0;               // the time of the pose, as last given to set_time
-  int animation = -1;              // whose pose it is; -1: of all animations, at time 0 the rest pose
+  int animation = -1;              // the posed animation; -1: all animations, at time 0 the rest pose
 };
 
 // The box around all instances, in world space; empty for a scene without geometry.

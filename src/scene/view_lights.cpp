@@ -17,7 +17,8 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view) {
     out.radiant_intensity = glm::dvec3(light.color) * double(light.intensity);
     out.radius_m = light.type == LightType::directional ? std::numeric_limits<double>::infinity() : light.radius_m;
     out.cos_outer = std::cos(double(light.outer_cone_rad));
-    // KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)): a step is softened, never infinite.
+    // KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)): a hard edge is softened, the
+    // quotient finite.
     out.cos_inner = std::max(std::cos(double(light.inner_cone_rad)), out.cos_outer + 0.001);
   }
   return lights;

@@ -1,5 +1,4 @@
-// The scene's lights as one view sees them, in double: what the oracle uses as it is and the renderer rounds
-// once.
+// The scene's lights in view space, in double: used directly by the oracle, and rounded once by the renderer.
 #pragma once
 
 #include <vector>
@@ -15,7 +14,7 @@ struct ViewLight {
   glm::dvec3 direction{0, 0, -1};   // view space, unit
   glm::dvec3 radiant_intensity{1};  // colour times intensity: candela, or lux for directional
   double radius_m = std::numeric_limits<double>::infinity();
-  double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner > cos_outer by 0.001 at least
+  double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner - cos_outer is at least 0.001
 };
 
 // In the scene's order. Positions are subtracted from the eye in double, so that a scene and a camera moved

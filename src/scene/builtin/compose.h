@@ -9,7 +9,7 @@
 
 namespace lightgrid {
 
-// All return the index of what they added.
+// These return the index of the added element.
 int add_mesh(Scene& scene, Mesh mesh);
 int add_texture(Scene& scene, Bitmap bitmap, bool srgb);
 int add_material(Scene& scene, const std::string& name, glm::vec3 color, float metallic, float roughness);

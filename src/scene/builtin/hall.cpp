@@ -1,4 +1,4 @@
-// The hall: where everything stands, and its lights. Warm light along the nave; one aisle cool, the other
+// The hall: placement of its parts, and its lights. Warm light along the nave; one aisle cool, the other
 // rose.
 #include <algorithm>
 #include <array>
@@ -186,7 +186,7 @@ class Hall {
     }
   }
 
-  // Hidden behind the cornice: they wash the painted vault.
+  // Hidden behind the cornice: they light the painted vault.
   void add_cornice_lights() {
     for (int i = 0; i < 2 * bays; ++i) {
       for (const int side : {-1, 1}) {
@@ -229,7 +229,7 @@ class Hall {
     }
   }
 
-  // From the ribs down across the nave, onto the opposite columns and the floor before them.
+  // From the ribs down across the nave, onto the opposite columns and the floor in front of them.
   void add_key_lights() {
     for (int i = 1; i <= 5; ++i) {
       const float z = half_length_m - bay_m * (i + 0.5f);

@@ -1,4 +1,4 @@
-// Columns, lamps and what else stands about in the hall.
+// Columns, lamps and other furniture of the hall.
 #include "scene/builtin/hall_parts.h"
 #include "scene/builtin/shapes.h"
 

@@ -20,7 +20,7 @@ float crest(float noise, int steepness) {
   return product;
 }
 
-// Polished slabs, dark and light by turns, with veins; joints are rough.
+// Polished slabs, alternating dark and light, with veins; joints are rough.
 SurfaceMaps tiles() {
   const int size = 256;
   const Field grain = noise(size, 4, 4, 5, 11), fine = noise(size, 32, 32, 3, 12);
@@ -63,7 +63,7 @@ SurfaceMaps planks() {
   return {std::move(colors), normal_bitmap("wood normals", height), {}};
 }
 
-// Tesserae of gold glass: each tilted its own way, so that each catches another light.
+// Tesserae of gold glass, each tilted differently, so that each reflects another light.
 SurfaceMaps tesserae() {
   const int size = 256, cells = 32;
   Field height(size);
@@ -134,7 +134,7 @@ Bitmap carpet_bitmap() {
 }
 
 // Crossed bars that leave seven tenths open; coverage falls off over two texels, so that mip levels keep the
-// cut.
+// edges.
 Bitmap lattice_bitmap() {
   const int size = 64;
   return color_bitmap("lattice", size, [=](int x, int y) {
@@ -144,11 +144,11 @@ Bitmap lattice_bitmap() {
   });
 }
 
-// Coloured quarries between dark cames; the glass lets four fifths of what is behind through.
+// Coloured quarries between dark cames; the glass transmits four fifths.
 Bitmap stained_glass_bitmap() {
   const int size = 128;
   return color_bitmap("stained glass", size, [=](int x, int y) {
-    // Turned by an eighth: lozenges.
+    // Rotated by 45 degrees: lozenges.
     const int a = (x + y) & (size - 1), b = (x - y + size) & (size - 1);
     const Cell cell = cell_at(a, b, size, 4, 4, false);
     static constexpr glm::vec3 glass[] = {{0.85f, 0.16f, 0.10f}, {0.95f, 0.62f, 0.12f},

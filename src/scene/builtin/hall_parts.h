@@ -1,8 +1,8 @@
-// What the hall is made of: materials and meshes, without their places.
+// The hall's materials and meshes; hall.cpp places them.
 //
 // The hall is 30 m along z and 12 m along x: a nave 6 m wide under a barrel vault, an aisle on each side,
-// eight bays of 3.75 m. Parts of a bay are those of the right side (x > 0), their z from the middle of the
-// bay; the left side is the same turned by half.
+// eight bays of 3.75 m. Parts of a bay are those of the right side (x > 0), with z relative to the middle of
+// the bay; the left side is the same, turned by 180 degrees.
 #pragma once
 
 #include "scene/scene.h"
@@ -42,13 +42,13 @@ Mesh bay_wood(const Materials& m);      // aisle ceiling
 Mesh bay_tympanum(const Materials& m);  // stained glass in the arch
 Mesh bay_lattice(const Materials& m);   // iron gate between the columns
 Mesh bay_lattice_frame(const Materials& m);
-Mesh bay_vitrine(const Materials& m);  // a pane before the niche
+Mesh bay_vitrine(const Materials& m);  // a pane in front of the niche
 
 // A standing screen across x, seen from both sides.
 Mesh screen_glass(const Materials& m);
 Mesh screen_frame(const Materials& m);
 
-// About the y axis through the origin, standing on y = 0, but for the rib (about z = 0).
+// Rotationally symmetric about the y axis, standing on y = 0; the rib lies about z = 0.
 Mesh column_shaft(const Materials& m);
 Mesh column_stone(const Materials& m);
 Mesh column_rings(const Materials& m);
@@ -63,14 +63,14 @@ Mesh baluster(const Materials& m);
 Mesh armillary(const Materials& m);
 Mesh pedestal(const Materials& m);
 
-// In place.
+// At their final positions.
 Mesh floor_slab(const Materials& m);
 Mesh carpet(const Materials& m);
 Mesh vault(const Materials& m);
 Mesh end_walls(const Materials& m);
 Mesh apse(const Materials& m);
-// A box seen from inside, around all else: instances that share an edge round differently, and the odd pixel between
-// them would show nothing.
+// A box around the hall, seen from inside: the edges that instances share round differently, and single
+// pixels between them would otherwise show the background.
 Mesh backing(const Materials& m, glm::vec3 low, glm::vec3 high);
 Mesh dais(const Materials& m);
 Mesh rose_window(const Materials& m);

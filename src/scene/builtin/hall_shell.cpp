@@ -1,4 +1,4 @@
-// Floor, vault, end walls: what the hall has once.
+// Floor, vault and end walls: the parts that exist once.
 #include "scene/builtin/hall_parts.h"
 #include "scene/builtin/shapes.h"
 

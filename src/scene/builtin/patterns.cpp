@@ -12,7 +12,7 @@ namespace {
 
 uint8_t byte(float unit) { return uint8_t(std::clamp(unit, 0.f, 1.f) * 255 + 0.5f); }
 
-// The sRGB curve at 4096 places: within half a byte of the curve itself, and fifty times as fast.
+// The sRGB curve at 4096 samples: within half a byte of the curve itself, and fifty times as fast.
 uint8_t srgb_byte(float linear) {
   static const auto table = [] {
     std::array<uint8_t, 4096> bytes;

@@ -27,7 +27,7 @@ class Field {
 // as many at half the weight.
 Field noise(int size, int cells_x, int cells_y, int octaves, uint64_t seed);
 
-// Where in a rectangular masonry a texel lies.
+// The position of a texel within rectangular masonry.
 struct Cell {
   float x, y;     // -1..1 across the cell
   float edge_px;  // to the nearest edge, in texels
@@ -49,7 +49,7 @@ Bitmap color_bitmap(const std::string& name, int size, const ColorAt& color);
 // glTF's: green is roughness, blue is metallic.
 Bitmap roughness_bitmap(const std::string& name, const Field& roughness);
 
-// Tangent-space normals of a height field: x along u, y against v (glTF's). Heights in texels.
+// Tangent-space normals of a height field: x along u, y against v (as in glTF). Heights in texels.
 Bitmap normal_bitmap(const std::string& name, const Field& height_px);
 
 }  // namespace lightgrid::patterns

@@ -1,4 +1,4 @@
-// The makers behind builtin_scenes().
+// The functions behind builtin_scenes().
 #pragma once
 
 #include "scene/scene.h"

@@ -7,7 +7,7 @@
 namespace lightgrid::shapes {
 namespace {
 
-// Angles in double and rounded once, so that libraries that differ in the last place still agree.
+// Angles in double, rounded once: libraries that differ in the last place then agree.
 glm::vec2 on_circle(double angle) { return {float(std::cos(angle)), float(std::sin(angle))}; }
 
 glm::vec3 any_perpendicular(glm::vec3 axis) {
@@ -106,7 +106,7 @@ void add_sweep(Mesh& mesh, std::span<const glm::vec3> line, glm::vec3 sweep, boo
 void add_lathe(Mesh& mesh, glm::vec3 center, std::span<const glm::vec2> profile, int sides) {
   const int count = int(profile.size());
   const auto direction = [&](int i) { return glm::normalize(profile[i + 1] - profile[i]); };
-  // A band ends where the next point is the same one again.
+  // A band ends where a point is repeated.
   for (int begin = 0; begin + 1 < count;) {
     int end = begin + 1;
     while (end + 1 < count && profile[end] != profile[end + 1]) ++end;
@@ -119,7 +119,7 @@ void add_lathe(Mesh& mesh, glm::vec3 center, std::span<const glm::vec2> profile,
           (i > begin ? direction(i - 1) : glm::vec2(0)) + (i < end ? direction(i) : glm::vec2(0));
       for (int side = 0; side <= sides; ++side) {
         const float turn = float(side) / sides;
-        // s runs so that the outside is to the right of a climbing profile: z = -sin.
+        // s is oriented so that the outside is to the right of a climbing profile: z = -sin.
         const glm::vec2 c = on_circle(2 * glm::pi<double>() * (side % sides) / sides);
         const glm::vec3 out(c.x, 0, -c.y);
         points.push_back({center + out * profile[i].x + glm::vec3(0, profile[i].y, 0),
@@ -142,7 +142,7 @@ void add_sphere(Mesh& mesh, glm::vec3 center, float radius, int cells) {
     std::vector<SurfacePoint> points;
     for (int row = 0; row <= cells; ++row) {
       for (int column = 0; column <= cells; ++column) {
-        // Equal angles rather than equal steps: triangles of nearly one size.
+        // Equal angles rather than equal steps: triangles of nearly equal size.
         const auto warped = [cells](int i) {
           return float(std::tan(glm::quarter_pi<double>() * (2.0 * i / cells - 1)));
         };

@@ -14,12 +14,12 @@
 namespace lightgrid::shapes {
 
 struct SurfacePoint {
-  glm::vec3 position, normal, tangent;  // tangent along growing u; need not be exactly orthogonal or unit
+  glm::vec3 position, normal, tangent;  // tangent along increasing u; need not be exactly orthogonal or unit
   glm::vec2 uv;
 };
 
-// A grid of (columns + 1) x (rows + 1) points, row by row, each row along s; triangles without area are left
-// out.
+// A grid of (columns + 1) x (rows + 1) points, row by row, each row along s; triangles without area are
+// omitted.
 void add_grid(Mesh& mesh, int columns, int rows, std::span<const SurfacePoint> points);
 
 // A parallelogram: s along `right`, t along `up`; texture origin at `corner`.
@@ -28,8 +28,8 @@ void add_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 right, glm::vec3 up, int c
 // All six sides, outward.
 void add_box(Mesh& mesh, glm::vec3 low, glm::vec3 high);
 
-// The flat strip between two polylines of equal length, s along them and t from `lower` to `upper`; every
-// point in one plane, whose normal is given. `right` is the direction of u, at right angles to the normal.
+// The flat strip between two polylines of equal length, s along them and t from `lower` to `upper`; all
+// points lie in the plane with the given normal. `right` is the direction of u, perpendicular to the normal.
 void add_strip(Mesh& mesh, std::span<const glm::vec3> lower, std::span<const glm::vec3> upper,
                glm::vec3 normal, glm::vec3 right);
 
@@ -52,7 +52,7 @@ void add_torus(Mesh& mesh, glm::vec3 center, glm::vec3 axis, float ring_radius, 
 std::vector<glm::vec3> arc(glm::vec3 center, glm::vec3 right, glm::vec3 up, float from, float to,
                            int segments);
 
-// Sets the bounds: the last step of every mesh.
+// Sets the bounds; call it last for every mesh.
 Mesh finished(Mesh mesh, std::string name, int material);
 
 }  // namespace lightgrid::shapes

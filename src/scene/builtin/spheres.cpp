@@ -12,9 +12,9 @@ namespace {
 
 constexpr int sphere_count = 600, lights_of_spheres = 1024;
 constexpr float nearest_m = 2, farthest_m = 90;
-constexpr float slope_y = 0.62f, slope_x = 1.08f;  // a little beyond a field of 60 degrees at 16:9
+constexpr float slope_y = 0.62f, slope_x = 1.08f;  // slightly more than a field of 60 degrees at 16:9
 
-// Uniform on the screen and in log depth: the picture is as full far away as it is near by.
+// Uniform on the screen and in log depth: equally dense near and far.
 glm::vec3 in_frustum(Random& random) {
   const float depth =
       float(nearest_m * std::exp2(std::log2(double(farthest_m) / nearest_m) * random.uniform()));
@@ -23,7 +23,7 @@ glm::vec3 in_frustum(Random& random) {
 }
 
 glm::vec3 palette(float hue) {
-  // Six colours of roughly equal luminance, blended: no primary burns out.
+  // Six colours of roughly equal luminance, blended: no primary saturates.
   static constexpr glm::vec3 stops[7] = {{1, 0.52f, 0.25f},    {0.95f, 0.75f, 0.3f}, {0.4f, 0.9f, 0.5f},
                                          {0.25f, 0.8f, 0.95f}, {0.4f, 0.5f, 1},      {0.95f, 0.4f, 0.75f},
                                          {1, 0.52f, 0.25f}};
@@ -60,7 +60,7 @@ Scene make_spheres() {
 
   for (int i = 0; i < sphere_count; ++i) {
     const glm::vec3 center = in_frustum(random);
-    // Small beside their distance, so that none fills the picture.
+    // Small compared with their distance, so that none fills the picture.
     const float apparent = random.uniform(0.012f, 0.045f), radius = -center.z * apparent + 0.03f;
     add_instance(scene, "sphere " + std::to_string(i), i % look_count * 2 + (apparent > 0.028f),
                  placed(center, 360.0 * random.uniform(), radius));
@@ -68,7 +68,7 @@ Scene make_spheres() {
   for (int i = 0; i < lights_of_spheres; ++i) {
     const glm::vec3 position = in_frustum(random);
     const float radius = -position.z * random.uniform(0.08f, 0.2f) + 0.4f;
-    // A light lights half its radius away as brightly whatever its size.
+    // At half its radius every light is equally bright, whatever its size.
     add_point(scene, "light " + std::to_string(i), position, palette(random.uniform()),
               0.75f * radius * radius, radius);
   }

@@ -1,5 +1,5 @@
-// A street 360 m long: the same bay of houses on both sides, each house of its own colour and shop light.
-// Lights at every depth from arm's length to the far end: what slices along depth are for.
+// A street 360 m long: the same bay of houses on both sides, each house with its own colour and shop light.
+// Lights at every depth from arm's length to the far end: the case for depth slices.
 #include "scene/builtin/street_parts.h"
 
 #include <array>
@@ -49,7 +49,7 @@ class Street {
   static float house_z(int house) { return -(house + 0.5f) * house_m; }
 
   void add_house(int house, int side) {
-    // The right side faces -x; the left is the same turned about.
+    // The right side faces -x; the left is the same, turned by 180 degrees.
     const glm::dmat4 matrix = placed({0, 0, house_z(house)}, side > 0 ? 0 : 180);
     const int kind = int(random_.next() % facades_.size()), shop = int(random_.next() % neon.size());
     add_instance(scene_, "facade", facades_[kind], matrix);
@@ -89,7 +89,7 @@ class Street {
     const int side = i % 2 ? 1 : -1;
     const float z = -12 - 340.f * (i + 0.7f * random_.uniform()) / cars;
     const double x = side * 1.9;
-    // Right-hand traffic: to the right (x > 0) cars drive away, along -z.
+    // Right-hand traffic: cars on the right (x > 0) drive away, along -z.
     const glm::dmat4 matrix = placed({x, 0, z}, side > 0 ? 0 : 180);
     add_instance(scene_, "car", cars_[random_.next() % cars_.size()], matrix);
     add_instance(scene_, "car glass", car_glass_, matrix);

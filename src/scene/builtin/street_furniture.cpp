@@ -9,7 +9,7 @@ namespace {
 
 using namespace shapes;
 
-// A side view (z, height), from the back (+z) over the top to the front, made `half_width` wide either way;
+// Extrudes a side view (z, height), from the back (+z) over the top to the front, by `half_width` both ways;
 // open below.
 void add_prism(Mesh& mesh, std::span<const glm::vec2> outline, float half_width, bool sides) {
   std::vector<glm::vec3> right_top, right_bottom, left_top, left_bottom;

@@ -1,5 +1,5 @@
-// What the street is made of. It runs along -z from z = 0; a house's parts are those of the right side (its
-// front at x = front_x_m, facing -x), z from its middle; a car's face -z.
+// The parts of the street, which runs along -z from z = 0. A house's parts are those of the right side (its
+// front at x = front_x_m, facing -x), z relative to its middle; cars face -z.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ Mesh road(const Materials& m);
 Mesh pavements(const Materials& m);
 Mesh markings(const Materials& m);
 
-// Houses of four kinds; kinds 1 and 3 have a floor more. Windows by kind % 2 and one of two patterns of lit
+// Houses of four kinds; kinds 1 and 3 have one more floor. Windows by kind % 2 and one of two patterns of lit
 // and dark: [2 * (kind % 2) + pattern].
 std::vector<Mesh> facades(const Materials& m);
 std::vector<Mesh> lit_windows(const Materials& m);

@@ -1,4 +1,4 @@
-// The images of one material together, and the masonry that hall and street share.
+// The images of one material, and the masonry that hall and street share.
 #pragma once
 
 #include "scene/scene.h"
@@ -22,7 +22,7 @@ struct Masonry {
   uint64_t seed;
 };
 
-// Blocks or bricks, each of its own shade.
+// Blocks or bricks, each with its own shade.
 SurfaceMaps masonry(const Masonry& masonry);
 
 }  // namespace lightgrid

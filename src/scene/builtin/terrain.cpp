@@ -1,6 +1,5 @@
-// Hills under 255 small lights, seen from above: the class of scene with which Light Indexed Deferred
-// Rendering was shown (Trebilco, Light Indexed Deferred Lighting, 2007), whose 8-bit indices allow 255
-// lights.
+// Hills under 255 small lights, seen from above: the kind of scene in which Light Indexed Deferred Rendering
+// was presented (Trebilco, Light Indexed Deferred Lighting, 2007), whose 8-bit indices allow 255 lights.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +20,7 @@ class Hills {
  public:
   Hills() : broad_(patterns::noise(512, 5, 5, 4, 101)), rough_(patterns::noise(512, 28, 28, 4, 202)) {}
 
-  // x and z in -side/2 .. side/2. A bowl: low in the middle, rising to the rim.
+  // x and z in -side/2 .. side/2. A bowl: low in the middle, rising towards the rim.
   float height(float x, float z) const {
     const float u = x / side_m + 0.5f, v = z / side_m + 0.5f;
     const float from_middle = std::min(1.f, std::sqrt(x * x + z * z) / (0.5f * side_m));
@@ -38,7 +37,7 @@ class Hills {
 
  private:
   static float sample(const patterns::Field& field, float u, float v) {
-    // Only the inside of the square: its opposite edges are alike.
+    // Only the inside of the square, because opposite edges repeat.
     const float x = (0.02f + 0.96f * u) * field.size(), y = (0.02f + 0.96f * v) * field.size();
     const int column = int(std::floor(x)), row = int(std::floor(y));
     const float tx = x - column, ty = y - row;
@@ -93,7 +92,7 @@ Scene make_terrain() {
   static constexpr glm::vec3 colors[] = {{1, 0.30f, 0.22f},     {1, 0.62f, 0.20f},     {0.95f, 0.90f, 0.35f},
                                          {0.35f, 0.95f, 0.40f}, {0.25f, 0.80f, 0.95f}, {0.35f, 0.45f, 1},
                                          {0.80f, 0.40f, 1},     {1, 0.40f, 0.70f}};
-  // A lamp the eye can see under each light.
+  // A visible lamp under each light.
   std::vector<int> lamps;
   for (const glm::vec3& color : colors) {
     const int lamp = add_material(scene, "lamp", color * 0.3f, 0, 0.5f);
@@ -104,7 +103,7 @@ Scene make_terrain() {
   }
   Random random(5);
   for (int i = 0; i < lights_of_terrain; ++i) {
-    // One in each cell of a 16 by 16 grid, somewhere in it: no clumps, no rows.
+    // One at a random position in each cell of a 16 by 16 grid: no clumps, no rows.
     const float x = side_m * ((i % 16 + random.uniform(0.1f, 0.9f)) / 16 - 0.5f) * 0.97f;
     const float z = side_m * ((i / 16 + random.uniform(0.1f, 0.9f)) / 16 - 0.5f) * 0.97f;
     const float radius = random.uniform(6, 11), above = random.uniform(0.9f, 1.8f);

@@ -28,7 +28,7 @@ int component_bytes(int type) {
   }
 }
 
-// `offset` and `count` come from the file: written so that no sum or product can wrap.
+// `offset` and `count` come from the file: written so that no sum or product can overflow.
 const uint8_t* checked_range(Document& doc, std::span<const uint8_t> bytes, size_t offset, size_t stride,
                              size_t count, size_t element_bytes, const std::string& place) {
   if (offset > bytes.size() || bytes.size() - offset < element_bytes ||
@@ -45,7 +45,7 @@ Layout layout_of(Document& doc, const tinygltf::Accessor& accessor, size_t max_c
   if (bytes == 0) throw doc.error("{}: componentType is {}", place, accessor.componentType);
   out.components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
   const bool is_matrix = out.components > 4 || accessor.type == TINYGLTF_TYPE_MAT2;
-  // Matrices of small integers have padded columns; nothing that is read here uses them.
+  // Matrices of small integers have padded columns; nothing read here uses them.
   if (is_matrix && (accessor.type != TINYGLTF_TYPE_MAT4 || bytes != 4))
     throw doc.error("{}: a matrix of this type is not read here", place);
   if (out.count == 0) throw doc.error("{}: count is 0", place);
@@ -99,7 +99,7 @@ void convert(const Layout& layout, bool normalize, To* to) {
   }
 }
 
-// Sparse values lie packed in a view of their own, and replace the elements that their indices name.
+// Sparse values are packed in a view of their own, and replace the elements at their indices.
 template <typename To>
 void apply_sparse(Document& doc, const tinygltf::Accessor& accessor, const Layout& base, bool normalize,
                   std::vector<To>& values, const std::string& place) {

@@ -1,4 +1,4 @@
-// Elements of accessors, whatever their layout: interleaved, sparse, normalised, compressed.
+// Elements of accessors in any layout: interleaved, sparse, normalised, compressed.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,7 +7,7 @@
 
 namespace lightgrid::gltf {
 
-// A buffer view's bytes, decoded where EXT_meshopt_compression says so (each view once).
+// A buffer view's bytes, decoded if EXT_meshopt_compression is used (each view once).
 std::span<const uint8_t> view_bytes(Document& doc, int view, const std::string& place);
 
 struct FloatArray {
@@ -19,14 +19,14 @@ struct FloatArray {
 // always: for colours, normals, tangents and weights, whose integers have no other meaning.
 enum class Normalize { as_accessor_says, always };
 
-// All elements of an accessor of SCALAR … VEC4 or MAT4, finite. At most max_count of them.
+// All elements of an accessor of type SCALAR … VEC4 or MAT4; at most max_count, all finite.
 FloatArray read_floats(Document& doc, int accessor, size_t max_count, Normalize normalize,
                        const std::string& place);
 
 // An index accessor's elements: unsigned scalars.
 std::vector<uint32_t> read_indices(Document& doc, int accessor, size_t max_count, const std::string& place);
 
-// Components that the array lacks are `fill`. The array must have min_components to N of them.
+// `fill` replaces components that the array lacks. The array must have min_components to N of them.
 template <int N>
 std::vector<glm::vec<N, float>> to_vectors(const Document& doc, const FloatArray& array, int min_components,
                                            float fill, const std::string& place) {

@@ -10,7 +10,7 @@
 namespace lightgrid::gltf {
 namespace {
 
-// Morph targets of a mesh: as many for each of its primitives that has any.
+// Number of morph targets of a mesh: the same for all of its primitives that have any.
 size_t target_count(const Document& doc, int node) {
   const int mesh = doc.model.nodes[node].mesh;
   if (mesh < 0) return 0;
@@ -66,7 +66,7 @@ class AnimationReader {
   }
 
  private:
-  // Nothing where the channel moves nothing of this scene.
+  // Empty if the channel moves nothing in this scene.
   std::optional<AnimationChannel> read_target(const AnimationEntry::Channel& in, const std::string& place) {
     const auto path = read_path(in.path);
     if (!path && (in.node >= 0 || in.path == "pointer"))
@@ -123,7 +123,8 @@ class AnimationReader {
     return read_floats(doc_, accessor, in.count, normalize, place).values;
   }
 
-  // Equal times are read, though the specification has them increase: exporters write them for a jump.
+  // Equal times are accepted, although the specification requires them to increase: exporters use them for
+  // jumps.
   void check_times(const std::vector<float>& times, const std::string& place) const {
     if (times[0] < 0) throw doc_.error("{}: input: time 0 is {}, before 0", place, times[0]);
     for (size_t i = 1; i < times.size(); ++i)

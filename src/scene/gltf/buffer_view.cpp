@@ -55,7 +55,7 @@ Packed packed_view(Document& doc, const tinygltf::Value& extension, size_t byte_
 }
 
 std::vector<uint8_t> unpack(Document& doc, const Packed& packed, const std::string& place) {
-  // The densest code is two bits for sixteen bytes of one attribute, so a larger count cannot be true.
+  // The densest encoding is two bits for sixteen bytes of one attribute, so a larger count must be wrong.
   const size_t decoded_bytes = packed.count * packed.stride;
   if (decoded_bytes / 64 > packed.bytes.size())
     throw doc.error("{}: count is {} of stride {}, too many for {} bytes", place, packed.count, packed.stride,

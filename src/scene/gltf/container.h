@@ -1,4 +1,4 @@
-// The outer shape of a glTF file: JSON as such, or JSON and a binary chunk in a GLB (glTF 2.0, section 4).
+// The container of a glTF file: plain JSON, or JSON and a binary chunk in a GLB (glTF 2.0, section 4).
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@ namespace lightgrid::gltf {
 
 struct Container {
   std::string_view json;
-  std::span<const uint8_t> binary;  // empty where there is no binary chunk
+  std::span<const uint8_t> binary;  // empty without a binary chunk
   bool is_glb = false;
 };
 
-// Decided by content, not by the file's name. The parts point into `bytes`. Chunks of unknown type are passed
-// over; a chunk that does not fit is an error.
+// Decided by content, not by the file's name. The parts point into `bytes`. Chunks of unknown type are
+// skipped; a chunk that does not fit is an error.
 Container open_container(const Reporter& report, std::span<const uint8_t> bytes);
 
 }  // namespace lightgrid::gltf

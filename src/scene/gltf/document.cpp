@@ -20,7 +20,7 @@ void parse_json(Document& doc, const PreparedJson& prepared) {
   } catch (const std::exception& failure) {
     error = failure.what();
   }
-  // tinygltf carries on after some errors, such as a primitive it could not read.
+  // tinygltf continues after some errors, such as an unreadable primitive.
   if (!parsed || !error.empty()) throw doc.error("{}", error.empty() ? "is not valid glTF" : error);
   doc.model.bufferViews.pop_back();
   for (tinygltf::Accessor& accessor : doc.model.accessors)
@@ -57,7 +57,7 @@ void read_buffers(Document& doc, const std::vector<BufferEntry>& entries, const 
     } else if (i == 0 && container.binary.data() && !entry.fallback) {
       bytes = container.binary;
     } else {
-      doc.buffers.emplace_back();  // an error once something is read from it
+      doc.buffers.emplace_back();  // an error only if something reads from it
       continue;
     }
     if (bytes.size() < entry.byte_length)
@@ -101,7 +101,7 @@ double number_or(const Document& doc, const tinygltf::Value& object, const char*
 size_t size_or(const Document& doc, const tinygltf::Value& object, const char* key, size_t absent,
                const std::string& place) {
   const double number = number_or(doc, object, key, static_cast<double>(absent), place);
-  // Past 2^31 tinygltf's own integers have wrapped; nothing that is read is as large.
+  // Past 2^31 tinygltf's own integers have wrapped; no valid value here is as large.
   if (number < 0 || number > 2147483647 || std::trunc(number) != number)
     throw doc.error("{}: {} is {}: not a size that is read", place, key, number);
   return static_cast<size_t>(number);

@@ -1,4 +1,4 @@
-// A glTF file taken apart: its JSON as tinygltf has it, and the bytes of its buffers. Internal to load_gltf.
+// A parsed glTF file: its JSON as a tinygltf model, and the bytes of its buffers. Internal to load_gltf.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -20,14 +20,13 @@ struct Document : Reporter {
   tinygltf::Model model;  // without buffers, images and animations
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
-  std::vector<std::span<const uint8_t>> buffers;  // empty where the file names no bytes
-  std::vector<std::vector<uint8_t>> owned;        // what `buffers` point into
+  std::vector<std::span<const uint8_t>> buffers;  // empty if the file gives no bytes
+  std::vector<std::vector<uint8_t>> owned;        // memory that `buffers` points into
   std::map<int, std::vector<uint8_t>> decoded_views;
 };
 
-// Reads the file and its buffers, and hands the JSON to tinygltf. Required extensions that are not supported
-// are an error, others a warning. Indices in `model` are not checked yet: `checked` does that where one is
-// used.
+// Reads the file and its buffers, and parses the JSON with tinygltf. Unsupported required extensions are an
+// error, others a warning. Indices in `model` are not checked yet: use `checked` for each.
 Document read_document(const std::filesystem::path& path, const GltfLimits& limits);
 
 // items[index], or an error "place: what is index, but there are size".
@@ -41,11 +40,11 @@ auto& checked(const Document& doc, Items& items, int index, const std::string& p
 // The extension's value, or nullptr.
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
-// A finite number of an extension, `absent` where there is none.
+// A finite number of an extension; `absent` if missing.
 double number_or(const Document& doc, const tinygltf::Value& object, const char* key, double absent,
                  const std::string& place);
 
-// A non-negative integer of an extension, `absent` where there is none.
+// A non-negative integer of an extension; `absent` if missing.
 size_t size_or(const Document& doc, const tinygltf::Value& object, const char* key, size_t absent,
                const std::string& place);
 

@@ -8,8 +8,8 @@
 namespace lightgrid::gltf {
 namespace {
 
-// Raw values, scaled by our own rule. Draco's ConvertValue would go by the attribute's `normalized` flag,
-// which writers do not agree on and which its decoder takes from the file unchecked, as a bool of any bits.
+// Raw values, scaled by our own rule. Draco's ConvertValue would use the attribute's `normalized` flag, on
+// which writers disagree and which its decoder reads from the file unchecked, as a bool of any bits.
 template <typename T>
 void read_values(const draco::PointAttribute& attribute, bool normalize, size_t point_count, float* to) {
   const int components = attribute.num_components();

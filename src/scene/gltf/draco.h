@@ -11,7 +11,7 @@ struct DracoGeometry {
   std::map<std::string, FloatArray> attributes;  // by semantic: POSITION, …
 };
 
-// `max_vertices` and three times as many indices are the most that is decoded.
+// Decodes at most `max_vertices`, and three times as many indices.
 DracoGeometry decode_draco(Document& doc, const tinygltf::Primitive& primitive,
                            const tinygltf::Value& extension, size_t max_vertices, const std::string& place);
 

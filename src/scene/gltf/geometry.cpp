@@ -5,7 +5,7 @@
 namespace lightgrid::gltf {
 namespace {
 
-// Twice the area along the normal. In double: the product of two edges of 1e20 m overflows a float.
+// Twice the area, along the normal. In double: the product of two edges of 1e20 m overflows float.
 glm::dvec3 area_normal(const Mesh& mesh, size_t triangle) {
   const glm::dvec3 a(mesh.positions[mesh.indices[triangle * 3]]),
       b(mesh.positions[mesh.indices[triangle * 3 + 1]]), c(mesh.positions[mesh.indices[triangle * 3 + 2]]);
@@ -50,7 +50,7 @@ void repair_normals(Mesh& mesh) {
   bool any_missing = false;
   for (glm::vec3& normal : mesh.normals) {
     const double length = glm::length(glm::dvec3(normal));
-    // Unit but for rounding: left with the file's own bits.
+    // Unit up to rounding: keeps the file's bits.
     if (std::abs(length - 1) < 1e-4) continue;
     normal = length > 1e-12 ? glm::vec3(glm::dvec3(normal) / length) : glm::vec3(0);
     any_missing |= normal == glm::vec3(0);

@@ -45,7 +45,7 @@ void read_webp_header(const Document& doc, Encoded& image) {
   image.width = features.width, image.height = features.height;
 }
 
-// Of the formats that stb_image knows, glTF allows these two.
+// Of stb_image's formats, glTF allows these two.
 void read_stb_header(const Document& doc, Encoded& image) {
   if (!is_png(image.bytes) && !starts_with(image.bytes, "\xff\xd8\xff"))
     throw doc.error("{}: is neither PNG nor JPEG{}", image.place, uses_webp(doc) ? " nor WebP" : "");
@@ -82,20 +82,21 @@ Encoded fetch(Document& doc, int index) {
   return out;
 }
 
-// A PNG's compressed data can inflate to a thousand times its size whatever the header says, and stb_image
-// grows its buffer to hold it. So where that could be much, it is first inflated into what the header allows.
+// A PNG's compressed data can inflate to a thousand times its size, whatever the header says, and stb_image
+// grows its buffer accordingly. If that could be much, the data is first inflated within the size from the
+// header.
 void check_png_inflates_to_its_size(const Document& doc, const Encoded& image) {
   std::vector<char> packed;
   for (size_t at = 8; at + 12 <= image.bytes.size();) {
     const uint8_t* head = image.bytes.data() + at;
     const size_t length = size_t(head[0]) << 24 | head[1] << 16 | head[2] << 8 | head[3];
-    if (length > image.bytes.size() - at - 12) break;  // stb_image says what is wrong
+    if (length > image.bytes.size() - at - 12) break;  // stb_image reports the fault
     if (std::memcmp(head + 4, "IDAT", 4) == 0) packed.insert(packed.end(), head + 8, head + 8 + length);
     at += 12 + length;
   }
   constexpr size_t inflate_factor = 1032, harmless_bytes = size_t(64) << 20;
   if (packed.size() * inflate_factor <= harmless_bytes) return;
-  // Four channels of 16 bits, a filter byte a row, and for interlaced images the rows of seven passes.
+  // Four channels of 16 bits, a filter byte a row, and the rows of seven passes for interlaced images.
   const size_t allowed = size_t(image.width) * image.height * 8 + size_t(image.height) * 2 + image.width + 64;
   const auto room = std::make_unique_for_overwrite<char[]>(allowed);
   if (stbi_zlib_decode_buffer(room.get(), static_cast<int>(std::min<size_t>(allowed, INT32_MAX)),

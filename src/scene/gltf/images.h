@@ -6,10 +6,9 @@
 
 namespace lightgrid::gltf {
 
-// The named images of the file, in that order. What they are is seen by their content; WebP is read only where the file uses
-// EXT_texture_webp. Sizes are checked before anything is decoded: a side against
-// limits.max_image_side, all of them together against limits.max_image_bytes. 16 bits become 8, with a
-// warning.
+// The images of the file at these indices, in that order. The format is detected from the content; WebP is
+// read only if the file uses EXT_texture_webp. Sizes are checked before decoding: each side against
+// limits.max_image_side, the sum against limits.max_image_bytes. 16 bits become 8, with a warning.
 std::vector<Bitmap> decode_images(Document& doc, const std::vector<int>& images);
 
 }  // namespace lightgrid::gltf

@@ -104,7 +104,8 @@ class Tidier {
   }
 
   void require_index(const json& value) {
-    if (value.is_structured()) return;  // "indices" of a sparse accessor, and what tinygltf refuses itself
+    if (value.is_structured()) return;  // "indices" of a sparse accessor, and values that tinygltf rejects
+                                        // itself
     const bool integral = value.is_number_integer() ||
                           (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>());
     if (integral && value.get<double>() >= 0 && value.get<double>() <= std::numeric_limits<int>::max())
@@ -186,7 +187,7 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
         throw report.error("an accessor's bufferView is {0}, but there are {0}", out.absent_view);
       if (!accessor.contains("bufferView")) accessor["bufferView"] = out.absent_view;
     }
-  // Optional in glTF, missed as an error by tinygltf.
+  // Optional in glTF, but tinygltf treats its absence as an error.
   if (root.contains("skins"))
     for (json& skin : root["skins"]) {
       if (!skin.contains("joints") || !skin["joints"].is_array()) throw report.error("a skin has no joints");

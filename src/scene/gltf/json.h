@@ -1,4 +1,4 @@
-// The JSON of a glTF file made ready for tinygltf, which trusts much of what it is given.
+// Prepares the JSON of a glTF file for tinygltf, which does not check everything.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,7 @@ namespace lightgrid::gltf {
 struct BufferEntry {
   std::string uri;  // empty: the binary chunk, or no bytes at all
   size_t byte_length = 0;
-  bool fallback = false;  // EXT_meshopt_compression: its views are decoded from elsewhere
+  bool fallback = false;  // EXT_meshopt_compression: its views are decoded from other buffers
 };
 
 struct ImageEntry {
@@ -41,19 +41,19 @@ struct PreparedJson {
   std::vector<BufferEntry> buffers;
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
-  // tinygltf refuses indices without a buffer view, which Draco and sparse accessors may have: those
-  // accessors refer to this one, past the end of the file's own.
+  // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
+  // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;
 };
 
-// Checks nesting, that collections are arrays of objects, and that every index is an integer in [0, 2^31);
-// numbers such as 3.0 become integers, and integers past 32 bits (which tinygltf would wrap) become doubles.
-// Animations, buffers and images are taken out. tinygltf reads animations with less care than the rest; of
-// the others it reads all at once, keeps copies, wants file sizes to match exactly, knows no fallback buffers
-// and reads a view's bytes unchecked.
+// Checks nesting, that collections are arrays of objects, and that every index is an integer in [0, 2^31).
+// Numbers such as 3.0 become integers, and integers past 32 bits (which tinygltf would wrap) become doubles.
+// Removes animations, buffers and images: tinygltf checks animations less than the rest, reads buffers and
+// images all at once, keeps copies, requires exact file sizes, does not support fallback buffers and reads a
+// view's bytes unchecked.
 PreparedJson prepare_json(const Reporter& report, std::string_view text);
 
-// Moves the animations out of the JSON; errors name wrong types and indices that are not integers from 0 on.
+// Moves the animations out of the JSON. Errors: wrong types, and indices that are not non-negative integers.
 std::vector<AnimationEntry> take_animations(const Reporter& report, nlohmann::json& root);
 
 bool is_supported_extension(std::string_view name);

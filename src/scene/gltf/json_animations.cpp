@@ -1,4 +1,4 @@
-// The JSON of animations, which tinygltf does not see.
+// The JSON of animations, which is not passed to tinygltf.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// object[key] as an index; -1 where it is absent.
+// object[key] as an index; -1 if absent.
 int animation_index(const Reporter& report, const json& object, const char* key, const std::string& place) {
   const auto it = object.find(key);
   if (it == object.end()) return -1;
@@ -29,7 +29,7 @@ std::string animation_string(const Reporter& report, const json& object, const c
   return it->get<std::string>();
 }
 
-// Calls read(element, its place) for each object of the array object[key], if there is one.
+// Calls read(element, its path) for each object of the array object[key], if present.
 template <typename Read>
 void for_each_object(const Reporter& report, const json& object, const char* key, const std::string& place,
                      const Read& read) {

@@ -14,7 +14,7 @@ float checked_amount(const Document& doc, double value, const std::string& place
   return out;
 }
 
-// The extension's own rule, to the letter: half of pi rounded to float is above half of pi, and refused.
+// The extension's rule is strict: pi/2 rounded to float is above pi/2, and rejected.
 void read_cone(const Document& doc, const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
   const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
   if (!(outer > 0) || !(outer <= glm::half_pi<double>()))
@@ -27,7 +27,7 @@ void read_cone(const Document& doc, const tinygltf::SpotLight& spot, const std::
   light.inner_cone_rad = std::min(static_cast<float>(inner), std::nextafter(light.outer_cone_rad, 0.0f));
 }
 
-// What does not depend on the node.
+// The part that does not depend on the node.
 Light read_light(const Document& doc, const tinygltf::Light& in, bool has_range, const std::string& place) {
   Light out;
   if (in.type == "point") {

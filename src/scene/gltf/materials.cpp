@@ -12,7 +12,7 @@ float finite(const Document& doc, double value, const std::string& place, const 
   return out;
 }
 
-// A little outside is an exporter's rounding.
+// A small excess is an exporter's rounding.
 float in_unit(const Document& doc, double value, const std::string& place, const char* what) {
   const float out = finite(doc, value, place, what);
   if (out < -1e-3f || out > 1 + 1e-3f) throw doc.error("{}: {} is {}, outside 0 to 1", place, what, value);
@@ -35,8 +35,8 @@ glm::vec2 pair_or(const Document& doc, const tinygltf::Value& object, const char
           finite(doc, value.Get(1).GetNumberAsDouble(), place, key)};
 }
 
-// KHR_texture_transform: translation * rotation * scale. Counter-clockwise where v points down, as the
-// extension's sample model has it (the listing in its text turns the other way: Khronos glTF issue 1563).
+// KHR_texture_transform: translation * rotation * scale. Counter-clockwise with v pointing down, as in the
+// extension's sample model (the listing in its text turns the other way: Khronos glTF issue 1563).
 void read_transform(Document& doc, const tinygltf::Value& extension, const std::string& place,
                     TextureSlot& slot, int& uv_set) {
   const glm::vec2 offset = pair_or(doc, extension, "offset", {0, 0}, place);
@@ -86,7 +86,7 @@ Material read_material(Document& doc, const tinygltf::Material& in, const std::s
     strength =
         not_negative(doc, number_or(doc, *emissive, "emissiveStrength", 1, place), place, "emissiveStrength");
   for (int i = 0; i < 3; ++i) {
-    // Above 1 needs the extension by the letter, but was common before there was one.
+    // Values above 1 formally require the extension, but were common before it existed.
     const double factor = not_negative(doc, in.emissiveFactor.at(i), place, "emissiveFactor");
     out.emissive[i] = not_negative(doc, factor * strength, place, "emissive light");
   }

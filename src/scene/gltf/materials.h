@@ -1,4 +1,4 @@
-// Materials, and the textures that the scene's meshes need of them.
+// Materials, and the textures that the scene's materials use.
 #pragma once
 
 #include "scene/gltf/document.h"
@@ -6,17 +6,17 @@
 
 namespace lightgrid::gltf {
 
-// All of the file's materials, then glTF's default one. The slots hold the file's texture indices, checked.
+// All of the file's materials, then glTF's default one. The slots hold texture indices of the file, checked.
 std::vector<Material> read_materials(Document& doc);
 
 // Drops the materials that no mesh of the scene uses.
 void keep_used_materials(Scene& scene);
 
-// The image of a texture: the one of EXT_texture_webp (2021), else its source; -1: it has none that is supported.
+// The image of a texture: from EXT_texture_webp (2021), else its source; -1 if neither is supported.
 int image_of_texture(const Document& doc, int texture);
 
-// Fills scene.textures and scene.bitmaps with what its materials name, and turns the slots' indices to these.
-// Each image is decoded once, in parallel; see images.h.
+// Fills scene.textures and scene.bitmaps with those that its materials use, and converts the slots' indices
+// to them. Each image is decoded once, in parallel; see images.h.
 void add_textures(Document& doc, Scene& scene);
 
 // The slots of a material, and whether each holds colours.

@@ -27,7 +27,7 @@ class MeshReader {
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
     const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1};
     for (const Drawn& drawn : meshes_of(use)) {
-      // A mesh flattened to a plane, line or point has no normals that could be lit.
+      // A mesh flattened to a plane, line or point has no usable normals.
       if (!drawn.in_world && !placed.moves && is_flat(placed.world_from_node)) {
         doc_.warn("flattened", "{}: is scaled to no volume and left out", place);
         continue;
@@ -48,7 +48,7 @@ class MeshReader {
     bool in_world;  // skinned: its vertices are in world space
   };
 
-  // What decides the shape of a file's mesh.
+  // The inputs that determine the shape of a file's mesh.
   struct Use {
     int mesh, skin;               // of the file
     std::vector<double> weights;  // at rest
@@ -81,7 +81,7 @@ class MeshReader {
     return out;
   }
 
-  // Adds the mesh to the scene at rest, and its shape to the rig if that changes.
+  // Adds the mesh at rest to the scene, and its shape to the rig if it deforms.
   void add_at_rest(const tinygltf::Primitive& in, const Use& use, Mesh mesh, DeformingMesh shape) {
     const bool morphs = use.weights_node >= 0 && !in.targets.empty();
     std::vector<MorphTarget> targets =

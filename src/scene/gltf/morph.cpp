@@ -12,7 +12,7 @@ class TargetReader {
   TargetReader(Document& doc, const std::map<std::string, int>& accessors, Budget& budget, std::string place)
       : doc_(doc), accessors_(accessors), budget_(budget), place_(std::move(place)) {}
 
-  // Empty where the target does not displace the attribute, or the mesh (with `values`) does not have it.
+  // Empty if the target does not displace the attribute, or if the mesh (with `values`) does not have it.
   template <int N, typename Value>
   std::vector<glm::vec<N, float>> read(const char* attribute, int min_components, Normalize normalize,
                                        const std::vector<Value>& values) const {

@@ -28,7 +28,7 @@ class Attributes {
 
   bool has(const std::string& name) const { return primitive_.attributes.contains(name); }
 
-  // Empty where the primitive has none.
+  // Empty if the primitive has none.
   template <int N>
   std::vector<glm::vec<N, float>> read(const std::string& name, int min_components,
                                        Normalize normalize) const {
@@ -51,7 +51,7 @@ class Attributes {
   std::string place_;
 };
 
-// glTF 2.0, 3.7.2.1: every triangle keeps the front of the strip's or fan's first.
+// glTF 2.0, 3.7.2.1: every triangle keeps the orientation of the strip's or fan's first.
 std::vector<uint32_t> triangle_list(const std::vector<uint32_t>& in, int mode) {
   std::vector<uint32_t> out;
   if (in.size() < 3) return out;
@@ -143,7 +143,7 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
   out.mesh.uv1 = attributes.read<2>("TEXCOORD_1", 2, Normalize::as_accessor_says);
   out.mesh.colors = attributes.read<4>("COLOR_0", 3, Normalize::always);
   for (glm::vec4& color : out.mesh.colors)
-    color = glm::clamp(color, 0.0f, 1.0f);  // as the specification asks
+    color = glm::clamp(color, 0.0f, 1.0f);  // as the specification requires
   out.skin = read_skin_weights(doc, attributes, vertex_count, place);
 
   out.mesh.indices =

@@ -1,4 +1,4 @@
-// Errors and warnings of one input file, each a single line that begins with its name.
+// Errors and warnings of one input file, each a single line that starts with its name.
 #pragma once
 
 #include <set>
@@ -18,7 +18,7 @@ class Reporter {
     return {ErrorKind::input, one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...))};
   }
 
-  // The first of each kind only: a thousand skinned meshes are one line.
+  // Only the first of each kind: a thousand skinned meshes give one line.
   template <typename... Args>
   void warn(const std::string& kind, fmt::format_string<Args...> format, Args&&... args) {
     if (!warned_.insert(kind).second) return;
@@ -26,7 +26,7 @@ class Reporter {
   }
 
  private:
-  // Names in a file may hold line ends, terminal escapes, or a megabyte.
+  // Names in a file may contain line ends, terminal escapes, or a megabyte of text.
   static std::string one_line(std::string text) {
     for (char& c : text)
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -41,7 +41,7 @@ class Reporter {
   std::set<std::string> warned_;
 };
 
-// mesh 3 "lamp", or mesh 3 where it has no name.
+// mesh 3 "lamp", or mesh 3 if it has no name.
 inline std::string label(const char* kind, int index, const std::string& name) {
   return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} \"{}\"", kind, index, name);
 }

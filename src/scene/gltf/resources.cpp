@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 class Descriptor {
  public:
-  // Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
+  // Without O_NONBLOCK, opening a pipe without a writer would wait for ever.
   explicit Descriptor(const fs::path& path) : fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~Descriptor() {
     if (fd_ >= 0) close(fd_);
@@ -141,7 +141,7 @@ std::vector<uint8_t> read_uri(const Reporter& report, const std::string& place, 
   if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos)
     throw report.error("{}uri \"{}\" is not a valid path", place, uri);
   std::error_code failed;
-  // The folder of a bare file name is an empty path, which everything would lie below.
+  // The folder of a bare file name is an empty path, which would contain everything.
   const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
   const fs::path file = failed ? fs::path() : fs::weakly_canonical(root / *decoded, failed);
   if (failed) throw report.error("{}uri \"{}\": {}", place, uri, failed.message());

@@ -6,11 +6,11 @@
 
 namespace lightgrid::gltf {
 
-// Joints as places in `nodes`, among which they must be, and their inverse bind matrices (identities where
-// the file has none).
+// Joints as indices into `nodes`, which must contain them, and their inverse bind matrices (identities if the
+// file has none).
 RigSkin read_skin(Document& doc, int skin, const std::vector<PlacedNode>& nodes);
 
-// An error where a vertex is weighted by a joint that the skin does not have.
+// Throws an error if a vertex has a weight for a joint that the skin does not have.
 void check_joints(const Document& doc, const RigSkin& skin, const SkinWeights& weights,
                   const std::string& place);
 

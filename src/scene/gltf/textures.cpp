@@ -61,7 +61,7 @@ int image_of_texture(const Document& doc, int index) {
 }
 
 void add_textures(Document& doc, Scene& scene) {
-  std::vector<int> images;  // the file's images that are used; bitmap i is of images[i]
+  std::vector<int> images;  // indices of the used images; bitmap i is images[i]
   std::map<int, int> bitmap_of_image;
   std::map<std::tuple<int, int, bool>, int> textures;  // by image, sampler and curve
   for (Material& material : scene.materials) {
