@@ -1,4 +1,4 @@
-// Hard cases of agreement: who reads a grid finds what who wrote it meant.
+// Hard cases of agreement: reader and writer of a grid agree on its meaning.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ CullerOptions options_of(CullTest test) {
   return options;
 }
 
-// A light of almost no size at each pixel's centre: the cell that shading finds for the pixel lists it.
+// A light of almost no size at each pixel's centre: the cell that shading finds for the pixel must list it.
 void pixel_finds_its_tile(Check& c) {
   const View v = oracle_view(sixty());
   std::vector<CullLight> lights;
@@ -44,7 +44,7 @@ void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const
   }
 }
 
-// A test made of two lists what both list, and no more.
+// A test that combines two others lists exactly the lights that both list.
 void tests_are_nested(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const OverTiles over = scattered_over_tiles(named.view, 300, true, 51);
@@ -56,7 +56,8 @@ void tests_are_nested(Check& c) {
   }
 }
 
-// Of spheres: a cone is tested against the sphere around a cell's box, and that of a part may stick out of the whole's.
+// Spheres only: a cone is tested against the sphere around a cell's box, and a part's sphere may stick out of
+// the whole cell's.
 void bounds_are_nested(Check& c) {
   for (const NamedView& named : hard_views(63, 41)) {
     const OverDepth over = scattered_over_depth(named.view, 300, false, 52);
@@ -121,7 +122,7 @@ CullView sliced(CullView view, int slices) {
   return view;
 }
 
-// 32 slices in a box, and before an eye with reversed and standard depth.
+// 32 slices in a box, and in front of an eye with reversed and standard depth.
 std::vector<CullView> sliced_views() {
   CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 48, 32);
   for (int i = 1; i < 32; ++i) box.slice_edges.push_back(float(4 * i));
@@ -129,8 +130,8 @@ std::vector<CullView> sliced_views() {
   return {box, sliced(field_of_view(60, 48, 32), 32), sliced(standard, 32)};
 }
 
-// Surfaces on the edges and some `step`s of depth to either side, each with a light of almost no size at its place and
-// two that just reach it along the view axis, where slices part.
+// Surfaces on the edges and a few steps of depth to either side, each with a light of almost no size at its
+// position and two that just reach it along the view axis, across slice boundaries.
 struct OnEdges {
   DepthImage depth;
   std::vector<CullLight> lights;
@@ -155,7 +156,7 @@ OnEdges on_edges(const CullView& view, const std::vector<float>& edges) {
   return on;
 }
 
-// The same rounded to a format: the surfaces' own distances are up to half a step off what the buffer says.
+// The same rounded to a format: the surfaces' true distances differ from the buffer's by up to half a step.
 OnEdges on_edges_of_format(const CullView& view, const std::vector<float>& edges, double steps) {
   Random random(60);
   OnEdges on;
@@ -169,7 +170,7 @@ OnEdges on_edges_of_format(const CullView& view, const std::vector<float>& edges
   return on;
 }
 
-// On the edges as floats keep depth, and as D24 and D16 do.
+// On the edges as stored in float depth, and in D24 and D16.
 void on_edges_of_every_format(Check& c, const CullView& view, const std::vector<float>& edges,
                               const std::vector<CullerOptions>& settings) {
   const OnEdges in_floats = on_edges(view, edges);
@@ -199,7 +200,7 @@ void on_z_bin_edges(Check& c) {
   }
 }
 
-// No bin holds a light that reaches none of its distances. A step of `more` is given to roundings.
+// No bin may hold a light that reaches none of its distances, up to a step of `more` for rounding.
 void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLight>& lights, const HostGrid& grid) {
   const std::vector<TrueLight> truth = true_lights(view, lights);
   const std::vector<float>& edges = view.z_bin_edges;
@@ -210,7 +211,7 @@ void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLig
     for (size_t bin = 0; bin <= edges.size(); ++bin) {
       if (!bins_hold(grid.z_bins[i], uint(bin))) continue;
       const double near = bin > 0 ? edges[bin - 1] : -no_end, far = bin < edges.size() ? edges[bin] : no_end;
-      // What a depth's rounding moves the bin's ends by.
+      // How far a depth's rounding moves the bin's ends.
       const auto step = [&](double edge) {
         const double depth = depth_at(view, edge);
         return std::isfinite(edge) ? std::abs(distance_at(view, depth + 0x1p-24 * std::abs(depth)) - edge) : 0.0;
@@ -222,7 +223,8 @@ void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLig
   }
 }
 
-// Lights across the near plane, behind the eye, around it, past the last edge, in every bin, without end and of no size.
+// Lights across the near plane, behind the eye, around it, past the last edge, in every bin, of infinite
+// range and of no size.
 void z_bins_of_lights(Check& c) {
   uint64_t seed = 590;
   for (NamedView named : hard_views(64, 48)) {
@@ -238,7 +240,7 @@ void z_bins_of_lights(Check& c) {
   }
 }
 
-// Together the slices list for a tile what one slice lists for it.
+// The slices of a tile together list what a single slice lists for it.
 void slices_make_the_whole(Check& c) {
   Random random(57);
   const auto lights = scattered_lights(sixty(), 300, false, random);

@@ -1,4 +1,4 @@
-// Hard cases of the camera: projections, and where lights are from it.
+// Hard cases of the camera: projections, and positions of lights relative to it.
 #include <algorithm>
 #include <cmath>
 
@@ -46,7 +46,7 @@ void beside_the_axis(Check& c) {
     lights_of_all_kinds(c, view_through({.half_x = 0.5, .half_y = 0.3, .shift_x = shift, .shift_y = shift}, 127, 73));
 }
 
-// A tiny light at each pixel's own place: the tile that shading finds for the pixel lists it.
+// A tiny light at each pixel's own position: the tile that shading finds for the pixel must list it.
 void pixels_in_their_tiles(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const View v = oracle_view(named.view);
@@ -77,7 +77,7 @@ void orthographic_near_zero(Check& c) {
   CullView view = view_through(box(5, 0, 100), 127, 73);
   lights_of_all_kinds(c, view);
   scattered_pixels(c, view, 22);
-  // Slices and z-bins from that near plane, as frames have them.
+  // Slices and z-bins from that near plane, as in frames.
   for (const SliceSpacing spacing : {SliceSpacing::exponential, SliceSpacing::linear}) {
     view.slice_edges = slice_edges(spacing, 24, near_distance(view), 100);
     view.z_bin_edges = slice_edges(spacing, 64, near_distance(view), 100);
@@ -197,8 +197,9 @@ void world_at_1e6(Check& c) { far_from_the_origin(c, 1e6); }
 void world_at_1e7(Check& c) { far_from_the_origin(c, 1e7); }
 void world_at_1e8(Check& c) { far_from_the_origin(c, 1e8); }
 
-// Most lights are in one place, from which others are counted. There the eye is half a float's step off, nine times the
-// slack of lights at arm's length, just past a power of two: what their radii grow by for their own places is least.
+// Most lights are at one position, which becomes the origin. The eye is half a float step off there, nine
+// times the slack of lights at arm's length. Their coordinates are just past a power of two, where the
+// rounding that their radii include is least.
 void between_two_floats(Check& c) {
   Random random(61);
   const DepthInterval near{0.1f, 0.11f};

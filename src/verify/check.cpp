@@ -24,8 +24,8 @@ bool lights_it(const TrueLight& light, const glm::dvec3& position) {
   return light.cos_outer <= -1 || glm::dot(way, light.axis) > light.cos_outer * distance * (1 + 1e-12);
 }
 
-// The nearest and farthest surface of a tile by a plain scan, any sample counting; near > far: none. `strange`: a value
-// that no depth buffer holds is among them.
+// The nearest and farthest surface of a tile by a plain scan over all samples; near > far: none. `strange`:
+// it contains a value that is no valid depth.
 struct Scan {
   double near = no_end, far = -no_end;
   bool strange = false;
@@ -65,7 +65,7 @@ std::span<const uint32_t> list_of(const HostGrid& grid, size_t cell) {
 std::string malformed(const HostGrid& grid, size_t lights) {
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   if (grid.cells.size() != cells) return "not one first and count a cell";
-  std::vector<uint32_t> order;  // by place in the index list: its order is the kernels' affair
+  std::vector<uint32_t> order;  // by position in the index list, whose order is private to the kernels
   for (uint32_t i = 0; i < cells; ++i) {
     if (grid.cells[i].y) order.push_back(i);
   }
@@ -97,7 +97,7 @@ void Check::skip(const std::string& why) {
 Outcome Check::outcome() const {
   Outcome outcome = outcome_;
   if (touching_) outcome.excess_ratio = double(listed_) / double(touching_);
-  if (outcome.verdict == Verdict::pass && outcome.trials == 0) {  // a case that asks nothing proves nothing
+  if (outcome.verdict == Verdict::pass && outcome.trials == 0) {  // a case without trials proves nothing
     outcome.verdict = Verdict::fail;
     outcome.why = "the case asked nothing";
   }
@@ -212,7 +212,7 @@ std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage&
     for (size_t i = 0; i < found.size(); ++i) {
       const Scan scan = scan_tile(view, depth, options.tile, i);
       const DepthInterval b = found[i];
-      if (scan.strange || scan.far > farthest_surface) {  // the tile keeps every light
+      if (scan.strange || scan.far > farthest_surface) {  // the tile spans every distance
         that((is_orthographic(view) ? b.near <= -1e17f : b.near <= 0) && b.far >= 1e17f,
              "{}: tile {} holds what is no depth, or a surface past 10^15 m, yet is bounded to [{}, {}]", to_string(shaped), i, b.near, b.far);
       } else if (scan.near > scan.far) {
@@ -309,7 +309,7 @@ void Check::same_as_twin(const CullView& view, const std::vector<CullLight>& lig
     const CullInputs& in = run->inputs;
     const auto bounds = twin_bounds(in.params, options.depth_bounds, blend, depth.samples, depth.values);
     HostGrid grid = run->grid;
-    grid.masks.clear();  // the twin makes lists alone
+    grid.masks.clear();  // the twin computes lists only
     grid.z_bins.clear();
     const std::string bounds_off = difference(bounds, in.bounds), grid_off = difference(twin_grid(in, options.cull_test), grid);
     that(bounds_off.empty(), "{}: bounds are not the float twin's: {}", to_string(shaped), bounds_off);

@@ -1,5 +1,5 @@
-// What hard cases ask with, and where the answers are counted. Each question is a sandwich: what is certainly in must
-// be listed, what is listed must be possibly in; and on the library bytes must be equal in both kernel shapes and
+// The checks of hard cases, with their counts. Each check is a sandwich: what is certainly in must be listed,
+// and what is listed must be possibly in. For the library, bytes must also be equal in both kernel shapes and
 // in every run.
 #pragma once
 
@@ -15,41 +15,43 @@ class Check {
   Check(CullEngine& engine, uint64_t adversarial_lights) : engine(engine), adversarial_lights(adversarial_lights) {}
 
   CullEngine& engine;
-  const uint64_t adversarial_lights;  // how many tangent lights the bulk case makes
+  const uint64_t adversarial_lights;  // number of tangent lights in the bulk case
 
   // Every cull test at one tile size.
   std::vector<CullerOptions> every_test(int tile = 16) const;  // the default first
   // The default cull test in every tile size.
   std::vector<CullerOptions> every_tile() const;
 
-  // The lists of these lights over given bounds (one a tile, or one for all), under each of `settings`; returns the first.
+  // The lists of these lights over given bounds (one a tile, or one for all), under each of `settings`;
+  // returns the first.
   HostGrid grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds,
                 const std::vector<CullerOptions>& settings);
   HostGrid grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds) {
     return grid(view, lights, std::move(bounds), every_test());
   }
 
-  // The same without the oracle: for sizes at which it would take minutes, with an answer known by other means.
+  // The same without the oracle: for sizes at which it would take minutes, with a known answer.
   HostGrid grid_of_known_answer(const CullView& view, const std::vector<CullLight>& lights,
                                 std::vector<DepthInterval> bounds, const CullerOptions& options);
 
-  // Depth bounds against a plain scan in double: they hold every surface and, with `tight`, little more.
+  // Compares depth bounds with a plain scan in double: they contain every surface and, with `tight`, little
+  // more.
   std::vector<DepthInterval> bounds(const CullView& view, const DepthImage& depth, const CullerOptions& options,
                                  bool tight = true);
 
-  // From depth to lists: every light that lights a pixel's surface, at the pixel's centre, is in the list that shading
-  // reads for it (its slice and z-bin found from the stored depth, as shared/slices.h does), and held by its z-bin where
-  // the view has some. Where `depth` knows the surfaces' distances these count, not what its values say. Returns the
-  // first setting's grid.
+  // From depth to lists: every light that lights a pixel's surface, at the pixel's centre, is in the list
+  // that shading reads for it (slice and z-bin found from the stored depth, as in shared/slices.h), and in
+  // its z-bin if the view has any. If `depth` has the surfaces' distances, these are used instead of its
+  // values. Returns the first setting's grid.
   HostGrid pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                   const std::vector<CullerOptions>& settings);
 
-  // The kernels' raw bounds and grid have the bytes of the float twin (float_twin.h), in both shapes. Asks nothing of what
-  // is not the library.
+  // The kernels' raw bounds and grid equal the float twin's (float_twin.h) byte for byte, in both shapes.
+  // Skipped for engines other than the library.
   void same_as_twin(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                     const CullerOptions& options, bool blend = false);
 
-  // Anything else that must hold: one trial.
+  // Any other condition: one trial.
   template <typename... Args>
   bool that(bool holds, fmt::format_string<Args...> format, Args&&... args) {
     ++outcome_.trials;
@@ -80,13 +82,13 @@ class Check {
                     const Touching& touching, const CullerOptions& options, const HostGrid& grid, bool counts);
 
   Outcome outcome_;
-  uint64_t listed_ = 0, touching_ = 0;  // under the first settings asked for
+  uint64_t listed_ = 0, touching_ = 0;  // under the first settings
 };
 
 std::string to_string(const CullerOptions& options);
 std::span<const uint32_t> list_of(const HostGrid& grid, size_t cell);
 
-// Empty, or what is wrong: lists lie side by side without gap or overlap, are sorted and name lights that there are.
+// Empty, or a fault: lists must be adjacent without gap or overlap, sorted, and contain valid indices.
 std::string malformed(const HostGrid& grid, size_t lights);
 
 }  // namespace lightgrid::verify

@@ -1,4 +1,5 @@
-// Hard cases of depth: what a depth buffer may hold, and images of awkward sizes. depth_bounds.cpp has the kinds of bounds.
+// Hard cases of depth: values that a depth buffer may hold, and images of awkward sizes. depth_bounds.cpp has
+// the kinds of bounds.
 #include <cmath>
 
 #include "verify/depth_images.h"
@@ -47,7 +48,7 @@ void awkward_size(Check& c, int width, int height) {
 void one_pixel_image(Check& c) { awkward_size(c, 1, 1); }
 void one_row_image(Check& c) { awkward_size(c, 17, 1), awkward_size(c, 1, 33); }
 
-// The image's tiles are those of the larger image that it is cut from.
+// Compares the image's tiles with those of the larger image that it is cut from.
 void odd_size(Check& c) {
   const CullView large = field_of_view(60, 1296, 736), cut = [&] {
     CullView view = large;
@@ -81,7 +82,8 @@ void viewport(Check& c) {
   c.that(a == b, "the viewport's grid is not that of the image cut out");
 }
 
-// One strange value in the one tile, among surfaces: every light that any distance would list is listed.
+// One invalid value in the only tile, among surfaces: every light that any distance would list must be
+// listed.
 void strange_value(Check& c, std::initializer_list<float> values) {
   for (const float value : values) {
     for (const size_t at : {size_t(0), size_t(5), size_t(16 * 64 + 15), size_t(47 * 64 + 63)}) {
@@ -107,7 +109,7 @@ void minus_zero(Check& c) {
   c.pixels(sixty_degrees(), {point({0, 0, -5}, 1)}, depth, every_mode());
 }
 
-// Distances that both depths hold exactly.
+// Distances that both depth orders represent exactly.
 void reversed_against_standard(Check& c) {
   const CullView reversed = view_through({.near = 1, .order = DepthOrder::reversed}, 64, 48);
   const CullView standard = view_through({.near = 1, .order = DepthOrder::standard}, 64, 48);
@@ -130,7 +132,8 @@ void endless_far(Check& c) {
     for (const DepthInterval& b : found) c.that(std::isfinite(b.near) && std::isfinite(b.far), "[{}, {}]", b.near, b.far);
     c.pixels(view, {point({0, 0, -5}, 1), point({0, 0, -1e17}, 1e18)}, depth, every_mode());
   }
-  // As far as the domain goes, each surface with a small light at its place and lights that just reach one.
+  // Up to the limit of the domain, each surface with a small light at its position and lights that just reach
+  // one.
   const DepthImage far = depth_of(view, [](int x, int y) { return std::pow(10.0, (x + 5 * y) % 31 / 2.0); });
   std::vector<CullLight> lights = lights_at_surfaces(view, far, 1e-5);
   Random random(9);

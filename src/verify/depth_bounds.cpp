@@ -6,7 +6,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// Before and behind the surface of every seventh pixel, just reaching it.
+// In front of and behind the surface of every seventh pixel, just reaching it.
 std::vector<CullLight> lights_reaching(const CullView& view, const DepthImage& depth) {
   std::vector<CullLight> lights;
   int seen = 0;
@@ -29,7 +29,7 @@ void flat_wall(Check& c) {
   }
 }
 
-// Surfaces on each of the 33 edges of the mask's bins: in an orthographic view they are exact.
+// Surfaces on each of the 33 edges of the mask's slots, which are exact in an orthographic view.
 void on_mask_edges(Check& c) {
   const CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
   for (const CullView& view : {box, sixty_degrees()}) {
@@ -44,7 +44,7 @@ void at_the_farthest(Check& c) {
   c.pixels(sixty_degrees(), lights_reaching(sixty_degrees(), depth), depth, every_mode());
 }
 
-// Surfaces at both ends, in the very middle and one step of depth to either side of it.
+// Surfaces at both ends, exactly in the middle and one step of depth to either side of it.
 void on_half_z(Check& c) {
   const CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
   for (const CullView& view : {box, sixty_degrees()}) {
@@ -57,7 +57,8 @@ void on_half_z(Check& c) {
   }
 }
 
-// A post before a wall: no light lost; and lights in the gap are listed less by what knows of the gap.
+// A post in front of a wall: no light may be lost, and modes that exclude the gap must list fewer lights in
+// it.
 void two_layers(Check& c) {
   const DepthImage depth = depth_of(sixty_degrees(), [](int x, int) { return x % 16 < 4 ? 2.0 : 30.0; });
   Random random(6);
@@ -84,7 +85,8 @@ void several_samples(Check& c) {
     depth.samples = samples;
     for (int i = 0; i < 64 * 48 * samples; ++i) {
       const int pixel = i / samples, sample = i % samples;
-      const bool odd = sample == 1 + pixel % (samples - 1);  // never the first: that one shows the middle everywhere
+      const bool odd = sample == 1 + pixel % (samples - 1);  // never the first, which shows the middle
+                                                             // everywhere
       const double d = !odd ? 10.0 : pixel / 7 % 2 ? 3.0 : 30.0;
       depth.values.push_back(pixel % 11 == 0 && !odd ? 0.0f : float(depth_at(sixty_degrees(), d)));
     }

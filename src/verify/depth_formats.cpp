@@ -11,7 +11,7 @@ struct Format {
   double steps;  // 0: floats
 };
 
-// Surfaces at distances that are known, as a depth buffer of that format holds them.
+// Surfaces at known distances, as a depth buffer of that format stores them.
 DepthImage rounded_depth(const CullView& view, const Format& format, uint64_t seed) {
   Random random(seed);
   DepthImage depth;
@@ -43,7 +43,7 @@ void bounds_hold_true_distances(Check& c, const CullView& view, const Format& fo
     options.tile = tile;
     const auto found = c.engine.depth_bounds(options, view, depth);
     for (size_t i = 0; i < depth.values.size(); ++i) {
-      if (depth.values[i] == depth_of_nothing(view)) continue;  // rounded away: nothing is there
+      if (depth.values[i] == depth_of_nothing(view)) continue;  // rounded to background
       const DepthInterval b = found[i / view.width / tile * tiles_x(view, tile) + i % view.width / tile];
       const double d = depth.distances[i];
       c.trials(1);
@@ -53,7 +53,7 @@ void bounds_hold_true_distances(Check& c, const CullView& view, const Format& fo
   }
 }
 
-// Lights at the surfaces' own places, and lights that just reach one, in every mode.
+// Lights at the surfaces' true positions, and lights that just reach one, in every mode.
 void lists_hold_true_places(Check& c, const CullView& view, const Format& format) {
   const DepthImage depth = rounded_depth(view, format, 8);
   Random random(9);
@@ -74,7 +74,8 @@ void depth_of_16_bits(Check& c) { in_every_lens(c, d16); }
 void depth_of_24_bits(Check& c) { in_every_lens(c, d24); }
 void depth_of_floats(Check& c) { in_every_lens(c, d32f); }
 
-// A tile of one surface: the interval holds it, and is no wider than a step of the format to either side and the slack.
+// A tile with one surface: the interval contains it, and extends at most a step of the format and the slack
+// to either side.
 void position_from_depth_bounded(Check& c) {
   for (const Format& format : {d16, d24, d32f}) {
     for (const CullView& view : every_lens(64, 64)) {
@@ -103,8 +104,9 @@ void position_from_depth_bounded(Check& c) {
   }
 }
 
-// The eye is inside a long box, surfaces about it: there the distance is what is left of two large numbers. Surfaces lie
-// on the edges of the mask's bins and some steps of depth beside; lights just reach one each.
+// The eye is inside a long box, with surfaces around it: the distance there is the difference of two large
+// numbers. Surfaces lie on the edges of the mask's slots and a few steps of depth beside them; lights just
+// reach one each.
 void mask_around_the_eye(Check& c) {
   for (const double reach : {1e3, 1e5}) {
     for (const double ahead : {1.0, 1.3, 0.37, 2.9}) {

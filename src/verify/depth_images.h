@@ -1,4 +1,4 @@
-// Depth images of hard cases, and what they are asked under.
+// Depth images of hard cases, and the options that they run under.
 #pragma once
 
 #include "shared/cull_tests.h"
@@ -9,7 +9,7 @@ namespace lightgrid::verify {
 
 constexpr double sky = no_end;
 
-// distance(x, y) in metres; sky: nothing is there.
+// distance(x, y) in metres; sky: background.
 template <typename Distance>
 DepthImage depth_of(const CullView& view, const Distance& distance) {
   DepthImage depth;

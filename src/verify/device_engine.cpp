@@ -9,7 +9,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// With its number where another device has the same name.
+// With its number if another device has the same name.
 std::string name_of_device(const std::string& substring) {
   const std::vector<ClDeviceInfo> devices = list_cl_devices();
   const size_t chosen = choose_cl_device(devices, substring);
@@ -59,7 +59,7 @@ class DeviceEngine : public CullEngine {
 
  private:
   using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int, GridLists>;
-  static constexpr size_t most_cullers = 64;  // each has buffers of its own
+  static constexpr size_t most_cullers = 64;  // each has its own buffers
 
   LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
     o.samples = samples;

@@ -1,5 +1,5 @@
-// What a hard case is run on: something that makes depth bounds and light grids. The library on an OpenCL device, or
-// in the tests of the cases themselves a culler with a fault planted in it.
+// The engine that hard cases run on: it makes depth bounds and light grids. The library on an OpenCL device,
+// or, in the tests of the cases themselves, a culler with a planted fault.
 #pragma once
 
 #include <memory>
@@ -12,19 +12,19 @@
 
 namespace lightgrid::verify {
 
-// Depth values as the culler takes them: z/w of clip_from_view, row 0 at the bottom. The viewport's lower left corner is
-// (x, y); its size is the view's.
+// Depth values as the culler reads them: z/w of clip_from_view, row 0 at the bottom. The viewport's lower
+// left corner is (x, y); its size is the view's.
 struct DepthImage {
   std::vector<float> values;
   int row_pixels = 0;  // 0: the view's width
   int x = 0, y = 0;
-  int samples = 1;     // a pixel's samples lie side by side
-  // Of each value the surface's own distance along the view axis, before a depth format rounded it. Empty: what the
-  // values say. Culling never sees them.
+  int samples = 1;     // a pixel's samples are adjacent
+  // For each value the surface's true distance along the view axis, before a depth format rounded it. Empty:
+  // follows from the values. Never passed to culling.
   std::vector<double> distances{};
 };
 
-// A cull from depth with all that went in, for the float twin.
+// A cull from depth with all of its inputs, for the float twin.
 struct KernelRun {
   CullInputs inputs;
   HostGrid grid;
@@ -35,7 +35,7 @@ class CullEngine {
   virtual ~CullEngine() = default;
   virtual std::string name() const = 0;
 
-  // It has both kernel shapes, and every depth-bounds mode for itself.
+  // The library has both kernel shapes, and every depth-bounds mode.
   virtual bool is_the_library() const = 0;
 
   virtual HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
@@ -45,19 +45,19 @@ class CullEngine {
   virtual std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
                                                const DepthImage& depth, bool blend = false) = 0;
 
-  // From depth to lists, as a frame does it: everything that a depth-bounds mode knows takes part.
+  // From depth to lists, as in a frame, with the depth-bounds mode applied.
   virtual HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
                               const DepthImage& depth, bool blend = false) = 0;
 
-  // The same, with what the kernels read; of the library only.
+  // The same with the kernels' inputs; only for the library.
   virtual std::optional<KernelRun> kernel_run(const CullerOptions&, const CullView&, std::span<const CullLight>,
                                               const DepthImage&, bool /*blend*/) {
     return {};
   }
 };
 
-// The library on the OpenCL device whose "platform name" holds `substring`. Keeps its cullers: cases of all kinds
-// follow each other through the same ones, as frames do.
+// The library on the OpenCL device whose "platform name" contains `substring`. Keeps its cullers: cases of
+// all kinds reuse the same ones, as frames do.
 std::unique_ptr<CullEngine> device_engine(const std::string& substring);
 
 }  // namespace lightgrid::verify

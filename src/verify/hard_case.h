@@ -1,5 +1,5 @@
-// The catalogue of hard cases of culling: inputs on which naive code loses lights, hangs or crashes, each with what must
-// hold. docs/hard_cases.md shows the same table, and a test holds the two together.
+// The catalogue of hard cases of culling: inputs on which naive code loses lights, hangs or crashes, each
+// with the property that must hold. docs/hard_cases.md has the same table, and a test compares the two.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ struct HardCase {
   const char* group;      // depth, camera, lights, lists, agreement
   const char* name;
   const char* input;
-  const char* breaks;     // in naive code
-  const char* invariant;  // what must hold here
+  const char* breaks;     // the fault of naive code
+  const char* invariant;  // the property that must hold
   void (*run)(Check&);
 };
 
@@ -36,15 +36,15 @@ std::vector<HardCase> agreement_cases();
 enum class Verdict { pass, fail, skip };
 
 struct Outcome {
-  // Answers looked at: of each setting the entries of its lists and the pairs that must be among them, and each other
-  // condition. One pair counts once for each setting, so that trials say how much was compared, not how many inputs
-  // there were.
+  // Number of comparisons: for each setting the entries of its lists and the pairs that must be among them,
+  // and each other condition. One pair counts once for each setting, so that trials measure the work of
+  // comparison, not the number of inputs.
   uint64_t trials = 0;
-  // Distinct inputs: (cell, light) pairs that certainly touch and (pixel, light) pairs that are certainly lit, each once
-  // for a view, its lights and its depth, however many settings were asked about it.
+  // Distinct inputs: (cell, light) pairs that certainly touch and (pixel, light) pairs that are certainly
+  // lit, each once for a view, its lights and its depth, independent of the number of settings.
   uint64_t contacts = 0;
-  uint64_t lost = 0;  // certainly in and not listed, over all settings
-  std::optional<double> excess_ratio;  // listed / truly touching, default settings
+  uint64_t lost = 0;  // certainly in but not listed, over all settings
+  std::optional<double> excess_ratio;  // listed / certainly touching, default settings
   Verdict verdict = Verdict::pass;
   std::string why;      // the first fault, or why it was skipped
 };

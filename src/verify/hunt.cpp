@@ -15,9 +15,9 @@
 namespace lightgrid::verify {
 namespace {
 
-constexpr int views_a_setting = 8;      // of each class, since a setting may have kernels to build
+constexpr int views_a_setting = 8;      // of each class, because a new setting may require kernel builds
 constexpr int most_saved = 3;      // of each class
-constexpr size_t lights_in_both = 4096;  // a view's, where the other shape is slow
+constexpr size_t lights_in_both = 4096;  // of a view, if both shapes run: the other one may be slow
 
 std::vector<HuntClass> chosen_classes(const std::string& filter) {
   std::vector<HuntClass> chosen;

@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 constexpr size_t lights_at_once = 2048;  // lights from one sequence of random numbers
 
-// What lights are made of in one view, and a part of them at a time.
+// Generates the lights of one view, a batch at a time.
 class Maker {
  public:
   Maker(const HuntView& view, const HuntSetting& setting, uint64_t seed)
@@ -36,7 +36,7 @@ class Maker {
 
  private:
   struct Corner {
-    int x = 0, y = 0;  // -1, 0, 1: the pixel is at this end of its tile
+    int x = 0, y = 0;  // -1, 0, 1: the end of its tile that the pixel is at
   };
 
   Light light_elsewhere(Random& random) const {
@@ -75,7 +75,7 @@ class Maker {
     return {};
   }
 
-  // Away from the cell at this corner of it: along a side's normal, along the view axis, a mix of both, or anywhere.
+  // A direction away from the cell at this corner: a side's normal, the view axis, a mix of both, or any.
   glm::dvec3 outward(const glm::dvec3& p, const Corner& corner, Random& random) const {
     const double style = unit(random);
     if (style < 0.15) return any_direction(random);
@@ -98,7 +98,8 @@ class Maker {
     return length > 1e-6 ? mixed / length : nz;
   }
 
-  // From far below the cell's width to far past the eye's distance; large ones are rare, since long lists take time.
+  // From far below the cell's width to far past the eye's distance; large ones are rare, because long lists
+  // take time.
   double random_size(const glm::dvec3& p, Random& random) const {
     const double d = v_.orthographic ? 1 : std::abs(p.z), pixels = setting_.options.tile;
     const double wide = 2 / (v_.clip_from_view[0][0] * v_.width), high = 2 / (v_.clip_from_view[1][1] * v_.height);
@@ -111,7 +112,7 @@ class Maker {
     return std::exp2(between(random, one + 3, one + 40));
   }
 
-  // By how much of itself a length is more than it need be: 1e-3 to 65536 units in the last place, or up to 1e-4.
+  // A relative excess: 1e-3 to 65536 units in the last place, or up to 1e-4.
   static double hair(Random& random) {
     if (chance(random, 0.3)) return 1e-4 * unit(random);
     return std::exp2(-24 + between(random, -10, 16));
@@ -127,7 +128,7 @@ class Maker {
     const float wanted = float(std::clamp(size, 1e-36, 1e36));
     glm::dvec3 in_view = p + away * (wanted * (1 - hair(random)));
     light.position = h_.view.eye + world_from_view_ * in_view;
-    // The light is where its world position, rounded to double, has it.
+    // Computed from the light's world position as rounded to double.
     in_view = glm::dmat3(v_.view_from_world) * (light.position - v_.eye);
     const glm::dvec3 way = p - in_view;
     const double distance = glm::length(way);
@@ -138,7 +139,7 @@ class Maker {
     return contact;
   }
 
-  // A cone whose side passes by the end of `way` by a hair, turned towards `side`.
+  // A cone whose side passes the end of `way` by a tiny margin, turned towards `side`.
   void make_spot(Light& light, const glm::dvec3& way, const glm::dvec3& side, Random& random) const {
     const double length = glm::length(way);
     if (!(length > 0)) return;
@@ -151,7 +152,7 @@ class Maker {
     light.type = LightType::spot;
     light.direction = glm::vec3(glm::normalize(world_from_view_ * (to * std::cos(angle) + across * std::sin(angle))));
     if (chance(random, 0.5)) light.radius_m *= float(between(random, 1.1, 3));
-    // The angle is the rounded direction's.
+    // The angle is measured from the rounded direction.
     const glm::dvec3 axis = glm::normalize(glm::dmat3(v_.view_from_world) * glm::normalize(glm::dvec3(light.direction)));
     const double off = std::atan2(glm::length(glm::cross(axis, to)), glm::dot(axis, to));
     float outer = float(std::min(off * (1 + hair(random)), pi));

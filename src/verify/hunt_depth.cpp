@@ -7,7 +7,8 @@
 namespace lightgrid::verify {
 namespace {
 
-// Of a block of pixels. Two distances, metres along the view axis; a pixel takes one, or lies between them.
+// Of a block of pixels. Two distances, metres along the view axis; a pixel has one of them, or a value
+// between.
 struct Block {
   enum { flat, layers, rough, edge, none } kind = flat;
   double a = 0, b = 0;
@@ -19,7 +20,7 @@ double random_distance(const HuntView& h, Random& random) {
   return between(random, h.near + (h.far - h.near) * 1e-6, h.far);
 }
 
-// A stored value whose key is an edge's, or next to it.
+// A stored value whose key equals an edge's or is next to it.
 float value_on_edge(const HuntView& h, Random& random) {
   const bool slices = h.view.z_bin_edges.empty() || (!h.view.slice_edges.empty() && chance(random, 0.5));
   const std::vector<float>& edges = slices ? h.view.slice_edges : h.view.z_bin_edges;

@@ -12,14 +12,14 @@ namespace {
 
 constexpr size_t contacts_at_once = 4096;
 
-// As shading finds a pixel's list: its tile, and the slice and the z-bin of its stored depth.
+// Finds a pixel's list as shading does: by its tile, and by the slice and the z-bin of its stored depth.
 class Finder {
  public:
   Finder(const HuntView& view, int tile, const HostGrid& grid)
       : h_(view), tile_(tile), grid_(grid), slices_(slice_keys(view.view)), z_bins_(z_bin_keys(view.view)),
         mask_words_(grid.cells.empty() ? 0 : grid.masks.size() / grid.cells.size()) {}
 
-  // None where shading finds the light.
+  // Empty if shading finds the light.
   std::optional<LostFrom> lost_from(const HuntContact& c) const {
     const float depth = h_.depth.values[(size_t(c.y) * h_.view.width + c.x) * h_.depth.samples + c.sample];
     const float key = depth_key(h_.view, depth);

@@ -1,11 +1,11 @@
-// Which contacts of the hunt a grid has lost.
+// Contacts of the hunt that a grid has lost.
 #pragma once
 
 #include "verify/hunt_contacts.h"
 
 namespace lightgrid::verify {
 
-// Where shading does not find the light: its cell's list, the cell's mask, or the light's z-bins.
+// The place where the light is missing: its cell's list, the cell's mask, or the light's z-bins.
 enum class LostFrom { list, mask, z_bins };
 const char* name_of(LostFrom from);
 
@@ -14,7 +14,7 @@ struct HuntLoss {
   LostFrom from = LostFrom::list;
 };
 
-// Contacts whose light is not in the list (and the mask, and the z-bin) that shading finds for the pixel.
+// Contacts whose light is missing from the list (or the mask, or the z-bin) that shading finds for the pixel.
 std::vector<HuntLoss> lost_contacts(const HuntView& view, std::span<const HuntContact> contacts, int tile,
                                     const HostGrid& grid);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_runs = 200;  // of the culler, to shrink one loss
 
-// With the grid that these lights have; none where the contact is found.
+// With the grid of these lights; empty if the contact is found.
 std::optional<ShrunkLoss> still_lost(CullEngine& engine, const CullerOptions& options, const HuntView& view,
                                      ShrunkLoss less) {
   less.grid = engine.cull_depth(options, view.view, cull_lights(less.lights), view.depth);
@@ -23,7 +23,7 @@ std::optional<ShrunkLoss> still_lost(CullEngine& engine, const CullerOptions& op
   return less;
 }
 
-// The lost light and of the others those outside [begin, end).
+// The lost light, and the others outside [begin, end).
 ShrunkLoss without(const ShrunkLoss& loss, size_t begin, size_t end) {
   ShrunkLoss less{{}, loss.lost, {}};
   for (size_t i = 0; i < loss.lights.size(); ++i) {
@@ -61,7 +61,8 @@ FrameGrid grid_of(const HuntSetting& setting, const HuntView& h, const ShrunkLos
 ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view, const std::vector<Light>& lights,
                        const HuntLoss& lost) {
   ShrunkLoss loss{lights, lost, {}};
-  // Alone, then without ever smaller parts (Zeller, Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002).
+  // First alone, then without ever smaller parts (Zeller, Hildebrandt, "Simplifying and Isolating
+  // Failure-Inducing Input", 2002).
   int runs = 0;
   for (size_t part = loss.lights.size(); part > 0 && runs < most_runs; part = part == 1 ? 0 : (part + 1) / 2) {
     for (size_t begin = 0; begin < loss.lights.size() && runs < most_runs;) {

@@ -1,4 +1,5 @@
-// A losing view of the hunt, with the fewest lights that still lose, as a captured frame (docs/frames.md).
+// A losing view of the hunt, reduced to the fewest lights that still lose one, as a captured frame
+// (docs/frames.md).
 #pragma once
 
 #include <filesystem>
@@ -7,7 +8,8 @@
 
 namespace lightgrid::verify {
 
-// The lights that remain, the lost one among them. Mostly it alone, or with as many others as the loss takes.
+// The remaining lights, with the lost one among them: usually it alone, else with the others that the loss
+// requires.
 struct ShrunkLoss {
   std::vector<Light> lights;
   HuntLoss lost;
@@ -16,9 +18,9 @@ struct ShrunkLoss {
 ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view, const std::vector<Light>& lights,
                        const HuntLoss& lost);
 
-// The frame with its grid (slices and z-bins included), and hunt.txt: the setting, the class, the seed and the lost contact
-// in words. Returns the folder. What a frame cannot hold: samples but the contact's own, cells of whole pixels, the width of
-// indices.
+// The frame with its grid (slices and z-bins included), and hunt.txt: the setting, the class, the seed and
+// the lost contact as text. Returns the folder. A frame cannot store samples other than the contact's, cells
+// of whole pixels, and the width of indices.
 std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntSetting& setting, const HuntView& view,
                                 const ShrunkLoss& loss, uint64_t seed);
 

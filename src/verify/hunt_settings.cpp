@@ -6,7 +6,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// Variants that depth_cases and light_cases build in any case.
+// Variants that depth_cases and light_cases build anyway.
 void choose_from_few(HuntSetting& s, Random& random) {
   const bool vary_test = chance(random, 0.5);
   if (vary_test) s.options.cull_test = one_of(random, cull_tests).test;

@@ -1,4 +1,4 @@
-// The settings that the standing hunt (hunt.h) draws from. The set is bounded, so that kernels are built rarely.
+// The settings that the hunt (hunt.h) draws from. A bounded set, so that kernel builds are rare.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace lightgrid::verify {
 
 struct HuntSetting {
-  CullerOptions options;  // depth_format is the view's to say
+  CullerOptions options;  // the view sets depth_format
   int slices = 1;
   SliceSpacing spacing = SliceSpacing::exponential;
   int z_bins = 1;
@@ -18,10 +18,11 @@ struct HuntSetting {
   bool both_shapes = false;  // the other kernel shape must make the same bytes
 };
 
-// `few`: only variants of the kernels that the catalogue's cases use as well, for a run of seconds.
+// `few`: only kernel variants that the catalogue's cases use as well, for runs of seconds.
 HuntSetting random_setting(Random& random, bool few);
 
-// Changes what needs no other kernels: the number of slices and z-bins, their spacing, pixels' centres or whole pixels.
+// Changes settings that need no other kernels: number and spacing of slices and z-bins, pixels' centres or
+// whole pixels.
 void vary(HuntSetting& setting, Random& random);
 
 std::string to_string(const HuntSetting& setting);

@@ -18,7 +18,7 @@ struct Size {
 };
 constexpr Size sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515}, {128, 128}, {17, 1031}, {480, 272}};
 
-// What a view is put together from: each class sets what it is about.
+// The parameters of a view; each class sets its own.
 struct Plan {
   double half = 1;  // the steeper of the two half-slopes
   double off = 0;   // the image's centre, slopes
@@ -75,7 +75,7 @@ Plan plan_of(HuntClass hunted, Random& random) {
   return p;
 }
 
-// How far surfaces may be, as a multiple of near: where the format still tells distances apart.
+// Limit of surfaces' distances as a multiple of near: up to it the format can distinguish distances.
 double farthest_ratio(DepthFormat format, bool standard) {
   if (format == DepthFormat::d16) return 0x1p12;
   if (format == DepthFormat::d24 || standard) return 0x1p19;
@@ -120,7 +120,7 @@ void choose_lights_elsewhere(HuntView& h, Random& random) {
     h.elsewhere_radius_m = h.elsewhere_m * 1e-3;
   }
   if (h.hunted == HuntClass::parked) {
-    h.elsewhere = one_of(random, {1e-9, 0.5, 0.75});  // the first: a single one
+    h.elsewhere = one_of(random, {1e-9, 0.5, 0.75});  // the first gives a single light
     h.elsewhere_m = one_of(random, {1e19, 1e30, double(std::numeric_limits<float>::max())});
     h.elsewhere_radius_m = one_of(random, {0.0, 1.0});
   }

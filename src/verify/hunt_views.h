@@ -1,4 +1,4 @@
-// Random views of every class that the promise of docs/hard_cases.md covers, with surfaces in them.
+// Random views, with surfaces, of every class that docs/hard_cases.md covers.
 #pragma once
 
 #include "verify/hunt_settings.h"
@@ -6,11 +6,11 @@
 
 namespace lightgrid::verify {
 
-// What the promise covers (docs/hard_cases.md#the-domain): distances of surfaces, and edges of slices and z-bins, metres.
+// The domain (docs/hard_cases.md#the-domain): distances of surfaces, and edges of slices and z-bins, metres.
 constexpr double hunt_least_m = 1e-15, hunt_most_m = 1e15, hunt_most_edge_m = 1e13;
 
 enum class HuntClass {
-  ordinary,      // 5 to 150 degrees, reversed depth without end
+  ordinary,      // 5 to 150 degrees, reversed depth with infinite far
   narrow,        // 1 to 5 degrees
   wide,          // 150 to 179.9 degrees
   off_centre,    // slopes up to 100
@@ -20,10 +20,10 @@ enum class HuntClass {
   finite_far,    // reversed depth with a far plane
   d16,
   d24,           // both depth orders, perspective and orthographic
-  scaled,        // the whole scene by 1e-12 to 1e15
-  spread,        // most lights are 1e3 to 1e15 m away from the surfaces
+  scaled,        // the whole scene scaled by 1e-12 to 1e15
+  spread,        // most lights are 1e3 to 1e15 m from the surfaces
   parked,        // one, half or most of the lights at 1e19 m, 1e30 m or FLT_MAX
-  mixed,         // any of the above together
+  mixed,         // any combination of the above
 };
 constexpr int hunt_class_count = int(HuntClass::mixed) + 1;
 const char* name_of(HuntClass hunted);
@@ -33,13 +33,13 @@ struct HuntView {
   CullView view;  // slice and z-bin edges included
   DepthFormat format = DepthFormat::d32f;
   double near = 0, far = 0;  // metres along the view axis: surfaces lie between the two
-  double unit_m = 1;         // what the scene is scaled by
-  // Lights that lie elsewhere: a share of all, at this distance from the eye, metres; 0: none.
+  double unit_m = 1;         // the scene's scale
+  // A fraction of the lights lies elsewhere, at this distance from the eye, metres; 0: none.
   double elsewhere = 0, elsewhere_m = 0, elsewhere_radius_m = 0;
   DepthImage depth;
 };
 
-// The same for the same numbers.
+// The same for equal arguments.
 HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed);
 
 }  // namespace lightgrid::verify

@@ -1,4 +1,4 @@
-// Hard cases of where lights are: far from each other, parked out of the way, in worlds of any scale.
+// Hard cases of positions of lights: far from each other, parked far away, in worlds of any scale.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// A wall about 3 units off, and lights that just reach one of its pixels.
+// A wall about 3 units away, and lights that just reach one of its pixels.
 DepthImage wall(const CullView& view, double unit) {
   return depth_of(view, [&](int x, int y) { return unit * (3 + 0.02 * x + 0.01 * y); });
 }
@@ -27,7 +27,7 @@ void spread_out(Check& c) {
   }
 }
 
-// Lights switched off by moving them far away.
+// Lights that are switched off by moving them far away.
 void parked(Check& c) {
   constexpr double most = 3.4028234663852886e38;
   const glm::dvec3 places[] = {{1e19, 0, 0}, {0, -1e30, 0}, {most, 0, 0}, {0, 0, -1e19}, {most, most, most}};
@@ -60,7 +60,7 @@ void worlds_of_any_scale(Check& c) {
   for (const double unit : {1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12, 1e13}) at_scale(c, unit);
 }
 
-// Beyond what the library promises: an error, or still right.
+// Outside the domain: an error, or a correct result.
 void outside_of_the_domain(Check& c) {
   for (const double unit : {1e-22, 1e-21, 1e-20, 1e-19, 1e16, 1e17}) {
     try {

@@ -78,7 +78,7 @@ void radius_denormal(Check& c) { radius_of(c, {1e-40, 1e-45, 1e-300}, false); }
 void radius_1e20(Check& c) { radius_of(c, {1e20, 3e38, 1e300}, true); }
 void radius_infinite(Check& c) { radius_of(c, {inf}, true); }
 
-// Must not be listed, and must not disturb the lights beside them in the same vector of lanes.
+// They must not be listed, and must not affect the lights in the same vector of lanes.
 void lists_nothing(Check& c, const std::vector<CullLight>& strange) {
   std::vector<CullLight> lights;
   for (const CullLight& light : strange) lights.push_back(point({0, 0, -5}, 3)), lights.push_back(light);
@@ -137,7 +137,7 @@ void at_the_surface(Check& c) {
   c.pixels(sixty(), lights, depth, c.every_test());
 }
 
-// Spots of one half-angle, all over and tangent, also looking along and against the view.
+// Spots with the same half-angle, scattered and tangent, also along and against the view direction.
 void cones_of(Check& c, std::initializer_list<double> degrees) {
   for (const NamedView& named : hard_views(63, 41)) {
     Random random(33);
@@ -190,7 +190,7 @@ void apex_behind_the_cell(Check& c) {
   c.grid(sixty(), lights, {{5, 6}});
 }
 
-// The cone's axis through the very centre of each cell's box, or of its middle distance.
+// The cone's axis through the exact centre of each cell's box, or of its middle distance.
 void axis_through_the_centre(Check& c) {
   std::vector<CullLight> lights;
   for (size_t i = 0; i < tile_count(sixty(), 16); ++i) {
@@ -205,7 +205,7 @@ void axis_through_the_centre(Check& c) {
   c.grid(sixty(), lights, {{4, 6}});
 }
 
-// Unit but for the rounding of a float, or of a loader that reads a few digits.
+// Unit up to a float's rounding, or a loader's that reads a few digits.
 void direction_almost_unit(Check& c) {
   Random random(35);
   const auto bounds = scattered_bounds(sixty(), 16, random);
@@ -238,7 +238,7 @@ void cosine_out_of_range(Check& c) {
   c.that(grid.cells.size() == tile_count(sixty(), 16), "no grid");
   for (size_t i = 0; i < grid.cells.size(); ++i) {
     const auto list = list_of(grid, i);
-    for (const uint32_t wide : {6u, 8u})  // wider than everything: the sphere's list
+    for (const uint32_t wide : {6u, 8u})  // wider than everything: as the sphere
       c.that(std::binary_search(list.begin(), list.end(), wide), "tile {}: a cone past 180 degrees is lost", i);
   }
 }

@@ -1,4 +1,4 @@
-// Hard cases of lists: how many lights, in which lists, and where these are kept.
+// Hard cases of lists: numbers of lights, lists and entries.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ CullerOptions tile_of(int tile) {
   return options;
 }
 
-// Lights that every tile lists and lights that none does, mixed so that each place of a vector has both.
+// Lights that every tile lists and lights that none lists, mixed so that each lane of a vector gets both.
 void counts(Check& c, std::initializer_list<size_t> numbers) {
   for (const size_t n : numbers) {
     const HostGrid all = c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
@@ -48,7 +48,7 @@ void around_lanes(Check& c) { counts(c, {2, 3, 7, 8, 9, 15, 16, 17, 31, 32, 33, 
 void around_groups(Check& c) { counts(c, {63, 64, 65, 127, 128, 129}); }
 void around_batches(Check& c) { counts(c, {511, 512, 513, 1023, 1024, 1025, 2047, 2048, 2049, 4095, 4096, 4097}); }
 
-// Every number from 0 to 70 as the length of one list.
+// Every length of one list from 0 to 70.
 void each_length(Check& c) {
   for (size_t n = 0; n <= 70; ++n) {
     const HostGrid grid = c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
@@ -121,7 +121,8 @@ void other_sizes_between(Check& c) {
   c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}), "what came between changes the grid");
 }
 
-// Enough tiles for many work-groups, which finish in another order each time; between two runs another frame.
+// Enough tiles for many work-groups, which finish in a different order each time; another frame runs between
+// two runs.
 void hundred_runs(Check& c) {
   const CullView view = field_of_view(60, 640, 360);
   Random random(43);
@@ -178,12 +179,12 @@ void many_cells(Check& c) {
   c.grid(view, scattered_lights(view, 60, true, random), {every_distance}, {tile_of(8)});
 }
 
-// 16 tiles x 64 slices x 2^22 lights that reach everywhere: 2^32 entries in the one block of tiles that there is.
+// 16 tiles x 64 slices x 2^22 lights that reach everywhere: 2^32 entries in a single block of tiles.
 void past_32_bits(Check& c) {
   CullView view = field_of_view(60, 32, 32);
   for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
   const std::vector<CullLight> lights(size_t(1) << 22, point({0, 0, -5}, no_end));
-  // The device's own shape: the other one takes minutes for that many tests.
+  // The device's own shape only: the other one would take minutes.
   const CullerOptions options = tile_of(8);
   const std::vector<DepthInterval> bounds(tile_count(view, 8), every_distance);
   try {
@@ -194,8 +195,9 @@ void past_32_bits(Check& c) {
   }
 }
 
-// Lights tangent to the very cells, where a coarse step's rounding could drop what the fine one keeps. Every test in
-// slices, every kind of bounds without, in half of the views each; tile sizes by turns.
+// Lights tangent to the cells, where the rounding of a coarse step could drop a light that the fine one
+// keeps. Every test with slices, every depth-bounds mode without, each in half of the views; tile sizes
+// alternate.
 void float_twin(Check& c) {
   Random random(47);
   int turn = 0;

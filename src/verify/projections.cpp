@@ -9,9 +9,9 @@
 namespace lightgrid::verify {
 namespace {
 
-// Past 170 degrees the slopes of a tile's sides are what is left of two numbers as large as the slope at the image's
-// edge; most is lost at the axis, which goes through the last pixel of a tile here. Lights stand beside the planes through
-// the pixels there, in the next tile, and just reach the pixels.
+// Past 170 degrees the slopes of a tile's sides are differences of two numbers as large as the slope at the
+// image's edge; most precision is lost at the axis, which here goes through the last pixel of a tile. Lights
+// stand in the next tile, beside the planes through the pixels there, and just reach the pixels.
 void fields_to_179_9(Check& c) {
   constexpr int width = 127, height = 95, axis_x = 63, axis_y = 47;
   for (const double degrees : {150.0, 170.0, 174.0, 176.0, 178.0, 179.0, 179.5, 179.9}) {
@@ -46,7 +46,8 @@ void jittered(Check& c) {
     view.clip_from_view[2][0] += 2 * x / view.width, view.clip_from_view[2][1] += 2 * y / view.height;
     const auto distance = [](int px, int py) { return 2 + (px * 5 + py * 3) % 20; };
     const DepthImage depth = depth_of(view, distance);
-    // Tiny lights at the pixels' own places: one matrix off by a part of a pixel puts a tile's outer ones beside it.
+    // Tiny lights at the pixels' own positions: a matrix off by a fraction of a pixel moves outer pixels to
+    // the next tile.
     const HostGrid grid = c.pixels(view, lights_at_surfaces(view, depth, 1e-6), depth, c.every_tile());
     c.that(grid == c.engine.cull_depth(c.every_tile()[0], view, lights_at_surfaces(view, depth, 1e-6), depth),
            "the next frame through the same matrix has another grid");
@@ -60,8 +61,8 @@ struct NamedMatrix {
   bool orthographic;
 };
 
-// Each either is refused by name or loses nothing. Surfaces' places come from the inverse matrix, which needs to know no
-// kind of projection.
+// Each is either refused by name or loses nothing. Surfaces' positions come from the inverse matrix, which
+// handles every kind of projection.
 void other_projections(Check& c) {
   constexpr NamedMatrix changes[] = {
       {"shear of x by y", 1, 0, 0.3, false},         {"shear of y by x", 0, 1, -0.4, false},

@@ -32,7 +32,7 @@ struct Replay {
   const CapturedFrame& frame;
   const std::vector<CullLight> lights;
   const std::vector<ViewLight> true_lights;  // of the oracle
-  const std::vector<float> covered;          // the depth image as the oracle reads it
+  const std::vector<float> covered;          // the depth image for the oracle
   const DepthImage depth;
 };
 

@@ -1,4 +1,5 @@
-// A captured frame through the engines: the library's bytes against the float twin's, and the lists against the oracle.
+// Runs a captured frame on the engines: compares the library's bytes with the float twin's, and the lists
+// with the oracle.
 #pragma once
 
 #include <functional>
@@ -10,7 +11,7 @@
 namespace lightgrid::verify {
 
 struct ReplayOptions {
-  // The frame's view without slices and z-bins is always replayed. Each of these is replayed beside it.
+  // Further views. The frame's view without slices and z-bins is always replayed.
   std::vector<CullView> more_views;
   std::function<void(double done, const std::string& step)> progress;
 };
@@ -22,8 +23,8 @@ struct ReplayOptions {
 VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engines, const CapturedFrame& frame,
                           const ReplayOptions& options = {});
 
-// The frame's view with the slices and z-bins of its own grid, if the folder has one with some; and with those that
-// `set` (KEY=VALUE: slices, z-bins, slice-spacing) asks for. Throws Error(input) for any other key.
+// The frame's view with the slices and z-bins of its own grid, if the folder has one with any; and with those
+// that `set` (KEY=VALUE: slices, z-bins, slice-spacing) selects. Throws Error(input) for any other key.
 std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::optional<FrameGrid>& own,
                                      const std::vector<std::string>& set);
 

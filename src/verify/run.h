@@ -1,4 +1,4 @@
-// The catalogue of hard cases run on this machine's devices: `lightgrid verify`.
+// Runs the catalogue of hard cases on this machine's devices: `lightgrid verify`.
 #pragma once
 
 #include <functional>
@@ -24,19 +24,19 @@ struct VerifyReport {
 };
 
 struct VerifyOptions {
-  std::string filter;  // a regular expression that "group/name" holds; empty: all
+  std::string filter;  // a regular expression searched in "group/name"; empty: all
   uint64_t adversarial_lights = 100'000;
   std::function<void(double done, const std::string& step)> progress;
 };
 
-// Throws Error(input) where the filter is no regular expression or no case has such a name.
+// Throws Error(input) if the filter is no regular expression or matches no case.
 std::vector<const HardCase*> chosen_cases(const std::string& filter);
 
 Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_lights);
 
 VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, const VerifyOptions& options);
 
-// What `run` asks of the engine. An exception that the engine throws fails the case.
+// The outcome of `run` on the engine. An exception of the engine fails the case.
 Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights);
 
 nlohmann::ordered_json to_json(const VerifyReport& report);

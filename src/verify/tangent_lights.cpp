@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A point on the cell: on `ends` of its three extents at an end, on the others anywhere between.
+// A point on the cell: at an end of `ends` of its three extents, anywhere between in the others.
 glm::dvec3 contact_point(const Cell& cell, Contact contact, Random& random) {
   const double far = std::min(cell.far, 100 * std::max(std::abs(cell.near), 0.1));
   const double near = std::max(cell.near, -far);
@@ -107,7 +107,7 @@ std::vector<CullLight> tangent_spots(const CullView& view, std::span<const Depth
                         std::exp2(8 * random.uniform() - 2);
     const glm::dvec3 away = any_direction(random), apex = q + size * away;
     if (!(distance_to_cell(cell, apex) > 0.01 * size)) continue;
-    // The axis turned off the way to the contact by the half-angle, so that the cone's side passes through it.
+    // The axis is turned away from the contact by the half-angle, so that the cone's side passes through it.
     const double angle = std::exp2(-10 * random.uniform()) * pi / 2;
     const glm::dvec3 side = glm::normalize(glm::cross(away, any_direction(random)) + 1e-9);
     const glm::dvec3 across = glm::normalize(side - away * glm::dot(side, away));
@@ -159,7 +159,7 @@ std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& de
       lights.push_back(point(place, distance * (1 + hair)));
       continue;
     }
-    // The axis is off the direction to the surface by a little less than the half-angle.
+    // The axis deviates from the direction to the surface by slightly less than the half-angle.
     const double angle = std::exp2(-10 * random.uniform()) * pi / 2, off = angle * (1 - hair);
     const glm::dvec3 side = glm::normalize(glm::cross(away, any_direction(random)) + 1e-9);
     const glm::dvec3 across = glm::normalize(side - away * glm::dot(side, away));

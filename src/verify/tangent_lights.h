@@ -1,4 +1,4 @@
-// Lights for cells to lose: made tangent to them.
+// Lights tangent to cells: the easiest ones to lose.
 #pragma once
 
 #include "scene/random.h"
@@ -8,8 +8,9 @@ namespace lightgrid::verify {
 
 enum class Contact { face, edge, corner, any };
 
-// Each touches one of the cells with its surface, within `ulps` units in the last place of the radius (as a float) to
-// either side; to 0, exactly or by the rounding of the radius upward. Small and huge, near and far; in view space.
+// Each touches one of the cells with its surface, within `ulps` units in the last place of the radius (as a
+// float) to either side; with 0, exactly or by the rounding of the radius upward. Small and huge, near and
+// far; in view space.
 std::vector<CullLight> tangent_lights(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
                                       Contact contact, int ulps, Random& random);
 
@@ -17,22 +18,24 @@ std::vector<CullLight> tangent_lights(const CullView& view, std::span<const Dept
 std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
                                      Random& random);
 
-// Lights that reach one pixel's own surface by a hair: `relative` of the radius at most, down to 2^-10 of that. Pixels
-// are drawn from those within `of` of the image, in shares of its width and height. In view space; sizes from
-// 2^-12 to 8 times the surface's distance. Where `spots`, every second one is a spot whose side passes by the surface.
+// Lights that barely reach one pixel's own surface: by at most `relative` of the radius, down to 2^-10 of
+// that. Pixels are drawn from those within `of` of the image, as fractions of its width and height. In view
+// space; sizes from 2^-12 to 8 times the surface's distance. With `spots`, every second one is a spot whose
+// side passes by the surface.
 struct PixelRange {
   double x0 = 0, y0 = 0, x1 = 1, y1 = 1;
 };
-// The surface at a pixel (its first sample), in view space; nothing where there is none.
+// The surface at a pixel (its first sample), in view space; empty if there is none.
 std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y);
 std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots, Random& random,
                                       const PixelRange& of = {}, double relative = 0x1p-24);
 
-// One at each pixel that shows a surface, on it, in the pixels' order: `share` of the surface's distance in radius, and
-// no less than a hundredth of `share`. In view space.
+// A light at each pixel that shows a surface, on it, in the pixels' order. Its radius is `share` of the surface's
+// distance, which counts as at least 0.01 m. In view space.
 std::vector<CullLight> lights_at_surfaces(const CullView& view, const DepthImage& depth, double share);
 
-// All over the view and beyond, of sizes between a pixel and the whole image; every second one a spot where `spots`.
+// All over the view and beyond, of sizes between a pixel and the whole image; with `spots`, every second one
+// a spot.
 std::vector<CullLight> scattered_lights(const CullView& view, size_t count, bool spots, Random& random);
 
 // Thin, thick, endless, flat and empty cells.

@@ -12,11 +12,11 @@ namespace lightgrid::verify {
 namespace {
 
 constexpr double u = 0x1p-24;       // one rounding in float
-constexpr double far_away = 1e17;    // kernels have 1e18 for no end
-constexpr double farthest = 1e30;    // where boxes of endless cells end, past all lights and surfaces
-constexpr double least_radius = 2e-18;  // metres that every light is given
-constexpr double gentle_slope = 2;    // up to it the exact test finds the distance in its three Newton steps
-constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones take no infinite near
+constexpr double far_away = 1e17;    // the kernels' infinity is 1e18
+constexpr double farthest = 1e30;    // end of the boxes of endless cells, past all lights and surfaces
+constexpr double least_radius = 2e-18;  // metres, the least uploaded radius
+constexpr double gentle_slope = 2;    // up to this slope the exact test converges in its three Newton steps
+constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones need a finite near
 
 double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
 
@@ -130,7 +130,8 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Tr
   const glm::dvec3& p = light.position;
   const double r = light.radius + light.place_error;
   if (r > far_away) return true;
-  // 24 u of slack and 8 u of roundings; the sides' slopes, and the tangents and tile coordinates with their own 32 u.
+  // 24 u of slack and 8 u of rounding; plus 32 u for the sides' slopes, and for the tangents and tile
+  // coordinates.
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + r, steep = steepest_slope(view);
   const double reach_of_slopes = cell.orthographic ? 1 : std::abs(p.z) + r;
   const double margin = least_radius + 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;

@@ -1,5 +1,5 @@
-// Which lights certainly touch a cell of the light grid, and which possibly do under a cull test: in double, by the
-// oracle.
+// The lights that certainly touch a cell of the light grid, and those that possibly do under a cull test: in
+// double, by the oracle.
 #pragma once
 
 #include <vector>
@@ -9,28 +9,29 @@
 
 namespace lightgrid::verify {
 
-// View space. A cone of -1 is none: the sphere alone.
+// View space. A cone of -1 means none: the sphere alone.
 struct TrueLight {
   glm::dvec3 position;
   glm::dvec3 axis;
   double radius, cos_outer;
-  double place_error;  // of its place in float, which the culler keeps relative to the middle of all lights' places
-  double cone_error;   // the largest of these of all spots, which every cone has as slack
-  bool lists_nothing;  // radius or place is no number, or the radius is negative
+  double place_error;  // of its position in float, which the culler stores relative to the median of all
+                       // lights' positions
+  double cone_error;   // the largest of these over all spots, added as slack to every cone
+  bool lists_nothing;  // radius or position is NaN, or the radius is negative
 };
 std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLight> lights);
 
-// Of a tile and a slice; empty (near > far) where nothing is in it. Its sides go through pixels' centres, since nothing
-// else is shaded, or around whole pixels.
+// Of a tile and a slice; empty (near > far) if it contains nothing. Its sides go through pixels' centres,
+// because nothing else is shaded, or around whole pixels.
 Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres);
 
 bool certainly_touches(const Cell& cell, const TrueLight& light);
 
-// A lower bound of what is outside: cheap, and never true of a light that certainly touches.
+// A cheap sufficient test for being outside; never true of a light that certainly touches.
 bool clearly_apart(const Cell& cell, const TrueLight& light);
 
-// Inside the region that the cull test promises, widened by what its float arithmetic may add (docs/hard_cases.md#slack).
-// `exact` promises the cell itself where no slope of the view is past 2, else what planes and box do together.
+// Inside the region that the cull test covers, widened by its float error (docs/hard_cases.md#slack). `exact`
+// covers the cell itself if no slope of the view exceeds 2, else the intersection of planes and box.
 bool possibly_touches(const CullView& view, int tile, const Cell& cell, const TrueLight& light, CullTest test);
 
 // The lights that certainly touch each cell, ascending.

@@ -9,7 +9,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// Depth is (a z + b) / w, where a and b make it 1 at near and 0 at far, or the other way round.
+// Depth is (a z + b) / w, where a and b make it 1 at near and 0 at far, or vice versa.
 void set_depth_row(glm::dmat4& clip, const Lens& lens) {
   const bool endless = std::isinf(lens.far);
   const double n = lens.near, f = lens.far;

@@ -1,4 +1,4 @@
-// The views that hard cases look through.
+// The views of the hard cases.
 #pragma once
 
 #include <string>
@@ -24,18 +24,19 @@ CullView view_through(const Lens& lens, int width, int height);
 CullView field_of_view(double fov_y_deg, int width, int height);
 const CullView& sixty();  // degrees; 127 x 73
 
-// The same as the oracle takes it (reference/position.h), which reads size, matrices and kind of projection.
+// The same view for the oracle (reference/position.h), which reads size, matrices and kind of projection.
 View oracle_view(const CullView& view);
 
 float depth_of_nothing(const CullView& view);       // 0 reversed, 1 standard
 double depth_at(const CullView& view, double distance);     // z/w in double
 double distance_at(const CullView& view, double depth);
-// View space: the point of pixel (px, py)'s centre that is `distance` along the view axis. `view` is oracle_view's.
+// View space: the point at `distance` along the view axis through the centre of pixel (px, py). `view` is
+// oracle_view's.
 glm::dvec3 position_at(const View& view, int px, int py, double distance);
 int tiles_x(const CullView& view, int tile);
 size_t tile_count(const CullView& view, int tile);
 
-// The camera moved and turned: what it sees of lights turned with it is the same.
+// The camera moved and turned; lights moved and turned with it look the same.
 CullView placed(CullView view, const glm::dvec3& eye, double yaw_rad, double pitch_rad);
 glm::dvec3 to_view(const CullView& view, const glm::dvec3& world);
 glm::dvec3 to_world(const CullView& view, const glm::dvec3& in_view);

@@ -1,7 +1,7 @@
-// Every light against every cell: no regions, bins, blocks or candidates, and no counting ahead.
+// Every light against every cell: no regions, bins, blocks or candidates, and no counting pass.
 #include "verify/twin/opencl_c.h"
 
-#define SPOTS   // a cosine of 2 is no cone
+#define SPOTS   // a cosine of 2 means no cone
 #define SLICES  // one slice without ends cuts nothing
 
 namespace lightgrid::verify {

@@ -1,7 +1,7 @@
 // Depth bounds by a plain scan of each tile, value by value.
 #include "verify/twin/opencl_c.h"
 
-#define DEPTH_MODE 1  // the layout is chosen when it runs
+#define DEPTH_MODE 1  // the layout is chosen at run time
 
 namespace lightgrid::verify {
 namespace {
@@ -23,7 +23,7 @@ std::vector<uint> keys_of_tile(const CullParams& p, uint tx, uint ty, int sample
   return keys;
 }
 
-// Greatest, least and least but for 0 of those below `end`; 0 and all ones where there is none.
+// Greatest, least and least nonzero of those below `end`; 0 and all ones if there is none.
 struct Extremes {
   uint low = 0xffffffffu, high = 0, lowest = 0xffffffffu;
 };

@@ -1,4 +1,5 @@
-// As much of OpenCL C as the kernels' headers use with one lane, so that they compile as C++. To be included first.
+// The part of OpenCL C that the kernels' headers use with one lane, so that they compile as C++. Include it
+// first.
 #pragma once
 
 #include <bit>
@@ -11,8 +12,8 @@
 #include "shared/light_grid.h"
 #include "verify/twin/twin.h"
 
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // some settings leave some unread
-#pragma GCC diagnostic ignored "-Wparentheses"       // OpenCL compilers do not ask for them
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // unread with some settings
+#pragma GCC diagnostic ignored "-Wparentheses"       // OpenCL compilers do not require them
 #define __OPENCL_VERSION__ 120                       // shared/cull_settings.h: the numbers, not the enums
 #define global
 #define constant const
@@ -25,7 +26,7 @@ struct float2 {
   float x, y;
 };
 
-// What OpenCL C says of NaN: the first, where the comparison is false.
+// OpenCL C's rule for NaN: the first argument, where the comparison is false.
 template <typename T>
 inline T min(T a, T b) { return b < a ? b : a; }
 template <typename T>
