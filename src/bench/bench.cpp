@@ -46,7 +46,7 @@ KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
   return work;
 }
 
-// Directional lights stand in no list.
+// Directional lights are in no list.
 CapturedFrame frame_of(const BenchCase& c) {
   if (c.folder.empty()) return make_standard_frame(c.recipe);
   CapturedFrame frame = read_frame(c.folder);
@@ -54,7 +54,7 @@ CapturedFrame frame_of(const BenchCase& c) {
   return frame;
 }
 
-// The rows of one case before the filter.
+// The rows of one case before filtering.
 std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options, const BenchCase& c,
                                    const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;

@@ -1,4 +1,4 @@
-// What `lightgrid bench` measures unless told otherwise.
+// The default cases of `lightgrid bench`.
 #pragma once
 
 #include <string>
@@ -9,10 +9,11 @@
 namespace lightgrid {
 
 struct BenchCase {
-  std::string name;  // "floor-4096", "lights-100", "tile-8", "size-3840x2160"; of a folder: its name
+  std::string name;  // "floor-4096", "lights-100", "tile-8", "size-3840x2160"; of a captured frame: its
+                     // folder's name
   FrameRecipe recipe;
   std::string folder;  // a captured frame instead of the recipe
-  int tile = 0;        // the case's own tile size; 0: as the settings say
+  int tile = 0;        // the case's own tile size; 0: from the settings
 };
 
 // The standard frames, then scaling in lights, tile size and resolution.

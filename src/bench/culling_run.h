@@ -1,4 +1,4 @@
-// One frame with one choice of settings, ready to be culled again and again.
+// One frame with one set of settings, for repeated culling.
 #pragma once
 
 #include <memory>
@@ -12,19 +12,20 @@ namespace lightgrid {
 
 class CullingRun {
  public:
-  // Uploads the lights and runs twice, so that kernels are built and memory has its size. Slices and z-bins are those
-  // that were set by name. Runs of one frame share its depth, so that none finds it colder than another does.
+  // Uploads the lights and runs twice, so that kernels are built and memory has its size. Slices and z-bins
+  // are used only if set by name. Runs of one frame share its depth, so that the cache is equally warm for
+  // all.
   CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const cl::Buffer& depth,
              const Settings& settings);
 
   // Depth bounds, cull and the finished grid, with one wait at the end.
   void run();
 
-  // What a frame may need besides, each with its own wait.
+  // Other transfers that a frame may need, each with its own wait.
   void upload_lights();
-  void download_grid();  // cells and indices into host memory, and masks and z-bins where there are some
+  void download_grid();  // cells and indices into host memory, and masks and z-bins if there are any
 
-  const Settings& settings() const { return settings_; }  // as they count: without slices, one of them
+  const Settings& settings() const { return settings_; }  // as used: one slice if the grid has none
   const LightGrid& grid() const { return grid_; }
   const cl::Buffer& depth() const { return depth_; }
   size_t depth_bytes() const { return depth_bytes_; }

@@ -11,24 +11,25 @@ constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4, id_bytes =
 constexpr double place_bytes = 16, z_bin_word_bytes = 4;
 constexpr double bin_tiles = 64;
 
-// Floats of a light: place and radius, and with cones an axis and a cosine; in view space its tile rectangle and index
-// as well.
+// Bytes of a light: position and radius, and with cones an axis and a cosine; in view space also its tile
+// rectangle and index.
 double world_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 8 : 4); }
 double view_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 11 : 7); }
 
-// Operations of kernels/common/project.h and light_cell_tests.h, counted in their text: to view space and two pairs of
-// tangents; sphere against box; three Newton steps besides; cone against sphere besides.
+// Operations of kernels/common/project.h and light_cell_tests.h, counted in their text: to view space with
+// two pairs of tangents; sphere against box; additionally three Newton steps; additionally cone against
+// sphere.
 constexpr double project_flops = 100, box_flops = 18, exact_flops = 110, cone_flops = 60;
-// Of view_sphere there, and of a range of distances out of it.
+// Of view_sphere there, with a range of distances from it.
 constexpr double range_flops = 28;
 double test_flops(const KernelWork& w) { return box_flops + (w.exact ? exact_flops : 0) + (w.cones ? cone_flops : 0); }
 
-// A bin has as many candidates as its longest list at least, and so its indices / 64.
+// A bin has at least as many candidates as its longest list, and therefore at least its indices / 64.
 double least_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
 double cell_mark_bytes(const KernelWork& w) { return least_candidates(w) * bin_tiles / 8; }
 
-// What no kernel with these inputs and outputs can do without: each read and written once, as if caches held what is met
-// again, and one test for each entry that ends in a list.
+// Lower bounds for any kernel with these inputs and outputs: each is read and written once, as if repeated
+// accesses hit caches, with one test for each final list entry.
 const std::map<std::string, Formula>& formulas() {
   static const std::map<std::string, Formula> table = {
       {"depth_bounds",
@@ -37,7 +38,7 @@ const std::map<std::string, Formula>& formulas() {
        [](const KernelWork& w) {
          return KernelCost{(world_bytes(w) + view_bytes(w)) * w.lights, project_flops * w.lights};
        }},
-      // For CPUs.
+      // CPU kernels.
       {"cull_lights",
        [](const KernelWork& w) {
          return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + count_bytes * w.cells + w.index_bytes,
@@ -54,7 +55,7 @@ const std::map<std::string, Formula>& formulas() {
        }},
       {"fill_lists",
        [](const KernelWork& w) { return KernelCost{cell_mark_bytes(w) + cell_bytes * w.cells + w.index_bytes, 0.0}; }},
-      // Where the settings ask for what they make.
+      // Used only if the settings need their result.
       {"light_z_bins",
        [](const KernelWork& w) {
          const double bytes = (place_bytes + z_bin_word_bytes) * w.lights + interval_bytes * w.z_bins;

@@ -19,7 +19,7 @@ double device_ms(ClDevice& device) {
   return ms;
 }
 
-// Twice the cache, 256 MiB at least; no more than an eighth of the memory.
+// Twice the cache, at least 256 MiB, at most an eighth of the memory.
 size_t large_size(ClDevice& device) {
   const size_t cache = device.device().getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
   const size_t wanted = std::max<size_t>(size_t(256) << 20, 2 * cache);
@@ -28,7 +28,7 @@ size_t large_size(ClDevice& device) {
 }
 
 Spread repeat(int runs, auto&& run) {
-  for (int i = 0; i < 2; ++i) run();  // never time a first launch
+  for (int i = 0; i < 2; ++i) run();  // untimed warm-up
   std::vector<double> samples;
   for (int i = 0; i < runs; ++i) samples.push_back(run());
   return spread_of(samples);
@@ -89,7 +89,7 @@ void measure_transfers(ClDevice& device, int runs, Limits& limits) {
 }
 
 Spread read_ms(ClDevice& device, PlainRead& read, const cl::Buffer& buffer, size_t bytes, int runs) {
-  fill_buffer(device, "limits", buffer, 1, bytes);  // pages that were never written read too fast
+  fill_buffer(device, "limits", buffer, 1, bytes);  // pages that were never written are read too fast
   read.fit(buffer, bytes, bytes > depth_bytes ? 2 : 5);
   return repeat(runs, [&] { return read.run(buffer, bytes); });
 }
@@ -115,7 +115,7 @@ double PlainRead::fit(const cl::Buffer& buffer, size_t bytes, int tries) {
   const size_t units = group_ * size_t(device_.info().compute_units);
   double best_ms = std::numeric_limits<double>::infinity();
   size_t best = units;
-  // Not one item a unit: a unit that comes late would leave the other with all of its part.
+  // More than one item a unit: otherwise a unit that starts late would delay the whole run by its part.
   for (const size_t times : {4, 8, 16, 32, 64}) {
     items_ = times * units;
     for (int i = 0; i < tries + 1; ++i) {

@@ -1,4 +1,4 @@
-// What the machine can do at best on its OpenCL device: the limits that kernels are held against.
+// The limits of the machine's OpenCL device, with which kernels are compared.
 #pragma once
 
 #include "base/timer.h"
@@ -8,16 +8,16 @@
 
 namespace lightgrid {
 
-// A plain read of a buffer by as many items as proved fastest. Sums are not looked at.
+// A plain read of a buffer by the fastest number of items found. Sums are discarded.
 class PlainRead {
  public:
   PlainRead(ClDevice& device, ProgramCache& programs);
 
-  // Tries numbers of items on this buffer and keeps the best; once for each size that is measured. Returns the least
-  // time met, milliseconds on the device.
+  // Tries numbers of items on this buffer and keeps the best; call once for each measured size. Returns the
+  // least time, milliseconds on the device.
   double fit(const cl::Buffer& buffer, size_t bytes, int tries = 5);
 
-  // Milliseconds on the device. `bytes` is rounded down to what the kernel reads, bytes_read().
+  // Milliseconds on the device. `bytes` is rounded down to the kernel's granularity: bytes_read().
   double run(const cl::Buffer& buffer, size_t bytes);
   static size_t bytes_read(size_t bytes) { return bytes / block_bytes * block_bytes; }
 
@@ -29,15 +29,15 @@ class PlainRead {
   size_t items_ = 0, group_ = 1;
 };
 
-// Times in milliseconds, each over several runs. Rates follow from the least time, the machine at its best.
+// Times in milliseconds, each over several runs. Rates are computed from the least time.
 struct Limits {
-  Spread read_large;    // on the device: a buffer far larger than caches; no runs where it was not asked for
-  Spread read_depth;    // on the device: one as large as the depth of 1920 x 1080
-  Spread copy;          // the same, to another of its size: counts what is read and what is written
+  Spread read_large;    // on the device: a buffer far larger than caches; no runs if not requested
+  Spread read_depth;    // on the device: a buffer of the size of depth at 1920 x 1080
+  Spread copy;          // the same, to another buffer of that size: counts bytes read and written
   Spread flops;         // on the device
   Spread launch_wait;   // wall clock: an empty kernel and the wait for it
-  Spread more_launch;   // wall clock: each further empty kernel before one wait
-  Spread to_device, to_host;  // wall clock: depth_bytes over, with the wait
+  Spread more_launch;   // wall clock: each additional empty kernel before one wait
+  Spread to_device, to_host;  // wall clock: transfer of depth_bytes, with the wait
   size_t large_bytes = 0, depth_bytes = 0;
   double operations = 0;
 
@@ -47,7 +47,7 @@ struct Limits {
   double gflop_s() const { return 1e-6 * operations / flops.min; }
 };
 
-// The large buffers take a second or two: `with_large` asks for them.
+// `with_large` measures the large buffers as well, which takes a second or two.
 Limits measure_limits(ClDevice& device, ProgramCache& programs, int runs, bool with_large);
 
 }  // namespace lightgrid

@@ -5,7 +5,7 @@
 namespace lightgrid {
 namespace {
 
-// What the rounds gave for one contestant.
+// The samples of one contestant over all rounds.
 struct Samples {
   std::vector<double> wall, device, overhead;
   std::vector<ClProfiler::Row> first;        // labels and launches
@@ -19,7 +19,7 @@ double wall_ms(ClDevice& device, CullingRun& run) {
   return timer.elapsed_ms();
 }
 
-// A run whose launches are timed by events, which cost a little each: apart from the wall clock's run.
+// A run whose launches are timed by events, which have a cost: separate from the wall-clock run.
 struct DeviceRun {
   std::vector<ClProfiler::Row> rows;
   double wall_ms = 0;
@@ -86,7 +86,7 @@ MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& 
   std::vector<double> reads;
   for (int round = -rounds.warmup; round < rounds.timed; ++round) {
     for (size_t i = 0; i < contestants.size(); ++i) {
-      // The wall clock's run is the second: it finds the caches as a frame of its own left them.
+      // The wall-clock run comes second: its caches are as after a frame of its own.
       const DeviceRun timed = device_run(device, *contestants[i]);
       const double wall = wall_ms(device, *contestants[i]);
       if (round >= 0) take(samples[i], wall, timed);

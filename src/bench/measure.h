@@ -1,4 +1,4 @@
-// Several ways to cull one frame, timed in turn.
+// Compares several ways to cull one frame, timed in turn.
 #pragma once
 
 #include <functional>
@@ -17,16 +17,17 @@ struct MeasuredRun {
     Spread ms;         // on the device, all of its launches in one run
   };
   Spread wall;                  // one wait at the end
-  Spread device;                // the sum over all kernels of one run, which is timed by events, and not for `wall`
+  Spread device;                // the sum over all kernels of one run, which is timed by events; not the run
+                                // of `wall`
   std::vector<Kernel> kernels;  // in order of first launch
   Spread lights_upload, grid_download;  // wall clock, each with its wait
-  Spread overhead;              // wall less device, of the runs timed by events
+  Spread overhead;              // wall minus device, for the runs timed by events
 };
 
 struct MeasuredFrame {
   std::vector<MeasuredRun> runs;  // one for each contestant
   Spread plain_read;              // of the same depth buffer, in the same rounds
-  double least_read_ms = 0;       // the least of those and of the runs before that fitted it
+  double least_read_ms = 0;       // the least of those and of the earlier runs that fitted it
 };
 
 struct Rounds {
@@ -34,8 +35,8 @@ struct Rounds {
   std::function<void(double done)> progress;  // may be empty
 };
 
-// In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer is read
-// once. What else the machine does in a while then meets all of them.
+// In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer
+// is read once, so that other load on the machine affects all of them.
 MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
                               const Rounds& rounds);
 

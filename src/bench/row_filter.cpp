@@ -7,8 +7,8 @@ namespace {
 
 constexpr size_t max_length = 200;
 
-// libstdc++'s default matcher takes exponential time on some expressions; its other one does not, and refuses only
-// back-references.
+// libstdc++'s default matcher takes exponential time on some expressions; its other one does not, and only
+// lacks back-references.
 constexpr auto syntax = std::regex::ECMAScript
 #ifdef __GLIBCXX__
                         | std::regex_constants::__polynomial

@@ -9,10 +9,10 @@ namespace lightgrid {
 
 class RowFilter {
  public:
-  // ECMAScript's syntax; empty keeps all. Throws Error(input) where it is none, or too long.
+  // ECMAScript syntax; empty keeps all. Throws Error(input) if it is invalid or too long.
   explicit RowFilter(const std::string& expression);
 
-  // Found anywhere in "CASE/ROW".
+  // True if it matches anywhere in "CASE/ROW".
   bool keeps(const std::string& case_name, const std::string& row_name) const;
 
  private:

@@ -1,4 +1,4 @@
-// What bench found, as rows: for a table and for `bench --json` (docs/benchmarks.md).
+// Results of bench as rows: for a table and for `bench --json` (docs/benchmarks.md).
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ struct BenchRow {
   nlohmann::ordered_json params;
   Spread ms;
   std::optional<KernelCost> cost;
-  std::optional<double> limit_ms;  // what the cost takes at the machine's limits
+  std::optional<double> limit_ms;  // the cost's time at the machine's limits
   std::optional<double> ratio;     // of the median to that of the first contestant
 };
 
-// Of the whole run: one row a limit.
+// The limits of the whole run, one row each.
 std::vector<BenchRow> limit_rows(const Limits& limits);
 
-// A contestant of a case as its rows tell it.
+// The parameters of a contestant and case in its rows.
 struct ContestantParams {
   std::string case_name;
   nlohmann::ordered_json params;

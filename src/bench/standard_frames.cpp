@@ -1,4 +1,5 @@
-// The standard frames: depth of a room, and lights whose radii are scaled until tiles list as many as wanted.
+// The standard frames: depth of a room, and lights whose radii are scaled until tiles list the requested
+// number.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -26,7 +27,7 @@ View room_view(int width, int height) {
   return view;
 }
 
-// Slopes x / d of the borders between tiles, and 1 / length of each border plane's (1, 0, -slope).
+// Slopes x / d of the borders between tiles, and 1 / length of each border plane's normal (1, 0, -slope).
 struct Borders {
   std::vector<float> slope, scale;
 };
@@ -61,7 +62,7 @@ TileGrid tile_grid(const std::vector<float>& distances, int width, int height) {
   return grid;
 }
 
-// Which of the strips between borders the sphere's two plane tests let through.
+// The strips between borders for which the sphere passes both plane tests.
 std::vector<int> touched_strips(const Borders& b, float across, float d, float radius) {
   std::vector<int> strips;
   for (size_t i = 0; i + 1 < b.slope.size(); ++i) {
@@ -72,7 +73,7 @@ std::vector<int> touched_strips(const Borders& b, float across, float d, float r
   return strips;
 }
 
-// Tiles that list the light by side planes and least and greatest depth.
+// Number of tiles that list the light by side planes and least and greatest depth.
 size_t tiles_listing(const TileGrid& grid, const Light& light, float radius) {
   const float d = float(-light.position.z);
   const std::vector<int> columns = touched_strips(grid.x, float(light.position.x), d, radius);
@@ -104,7 +105,7 @@ std::vector<Light> scatter_in_view(int count, Random& random, std::vector<float>
   for (Light& light : lights) {
     const float d = random.uniform(2, room_back), half = std::min(d * tan_x * 1.05f, 70.0f);
     const float x = random.uniform(-half, half), y = random.uniform(room_floor, std::min(20.0f, d * room_tan_y));
-    // Whole millimetres are short in a file: a million lights stay below what a lights file may have.
+    // Whole millimetres are short in a file: a million lights stay below the size limit of a lights file.
     light.position = glm::round(glm::dvec3(x, y, -d) * 1000.0) / 1000.0;
     radii.push_back(random.uniform(0.6f, 1.4f));
   }

@@ -9,10 +9,10 @@ namespace lightgrid {
 namespace {
 
 constexpr int boxes = 48, balls = 600;
-constexpr int block = 32;  // pixels a side; a block tries only the shapes whose outline reaches it
+constexpr int block = 32;  // pixels a side; a block tests only the shapes whose outline reaches it
 constexpr float floor_slope = 0.04f, ceiling_height = 22.0f;
 
-// A box, or the ball that it just holds. Wholly in front of the eye.
+// A box, or its inscribed sphere. Entirely in front of the eye.
 struct Shape {
   glm::vec3 low, high;
 };
@@ -38,7 +38,7 @@ std::vector<Shape> make_balls(Random& random, float tan_x) {
   return shapes;
 }
 
-// Direction slopes (x / d, y / d) that the shape may cover.
+// Range of direction slopes (x / d, y / d) that the shape may cover.
 struct Outline {
   float x0, x1, y0, y1;
 };
@@ -49,7 +49,7 @@ Outline outline_of(const Shape& s) {
           std::min(s.low.y / near, s.low.y / far), std::max(s.high.y / near, s.high.y / far)};
 }
 
-// The distance where the ray (x, y, -1) enters the shape, or `nearest` where it does not before that.
+// The distance at which the ray (x, y, -1) enters the shape, or `nearest` if it does not do so before.
 float enter_box(const Shape& s, float x, float y, float nearest) {
   float t0 = -s.high.z, t1 = std::min(nearest, -s.low.z);
   for (const auto& [low, high, slope] : {std::tuple(s.low.x, s.high.x, x), std::tuple(s.low.y, s.high.y, y)}) {

@@ -12,7 +12,7 @@ namespace lightgrid {
 inline constexpr float room_near = 0.5f, room_far = 100.0f, room_floor = -5.0f, room_back = 95.0f;
 inline constexpr float room_tan_y = 0.57735027f;
 
-// The distance along the view axis of what each pixel shows; row 0 at the bottom.
+// The distance along the view axis of the surface at each pixel; row 0 at the bottom.
 std::vector<float> room_distances(const FrameRecipe& recipe);
 
 }  // namespace lightgrid

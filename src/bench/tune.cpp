@@ -20,7 +20,7 @@ std::vector<std::string> values_of(const std::string& key) {
   return {};
 }
 
-// One value of the key that is tuned.
+// One value of the tuned key.
 struct Candidate {
   std::string value;
   Settings settings;
@@ -78,7 +78,7 @@ TuneResult tune_kernels(ClDevice& device, const TuneOptions& options) {
   TuneResult result;
   Settings settings;
   for (const std::string& key : tunable_settings()) {
-    if (key == "group-size" && settings.kernel_shape != KernelShape::group) continue;  // of that shape alone
+    if (key == "group-size" && settings.kernel_shape != KernelShape::group) continue;  // applies to that shape alone
     std::vector<Candidate> candidates = candidates_of(key, settings);
     for (size_t i = 0; i < frames.size(); ++i) {
       if (options.step) options.step(double(i) / double(frames.size()), key);

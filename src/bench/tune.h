@@ -1,4 +1,4 @@
-// Tries the kernel shapes and sizes that a device may run, and tells which are fastest.
+// Finds the fastest kernel shape and sizes of a device.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@ struct TuneOptions {
 
 struct TuneTrial {
   std::string assignment;  // "kernel-shape=lanes"
-  double ratio = 0;        // of the median times to those of the fastest value of the key: 1 or more
-  std::string failure;     // why it does not run here; empty where it does
+  double ratio = 0;        // median times relative to the fastest value of the key: 1 or more
+  std::string failure;     // why it does not run here; empty if it does
 };
 
 struct TuneResult {
@@ -26,8 +26,9 @@ struct TuneResult {
   std::vector<TuneTrial> trials;
 };
 
-// One key after the other, each with the best of those before; a key's values run in turn on small and large standard
-// frames, and the least geometric mean of their medians wins. Results are the same bytes whatever is chosen.
+// Tunes one key after the other, each with the best values of the previous ones. A key's values run in turn
+// on small and large standard frames; the least geometric mean of their medians wins. All choices give the
+// same bytes.
 TuneResult tune_kernels(ClDevice& device, const TuneOptions& options);
 
 }  // namespace lightgrid

@@ -39,7 +39,7 @@ void sort_points(Chart& chart) {
   std::sort(chart.ticks.begin(), chart.ticks.end(), by_x);
 }
 
-// The fastest exact curve at a measured x; null where there is none.
+// The fastest exact curve at a measured x; null if there is none.
 const Curve* leader_at(const Chart& chart, double x) {
   const Curve* best = nullptr;
   double best_ms = 0;
@@ -129,7 +129,7 @@ std::vector<Chart> charts_over(const Axis& axis, const std::vector<ReportView>& 
   return charts;
 }
 
-// The value of a numeric setting; none where it is another kind, or not above 0.
+// The value of a numeric setting; empty if it is not numeric or not above 0.
 std::optional<double> number_of(const RunResult& row, const std::string& key) {
   const auto found = row.settings.find(key);
   if (found == row.settings.end()) return {};

@@ -1,4 +1,4 @@
-// Frame time as a curve over what a report varies, and where two curves cross.
+// Frame time as curves over a varied quantity, and where two curves cross.
 #pragma once
 
 #include <string>
@@ -12,20 +12,21 @@ struct CurvePoint {
   double x = 0;
   double ms = 0, least_ms = 0;  // median and least of the runs
   bool exact = true;            // is_exact
-  size_t view = 0, row = 0;     // where it stands in the report
+  size_t view = 0, row = 0;     // indices in the report
 };
 
 struct Curve {
   std::string name;
   std::vector<CurvePoint> points;  // by rising x
-  bool flat = false;               // one measurement, drawn over the whole axis: the technique does not read the setting
+  bool flat = false;               // one measurement, drawn over the whole axis: the technique does not read
+                                   // the setting
 };
 
-// Where two curves change places: below `x`, `below` is the faster of the two.
+// Where two curves cross: below `x`, `below` is the faster of the two.
 struct Crossing {
   std::string below, above;
   double x = 0, ms = 0;
-  bool lead = false;  // both are exact there, and none that is exact is faster
+  bool lead = false;  // both are exact there, and no exact curve is faster
 };
 
 struct Tick {
@@ -39,20 +40,20 @@ struct Chart {
   std::vector<Tick> ticks;
   std::vector<Curve> curves;
   std::vector<Crossing> crossings;     // by rising x
-  std::vector<std::string> sentences;  // which is fastest where
+  std::vector<std::string> sentences;  // which technique is fastest in which range
 };
 
-// Straight lines between measured points, on logarithmic axes. Two curves cross between neighbouring x that both have
-// where the order of their medians changes, and it changes clearly: on both sides the median of the faster is below
-// every run of the slower. Within that, the order is noise.
+// Straight lines between measured points, on logarithmic axes. Two curves cross between neighbouring x of
+// both if the order of their medians changes clearly: on both sides the median of the faster is below every
+// run of the slower. Otherwise the order is noise.
 std::vector<Crossing> crossings_of(const std::vector<Curve>& curves);
 
-// Over lights and over pixels: a chart for each group of views that differ in that alone. x is above 0 on a logarithmic
-// axis: views without lights are left out of the former.
+// Over lights and over pixels: a chart for each group of views that differ in that alone. Axes are
+// logarithmic: views without lights are omitted from the former.
 std::vector<Chart> charts_over_views(const std::vector<ReportView>& views);
 
-// Over each numeric setting in which rows of a technique differ, within one view. Rows that do not read it are flat
-// where they are exact, and else left out.
+// Over each numeric setting in which rows of a technique differ, within one view. Rows that do not read it
+// are flat if they are exact, and omitted otherwise.
 std::vector<Chart> charts_over_settings(const std::vector<ReportView>& views, size_t view);
 
 }  // namespace lightgrid

@@ -15,7 +15,7 @@ struct Pair {
   const CurvePoint *a, *b;
 };
 
-// The points of both curves that stand at one x.
+// Pairs of points of both curves with equal x.
 std::vector<Pair> common_points(const Curve& a, const Curve& b) {
   std::vector<Pair> pairs;
   for (const CurvePoint& p : a.points) {
@@ -26,10 +26,10 @@ std::vector<Pair> common_points(const Curve& a, const Curve& b) {
   return pairs;
 }
 
-// How far b is above a, in powers of e.
+// log(b / a): how far b is above a.
 double gap(const Pair& pair) { return std::log(pair.b->ms / pair.a->ms); }
 
-// Where between two x the lines cross, as a share of the way in log x.
+// The crossing of the lines between two x, interpolated in log x.
 Crossing crossing_between(const Pair& left, const Pair& right) {
   const double share = gap(left) / (gap(left) - gap(right));
   const auto along = [&](double from, double to) { return std::exp(std::log(from) + share * std::log(to / from)); };
@@ -39,7 +39,7 @@ Crossing crossing_between(const Pair& left, const Pair& right) {
   return crossing;
 }
 
-// On the log-log line between the points around x; infinite where the curve is not there or not exact.
+// On the log-log line between the points around x; infinite if the curve does not cover x or is not exact.
 double exact_ms_at(const Curve& curve, double x) {
   for (size_t i = 1; i < curve.points.size(); ++i) {
     const CurvePoint &p = curve.points[i - 1], &q = curve.points[i];
@@ -53,20 +53,20 @@ double exact_ms_at(const Curve& curve, double x) {
 bool leads(const std::vector<Curve>& curves, const Crossing& crossing, const Pair& left, const Pair& right) {
   if (!left.a->exact || !left.b->exact || !right.a->exact || !right.b->exact) return false;
   return std::none_of(curves.begin(), curves.end(), [&](const Curve& curve) {
-    // The two themselves are there to within rounding.
+    // The two curves themselves pass through it, up to rounding.
     return exact_ms_at(curve, crossing.x) < crossing.ms * (1 - 1e-9);
   });
 }
 
 void add_crossings(const std::vector<Curve>& curves, const Curve& a, const Curve& b, std::vector<Crossing>& found) {
   const std::vector<Pair> pairs = common_points(a, b);
-  std::optional<size_t> decided;  // the last point at which one is clearly faster
+  std::optional<size_t> decided;  // the last point with a clear order
   for (size_t i = 0; i < pairs.size(); ++i) {
     const bool a_first = clearly_faster(*pairs[i].a, *pairs[i].b), b_first = clearly_faster(*pairs[i].b, *pairs[i].a);
     if (!a_first && !b_first) continue;
     const bool was_a = decided && gap(pairs[*decided]) > 0;
     if (decided && was_a != a_first) {
-      size_t left = *decided;  // between it and i the order of the medians changes somewhere
+      size_t left = *decided;  // the order of the medians changes somewhere between it and i
       while ((gap(pairs[left + 1]) > 0) == was_a) ++left;
       Crossing crossing = crossing_between(pairs[left], pairs[left + 1]);
       crossing.below = was_a ? a.name : b.name;

@@ -26,13 +26,13 @@ Tally& tally_of(std::vector<Tally>& tallies, const std::string& name) {
   return tallies.emplace_back(Tally{name, {}});
 }
 
-// What a view is called among these: only what tells it from the others.
+// Names of the views: only what distinguishes them.
 std::vector<std::string> short_views(const std::vector<ReportView>& views) {
   const CompareReport& first = views.front().report;
   const auto lights = [](const CompareReport& r) { return r.rows.empty() ? 0 : r.rows.front().lights_total; };
   std::vector<std::string> scenes;
   for (const ReportView& view : views) scenes.push_back(short_scene(view.report));
-  // Scenes with lights of their own differ in number too; that alone tells nothing new.
+  // Scenes with lights of their own differ in number too, which adds no information.
   bool many_scenes = false, many_sizes = false, many_lights = false;
   for (size_t i = 0; i < views.size(); ++i) {
     const CompareReport& r = views[i].report;
@@ -93,7 +93,8 @@ std::string winners_sentence(const std::vector<ReportView>& views, const std::ve
   return fmt::format("The fastest exact technique is {}.", fmt::join(parts, ", "));
 }
 
-// "faster" rows that are not exact, by what `counts` takes; with how many times faster than the fastest exact one.
+// "faster" rows that are not exact, among those that `counts` accepts; with their speed relative to the
+// fastest exact one.
 template <typename Counts>
 std::string faster_sentence(const std::vector<ReportView>& views, const std::vector<std::string>& names, const char* but,
                             const Counts& counts) {
@@ -116,7 +117,7 @@ std::string faster_sentence(const std::vector<ReportView>& views, const std::vec
   return fmt::format("Faster than it, but {}: {}{}.", but, fmt::join(parts, "; "), more ? fmt::format("; and {} more", more) : "");
 }
 
-// The fastest exact row of a technique; null where there is none.
+// The fastest exact row of a technique; null if there is none.
 const RunResult* best_of(const CompareReport& report, const std::string& technique) {
   const RunResult* best = nullptr;
   for (const RunResult& row : report.rows) {

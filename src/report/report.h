@@ -9,33 +9,35 @@
 
 namespace lightgrid {
 
-// One view of a report as its page shows it; the report's own images and counts are given up.
+// One view of a report as its page shows it; without the report's own images and counts.
 struct ReportView {
   CompareReport report;
   ReportPictures pictures;
   std::string verdict;
   std::vector<std::string> figures;
-  std::string folder;  // of its pictures, below the report's; empty where there is one view
+  std::string folder;  // of its pictures, below the report's; empty for a single view
 };
 
-// Into `folder`, made if needed: ROW.png and .exr, ROW.difference.png (log scale, against the reference row),
-// ROW.heat.png (lights listed per pixel), lit.heat.png (lights lit, where an oracle counted them), results.json and a
-// self-contained index.html. ROW is the row's name as a file_stem. A reference that is not a row has its picture there
-// too. All heat maps share one scale. A row without an image or without counts goes without those files.
+// Writes into `folder`, created if needed: ROW.png and .exr, ROW.difference.png (log scale, against the
+// reference row), ROW.heat.png (lights listed per pixel), lit.heat.png (lights lit, if an oracle counted
+// them), results.json and a self-contained index.html. ROW is the row's name as a file_stem. A reference that
+// is not a row gets its picture too. All heat maps share one scale. Files for missing images or counts are
+// omitted.
 void write_report(const std::filesystem::path& folder, const CompareReport& report);
 
-// A comparison over several views, one page for all. Each view's pictures are written as it is added, into a folder
-// of its own, and its images given up.
+// A comparison over several views on one page. Each view's pictures are written when it is added, into its
+// own folder, and its images are then freed.
 class ViewsReport {
  public:
-  // `views` will be added; the pictures of the page take at most `page_bytes`, shown smaller where they must be.
+  // `views` will be added. The page's pictures take at most `page_bytes` and are reduced in size if
+  // necessary.
   ViewsReport(std::filesystem::path folder, size_t views, size_t page_bytes)
       : folder_(std::move(folder)), expected_(views), page_bytes_(page_bytes) {}
 
   const ReportView& add(CompareReport report);
   const std::vector<ReportView>& views() const { return views_; }
-  std::vector<std::string> sentences() const;  // what all views say (overview.h)
-  std::string json_text() const;               // what results.json holds
+  std::vector<std::string> sentences() const;  // statements over all views (overview.h)
+  std::string json_text() const;               // the text of results.json
   void write() const;                          // results.json, results.csv, index.html
 
  private:
@@ -47,37 +49,37 @@ class ViewsReport {
 
 nlohmann::json to_json(const std::vector<ReportView>& views);
 
-// A distinct name for each row: its technique, and where there are several rows of it, the settings in which they
-// differ: "forward_plus:tile=32". Rows that differ in none are NAME, NAME-2 and so on.
+// A distinct name for each row: its technique and, if it has several rows, the settings in which they differ:
+// "forward_plus:tile=32". Rows that differ in none are NAME, NAME-2 and so on.
 std::vector<std::string> row_names(const CompareReport& report);
 
 // The same without the setting `key` and without numbers: one name for the rows that differ in it alone.
 std::vector<std::string> row_names_without(const CompareReport& report, const std::string& key);
 
-// A name as part of a file's name: what some file system or shell would trip over is "-".
+// A name as part of a file's name: characters that cause trouble in file systems or shells become "-".
 std::string file_stem(const std::string& name);
 std::vector<std::string> file_stems(const std::vector<std::string>& names);  // distinct
 
-// The three most telling figures, one line each, for the terminal: time, image, lights per pixel. Fewer where
-// a report lacks what a line needs.
+// The three most telling figures, one line each, for the terminal: time, image, lights per pixel. Fewer if
+// the report lacks their data.
 std::vector<std::string> telling_figures(const CompareReport& report);
 
-// An image is exact where it is at most so many times as far from the oracle as the reference's own, at the same pixels.
-// What float rounds in a few steps is granted to both (exact_floor, of the brightest channel).
+// An image is exact if its distance from the oracle is at most this multiple of the reference's own, at the
+// same pixels. Both are granted a few float roundings (exact_floor, of the brightest channel).
 inline constexpr double exact_factor = 1.5, exact_floor = 0x1p-22;
-// The same without an oracle, and where it cannot shade: the greatest difference from the reference.
+// The same without an oracle, and at pixels that it cannot shade: the greatest difference from the reference.
 inline constexpr double exact_max_rel = 1e-5;
 
 bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN; and it ran
 bool is_exact(const ImageError& error);
-bool is_exact(const RunResult& row);      // passes, and its image is exact, or none was compared
+bool is_exact(const RunResult& row);      // passes, and its image is exact or was not compared
 
-// Which technique is the fastest exact one, and why; then which are faster, and what they pay for it: a lossy image or a
-// failed gate.
+// The fastest exact technique, and why; then the faster ones and their price: a lossy image or a failed gate.
 std::string verdict(const CompareReport& report);
 
-// The row of least median time among those that are exact; null where there is none.
+// The exact row of least median time; null if there is none.
 const RunResult* fastest_exact(const CompareReport& report);
-const RunResult* fastest_lossy(const CompareReport& report);  // that fail no gate, but are not exact
+const RunResult* fastest_lossy(const CompareReport& report);  // of those that pass all gates but are not
+                                                              // exact
 
 }  // namespace lightgrid

@@ -32,7 +32,7 @@ std::string base64(const std::vector<uint8_t>& bytes) {
   return text;
 }
 
-// Pictures by number; techniques that agree to the last byte share one.
+// Pictures by number; techniques with identical pictures share one.
 class PictureStore {
  public:
   json number_of(const std::vector<uint8_t>& png) {
@@ -116,7 +116,7 @@ json view_data(PictureStore& store, const std::vector<ReportView>& views, size_t
           {"charts", to_json(charts_over_settings(views, v))}};
 }
 
-// What the page shows beside results.json.
+// The page's data besides results.json.
 json page_data(const std::vector<ReportView>& views) {
   PictureStore store;
   json list = json::array();
@@ -129,7 +129,7 @@ json page_data(const std::vector<ReportView>& views) {
   return data;
 }
 
-// Safe inside <script>: no "<" is left, so no "</script>" either.
+// Safe inside <script>: contains no "<", so no "</script>" either.
 std::string script_json(std::string text) {
   std::string safe;
   safe.reserve(text.size());
@@ -143,7 +143,7 @@ std::string script_json(std::string text) {
   return safe;
 }
 
-// Each {{name}} of the template once, in order; what is put in is not looked at again.
+// Replaces each {{name}} of the template, in order; inserted text is not scanned again.
 std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values) {
   std::string text;
   while (true) {

@@ -8,8 +8,9 @@
 
 namespace lightgrid {
 
-// Loads nothing from elsewhere. Holds results.json as it is in <script id="results">, so that both tell the same
-// figures, and each distinct picture once. One view is shown alone; of several, one at a time below what all say.
+// Loads nothing from elsewhere. Embeds results.json unchanged in <script id="results">, so that both have the
+// same figures, and each distinct picture once. A single view is shown alone; several are shown one at a
+// time, below the statements over all.
 std::string report_page(const std::vector<ReportView>& views);
 
 }  // namespace lightgrid

@@ -8,8 +8,8 @@
 
 namespace lightgrid {
 
-// A heading, then a line a row and view (docs/results_json.md, results.csv), with fields quoted as RFC 4180 has it. What
-// was not measured is empty.
+// A heading, then a line a row and view (docs/results_json.md, results.csv), with fields quoted as in RFC
+// 4180. Unmeasured fields are empty.
 std::string results_csv(const std::vector<ReportView>& views);
 
 }  // namespace lightgrid

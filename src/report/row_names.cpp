@@ -10,7 +10,7 @@
 namespace lightgrid {
 namespace {
 
-// The settings of `row` that another row of its technique has otherwise: "tile=32,cull-test=aabb".
+// The settings of `row` that differ in another row of its technique: "tile=32,cull-test=aabb".
 std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row, const std::string& ignored) {
   std::vector<std::string> differing;
   for (const auto& [key, value] : row.settings) {
@@ -24,7 +24,7 @@ std::string differing_settings(const std::vector<RunResult>& rows, const RunResu
   return fmt::format("{}", fmt::join(differing, ","));
 }
 
-// `names` with -2, -3 and so on after those that stand there already.
+// `names`, with -2, -3 and so on appended to repetitions.
 std::vector<std::string> made_distinct(std::vector<std::string> names) {
   std::map<std::string, int> seen;
   for (std::string& name : names) {

@@ -23,7 +23,7 @@ std::string failed_gates(const RunResult& row) {
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
-// The row of least median time among those that `counts` takes; null where there is none.
+// The row of least median time among those that `counts` accepts; null if there is none.
 template <typename Counts>
 const RunResult* fastest(const CompareReport& report, const Counts& counts) {
   const RunResult* best = nullptr;
@@ -50,7 +50,7 @@ std::string name_of(const CompareReport& report, const RunResult& row) {
   return row_names(report)[index_of(report, row)];
 }
 
-// Mean over the pixels; negative where it was not counted.
+// Mean over the pixels; negative if not counted.
 double listed_per_pixel(const CompareReport& report, const RunResult& row) {
   const double pixels = double(report.width) * report.height;
   if (row.pairs && pixels > 0) return row.pairs->listed / pixels;
@@ -78,7 +78,7 @@ bool same_colour(const glm::vec4& a, const glm::vec4& b) {
   return true;
 }
 
-// "3 of 153 pixels differ", or nothing where an image is absent.
+// "3 of 153 pixels differ", or empty if an image is absent.
 std::string differing_pixels(const CompareReport& report, size_t a, size_t b) {
   if (a >= report.images.size() || b >= report.images.size()) return "";
   const auto &first = report.images[a].pixels, &second = report.images[b].pixels;
@@ -145,7 +145,7 @@ std::string unbeaten_clause(const CompareReport& report, const RunResult& refere
                      short_number(next->frame_ms.median));
 }
 
-// Other exact techniques of which some run was as fast: the order of these is not to be trusted.
+// Other exact techniques with a run that was as fast: their order is uncertain.
 std::string close_clause(const CompareReport& report, const RunResult& winner) {
   std::vector<std::string> close;
   for (const RunResult& row : report.rows) {

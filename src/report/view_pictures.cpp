@@ -33,8 +33,9 @@ uint32_t p99_of(std::vector<uint32_t> counts) {
   return counts[index];
 }
 
-// One scale for all heat maps, so that they compare: the largest of their 99th percentiles. A technique that lists
-// the same count wherever anything is (every light, say) is left out, since its scale would flatten all others.
+// One scale for all heat maps, so that they are comparable: the largest of their 99th percentiles. A
+// technique that lists the same count at every covered pixel (every light, say) is excluded, since its scale
+// would flatten all others.
 uint32_t heat_top(const CompareReport& report) {
   uint32_t top = 0, flat_top = 1;
   const auto consider = [&](const std::vector<uint32_t>& counts) {
@@ -52,7 +53,7 @@ uint32_t heat_top(const CompareReport& report) {
   return top ? top : flat_top;
 }
 
-// The image that all are compared with, and whether it is a row's.
+// The image that all are compared with, and whether it belongs to a row.
 const Image& reference_image(const CompareReport& report) {
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (report.rows[i].technique == report.reference && has_image(report, i)) return report.images[i];
@@ -148,7 +149,7 @@ ReportPictures save_pictures(const fs::path& folder, const CompareReport& report
   write_pictures(folder, report, pictures);
   if (exr) write_exr_files(folder, report);
   while (most_bytes && pictures.reduced < most_reduced && bytes_in_page(pictures) > most_bytes) {
-    // Bytes go with the area, or a little slower.
+    // Bytes grow with the area, or slightly more slowly.
     const double excess = double(bytes_in_page(pictures)) / double(most_bytes);
     const int next = std::max(pictures.reduced + 1, int(pictures.reduced * std::sqrt(excess)));
     pictures = make_pictures(report, std::min(next, most_reduced));

@@ -17,7 +17,7 @@ struct HeatMap {
   uint32_t max = 0;
 };
 
-// As PNG files; empty where there is none.
+// PNG files; empty if missing.
 struct RowPictures {
   std::string name;  // distinct
   std::vector<uint8_t> image, difference;
@@ -25,22 +25,22 @@ struct RowPictures {
 };
 
 struct ReportPictures {
-  std::vector<RowPictures> rows;   // as the report's rows
-  std::vector<uint8_t> reference;  // where no row is the reference
+  std::vector<RowPictures> rows;   // in the order of the report's rows
+  std::vector<uint8_t> reference;  // if no row is the reference
   std::optional<HeatMap> lit;
-  uint32_t heat_top = 1;  // the count at the upper end of every heat map's colors
-  int reduced = 1;        // pixels a side of the view that are one here
+  uint32_t heat_top = 1;  // upper end of every heat map's scale
+  int reduced = 1;        // pixels a side of the view that become one
 };
 
-// At 1/reduced of the size, the last blocks cut. A block is its mean in a picture, its worst pixel in a difference, its
-// largest count in a heat map: none hides a fault.
+// At 1/reduced of the size, the last blocks cut. A block becomes its mean in a picture, its worst pixel in a
+// difference, its largest count in a heat map, so that no fault is hidden.
 ReportPictures make_pictures(const CompareReport& report, int reduced);
 
-// Bytes of all distinct pictures, as text in a page.
+// Bytes of all distinct pictures as text in a page.
 size_t bytes_in_page(const ReportPictures& pictures);
 
-// Writes the pictures (report.h), with .exr files where they are asked for, and gives what a page of at most
-// `most_bytes` shows: reduced as far as that takes, and at most 16 times. 0: no limit.
+// Writes the pictures (report.h), with .exr files if requested, and returns what a page of at most
+// `most_bytes` shows: reduced as far as necessary, and at most 16 times. 0: no limit.
 ReportPictures save_pictures(const std::filesystem::path& folder, const CompareReport& report, bool exr, size_t most_bytes);
 
 }  // namespace lightgrid
