@@ -73,7 +73,7 @@ int tune(const BenchCommand& o) {
 }
 
 int bench(const BenchCommand& o) {
-  RowFilter(o.filter);  // what is wrong with it is said before the work
+  RowFilter(o.filter);  // reports a wrong filter before the work
   if (!o.json.empty()) check_output_file("--json", o.json);
   if (o.tune) return tune(o);
   BenchOptions options{.cases = cases_of(o), .contestants = contestants_of(o), .filter = o.filter};

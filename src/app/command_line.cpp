@@ -27,7 +27,7 @@ void Subcommand::flag(const std::string& names, bool& value, const std::string& 
 
 void Subcommand::list(const std::string& names, std::vector<std::string>& values, const std::string& help, char separator) {
   CLI::Option* option = app_.add_option(names, values, help);
-  // An option takes one word each time: what follows it may be a place in the line.
+  // An option takes one word each time: the next word may be a positional argument.
   if (names[0] == '-') option->allow_extra_args(false);
   if (separator) option->delimiter(separator);
   if (!values.empty()) option->capture_default_str();
@@ -50,7 +50,7 @@ Subcommand CommandLine::add(const std::string& name, const std::string& summary,
 
 Command CommandLine::parse(int argc, const char* const* argv) {
   try {
-    // Said before the parser says only that a command is missing.
+    // The parser would only report that a command is missing.
     const auto is_command = [&](const std::string& name) {
       return !app_->get_subcommands([&](const CLI::App* c) { return c->get_name() == name; }).empty();
     };
@@ -58,7 +58,7 @@ Command CommandLine::parse(int argc, const char* const* argv) {
     app_->parse(argc, argv);
     return chosen_;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {  // help is an "error" too
+    if (error.get_exit_code() == 0) {  // help is reported as an error
       app_->exit(error);
       return [] { return 0; };
     }

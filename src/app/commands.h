@@ -1,6 +1,6 @@
-// One file per subcommand. Each add_… adds its subcommand, its options and what it runs. That returns the exit
-// status: 0 done, 1 a failure was found that was looked for; what a user or the machine got wrong is thrown
-// (base/error.h).
+// One file per subcommand. Each add_… adds its subcommand, its options and the function to run, which returns
+// the exit status: 0 done, 1 the run found a failure that it looks for. Faults of the user or the machine are
+// thrown (base/error.h).
 #pragma once
 
 #include "app/command_line.h"

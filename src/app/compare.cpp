@@ -165,12 +165,13 @@ std::vector<LoadedView> load_views(const std::vector<SceneOptions>& choices) {
   return views;
 }
 
-// What a view takes beside the others, roughly: pixels, and for techniques without lists pixels times lights.
+// A view's cost relative to the others, roughly: pixels, and pixels times lights for techniques without
+// lists.
 double cost_of(const LoadedView& view) {
   return double(view.view.width) * view.view.height * double(64 + view.lights.size());
 }
 
-// Runs the views in turn, with one progress bar over all; found() is given each report.
+// Runs the views in turn, with one progress bar for all; calls found() with each report.
 template <typename Found>
 void run_views(Renderer& devices, const std::vector<LoadedView>& views, const std::vector<Contestant>& contestants,
                const CompareCommand& o, const Found& found) {
@@ -193,7 +194,7 @@ void run_views(Renderer& devices, const std::vector<LoadedView>& views, const st
   }
 }
 
-// On stderr: what was refused, which is no failure, and which gates failed. Returns whether any did.
+// Prints on stderr what was refused, which is no failure, and which gates failed. Returns whether any did.
 bool tell_failures(const CompareReport& report, const std::string& view) {
   const std::vector<std::string> names = row_names(report);
   bool failed = false;

@@ -10,7 +10,7 @@
 namespace lightgrid {
 namespace {
 
-// "KEY=A,B" of --compare: each of the contestants so far with A, then each with B.
+// "KEY=A,B" of --compare: each of the previous contestants with A, then each with B.
 std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before, const std::string& comparison) {
   const size_t equals = comparison.find('=');
   if (equals == std::string::npos) throw input_error("--compare {}: not KEY=VALUE,VALUE,…", comparison);

@@ -1,4 +1,4 @@
-// --set and --compare: which settings a command runs beside each other.
+// --set and --compare: the combinations of settings that a command runs.
 #pragma once
 
 #include <string>
@@ -8,12 +8,13 @@
 
 namespace lightgrid {
 
-// Every combination of the values that the comparisons ("KEY=A,B") give, on top of `base`; `base` alone where there
+// Every combination of the values in the comparisons ("KEY=A,B"), applied to `base`; `base` alone if there
 // are none. Throws Error(input) past `most` combinations.
 std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
                                             size_t most);
 
-// Of settings that culling reads. Throws Error(input) for another one: its values would all run the same.
+// The same for settings that culling reads. Throws Error(input) for others, whose values would all run the
+// same.
 std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
                                                  size_t most);
 

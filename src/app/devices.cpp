@@ -1,4 +1,4 @@
-// lightgrid devices: the OpenCL devices and OpenGL backends there are, and which of them would be used.
+// lightgrid devices: the available OpenCL devices and OpenGL backends, and which of them would be used.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -22,14 +22,14 @@ struct DevicesOptions {
 
 struct GlFound {
   std::string backend;
-  std::unique_ptr<GlContext> context;  // null: `why` says why not
+  std::unique_ptr<GlContext> context;  // null: `why` has the reason
   std::string why;
 };
 
 struct Found {
   std::vector<ClDeviceInfo> cl;
   std::vector<GlFound> gl;
-  int chosen_cl = -1, chosen_gl = -1;  // -1: there is none to use, for the reason in `problems`
+  int chosen_cl = -1, chosen_gl = -1;  // -1: none is usable, for the reason in `problems`
   TunedSizes tuned;                    // of the chosen OpenCL device
   std::string bridge;
   std::vector<std::string> problems;
@@ -135,8 +135,8 @@ nlohmann::ordered_json to_json(const Found& found) {
   return json;
 }
 
-// Lists what there is even where something is missing, which then is said on stderr; that alone is a failure
-// only where the missing one was asked for by name.
+// Lists what is available, and reports on stderr what is missing; that is a failure only if the missing one
+// was requested by name.
 int list_devices(const DevicesOptions& o) {
   const Found found = find_devices(o.devices);
   if (o.json.empty()) {

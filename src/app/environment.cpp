@@ -9,7 +9,8 @@
 namespace lightgrid {
 namespace {
 
-// PoCL pins worker i to processor i, also where this process may use others only (taskset, a container's cpuset).
+// PoCL pins worker i to processor i, even if this process may use only others (taskset, a container's
+// cpuset).
 bool may_use_every_processor() {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return false;
@@ -25,7 +26,7 @@ void prepare_environment() {
   if (may_use_every_processor()) setenv("POCL_AFFINITY", "1", 0);
   const char* cache = std::getenv("LIGHTGRID_CL_CACHE");
   if (cache && std::string_view(cache) == "off") setenv("POCL_KERNEL_CACHE", "0", 0);
-  // Mesa warns on stderr about each device that it cannot use; the program's own messages say what matters.
+  // Mesa prints a warning about each device that it cannot use; the program reports what matters itself.
   setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
 

@@ -1,10 +1,11 @@
-// Environment variables that drivers read at their first call, and that the program chooses for them.
+// Environment variables that drivers read at their first call, set by the program.
 #pragma once
 
 namespace lightgrid {
 
-// Sets what docs/devices.md#environment lists, except what the user has set. main calls it first: no other thread may run
-// yet, and no OpenCL or EGL call may have been made. The libraries leave the environment of a host program alone.
+// Sets the variables in docs/devices.md#environment, except those that the user has set. main calls it first,
+// before other threads start and before any OpenCL or EGL call. The libraries do not change a host program's
+// environment.
 void prepare_environment();
 
 }  // namespace lightgrid

@@ -1,5 +1,5 @@
 // lightgrid inspect SCENE --pixel X,Y: each light there, and which test kept or dropped it. -o DIR: the same
-// question of every pixel, as pictures. --compare KEY=A,B: how accurate the lists of several settings are.
+// for every pixel, as pictures. --compare KEY=A,B: the accuracy of the lists of several settings.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -53,8 +53,8 @@ void check_place(const Place& place, const View& view) {
                     view.height - 1);
 }
 
-// What is looked at: a folder is a captured frame, which needs no OpenGL; all else is a scene, still to be
-// captured.
+// The input: a folder is a captured frame, which needs no OpenGL; anything else is a scene, to be captured
+// first.
 struct Subject {
   std::optional<ChosenScene> scene;
   CapturedFrame frame;
@@ -90,7 +90,7 @@ struct OpenCl {
   std::unique_ptr<ProgramCache> kernels;
 };
 
-// A scene is captured first, which takes OpenGL too.
+// Scenes are captured first, which needs OpenGL as well.
 OpenCl open_devices_for(Subject& subject, const std::string& cl, GlBackend backend) {
   if (subject.scene) {
     Renderer renderer(cl, backend);
@@ -101,7 +101,7 @@ OpenCl open_devices_for(Subject& subject, const std::string& cl, GlBackend backe
   return devices;
 }
 
-// 1 where a light was lost.
+// Returns 1 if a light was lost.
 int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& culler, const FrameGrid& grid,
                   const Place& place) {
   const PixelInspection pixel =
@@ -131,7 +131,7 @@ int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGr
   return pairs.lost || pairs.wrong ? 1 : 0;
 }
 
-// Each combination's lists against one answer of the oracle.
+// Compares each combination's lists with one result of the oracle.
 int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& devices) {
   const LitBlocks truth = find_lit_blocks(subject.frame);
   std::vector<AccuracyRow> rows;
@@ -158,7 +158,7 @@ int inspect(const InspectOptions& o) {
     throw input_error("inspect: none of --pixel X,Y, -o DIR and --compare KEY=A,B is given");
   }
   if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
-  const Settings given = chosen_settings(o.scene);  // a wrong setting is told before the scene is loaded
+  const Settings given = chosen_settings(o.scene);  // reports a wrong setting before the scene is loaded
   const TechniqueNeeds needs = grid_needs(o.technique, given);
   culling_contestants(given, o.compare, most_compared);
   const GlBackend backend = parse_gl_backend(o.devices.gl);

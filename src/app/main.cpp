@@ -1,4 +1,4 @@
-// The command line: one subcommand a file, exit statuses as docs/command_line.md says.
+// The command line: one subcommand a file, exit statuses as in docs/command_line.md.
 #include <cstdio>
 #include <new>
 

@@ -67,8 +67,8 @@ struct ChosenScene {
 ChosenScene load_chosen_scene(const SceneOptions& options);
 Settings chosen_settings(const SceneOptions& options);
 
-// Throws Error(input) where the file `path`, given by `option`, could not be made: its folder is missing, no folder
-// or closed to us, or it is a folder itself. For asking before the work; "-" is always well.
+// Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not a folder
+// or not writable, or it is a folder itself. Call it before long work; "-" is always valid.
 void check_output_file(const std::string& option, const std::filesystem::path& path);
 
 // Writes JSON text to a file, or to stdout for "-".

@@ -1,4 +1,4 @@
-// lightgrid plan SCENE: what this view needs, and why.
+// lightgrid plan SCENE: the effects that this view needs, and why.
 #include <cstdio>
 #include <memory>
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int width = 20, text = 40, rest = 14;
 
-// What the lines say. Written by the thread that works, read by the one that speaks.
+// The text of the lines. Written by the working thread, read by the printing thread.
 struct State {
   std::mutex mutex;
   std::string step;
@@ -31,7 +31,7 @@ std::string in_words(double seconds) {
   return seconds < 90 ? fmt::format("{:.0f} s", std::ceil(seconds)) : fmt::format("{:.0f} min", std::ceil(seconds / 60));
 }
 
-// By what has passed, once that says something: "about 3 min".
+// Estimated from the time so far, if that is long enough: "about 3 min".
 std::string time_left(double done, double seconds) {
   return seconds < 3 || done < 0.02 ? "" : "about " + in_words(seconds * (1 - done) / done);
 }

@@ -1,4 +1,4 @@
-// What long work is at: a bar on a terminal, and elsewhere a line every ten seconds.
+// Progress of long work: a bar on a terminal, and elsewhere a line every ten seconds.
 #pragma once
 
 #include <chrono>
@@ -10,12 +10,13 @@
 
 namespace lightgrid {
 
-// Draws the bar on stderr, with an estimate of the time left, and clears it when `done` (0 to 1) reaches 1; where stderr is
-// no terminal, tells the ProgressLines of the process.
+// Draws the bar on stderr, with an estimate of the time left, and clears it when `done` (0 to 1) reaches 1.
+// If stderr is no terminal, updates the process's ProgressLines instead.
 std::function<void(double done, const std::string& step)> progress_bar();
 
-// While it lives, and where stderr is no terminal, a thread says on stderr every ten seconds how long the command has run
-// and what its last step is. main makes one; --quiet silences it. Other intervals: LIGHTGRID_PROGRESS_S, in seconds.
+// While it exists, and if stderr is no terminal, a thread prints on stderr every ten seconds how long the
+// command has run and what its last step is. main creates one; --quiet silences it. LIGHTGRID_PROGRESS_S sets
+// another interval, in seconds.
 class ProgressLines {
  public:
   explicit ProgressLines(const std::string& command);

@@ -1,4 +1,4 @@
-// lightgrid scenes: the built-in scenes, with what each holds.
+// lightgrid scenes: the built-in scenes and their contents.
 #include <fmt/format.h>
 
 #include <memory>

@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-// "tile=16 slices=24": with their defaults.
+// "tile=16 slices=24": the keys with their defaults.
 std::string with_defaults(const std::vector<const char*>& keys) {
   std::vector<std::string> words;
   for (const char* key : keys) {

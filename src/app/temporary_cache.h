@@ -1,13 +1,14 @@
-// A cache folder for PoCL on machines that have none to write to, such as containers without a home.
+// A cache folder for PoCL on machines without a writable one, such as containers without a home.
 #pragma once
 
 #include <filesystem>
 
 namespace lightgrid {
 
-// Sets POCL_CACHE_DIR to a new folder below the system's temporary one where PoCL's own cannot be written and the user
-// has named none. Made by main before any other thread runs and before the first OpenCL call; removes the folder at the
-// end. Where no temporary folder can be made either, nothing is set, and ClDevice says what is wrong.
+// Sets POCL_CACHE_DIR to a new folder in the system's temporary one if PoCL's own is not writable and the
+// user has set none. main creates it before other threads start and before the first OpenCL call; it removes
+// the folder at the end. If no temporary folder can be created either, nothing is set, and ClDevice reports
+// the fault.
 class TemporaryCache {
  public:
   TemporaryCache();
@@ -15,7 +16,7 @@ class TemporaryCache {
   TemporaryCache(const TemporaryCache&) = delete;
   TemporaryCache& operator=(const TemporaryCache&) = delete;
 
-  void tell() const;  // on stderr, that there is one: compiled kernels are then lost at the end
+  void tell() const;  // reports the folder on stderr: compiled kernels are lost at the end
 
  private:
   std::filesystem::path folder_, unwritable_;

@@ -28,14 +28,14 @@ struct VerifyCommand {
 std::vector<std::unique_ptr<verify::CullEngine>> engines_of(const std::string& device) {
   const std::vector<ClDeviceInfo> present = list_cl_devices();
   std::vector<std::unique_ptr<verify::CullEngine>> engines;
-  const auto add = [&](size_t i) {  // by its number: several GPUs may have one name
+  const auto add = [&](size_t i) {  // by number: several GPUs may have the same name
     const std::string why = why_not_the_same_bytes(present[i]);
     if (!why.empty()) {
       std::fprintf(stderr, "lightgrid: %s: other devices' bytes may differ, since %s\n", present[i].name.c_str(), why.c_str());
     }
     engines.push_back(verify::device_engine("#" + std::to_string(i)));
   };
-  if (!device.empty() || present.empty()) add(choose_cl_device(present, device));  // which says what is wrong
+  if (!device.empty() || present.empty()) add(choose_cl_device(present, device));  // reports faults
   else for (size_t i = 0; i < present.size(); ++i) add(i);
   return engines;
 }

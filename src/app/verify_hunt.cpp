@@ -15,7 +15,8 @@ namespace lightgrid {
 namespace {
 
 constexpr double most_minutes = 100'000;
-constexpr uint64_t short_hunt = 1'000'000;  // contacts: fewer take less time than the kernels of all settings
+constexpr uint64_t short_hunt = 1'000'000;  // contacts: a shorter hunt would take less time than building the
+                                            // kernels of all settings
 
 double parse_minutes(const std::string& text) {
   double minutes = 0;

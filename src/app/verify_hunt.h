@@ -1,4 +1,4 @@
-// lightgrid verify --hunt: the standing hunt for lost lights.
+// lightgrid verify --hunt: the random search for lost lights.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct HuntCommand {
 
 void add_hunt_options(Subcommand& command, HuntCommand& options);
 
-// On one device, of the classes whose name holds `filter`. Returns the exit status: 1 where a light was lost, a view
-// refused or the kernel shapes differed.
+// Runs on one device, for the classes whose name matches `filter`. Returns the exit status: 1 if a light was
+// lost, a view was refused or the kernel shapes differed.
 int run_hunt(const HuntCommand& options, verify::CullEngine& engine, const std::string& filter,
              const std::string& json);
 

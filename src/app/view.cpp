@@ -1,4 +1,4 @@
-// lightgrid view SCENE: a window. Where the build found no GLFW or no Dear ImGui, it says so.
+// lightgrid view SCENE: a window. Reports an error if the build found no GLFW or no Dear ImGui.
 #include <memory>
 
 #include "app/commands.h"
@@ -21,7 +21,7 @@ struct ViewOptions {
 
 #ifdef LIGHTGRID_VIEW
 
-// What chose the scene and its lights, as words for `lightgrid render`.
+// The options that select the scene and its lights, for `lightgrid render`.
 std::string scene_words(const ViewOptions& o) {
   const SceneOptions& s = o.scene;
   std::string words = shell_word(s.scene);

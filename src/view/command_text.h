@@ -1,4 +1,4 @@
-// The command line that gives the picture of one side again.
+// The command line that renders the picture of one side.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lightgrid {
 
-// A word as a shell reads it back.
+// Quotes a word for a shell.
 std::string shell_word(const std::string& word);
 
 // `scene_words`: the scene and its lights, as options. `camera`: --camera's text, or empty. `time_words`:

@@ -1,5 +1,5 @@
-// What the user of the window chose. Panels, the mouse, keys and scripts change it; the viewer follows it in
-// the next frame.
+// The choices of the window's user. Panels, the mouse, keys and scripts change them; the viewer applies them
+// in the next frame.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace lightgrid {
 
-// What a side shows instead of its picture.
+// What a side shows.
 enum class SideMap { picture, listed, lit, lost, difference };
 
 const std::array<const char*, 5>& map_names();  // by SideMap
@@ -24,7 +24,7 @@ struct SideControls {
   SideMap map = SideMap::picture;
 };
 
-// A pixel of the full picture, from the lower left as in `lightgrid inspect --pixel`.
+// A pixel of the full picture, from the lower left, as in `lightgrid inspect --pixel`.
 struct PicturePixel {
   int x = 0, y = 0;
   bool operator==(const PicturePixel&) const = default;
@@ -32,24 +32,24 @@ struct PicturePixel {
 
 struct Controls {
   std::array<SideControls, 2> sides;  // left, right
-  double line = 0.5;                  // where the two meet, as a fraction of the picture's width
-  double rate = 30;  // frames a second to hold while the camera moves; 0: the picture is always full
-  std::optional<std::string> camera;  // to go to, in the form of --camera
+  double line = 0.5;                  // position of the dividing line, as a fraction of the picture's width
+  double rate = 30;  // frames a second to hold while the camera moves; 0: always the full picture
+  std::optional<std::string> camera;  // target of a jump, in the form of --camera
   LightMotion lights = LightMotion::none;
   bool playing = false;
-  bool step = false;              // one frame of time, then pause
-  std::optional<double> seconds;  // time to go to
-  bool draw_always = false;       // also when nothing changed
+  bool step = false;              // advance one frame, then pause
+  std::optional<double> seconds;  // jump to this time
+  bool draw_always = false;       // even if nothing changed
   bool measure_passes = true;
-  std::optional<PicturePixel> pixel;  // that is inspected
+  std::optional<PicturePixel> pixel;  // the inspected pixel
   bool screenshot = false;
   bool quit = false;
 };
 
-// What the window or a script feeds in one frame.
+// Input of one frame, from the window or a script.
 struct Input {
   std::array<bool, 7> held{};  // by FlightKey
-  double x = -1, y = -1;       // of the pointer: pixels of the window from its upper left
+  double x = -1, y = -1;       // pointer, pixels of the window from its upper left
   bool button = false;         // the left one
   double scroll = 0;
 };

@@ -10,7 +10,7 @@ namespace lightgrid {
 namespace {
 
 constexpr double steepest_rad =
-    89.0 / 180 * std::numbers::pi;  // short of straight up, where yaw has no meaning
+    89.0 / 180 * std::numbers::pi;  // short of straight up, where yaw is undefined
 constexpr double times_faster = 4;
 
 double scene_size_m(const Scene& scene) {
@@ -78,7 +78,7 @@ bool FlyCamera::move(const std::array<bool, 7>& held, double seconds) {
   return true;
 }
 
-// A millionth of the scene's size is far below what a pixel shows.
+// A millionth of the scene's size is far below a pixel.
 void FlyCamera::write_text() {
   moved_ = true;
   const int decimals = std::clamp(6 - int(std::ceil(std::log10(size_m_))), 0, 12);

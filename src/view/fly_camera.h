@@ -1,4 +1,4 @@
-// A camera that flies: turned by the mouse, moved by keys, always upright.
+// A flying camera: turned by the mouse, moved by keys, always upright.
 #pragma once
 
 #include <array>
@@ -9,20 +9,20 @@
 
 namespace lightgrid {
 
-// Its state is the text that --camera takes, with decimals that suit the scene's size. The view is made from
+// Its state is the text for --camera, with decimals that suit the scene's size. The view is computed from
 // that text, so that a command line with it gives the same picture to the bit.
 class FlyCamera {
  public:
-  // The scene outlives it. `text`: what --camera was given. Until it is moved the view stays `start`,
-  // whatever that is; then it is upright and a perspective, with the near plane that choose_camera gives.
+  // The scene outlives it. `text`: the value of --camera. Until it is moved the view stays `start`, of any
+  // kind; then it is upright and perspective, with the near plane from choose_camera.
   FlyCamera(const Scene& scene, const View& start, std::string text);
 
-  // At once to another camera, in the form of --camera. Throws Error(input) as choose_camera does.
+  // Jumps to another camera, in the form of --camera. Throws Error(input) as choose_camera does.
   void go_to(const std::string& text, int width, int height);
 
-  // By pixels of a picture of this height, as if the scene were dragged. Returns whether it turned.
+  // Turns by pixels of a picture of this height, as if the scene were dragged. Returns whether it turned.
   bool turn(double dx_px, double dy_px, int height);
-  // For `seconds` by the keys that are held (FlightKey). Returns whether it moved.
+  // Moves for `seconds` by the held keys (FlightKey). Returns whether it moved.
   bool move(const std::array<bool, 7>& held, double seconds);
 
   View view(int width, int height) const;
@@ -43,7 +43,7 @@ class FlyCamera {
   double size_m_ = 1;                          // of the scene
 };
 
-// The same camera for an image of another size: the vertical field is kept.
+// The same camera for an image of another size; keeps the vertical field.
 View resized(View view, int width, int height);
 
 }  // namespace lightgrid

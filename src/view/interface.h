@@ -1,4 +1,4 @@
-// Dear ImGui on the window: its life, and its frames.
+// Dear ImGui in the window: its lifetime and its frames.
 #pragma once
 
 #include "view/controls.h"
@@ -8,17 +8,17 @@ namespace lightgrid {
 
 class Interface {
  public:
-  // The window outlives it and its context is current. `scripted`: the pointer is what begin() is given, not
-  // the user's.
+  // The window outlives it and its context is current. `scripted`: the pointer comes from begin(), not from
+  // the user.
   Interface(Window& window, bool scripted);
   ~Interface();
   Interface(const Interface&) = delete;
 
-  // Between the two, widgets may be made. `width`, `height`: of the picture with its panels.
+  // Widgets are made between the two. `width`, `height`: of the picture with its panels.
   void begin(const Input& input, int width, int height);
-  void end();  // draws them into the framebuffer that is bound
+  void end();  // draws them into the bound framebuffer
 
-  // Whether a panel is under the pointer, or a text box has the keys.
+  // Whether a panel is under the pointer, or a text box has keyboard focus.
   bool takes_pointer() const;
   bool takes_keys() const;
 

@@ -1,4 +1,4 @@
-// The lights that a side's last frame listed, held against the oracle: as maps over the picture, and at one
+// The lights that a side's last frame listed, compared with the oracle: as maps over the picture, and at one
 // pixel.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace lightgrid {
 
-// What the oracle needs of a frame, copied off the devices.
+// The oracle's input for a frame, copied from the devices.
 struct ListedFrame {
   View view;
   std::vector<float> depth;
-  std::vector<ViewLight> lights;  // point and spot lights, as the lists count them
+  std::vector<ViewLight> lights;  // point and spot lights, in the lists' order
   std::vector<int> scene_lights;  // their indices in the scene
   ListedLights lists;
 };
@@ -25,7 +25,7 @@ ListedFrame read_listed_frame(TechniqueRun& run);
 
 // A light at a pixel.
 struct PixelLight {
-  int light = 0;  // of the scene
+  int light = 0;  // index in the scene
   std::string name;
   double distance_m = 0;  // from the surface
   double radius_m = 0;
@@ -33,20 +33,21 @@ struct PixelLight {
 };
 
 struct PixelLights {
-  bool covered = false;   // a surface is there
+  bool covered = false;   // shows a surface
   double distance_m = 0;  // of the surface along the view axis
   int listed = 0, lit = 0, lost = 0;
   std::vector<PixelLight>
-      lights;  // listed or lit ones: lost first, then lit, then the rest; each by distance
+      lights;  // listed or lit ones: lost first, then lit, then the rest; each group by distance
 };
 PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel pixel);
 
-// Counts every pixel's lights on other threads: a second or so for a full picture and a thousand lights.
+// Counts every pixel's lights on other threads: takes about a second for a full picture and a thousand
+// lights.
 class ListedCount {
  public:
-  void start(ListedFrame frame, size_t picture);  // `picture`: a number that names it
+  void start(ListedFrame frame, size_t picture);  // `picture`: its number
   bool running() const { return running_.valid(); }
-  // The counts of the picture started last, once they are there. `wait`: until they are.
+  // The counts of the last started picture, when done; null before. `wait`: waits for them.
   const LitPairs* result(size_t picture, bool wait);
   size_t picture() const { return picture_; }
 

@@ -60,7 +60,7 @@ SceneChanges Motion::pose() {
 std::string Motion::words() const {
   std::string words;
   const bool lights = rig_.motion != LightMotion::none;
-  // Animations start again at their end; render stops there where no lights move.
+  // Animations repeat; render stops at their end if no lights move.
   const double time = !lights && animated_ ? looped_time(scene_, seconds_) : seconds_;
   if (time > 0 && (lights || animated_)) words += fmt::format(" --time {}", time);
   if (lights) words += fmt::format(" --light-motion {}", name_of(rig_.motion));

@@ -1,4 +1,4 @@
-// The time of a scene that moves: lights by light_motion, and the animations of its file.
+// The time of a moving scene: lights by light_motion, and the animations of its file.
 #pragma once
 
 #include "scene/animation.h"
@@ -9,17 +9,17 @@ namespace lightgrid {
 
 class Motion {
  public:
-  // The scene outlives it; it is at `seconds` of its animations.
+  // The scene outlives it; its pose is at `seconds`.
   Motion(Scene& scene, LightMotion lights, double seconds);
 
-  // Takes lights, playing, step and seconds of the controls, and clears the last two. Returns what changed in
-  // the scene.
+  // Applies lights, playing, step and seconds of the controls, and clears the last two. Returns what changed
+  // in the scene.
   SceneChanges follow(Controls& controls, double seconds_passed);
 
   double seconds() const { return seconds_; }
   bool can_play() const { return animated_ || rig_.motion != LightMotion::none; }
   bool animated() const { return animated_; }
-  // The options of `lightgrid render` that give this moment; empty at rest.
+  // The options of `lightgrid render` for this time; empty at rest.
   std::string words() const;
 
  private:

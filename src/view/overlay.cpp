@@ -1,5 +1,5 @@
-// What is written over the picture: names of the sides, the line, the pixel that is inspected, and how large
-// the picture is drawn.
+// Text over the picture: names of the sides, the line, the inspected pixel, and the size of the drawn
+// picture.
 #include <fmt/format.h>
 #include <imgui.h>
 

@@ -1,4 +1,4 @@
-// The plan of each side's frame: what this view needs, with the witness, and what it does without.
+// The plan of each side's frame: the effects that this view needs, with witnesses, and the effects left out.
 #include <limits>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double news_s = 3;  // how long a change stands out
+constexpr double news_s = 3;  // how long a change is highlighted
 
 void show_decision(const Decision& decision, bool is_new) {
   const ImVec4 colour = is_new            ? ImVec4(1, 0.85f, 0.3f, 1)

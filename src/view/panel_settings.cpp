@@ -1,4 +1,4 @@
-// Techniques, maps and settings of both sides, as controls made from the settings' own table.
+// Techniques, maps and settings of both sides, as controls generated from the table of settings.
 #include <algorithm>
 
 #include <imgui.h>
@@ -45,7 +45,7 @@ void row_name(const char* name, const std::string& meaning) {
   if (ImGui::IsItemHovered() && !meaning.empty()) ImGui::SetTooltip("%s", meaning.c_str());
 }
 
-// A cell of each side: what `control` makes of it.
+// A table cell for each side, filled by `control`.
 template <typename Control>
 void cells(Controls& controls, const Control& control) {
   for (int i = 0; i < 2; ++i) {

@@ -12,8 +12,8 @@ namespace {
 constexpr float chart_height = 70;
 constexpr ImU32 chart_background = IM_COL32(30, 33, 38, 255);
 
-// The same colour for a pass on both sides: hues a golden angle apart, by the order that names are first seen
-// in.
+// The same colour for a pass on both sides: hues a golden angle apart, in the order in which names first
+// appear.
 ImU32 colour_of_pass(const std::vector<std::string>& names, const std::string& name) {
   const auto place = std::ranges::find(names, name) - names.begin();
   const float hue = std::fmod(0.58f + 0.381966f * float(place), 1.f);
@@ -34,7 +34,8 @@ std::vector<std::string> pass_names(const Shown& shown) {
   return names;
 }
 
-// Of both charts, so that their bars compare: short of the slowest frames, which build programs.
+// The common top of both charts, so that their bars are comparable. Excludes the slowest frames, which build
+// programs.
 double top_of_charts(const Shown& shown) {
   std::vector<double> totals;
   for (const Side* side : shown.sides) {

@@ -1,5 +1,4 @@
-// The panels beside the picture, and what is written over it. They read what the last frame was and change
-// the controls.
+// The panels beside the picture, and the text over it. They read the last frame and change the controls.
 #pragma once
 
 #include <array>
@@ -17,11 +16,11 @@ namespace lightgrid {
 
 inline constexpr int panel_width = 420;
 
-// When each side's plan last changed, by effect.
+// The times of the last change of each effect in a side's plan.
 class PlanHistory {
  public:
   void follow(const FramePlan& plan, double now_s);
-  // Seconds since the decision changed; infinite where it never did.
+  // Seconds since the decision changed; infinite if it never did.
   double age_s(const std::string& effect, double now_s) const;
 
  private:
@@ -39,13 +38,13 @@ struct Shown {
   const Motion& motion;
   std::array<Side*, 2> sides;
   std::array<const MapOfSide*, 2> maps;
-  std::array<std::string, 2> map_notes;  // why a map is not there yet; empty: it is
+  std::array<std::string, 2> map_notes;  // why a map is not available yet; empty: it is
   std::array<PlanHistory, 2>& plans;
   std::array<std::optional<PixelLights>, 2> pixel;  // at Controls::pixel
   std::array<std::string, 2> commands;
-  std::string note;  // of the last thing done
+  std::string note;  // result of the last action
   int picture_width = 0, picture_height = 0;
-  double fraction = 1;  // that is drawn of the picture's sides
+  double fraction = 1;  // drawn size as a fraction of the picture's sides
   double now_s = 0;
 };
 

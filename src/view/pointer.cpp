@@ -6,14 +6,14 @@
 namespace lightgrid {
 namespace {
 
-constexpr double line_reach_px = 6;   // how near to the line it is grabbed
-constexpr double click_reach_px = 3;  // how far a click may move
+constexpr double line_reach_px = 6;   // distance within which the line can be dragged
+constexpr double click_reach_px = 3;  // largest movement during a click
 
 }  // namespace
 
 PointerResult Pointer::follow(const Input& input, int width, int height, double line, bool free) {
   PointerResult result;
-  // A press counts at the place of the last frame: a script may press and move in one frame.
+  // A press counts at the position of the last frame: a script may press and move in one frame.
   if (input.button && gesture_ == Gesture::none) {
     const bool over = free && x_ >= 0 && y_ >= 0 && x_ < width && y_ < height;
     const bool near_line = std::abs(x_ - line * width) <= line_reach_px;

@@ -1,4 +1,4 @@
-// What the pointer means over the picture: the line is dragged, the camera is turned, or a pixel is clicked.
+// Interprets the pointer over the picture: dragging the line, turning the camera, or clicking a pixel.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@ namespace lightgrid {
 
 struct PointerResult {
   double turn_x = 0, turn_y = 0;      // pixels since the last frame
-  std::optional<double> line;         // where the line now is
-  std::optional<PicturePixel> click;  // pressed and let go at one place
+  std::optional<double> line;         // new position of the line
+  std::optional<PicturePixel> click;  // pressed and released at one position
 };
 
 class Pointer {
  public:
   // The picture fills the window's upper left, width x height. `free`: no panel takes the pointer. A drag
-  // that began over the picture goes on over panels.
+  // that began over the picture continues over panels.
   PointerResult follow(const Input& input, int width, int height, double line, bool free);
 
  private:

@@ -1,4 +1,4 @@
-// The picture of `forward`, which every side's is held against.
+// The picture of `forward`, with which both sides are compared.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ class ReferencePicture {
   // The scene changed: lights may have moved.
   void scene_changed() { run_.reset(); }
 
-  // Of this view with the side's specular lobe. Drawn at each call: every light at every pixel, slow with
-  // many.
+  // Draws this view with the side's specular lobe. Every call shades every light at every pixel: slow with
+  // many lights.
   const Image& draw(const View& view, const Settings& settings);
 
  private:

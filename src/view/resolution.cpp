@@ -15,7 +15,7 @@ double Resolution::next(bool moving, double seconds, double rate) {
     drawn_ = fraction;
     if (full_ms_ * fraction * fraction <= budget_ms) break;
   }
-  // A larger picture only where it fits with room to spare, or the size would change in every frame.
+  // Grows only with room to spare; otherwise the size would change in every frame.
   if (drawn_ > fraction_ && full_ms_ * drawn_ * drawn_ > 0.8 * budget_ms) drawn_ = fraction_;
   fraction_ = drawn_;
   return drawn_;

@@ -1,5 +1,5 @@
-// What the window shows: the two sides' images, and room for panels beside them. Drawn into a framebuffer of
-// our own, so that a screenshot does not depend on what covers the window.
+// The window's contents: the two sides' images, and space for panels beside them. Drawn into a separate
+// framebuffer, so that a screenshot does not depend on what covers the window.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,12 @@ class Screen {
  public:
   explicit Screen(Renderer& renderer);
 
-  // Starts a frame of the window's size, cleared. Its framebuffer is bound.
+  // Starts a frame of the window's size: clears and binds its framebuffer.
   void begin(int width, int height);
-  // Into the left `picture_width` pixels, over the whole height. `line`: fraction of the picture's width.
+  // Draws into the left `picture_width` pixels, over the whole height. `line`: fraction of the picture's
+  // width.
   void draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width);
-  // Into the window's own framebuffer.
+  // Copies into the window's own framebuffer.
   void finish();
 
   void save(const std::filesystem::path& path);  // the last frame as a PNG

@@ -18,7 +18,7 @@ using Run = std::function<void(Controls&, Input&)>;
 
 constexpr int most_frames = 1'000'000;
 
-// What is wrong with a word; the line is added by the parser.
+// The fault of a word; the parser adds the line.
 Error wrong(const std::string& word, const std::string& why) { return input_error("\"{}\" {}", word, why); }
 
 template <typename T>
@@ -45,7 +45,7 @@ FlightKey flight_key(const std::string& word) {
   return found->second;
 }
 
-// The sides that an action is for. Takes "left" or "right" off the words; both without one.
+// The sides that an action applies to. Removes "left" or "right" from the words; without one, both.
 std::vector<int> take_sides(Words& words) {
   const std::string side = words.empty() ? "" : lower_case(words.front());
   if (side != "left" && side != "right") return {0, 1};

@@ -1,4 +1,4 @@
-// Input that is replayed without a user: one action a line, "FRAME ACTION WORD…" (docs/view.md#scripts).
+// Replayed input: one action a line, "FRAME ACTION WORD…" (docs/view.md#scripts).
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace lightgrid {
 
 struct ScriptAction {
   int frame = 0;
-  int line = 0;  // of the file
+  int line = 0;  // in the file
   std::function<void(Controls&, Input&)> run;
 };
 
@@ -22,8 +22,8 @@ class Script {
   Script(std::string_view text, const std::string& name);
   static Script read(const std::filesystem::path& path);
 
-  // The actions of a frame, in the order of the file. Keys and the pointer stay as they are left; the button
-  // is held in frames that drag.
+  // Applies the actions of a frame, in the order of the file. Keys and the pointer keep their state; the
+  // button is held in frames that drag.
   void play(int frame, Controls& controls, Input& input) const;
 
  private:

@@ -1,4 +1,4 @@
-// One side of the window: a technique's run on the scene that both sides share, and the image that it shows.
+// One side of the window: a technique's run on the shared scene, and the image that it shows.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@ class Side {
   // Both outlive it.
   Side(Renderer& renderer, GpuScene& gpu) : renderer_(renderer), gpu_(gpu) {}
 
-  // Makes a run where the technique or the settings are others than before. Where they do not fit the scene,
-  // or fail to draw, problem() says so and the last picture stays. Returns whether it made one.
+  // Creates a run if the technique or the settings changed. If they do not fit the scene, or fail to draw,
+  // problem() has the reason and the last picture stays. Returns whether it created one.
   bool choose(const SideControls& wanted, const View& view);
-  // Another camera or size, or a scene that changed.
+  // Applies another camera or size, or changes of the scene.
   void look(const View& view, const SceneChanges& changes);
-  // One frame, where something changed since the last one or `again`. Returns whether it drew.
+  // Draws one frame if something changed since the last one, or if `again`. Returns whether it drew.
   bool draw(bool again, bool measure_passes);
 
   bool ready() const { return run_ && problem_.empty() && !stale_; }
@@ -31,7 +31,8 @@ class Side {
   int width() const { return width_; }                // of the picture
   int height() const { return height_; }
   double frame_ms() const { return frame_ms_; }
-  size_t pictures() const { return pictures_; }  // drawn so far that differ: a number for this one
+  size_t pictures() const { return pictures_; }  // number of different pictures drawn so far; identifies this
+                                                 // one
 
  private:
   void keep_picture();
@@ -41,7 +42,7 @@ class Side {
   std::unique_ptr<TechniqueRun> run_;
   std::string technique_, problem_;
   std::map<std::string, std::string> settings_;
-  bool stale_ = true;  // not drawn since something changed
+  bool stale_ = true;  // something changed since the last draw
   int width_ = 0, height_ = 0;
   GlTexture picture_;
   GlFramebuffer framebuffer_;

@@ -8,7 +8,7 @@
 namespace lightgrid {
 namespace {
 
-// The 99th percentile over pixels that have some, so that a few high counts leave the rest its colours.
+// The 99th percentile over pixels with a count, so that a few high counts do not compress the scale.
 uint32_t top_of_scale(std::vector<uint32_t> counts) {
   std::erase(counts, 0u);
   if (counts.empty()) return 1;

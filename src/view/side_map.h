@@ -11,8 +11,9 @@ namespace lightgrid {
 
 class MapOfSide {
  public:
-  // The map of the side's last picture, in work or done. Only for pictures of full size of a camera at rest;
-  // `wait`: until it is done. `reference`: draws `forward` on the same view; called for `difference` alone.
+  // The map of the side's last picture, in progress or done. Only for pictures of full size with the camera
+  // at rest; `wait`: waits until it is done. `reference`: draws `forward` on the same view; called for
+  // `difference` alone.
   template <typename Reference>
   void follow(SideMap wanted, Side& side, bool wait, const Reference& reference) {
     if (shown_picture_ == side.pictures() && shown_ == wanted) return;
@@ -27,7 +28,7 @@ class MapOfSide {
     return shown_picture_ == side.pictures() && shown_ == wanted;
   }
   GLuint texture() const { return texture_.name(); }
-  const std::string& legend() const { return legend_; }  // of the map that it shows
+  const std::string& legend() const { return legend_; }  // of the displayed map
 
  private:
   void show_counts(SideMap wanted, Side& side, bool wait);

@@ -15,7 +15,7 @@ struct PassMs {
 };
 
 struct FrameTimes {
-  std::vector<PassMs> passes;  // in the order they ran
+  std::vector<PassMs> passes;  // in order of execution
   double total_ms() const;
 };
 
@@ -33,7 +33,7 @@ class Timings {
   std::deque<FrameTimes> frames_;
 };
 
-// The times of one frame: records that hold that frame alone. A pass that ran twice counts as their sum.
+// The times of one frame: records that contain that frame alone. A pass that ran twice counts as their sum.
 FrameTimes frame_times(const std::vector<PassRecord>& records);
 
 }  // namespace lightgrid

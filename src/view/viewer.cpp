@@ -15,7 +15,7 @@ namespace lightgrid {
 namespace {
 
 constexpr double script_step_s = 1.0 / 60;
-constexpr double longest_step_s = 0.1;  // a slow frame does not throw the camera far
+constexpr double longest_step_s = 0.1;  // limits the camera's movement after a slow frame
 constexpr double idle_wait_s = 0.2;
 
 }  // namespace
@@ -125,7 +125,7 @@ void Viewer::draw_sides() {
   if (drew_) resolution_.measured(ms);
 }
 
-// Maps are of full pictures that rest. One that takes the window's own time is announced a frame before.
+// Maps need a full picture at rest. One that blocks the window is announced a frame before.
 void Viewer::follow_maps() {
   if (!resolution_.resting() || controls_.playing) return;
   for (int i = 0; i < 2; ++i) {

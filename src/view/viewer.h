@@ -1,4 +1,4 @@
-// A window on a scene: two techniques side by side, flown through by a user or by a script.
+// A window on a scene: two techniques side by side, controlled by a user or a script.
 #pragma once
 
 #include <filesystem>
@@ -21,16 +21,16 @@ class Interface;
 struct ViewJob {
   Scene scene;
   View view;                // of the picture; the window adds its panel
-  std::string scene_words;  // the scene and its lights as words of a command line
-  std::string camera;       // as --camera was given
+  std::string scene_words;  // the scene and its lights as command-line options
+  std::string camera;       // the value of --camera
   std::string device;       // OpenCL, by a part of its name
   double seconds = 0;       // of the scene's animations
-  Controls controls;        // to start with
+  Controls controls;        // initial values
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
   Script script{"", ""};
   int frames = 0;
-  std::filesystem::path screenshot;  // of the last frame; empty: none
+  std::filesystem::path screenshot;  // of the last frame; empty: not saved
 };
 
 class Viewer {
@@ -39,7 +39,7 @@ class Viewer {
   Viewer(Window& window, ViewJob job);
   ~Viewer();
 
-  // Until the window is closed or the script ends.
+  // Returns when the window is closed or the script ends.
   void run();
 
  private:
@@ -67,14 +67,14 @@ class Viewer {
   ReferencePicture reference_;
   Side sides_[2];
   MapOfSide maps_[2];
-  bool map_announced_[2] = {};  // "computing" stood on screen for a frame
+  bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;
   std::array<std::optional<PixelLights>, 2> pixel_;
   PicturePixel pixel_shown_;
   size_t pixel_picture_[2] = {};
   Input script_input_;
   int width_ = 0, height_ = 0;              // of the picture
-  int drawn_width_ = 0, drawn_height_ = 0;  // of what is drawn of it
+  int drawn_width_ = 0, drawn_height_ = 0;  // of the drawn part
   double seconds_ = 0, now_s_ = 0;          // of this frame, and since the start
   double fraction_ = 1;
   bool moved_ = false, drew_ = false;

@@ -1,4 +1,4 @@
-// A window with an OpenGL 4.5 core context, and what its user does.
+// A window with an OpenGL 4.5 core context, and its input.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace lightgrid {
 
 class Window {
  public:
-  // Throws Error(machine) where there is no display, or none with OpenGL 4.5; says what would help.
+  // Throws Error(machine) with advice if there is no display, or none with OpenGL 4.5.
   Window(int width, int height, const std::string& title);
   ~Window();
   Window(const Window&) = delete;
@@ -21,10 +21,10 @@ class Window {
   // The window's context, current on this thread. The window outlives it.
   std::unique_ptr<GlContext> make_context();
 
-  // Takes events; waits for one for up to `seconds`.
+  // Processes events; waits for one for up to `seconds`.
   void poll(double seconds);
   bool closing() const;
-  void show();  // what was drawn into framebuffer 0
+  void show();  // shows the contents of framebuffer 0
 
   int width() const;  // pixels of its framebuffer
   int height() const;
