@@ -202,12 +202,12 @@ void on_z_bin_edges(Check& c) {
 
 // No bin may hold a light that reaches none of its distances, up to a step of `more` for rounding.
 void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLight>& lights, const HostGrid& grid) {
-  const std::vector<TrueLight> truth = true_lights(view, lights);
+  const std::vector<OracleLight> exact = oracle_lights(view, lights);
   const std::vector<float>& edges = view.z_bin_edges;
   if (!c.that(grid.z_bins.size() == lights.size(), "{} words of z-bins", grid.z_bins.size())) return;
   for (size_t i = 0; i < lights.size(); ++i) {
-    const glm::dvec3& p = truth[i].position;
-    const double r = truth[i].radius, d = -p.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
+    const glm::dvec3& p = exact[i].position;
+    const double r = exact[i].radius, d = -p.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
     for (size_t bin = 0; bin <= edges.size(); ++bin) {
       if (!bins_hold(grid.z_bins[i], uint(bin))) continue;
       const double near = bin > 0 ? edges[bin - 1] : -no_end, far = bin < edges.size() ? edges[bin] : no_end;
@@ -216,8 +216,8 @@ void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLig
         const double depth = depth_at(view, edge);
         return std::isfinite(edge) ? std::abs(distance_at(view, depth + 0x1p-24 * std::abs(depth)) - edge) : 0.0;
       };
-      const double more = step(near) + step(far) + 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * truth[i].place_error;
-      c.that(!truth[i].lists_nothing && d + r >= near - more && d - r <= far + more,
+      const double more = step(near) + step(far) + 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * exact[i].place_error;
+      c.that(!exact[i].lists_nothing && d + r >= near - more && d - r <= far + more,
              "bin {} from {} to {} holds a light from {} to {}", bin, near, far, d - r, d + r);
     }
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double farthest_surface = 1e15;  // metres; docs/hard_cases.md#the-domain
 
-bool lights_it(const TrueLight& light, const glm::dvec3& position) {
+bool lights_it(const OracleLight& light, const glm::dvec3& position) {
   if (light.lists_nothing) return false;
   const glm::dvec3 way = position - light.position;
   const double distance = glm::length(way);
@@ -145,7 +145,7 @@ HostGrid Check::same_in_every_way(const CullView& view, const std::vector<CullLi
   return first;
 }
 
-void Check::hold_between(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,
+void Check::hold_between(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
                          const Touching& touching, const CullerOptions& options, const HostGrid& grid, bool counts) {
   if (!that(grid.cells.size() == touching.size(), "{}: {} cells for {}", to_string(options), grid.cells.size(),
             touching.size()))
@@ -155,13 +155,13 @@ void Check::hold_between(const CullView& view, std::span<const TrueLight> lights
     const Cell cell = cell_of(view, options.tile, i, bounds[i % bounds.size()], options.pixel_centres);
     for (const uint32_t light : touching[i]) {
       if (std::binary_search(list.begin(), list.end(), light)) continue;
-      const TrueLight& l = lights[light];
+      const OracleLight& l = lights[light];
       lost("{}: cell {} [{:.9g}, {:.9g}] lost light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}", to_string(options), i,
            cell.near, cell.far, light, l.position.x, l.position.y, l.position.z, l.radius);
     }
     for (const uint32_t light : list) {
       if (possibly_touches(view, options.tile, cell, lights[light], options.cull_test)) continue;
-      const TrueLight& l = lights[light];
+      const OracleLight& l = lights[light];
       fail(fmt::format("{}: cell {} [{:.9g}, {:.9g}] lists light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}, which cannot "
                        "touch it", to_string(options), i, cell.near, cell.far, light, l.position.x, l.position.y,
                        l.position.z, l.radius));
@@ -173,7 +173,7 @@ void Check::hold_between(const CullView& view, std::span<const TrueLight> lights
 
 HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds,
                      const std::vector<CullerOptions>& settings) {
-  const std::vector<TrueLight> truth = true_lights(view, lights);
+  const std::vector<OracleLight> exact = oracle_lights(view, lights);
   HostGrid first;
   Touching touching;
   int tile = 0;
@@ -182,12 +182,12 @@ HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights,
   for (const CullerOptions& options : settings) {
     if (one_for_all) bounds.assign(tile_count(view, options.tile), one);
     if (options.tile != tile) {
-      touching = touching_lights(view, truth, bounds, options.tile, options.pixel_centres);
+      touching = touching_lights(view, exact, bounds, options.tile, options.pixel_centres);
       for (const auto& cell : touching) contacts(cell.size());
     }
     tile = options.tile;
     HostGrid grid = same_in_every_way(view, lights, bounds, options);
-    hold_between(view, truth, bounds, touching, options, grid, &options == &settings[0]);
+    hold_between(view, exact, bounds, touching, options, grid, &options == &settings[0]);
     if (&options == &settings[0]) first = std::move(grid);
   }
   return first;
@@ -243,7 +243,7 @@ std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage&
 
 HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                        const std::vector<CullerOptions>& settings) {
-  const std::vector<TrueLight> truth = true_lights(view, lights);
+  const std::vector<OracleLight> exact = oracle_lights(view, lights);
   const View v = oracle_view(view);
   const int row = depth.row_pixels ? depth.row_pixels : view.width;
   struct Lit {
@@ -260,8 +260,8 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
         if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) continue;
         const glm::dvec3 position =
             depth.distances.empty() ? position_from_depth(v, x, y, value) : position_at(v, x, y, depth.distances[at]);
-        for (uint32_t light = 0; light < truth.size(); ++light) {
-          if (lights_it(truth[light], position)) rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
+        for (uint32_t light = 0; light < exact.size(); ++light) {
+          if (lights_it(exact[light], position)) rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
         }
       }
     }

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "verify/cell_oracle.h"
 #include "verify/hard_case.h"
-#include "verify/truth.h"
 
 namespace lightgrid::verify {
 
@@ -78,7 +78,7 @@ class Check {
   std::vector<CullerOptions> in_both_shapes(const CullerOptions& options) const;
   HostGrid same_in_every_way(const CullView& view, const std::vector<CullLight>& lights,
                              const std::vector<DepthInterval>& bounds, const CullerOptions& options);
-  void hold_between(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,
+  void hold_between(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
                     const Touching& touching, const CullerOptions& options, const HostGrid& grid, bool counts);
 
   Outcome outcome_;

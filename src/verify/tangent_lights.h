@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/random.h"
-#include "verify/truth.h"
+#include "verify/cell_oracle.h"
 
 namespace lightgrid::verify {
 

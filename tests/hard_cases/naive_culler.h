@@ -14,7 +14,7 @@
 #include "hard_cases/faults.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
-#include "verify/truth.h"
+#include "verify/cell_oracle.h"
 
 namespace lightgrid::verify {
 
@@ -159,11 +159,11 @@ class NaiveCuller : public CullEngine {
     return mask;
   }
 
-  std::vector<TrueLight> view_lights(const CullView& view, std::span<const CullLight> lights) const {
-    std::vector<TrueLight> all = true_lights(view, lights);
+  std::vector<OracleLight> view_lights(const CullView& view, std::span<const CullLight> lights) const {
+    std::vector<OracleLight> all = oracle_lights(view, lights);
     const glm::dvec3 middle = median(lights);
     for (size_t i = 0; i < all.size(); ++i) {
-      TrueLight& light = all[i];
+      OracleLight& light = all[i];
       if (fault_ == Fault::float_world)
         light.position = glm::mat3(view.view_from_world) * (glm::vec3(lights[i].position) - glm::vec3(view.eye));
       if (fault_ == Fault::radius_squared) light.radius = std::abs(light.radius), light.lists_nothing = false;
@@ -226,12 +226,12 @@ class NaiveCuller : public CullEngine {
     c.y1 = slope(p.slope_y_scale, float(std::min(y + o.tile, view.height)) - inset, p.slope_y_offset);
   }
 
-  static double with_slack(const TrueLight& l) {
+  static double with_slack(const OracleLight& l) {
     return l.radius + 24 * 0x1p-24 * (std::abs(l.position.x) + std::abs(l.position.y) + std::abs(l.position.z) + l.radius);
   }
 
   // The squared distance to the cell's box against the squared radius, in float.
-  static bool box_in_float(const Cell& c, const TrueLight& l) {
+  static bool box_in_float(const Cell& c, const OracleLight& l) {
     const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, 1e18));
     const glm::dvec3& p = l.position;
     const float bx = float(std::max({std::min(c.x0 * s0, c.x0 * s1) - p.x, p.x - std::max(c.x1 * s0, c.x1 * s1), 0.0}));
@@ -241,7 +241,7 @@ class NaiveCuller : public CullEngine {
   }
 
   // Planes and box in float, as kernels have them but for the slack.
-  static bool float_test(const Cell& c, const TrueLight& l, bool cross_products) {
+  static bool float_test(const Cell& c, const OracleLight& l, bool cross_products) {
     const float x = float(l.position.x), y = float(l.position.y), d = float(-l.position.z), r = float(l.radius);
     const float x0 = float(c.x0), x1 = float(c.x1), y0 = float(c.y0), y1 = float(c.y1);
     const float n = float(c.near), f = float(std::min(c.far, 1e18)), s0 = c.orthographic ? 1 : n, s1 = c.orthographic ? 1 : f;
@@ -260,7 +260,7 @@ class NaiveCuller : public CullEngine {
            side(y1 * e - y, y1);
   }
 
-  bool cone_sphere(const Cell& c, const TrueLight& l) const {
+  bool cone_sphere(const Cell& c, const OracleLight& l) const {
     const double far = std::min(c.far, 1e6), near = std::max(c.near, -1e6), s = c.scale_at((near + far) / 2);
     const glm::dvec3 centre((c.x0 + c.x1) / 2 * s, (c.y0 + c.y1) / 2 * s, -(near + far) / 2);
     const double sf = c.scale_at(far);
@@ -271,7 +271,7 @@ class NaiveCuller : public CullEngine {
     return across * l.cos_outer - along * sine <= reach && along >= -reach;
   }
 
-  bool listed(const CullView& view, const Cell& c, const TrueLight& l) const {
+  bool listed(const CullView& view, const Cell& c, const OracleLight& l) const {
     if (l.lists_nothing || !(c.near <= c.far)) return false;
     if (fault_ == Fault::centres_only && (-l.position.z < 0 || -l.position.z > 100)) return false;
     if (fault_ == Fault::float_without_slack || fault_ == Fault::cross_product_planes) {
@@ -295,7 +295,7 @@ class NaiveCuller : public CullEngine {
     return l.cos_outer <= -1 || cone_touches_cell(c, l.position, l.axis, l.cos_outer, l.radius) != Touch::no;
   }
 
-  std::vector<uint32_t> z_bins(const CullerOptions& o, const CullView& view, const std::vector<TrueLight>& lights) const {
+  std::vector<uint32_t> z_bins(const CullerOptions& o, const CullView& view, const std::vector<OracleLight>& lights) const {
     const std::vector<float>& edges = view.z_bin_edges;
     std::vector<double> nearest, farthest;  // of what each edge may stand for
     for (const float edge : edges) {
@@ -306,7 +306,7 @@ class NaiveCuller : public CullEngine {
       return uint32_t(std::upper_bound(ends.begin(), ends.end(), to) - ends.begin());
     };
     std::vector<uint32_t> words;
-    for (const TrueLight& l : lights) {
+    for (const OracleLight& l : lights) {
       const double d = -l.position.z, reach = fault_ == Fault::z_bin_of_centre ? 0 : l.radius;
       uint32_t end = reached(nearest, d + reach) + 1;
       if (fault_ == Fault::last_z_bin_closed && d - reach > 2 * edges.back()) end = 0;
@@ -317,7 +317,7 @@ class NaiveCuller : public CullEngine {
 
   HostGrid cull_masked(const CullerOptions& o, const CullView& view, std::span<const CullLight> lights,
                        std::span<const DepthInterval> bounds, const std::vector<Mask>& masks) {
-    const std::vector<TrueLight> all = view_lights(view, lights);
+    const std::vector<OracleLight> all = view_lights(view, lights);
     HostGrid grid;
     grid.cells_x = tiles_x(view, o.tile), grid.cells_y = int(bounds.size()) / grid.cells_x;
     grid.slices = int(view.slice_edges.size()) + 1;

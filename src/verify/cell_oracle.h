@@ -10,7 +10,7 @@
 namespace lightgrid::verify {
 
 // View space. A cone of -1 means none: the sphere alone.
-struct TrueLight {
+struct OracleLight {
   glm::dvec3 position;
   glm::dvec3 axis;
   double radius, cos_outer;
@@ -19,24 +19,24 @@ struct TrueLight {
   double cone_error;   // the largest of these over all spots, added as slack to every cone
   bool lists_nothing;  // radius or position is NaN, or the radius is negative
 };
-std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLight> lights);
+std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights);
 
 // Of a tile and a slice; empty (near > far) if it contains nothing. Its sides go through pixels' centres,
 // because nothing else is shaded, or around whole pixels.
 Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres);
 
-bool certainly_touches(const Cell& cell, const TrueLight& light);
+bool certainly_touches(const Cell& cell, const OracleLight& light);
 
 // A cheap sufficient test for being outside; never true of a light that certainly touches.
-bool clearly_apart(const Cell& cell, const TrueLight& light);
+bool clearly_apart(const Cell& cell, const OracleLight& light);
 
 // Inside the region that the cull test covers, widened by its float error (docs/hard_cases.md#slack). `exact`
 // covers the cell itself if no slope of the view exceeds 2, else the intersection of planes and box.
-bool possibly_touches(const CullView& view, int tile, const Cell& cell, const TrueLight& light, CullTest test);
+bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light, CullTest test);
 
 // The lights that certainly touch each cell, ascending.
 using Touching = std::vector<std::vector<uint32_t>>;
-Touching touching_lights(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,
+Touching touching_lights(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
                          int tile, bool pixel_centres);
 
 }  // namespace lightgrid::verify

@@ -1,4 +1,4 @@
-#include "verify/truth.h"
+#include "verify/cell_oracle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ double outside_of_sides(const Cell& c, const glm::dvec3& p) {
 }
 
 // The cone against the sphere around the box, its cosine wider by 1e-6.
-bool cone_possibly_touches(const Box& b, const TrueLight& light, double margin) {
+bool cone_possibly_touches(const Box& b, const OracleLight& light, double margin) {
   const glm::dvec3 centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, -(b.d0 + b.d1) / 2);
   const double reach = std::hypot(b.x1 - b.x0, b.y1 - b.y0, b.d1 - b.d0) / 2 + margin;
   if (!(reach < far_away)) return true;
@@ -67,7 +67,7 @@ bool cone_possibly_touches(const Box& b, const TrueLight& light, double margin) 
 
 }  // namespace
 
-std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLight> lights) {
+std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights) {
   glm::dvec3 middle(0);
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> places;
@@ -77,9 +77,9 @@ std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLig
     std::nth_element(places.begin(), places.begin() + places.size() / 2, places.end());
     middle[axis] = places[places.size() / 2];
   }
-  std::vector<TrueLight> all;
+  std::vector<OracleLight> all;
   for (const CullLight& light : lights) {
-    TrueLight t{to_view(view, light.position), glm::dmat3(view.view_from_world) * light.direction, light.radius_m,
+    OracleLight t{to_view(view, light.position), glm::dmat3(view.view_from_world) * light.direction, light.radius_m,
                 light.cos_outer, 0, 0, false};
     const glm::dvec3 place = glm::abs(light.position - middle);
     t.place_error = 2 * u * (place.x + place.y + place.z);
@@ -91,10 +91,10 @@ std::vector<TrueLight> true_lights(const CullView& view, std::span<const CullLig
     all.push_back(t);
   }
   double cone_error = 0;
-  for (const TrueLight& t : all) {
+  for (const OracleLight& t : all) {
     if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.place_error);
   }
-  for (TrueLight& t : all) t.cone_error = cone_error;
+  for (OracleLight& t : all) t.cone_error = cone_error;
   return all;
 }
 
@@ -113,19 +113,19 @@ Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& 
   return cell;
 }
 
-bool clearly_apart(const Cell& cell, const TrueLight& light) {
+bool clearly_apart(const Cell& cell, const OracleLight& light) {
   if (light.lists_nothing || !(cell.near <= cell.far)) return true;
   if (light.radius > far_away) return false;
   return distance_to_box(box_of(cell), light.position) > light.radius * (1 + 1e-12);
 }
 
-bool certainly_touches(const Cell& cell, const TrueLight& light) {
+bool certainly_touches(const Cell& cell, const OracleLight& light) {
   if (clearly_apart(cell, light)) return false;
   if (light.cos_outer <= -1) return sphere_touches_cell(cell, light.position, light.radius);
   return cone_touches_cell(cell, light.position, light.axis, light.cos_outer, light.radius) == Touch::yes;
 }
 
-bool possibly_touches(const CullView& view, int tile, const Cell& cell, const TrueLight& light, CullTest test) {
+bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light, CullTest test) {
   if (light.lists_nothing || !(cell.near <= cell.far)) return false;
   const glm::dvec3& p = light.position;
   const double r = light.radius + light.place_error;
@@ -153,7 +153,7 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Tr
   return light.cos_outer < 0 || endless || cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
 }
 
-Touching touching_lights(const CullView& view, std::span<const TrueLight> lights, std::span<const DepthInterval> bounds,
+Touching touching_lights(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
                          int tile, bool pixel_centres) {
   const size_t tiles = bounds.size();
   Touching touching(tiles * (view.slice_edges.size() + 1));
