@@ -1,0 +1,131 @@
+// Triangles to visibility: the number and the depth of the nearest triangle at each pixel. Needs OpenCL only.
+//
+//   Rasterizer rasterizer(device, programs, options);
+//   rasterizer.set_meshes(meshes);                     // when they change
+//   rasterizer.set_instances(instances);               // when they change or move
+//   rasterizer.set_view(view);                         // each frame
+//   const Visibility visibility = rasterizer.draw();
+//   culler.depth_bounds({visibility.depth});
+//
+// A visibility buffer (Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading", JCGT 2013), filled
+// by tiles in software (Laine, Karras, "High-Performance Software Rasterization on GPUs", HPG 2011).
+//
+// What is drawn is a function of meshes, instances and view alone: the same bytes on every device that rounds divisions
+// correctly, in every kernel shape, for any number of threads. src/raster/README.md has the arithmetic; in short:
+//
+// - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and snapped once to
+//   1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left rule: a centre on an edge
+//   belongs to the triangle of which it is a left edge, or a horizontal top edge (rows count upwards).
+// - A triangle that crosses the near plane or leaves a guard band, 16,368 pixels on either side of the view's centre, is cut.
+//   What is cut of an edge depends on its two end points alone, so that neighbours meet without a gap.
+// - Depth is a plane through the snapped vertices, clamped to their depths: within 2^-21 (|zx dx| + |zy dy| + z) of the exact
+//   one, with dx, dy the pixel's distance from the first vertex and zx, zy the gradients, and within the vertices' depths.
+//   A depth below 2^-126, as at or past the far plane, is not drawn.
+// - The greatest depth wins (depth is reversed), and among equal ones the lowest triangle number, which is the one drawn
+//   first, as with OpenGL's GL_GREATER.
+// - A triangle with a corner that is not finite in clip space is left out and counted.
+// - Clusters of triangles that all face away are left out early. Where such a triangle is so thin on the screen that
+//   snapping turns it towards the eye, OpenGL would draw it; RasterOptions::cluster_cones = false does.
+//
+// Errors are of type Error (base/error.h) alone: input where an argument is wrong or a call is missing, machine where the
+// device or its memory does not suffice. Nothing is left out to make it fit: room that proves short is counted, grown, and
+// the frame drawn again. Objects of one device are for one thread at a time.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+
+#include "cl/device.h"
+#include "cl/program_cache.h"
+#include "shared/cull_settings.h"
+#include "shared/raster_instance.h"
+
+namespace lightgrid {
+
+// Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front. Runs of 64
+// triangles are culled together: an order in which neighbours follow one another is drawn faster. Both are copied.
+struct RasterMesh {
+  std::span<const glm::vec3> positions;
+  std::span<const uint32_t> indices;
+};
+
+struct RasterInstance {
+  int mesh = 0;
+  glm::dmat4 world_from_object{1};  // affine, finite; a negative determinant turns front faces around
+  bool two_sided = false;
+  int alpha_material = -1;  // 0 or more: the material whose alpha decides which pixels it covers
+};
+
+struct RasterView {
+  int width = 0, height = 0;  // pixels, 1 to 16,384
+  // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or orthographic,
+  // off-centre, far plane infinite or not.
+  glm::dmat4 clip_from_view{1};
+  glm::dmat4 view_from_world{1};  // rigid; its translation is not used
+  glm::dvec3 eye{0};              // world, metres
+};
+
+constexpr uint32_t no_triangle = 0xffffffffu;
+
+// The rasteriser's own buffers, written again by the next draw(). Row 0 is at the bottom, rows lie without gaps.
+struct Visibility {
+  cl::Buffer triangle;  // uint a pixel: the nearest triangle's number, or no_triangle
+  cl::Buffer depth;     // float a pixel: reversed z / w of clip_from_view, 0 where no triangle is: DepthInput::values
+  int width = 0, height = 0;
+};
+
+// What a triangle number leads to, on the device. Made by set_meshes and set_instances; `clip` is written by each draw().
+struct RasterBuffers {
+  cl::Buffer indices;            // uint[3] a triangle of each mesh, mesh after mesh
+  cl::Buffer instances;          // RasterInstanceRecord an instance
+  cl::Buffer triangle_instance;  // uint a triangle number: its instance
+  cl::Buffer clip;               // float4 (x, y, z, w) a vertex of each instance
+};
+
+struct RasterOptions {
+  KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bytes
+  bool portable = false;                       // no builtins of one kind of CPU; the same bytes
+  bool cluster_cones = true;                   // leaves out clusters that face away
+};
+
+// Of the last draw().
+struct RasterCounts {
+  uint64_t triangles = 0;          // drawn or not, of all instances
+  uint64_t clusters = 0;           // of up to 64 triangles, that may be in view
+  uint64_t records = 0;            // triangles, or parts that clipping left, that were rasterised
+  uint64_t tile_entries = 0;       // pairs of a record and a tile of 64 x 64 pixels
+  uint64_t invalid_triangles = 0;  // left out since a corner is not finite
+  int redone = 0;                  // how often room was short and the frame was drawn again
+};
+
+class RasterPipeline;
+
+class Rasterizer {
+ public:
+  // Compiles the kernels. `device` and `programs` outlive it.
+  Rasterizer(ClDevice& device, ProgramCache& programs, const RasterOptions& options = {});
+  ~Rasterizer();
+  Rasterizer(Rasterizer&&) noexcept;
+
+  // Throws input: an index out of range, a number of indices that is no multiple of 3. Instances are then none.
+  void set_meshes(std::span<const RasterMesh> meshes);
+  // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. Throws input: a mesh
+  // that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 1 triangles or vertices or more.
+  void set_instances(std::span<const RasterInstance> instances);
+  // Throws input: a size out of range, a matrix or an eye that is not finite, a projection that is not of the kinds above.
+  void set_view(const RasterView& view);
+
+  // Throws input where set_view is missing. Waits for the queue.
+  Visibility draw();
+
+  const RasterBuffers& buffers() const;
+  const RasterCounts& counts() const;
+  size_t memory_bytes() const;  // on the device
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lightgrid
