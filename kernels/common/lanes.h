@@ -10,11 +10,13 @@ typedef float real;
 typedef int whole;
 typedef int mask_t;  // comparison results: 0 or 1
 #define TO_WHOLE(x) convert_int(x)
+#define TO_REAL(x) convert_float(x)
 #elif LANES == 16
 typedef float16 real;
 typedef int16 whole;
 typedef int16 mask_t;  // 0 or -1 a lane
 #define TO_WHOLE(x) convert_int16(x)
+#define TO_REAL(x) convert_float16(x)
 #define LANE_INDEX ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #else
 #error "LANES must be 1 or 16"

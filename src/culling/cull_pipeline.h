@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cl/device.h"
+#include "cl/growing_buffer.h"
 #include "cl/program_cache.h"
 #include "shared/cull_params.h"
 #include "shared/cull_settings.h"
@@ -44,20 +45,5 @@ class CullPipeline {
 
 std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
 std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
-
-// Throws Error(machine) where the device has not the memory.
-cl::Buffer device_buffer(ClDevice& device, size_t bytes);
-
-// A buffer that is made anew where it is too small.
-class GrowingBuffer {
- public:
-  cl::Buffer& at_least(ClDevice& device, size_t bytes);
-  cl::Buffer& get() { return buffer_; }
-  size_t bytes() const { return bytes_; }
-
- private:
-  cl::Buffer buffer_;
-  size_t bytes_ = 0;
-};
 
 }  // namespace lightgrid

@@ -1,37 +1,14 @@
-// Buffers that grow, and the way of a grid back to the host.
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "cl/error.h"
+// Where a grid is kept, and its way back to the host.
+#include "cl/growing_buffer.h"
 #include "cl/transfer.h"
-#include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
 
 namespace lightgrid {
 
-cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
-  try {
-    return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
-  } catch (const cl::Error& error) {
-    throw cl_machine_error(error, fmt::format("light culling: {} bytes", bytes));
-  }
-}
-
-// The old buffer goes first, so that both need not fit at once.
-static void grow(ClDevice& device, size_t bytes, cl::Buffer& buffer, size_t& size) {
-  if (bytes <= size && buffer()) return;
-  buffer = cl::Buffer(), size = 0;
-  buffer = device_buffer(device, bytes), size = bytes;
-}
-
-cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
-  grow(device, bytes, buffer_, bytes_);
-  return buffer_;
-}
-
 cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
-  grow(device_, bytes, buffer, size);
+  if (bytes <= size && buffer()) return buffer;
+  buffer = cl::Buffer(), size = 0;  // the old one goes first, so that both need not fit at once
+  buffer = device_buffer(device_, bytes), size = bytes;
   return buffer;
 }
 

@@ -17,6 +17,7 @@ typedef struct RasterInstanceRecord {
   uint first_triangle, triangle_count;  // numbers of the frame's triangles, in drawing order
   uint first_index;                     // of the mesh, in `indices`
   uint first_vertex, vertex_count;      // of the mesh, in arrays of all meshes' vertices
+  uint first_position;                  // of the mesh, in the rasteriser's own blocks of 16
   uint first_clip_vertex;
   uint flags;                           // RASTER_TWO_SIDED, RASTER_MIRRORED
   int alpha_material;                   // below 0: opaque

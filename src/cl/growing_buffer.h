@@ -1,0 +1,24 @@
+// Buffers on a device.
+#pragma once
+
+#include "cl/device.h"
+
+namespace lightgrid {
+
+// 64 bytes at least. Throws Error(machine) where the device has not the memory.
+cl::Buffer device_buffer(ClDevice& device, size_t bytes);
+
+// A buffer that is made anew where it is too small; what it held is then lost.
+class GrowingBuffer {
+ public:
+  cl::Buffer& at_least(ClDevice& device, size_t bytes);
+  cl::Buffer& get() { return buffer_; }
+  const cl::Buffer& get() const { return buffer_; }
+  size_t bytes() const { return bytes_; }
+
+ private:
+  cl::Buffer buffer_;
+  size_t bytes_ = 0;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,148 @@
+#include "raster/raster_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr size_t most_numbers = 0xffffffffu - 64;
+constexpr double least_cosine = 0.1;  // of a cone: wider ones face away from next to nothing
+
+glm::dvec3 corner(const RasterMesh& mesh, size_t index) { return mesh.positions[mesh.indices[index]]; }
+
+bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// The cone around the normals of triangles [first, first + count).
+void add_cone(const RasterMesh& mesh, uint32_t first, uint32_t count, RasterCluster& cluster) {
+  std::vector<glm::dvec3> normals;
+  glm::dvec3 sum{0};
+  for (size_t i = 3 * size_t(first); i < 3 * (size_t(first) + count); i += 3) {
+    const glm::dvec3 a = corner(mesh, i), normal = glm::cross(corner(mesh, i + 1) - a, corner(mesh, i + 2) - a);
+    const double length = glm::length(normal);
+    if (!(length > 0)) continue;  // it covers nothing
+    normals.push_back(normal / length);
+    sum += normals.back();
+  }
+  cluster.sine = RASTER_NO_CONE;
+  if (!(glm::length(sum) > 0)) return;
+  const glm::vec3 axis(glm::normalize(sum));
+  double cosine = 1;
+  for (const glm::dvec3& normal : normals) cosine = std::min(cosine, glm::dot(normal, glm::dvec3(axis)));
+  if (!(cosine > least_cosine)) return;
+  cluster.axis_x = axis.x, cluster.axis_y = axis.y, cluster.axis_z = axis.z;
+  cluster.sine = float(std::sqrt(std::max(0.0, 1 - cosine * cosine)) + 1e-5);
+}
+
+RasterCluster cluster_of(const RasterMesh& mesh, uint32_t first, uint32_t count) {
+  RasterCluster cluster{};
+  cluster.first_triangle = first, cluster.count = count;
+  cluster.sine = RASTER_NO_CONE;
+  glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
+  bool finite = true;
+  for (size_t i = 3 * size_t(first); i < 3 * (size_t(first) + count); ++i) {
+    const glm::dvec3 p = corner(mesh, i);
+    finite &= all_finite(p);
+    low = glm::min(low, p), high = glm::max(high, p);
+  }
+  if (!finite) {
+    cluster.half_x = cluster.half_y = cluster.half_z = cluster.radius = HUGE_VALF;
+    return cluster;
+  }
+  const glm::vec3 center((low + high) * 0.5);
+  // Rounded up, from the center as it was rounded.
+  const glm::dvec3 half = glm::max(high - glm::dvec3(center), glm::dvec3(center) - low);
+  const auto up = [](double v) { return std::nextafter(float(v), HUGE_VALF); };
+  double radius = 0;
+  for (size_t i = 3 * size_t(first); i < 3 * (size_t(first) + count); ++i) {
+    radius = std::max(radius, glm::length(corner(mesh, i) - glm::dvec3(center)));
+  }
+  cluster.center_x = center.x, cluster.center_y = center.y, cluster.center_z = center.z;
+  cluster.half_x = up(half.x), cluster.half_y = up(half.y), cluster.half_z = up(half.z);
+  cluster.radius = up(radius);
+  add_cone(mesh, first, count, cluster);
+  return cluster;
+}
+
+void append_positions(std::span<const glm::vec3> positions, std::vector<float>& to) {
+  for (size_t first = 0; first < positions.size(); first += 16) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (size_t i = first; i < first + 16; ++i) to.push_back(i < positions.size() ? positions[i][axis] : 0.0f);
+    }
+  }
+}
+
+}  // namespace
+
+RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
+  RasterMeshes all;
+  size_t indices = 0, vertices = 0;
+  for (size_t m = 0; m < meshes.size(); ++m) {
+    const RasterMesh& mesh = meshes[m];
+    if (mesh.indices.size() % 3 != 0) throw input_error("rasterizer: mesh {}: {} indices are no triangles", m, mesh.indices.size());
+    const auto largest = std::max_element(mesh.indices.begin(), mesh.indices.end());
+    if (largest != mesh.indices.end() && *largest >= mesh.positions.size()) {
+      throw input_error("rasterizer: mesh {}: index {} is past its {} positions", m, *largest, mesh.positions.size());
+    }
+    indices += mesh.indices.size(), vertices += mesh.positions.size() + 15;
+    if (std::max(indices, vertices) > most_numbers) throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
+
+    RasterMeshPlace place;
+    place.first_index = uint32_t(all.indices.size()), place.triangles = uint32_t(mesh.indices.size() / 3);
+    place.first_vertex = all.places.empty() ? 0 : all.places.back().first_vertex + all.places.back().vertices;
+    place.vertices = uint32_t(mesh.positions.size());
+    place.first_position = uint32_t(all.positions.size() / 3);
+    place.first_cluster = uint32_t(all.clusters.size());
+    place.clusters = (place.triangles + RASTER_CLUSTER - 1) / RASTER_CLUSTER;
+    all.places.push_back(place);
+    all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    append_positions(mesh.positions, all.positions);
+    for (uint32_t first = 0; first < place.triangles; first += RASTER_CLUSTER) {
+      all.clusters.push_back(cluster_of(mesh, first, std::min<uint32_t>(RASTER_CLUSTER, place.triangles - first)));
+    }
+  }
+  return all;
+}
+
+RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes) {
+  RasterInstances all;
+  size_t triangles = 0;
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const RasterInstance& instance = instances[i];
+    if (instance.mesh < 0 || size_t(instance.mesh) >= meshes.places.size()) {
+      throw input_error("rasterizer: instance {}: there is no mesh {} of {}", i, instance.mesh, meshes.places.size());
+    }
+    const glm::dmat4& m = instance.world_from_object;
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) {
+        if (!std::isfinite(m[column][row])) throw input_error("rasterizer: instance {}: its matrix holds {}", i, m[column][row]);
+      }
+      if (m[column][3] != (column == 3 ? 1 : 0)) throw input_error("rasterizer: instance {}: its matrix is not affine", i);
+    }
+    const RasterMeshPlace& mesh = meshes.places[instance.mesh];
+    triangles += mesh.triangles;
+    if (std::max(triangles, all.clip_vertices + mesh.vertices) > most_numbers) {
+      throw machine_error("rasterizer: instances have 2^32 triangles or vertices or more");
+    }
+    RasterInstanceRecord record{};
+    record.first_triangle = uint32_t(triangles - mesh.triangles), record.triangle_count = mesh.triangles;
+    record.first_index = mesh.first_index;
+    record.first_vertex = mesh.first_vertex, record.vertex_count = mesh.vertices;
+    record.first_position = mesh.first_position;
+    record.first_clip_vertex = uint32_t(all.clip_vertices);
+    const bool mirrored = glm::determinant(glm::dmat3(m)) < 0;
+    record.flags = (instance.two_sided ? RASTER_TWO_SIDED : 0) | (mirrored ? RASTER_MIRRORED : 0);
+    record.alpha_material = instance.alpha_material;
+    all.records.push_back(record);
+    all.clip_vertices += (mesh.vertices + 15) / 16 * 16;
+    all.triangle_instance.insert(all.triangle_instance.end(), mesh.triangles, uint32_t(i));
+    for (uint32_t v = 0; v < mesh.vertices; v += RASTER_VERTEX_RUN) all.vertex_runs.push_back({uint32_t(i), v});
+    for (uint32_t c = 0; c < mesh.clusters; ++c) all.pairs.push_back({uint32_t(i), mesh.first_cluster + c});
+  }
+  if (all.pairs.size() > most_numbers) throw machine_error("rasterizer: 2^32 clusters or more");
+  return all;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,41 @@
+// Meshes and instances as the kernels read them: plain arrays, made on the host.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "raster/rasterizer.h"
+#include "shared/raster_params.h"
+
+namespace lightgrid {
+
+// Where a mesh lies in the arrays of all meshes.
+struct RasterMeshPlace {
+  uint32_t first_index = 0, triangles = 0;
+  uint32_t first_vertex = 0, vertices = 0;
+  uint32_t first_position = 0;  // multiple of 16
+  uint32_t first_cluster = 0, clusters = 0;
+};
+
+struct RasterMeshes {
+  std::vector<RasterMeshPlace> places;
+  std::vector<uint32_t> indices;
+  std::vector<float> positions;  // blocks of 16 vertices: 16 x, 16 y, 16 z; each mesh begins a block
+  std::vector<RasterCluster> clusters;
+};
+
+// Throws Error(input) that names the mesh.
+RasterMeshes raster_meshes(std::span<const RasterMesh> meshes);
+
+struct RasterInstances {
+  std::vector<RasterInstanceRecord> records;
+  std::vector<uint32_t> triangle_instance;
+  std::vector<std::array<uint32_t, 2>> vertex_runs;  // instance, first vertex
+  std::vector<std::array<uint32_t, 2>> pairs;        // instance, cluster
+  size_t clip_vertices = 0;
+};
+
+// Throws Error(input) that names the instance, Error(machine) where numbers do not fit 32 bits.
+RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes);
+
+}  // namespace lightgrid

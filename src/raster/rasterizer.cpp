@@ -1,0 +1,177 @@
+#include "raster/rasterizer.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "cl/transfer.h"
+#include "raster/raster_pipeline.h"
+#include "raster/raster_scene.h"
+#include "raster/raster_view.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr size_t spare_indices = 48;  // that kernels may read past the last
+constexpr uint32_t first_entries_a_tile = 64;
+
+template <typename T>
+void upload(ClDevice& device, GrowingBuffer& buffer, const std::vector<T>& values, size_t spare = 0) {
+  buffer.at_least(device, (values.size() + spare) * sizeof(T));
+  if (!values.empty()) write_buffer(device, "rasterizer: scene", buffer.get(), values.data(), values.size() * sizeof(T));
+}
+
+// What must stay the same for triangle numbers to stay.
+bool same_layout(const RasterInstance& a, const RasterInstance& b) {
+  return a.mesh == b.mesh && a.two_sided == b.two_sided && a.alpha_material == b.alpha_material &&
+         (glm::determinant(glm::dmat3(a.world_from_object)) < 0) == (glm::determinant(glm::dmat3(b.world_from_object)) < 0);
+}
+
+}  // namespace
+
+struct Rasterizer::State {
+  State(ClDevice& device, ProgramCache& programs, const RasterOptions& options) : device(device), options(options) {
+    if (options.shape == KernelShape::group || (options.shape == KernelShape::automatic && !device.info().cpu)) {
+      throw machine_error("rasterizer: {} has no kernels of its own yet; take a CPU", device.info().name);
+    }
+    pipeline = make_raster_lanes_pipeline(device, programs, options.portable);
+    params_buffer = device_buffer(device, sizeof(RasterParams));
+    counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
+  }
+
+  void upload_instances();
+  void run(uint32_t (&counted)[RASTER_COUNTERS]);
+  // Whether it was short, after which there is more.
+  bool grow_room(const uint32_t (&counted)[RASTER_COUNTERS]);
+
+  ClDevice& device;
+  const RasterOptions options;
+  std::unique_ptr<RasterPipeline> pipeline;
+  RasterMeshes meshes;  // indices and positions are on the device alone
+  std::vector<RasterInstance> instances;
+  std::optional<RasterView> view;
+  RasterParams params{};
+  uint32_t vertex_runs = 0, pairs = 0;
+  uint32_t triangles = 0;
+  RasterCounts counts;
+  RasterBuffers shown;
+
+  GrowingBuffer positions, indices, clusters, records, triangle_instance, runs, pair_list, frame, clip, image_triangles, image_depths;
+  cl::Buffer params_buffer, counters;
+};
+
+Rasterizer::Rasterizer(ClDevice& device, ProgramCache& programs, const RasterOptions& options)
+    : state_(std::make_unique<State>(device, programs, options)) {}
+Rasterizer::~Rasterizer() = default;
+Rasterizer::Rasterizer(Rasterizer&&) noexcept = default;
+
+void Rasterizer::set_meshes(std::span<const RasterMesh> meshes) {
+  State& s = *state_;
+  RasterMeshes made = raster_meshes(meshes);
+  set_instances({});
+  upload(s.device, s.indices, made.indices, spare_indices);
+  upload(s.device, s.positions, made.positions);
+  upload(s.device, s.clusters, made.clusters);
+  made.indices = {}, made.positions = {}, made.clusters = {};
+  s.meshes = std::move(made);
+  s.shown.indices = s.indices.get();
+}
+
+void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
+  State& s = *state_;
+  const RasterInstances made = raster_instances(instances, s.meshes);
+  const bool same = !instances.empty() && instances.size() == s.instances.size() &&
+                    std::equal(instances.begin(), instances.end(), s.instances.begin(), same_layout);
+  s.instances.assign(instances.begin(), instances.end());
+  if (same) return;
+  s.vertex_runs = uint32_t(made.vertex_runs.size()), s.pairs = uint32_t(made.pairs.size());
+  s.triangles = uint32_t(made.triangle_instance.size());
+  upload(s.device, s.records, made.records);
+  upload(s.device, s.triangle_instance, made.triangle_instance);
+  upload(s.device, s.runs, made.vertex_runs);
+  upload(s.device, s.pair_list, made.pairs);
+  s.clip.at_least(s.device, made.clip_vertices * sizeof(cl_float4));
+  s.shown.instances = s.records.get(), s.shown.triangle_instance = s.triangle_instance.get(), s.shown.clip = s.clip.get();
+}
+
+void Rasterizer::set_view(const RasterView& view) {
+  check_raster_view(view);
+  state_->view = view;
+}
+
+void Rasterizer::State::upload_instances() {
+  std::vector<RasterFrameInstance> values;
+  values.reserve(instances.size());
+  for (const RasterInstance& i : instances) values.push_back(raster_frame_instance(*view, i.world_from_object, i.two_sided));
+  upload(device, frame, values);
+}
+
+void Rasterizer::State::run(uint32_t (&counted)[RASTER_COUNTERS]) {
+  write_buffer(device, "rasterizer: params", params_buffer, &params, sizeof params);
+  pipeline->prepare(params);
+  pipeline->enqueue({params, params_buffer, positions.get(), indices.get(), clusters.get(), records.get(), runs.get(),
+                     pair_list.get(), frame.get(), clip.get(), image_triangles.get(), image_depths.get(), counters});
+  read_buffer(device, "rasterizer: counters", counters, counted, sizeof counted);
+}
+
+bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
+  const uint64_t entries = counted[RASTER_ENTRIES] | uint64_t(counted[RASTER_ENTRIES + 1]) << 32, blocks = counted[RASTER_BLOCKS];
+  const size_t largest = device.info().max_allocation_bytes;
+  // A quarter more than was asked for, since views move.
+  const auto grow = [&](uint64_t wanted, size_t bytes_each, const char* what, uint32_t& room) {
+    const uint64_t most = std::min<uint64_t>(0xffffffffu / RASTER_BLOCK * (bytes_each == sizeof(cl_uint) ? RASTER_BLOCK : 1), largest / bytes_each);
+    if (wanted > most) throw machine_error("rasterizer: {} {} need more memory than {} allows", wanted, what, device.info().name);
+    room = uint32_t(std::min(most, wanted + wanted / 4));
+  };
+  if (blocks > params.record_blocks) {
+    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), "blocks of 256 triangles in view", params.record_blocks);
+    return true;
+  }
+  if (entries > params.entry_capacity) {
+    grow(entries, sizeof(cl_uint), "pairs of a triangle and a tile", params.entry_capacity);
+    return true;
+  }
+  return false;
+}
+
+Visibility Rasterizer::draw() {
+  State& s = *state_;
+  if (!s.view) throw input_error("rasterizer: set_view has to come before draw");
+  const RasterView& view = *s.view;
+  const uint32_t blocks = s.params.record_blocks, entries = s.params.entry_capacity;
+  s.params = raster_params(view);
+  s.params.pairs = s.pairs, s.params.vertex_runs = s.vertex_runs;
+  s.params.cones = s.options.cluster_cones;
+  s.params.chunks = s.pipeline->chunks(s.params);
+  // What the last frame had, or a guess.
+  s.params.record_blocks = std::max(blocks, s.params.chunks);
+  s.params.entry_capacity = std::max(entries, s.params.tiles_x * s.params.tiles_y * first_entries_a_tile);
+  const size_t pixels = size_t(view.width) * view.height;
+  s.image_triangles.at_least(s.device, pixels * sizeof(cl_uint));
+  s.image_depths.at_least(s.device, pixels * sizeof(cl_float));
+  s.upload_instances();
+
+  s.counts = {};
+  uint32_t counted[RASTER_COUNTERS];
+  for (s.run(counted); s.grow_room(counted); s.run(counted)) ++s.counts.redone;
+  s.counts.triangles = s.triangles;
+  s.counts.clusters = counted[RASTER_VISIBLE], s.counts.records = counted[RASTER_RECORDS];
+  s.counts.tile_entries = counted[RASTER_ENTRIES];
+  s.counts.invalid_triangles = counted[RASTER_INVALID];
+  return {s.image_triangles.get(), s.image_depths.get(), view.width, view.height};
+}
+
+const RasterBuffers& Rasterizer::buffers() const { return state_->shown; }
+const RasterCounts& Rasterizer::counts() const { return state_->counts; }
+
+size_t Rasterizer::memory_bytes() const {
+  const State& s = *state_;
+  size_t bytes = s.pipeline->memory_bytes() + sizeof(RasterParams) + RASTER_COUNTERS * sizeof(cl_uint);
+  for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.clusters, &s.records, &s.triangle_instance, &s.runs, &s.pair_list,
+                                 &s.frame, &s.clip, &s.image_triangles, &s.image_depths}) {
+    bytes += b->bytes();
+  }
+  return bytes;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,160 @@
+#include "reference/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightgrid {
+namespace {
+
+constexpr double half_ulp_at_one = 0x1p-24;
+constexpr double least_depth = 0x1p-126;  // less is not drawn
+constexpr double guard_units = 16368 * 256;
+constexpr int units_a_pixel = 256;  // a pixel
+
+bool finite_corner(const glm::vec4& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+// The five half-spaces that a triangle is cut to, in turn: 0 or more inside. Each is one float operation on float values.
+using CutPlane = float (*)(const glm::vec4& v, float guard_x, float guard_y);
+constexpr CutPlane cut_planes[] = {
+    [](const glm::vec4& v, float, float) { return v.w - v.z; },
+    [](const glm::vec4& v, float guard_x, float) { return std::fma(guard_x, v.w, -v.x); },
+    [](const glm::vec4& v, float guard_x, float) { return std::fma(guard_x, v.w, v.x); },
+    [](const glm::vec4& v, float, float guard_y) { return std::fma(guard_y, v.w, -v.y); },
+    [](const glm::vec4& v, float, float guard_y) { return std::fma(guard_y, v.w, v.y); },
+};
+
+// Where the segment from a point inside to one outside leaves the half-space.
+glm::vec4 cut_point(const glm::vec4& inside, float d_inside, const glm::vec4& outside, float d_outside) {
+  const float t = d_inside / (d_inside - d_outside);
+  glm::vec4 point;
+  for (int i = 0; i < 4; ++i) point[i] = std::fma(t, outside[i] - inside[i], inside[i]);
+  return point;
+}
+
+std::vector<glm::vec4> cut_polygon(const std::vector<glm::vec4>& polygon, CutPlane plane, float guard_x, float guard_y) {
+  std::vector<glm::vec4> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::vec4 &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+    const float d_here = plane(here, guard_x, guard_y), d_next = plane(next, guard_x, guard_y);
+    const bool in = d_here >= 0, next_in = d_next >= 0;
+    if (in) kept.push_back(here);
+    if (in && !next_in) kept.push_back(cut_point(here, d_here, next, d_next));
+    if (!in && next_in) kept.push_back(cut_point(next, d_next, here, d_here));
+  }
+  return kept;
+}
+
+long double depth_of(const glm::vec4& v) { return std::min((long double)(v.z) / v.w, 1.0L); }
+
+// Twice the signed area, in units squared: below 2^49.
+int64_t twice_area_of(const SnappedPoint& a, const SnappedPoint& b, const SnappedPoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+}
+
+}  // namespace
+
+int winding_at(const std::array<SnappedPoint, 3>& triangle, int x, int y) {
+  const int64_t sample_x = int64_t(x) * units_a_pixel + units_a_pixel / 2, sample_y = int64_t(y) * units_a_pixel + units_a_pixel / 2;
+  int winding = 0;
+  for (int i = 0; i < 3; ++i) {
+    const SnappedPoint &from = triangle[i], &to = triangle[(i + 1) % 3];
+    // The sample lies just below its row: a corner on the row is above.
+    const bool from_above = from.y >= sample_y, to_above = to.y >= sample_y;
+    if (from_above == to_above) continue;
+    // It also lies just right of its column: the half-line towards the right misses a crossing on the column.
+    const SnappedPoint &low = from_above ? to : from, &high = from_above ? from : to;
+    const bool crossed = (high.x - low.x) * (sample_y - low.y) > (sample_x - low.x) * (high.y - low.y);
+    if (crossed) winding += to_above ? 1 : -1;
+  }
+  return winding;
+}
+
+SnappedPoint snapped(const glm::vec4& clip, int width, int height) {
+  // The quotient of two floats in double, rounded to float, is the float quotient.
+  const float per_w = float(1.0 / double(clip.w));
+  const auto units = [&](float ndc_w, int size) {
+    const float ndc = ndc_w * per_w, half = float(size * (units_a_pixel / 2));
+    return int64_t(std::llrint(double(std::fma(ndc, half, half))));
+  };
+  return {units(clip.x, width), units(clip.y, height)};
+}
+
+std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width, int height) {
+  const float guard_x = float(guard_units / (units_a_pixel / 2)) / float(width);
+  const float guard_y = float(guard_units / (units_a_pixel / 2)) / float(height);
+  std::vector<glm::vec4> polygon(clip.begin(), clip.end());
+  if (!std::all_of(polygon.begin(), polygon.end(), finite_corner)) return {};
+  for (const CutPlane plane : cut_planes) polygon = cut_polygon(polygon, plane, guard_x, guard_y);
+  for (const glm::vec4& v : polygon) {
+    if (!finite_corner(v) || !(v.w >= 0x1p-126f)) return {};
+  }
+  return polygon;
+}
+
+void CoverageOracle::add(const CoverageTriangle& triangle) {
+  const auto polygon = cut_triangle(triangle.clip, width_, height_);
+  if (!polygon) ++invalid_;
+  if (polygon) {
+    for (size_t i = 2; i < polygon->size(); ++i) add_part({(*polygon)[0], (*polygon)[i - 1], (*polygon)[i]}, triangle);
+  }
+  ++count_;
+}
+
+void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const CoverageTriangle& triangle) {
+  std::array<SnappedPoint, 3> p;
+  for (int i = 0; i < 3; ++i) p[i] = snapped(clip[i], width_, height_);
+  const int64_t twice_area = twice_area_of(p[0], p[1], p[2]);
+  const bool front = triangle.mirrored ? twice_area < 0 : twice_area > 0;
+  if (twice_area == 0 || (!front && !triangle.two_sided)) return;
+
+  const long double z[3] = {depth_of(clip[0]), depth_of(clip[1]), depth_of(clip[2])};
+  const auto [least, most] = std::minmax({z[0], z[1], z[2]});
+  const long double size = std::max(std::abs(least), std::abs(most));
+  const long double gradient_x = ((z[1] - z[0]) * (p[2].y - p[0].y) - (z[2] - z[0]) * (p[1].y - p[0].y)) / twice_area;
+  const long double gradient_y = ((z[2] - z[0]) * (p[1].x - p[0].x) - (z[1] - z[0]) * (p[2].x - p[0].x)) / twice_area;
+
+  const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+  const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
+  const auto pixel = [](int64_t units, int most) { return int(std::clamp<int64_t>(units / units_a_pixel, 0, most)); };
+  for (int y = pixel(bottom, height_ - 1); y <= pixel(top, height_ - 1); ++y) {
+    for (int x = pixel(left, width_ - 1); x <= pixel(right, width_ - 1); ++x) {
+      if (winding_at(p, x, y) == 0) continue;
+      const SnappedPoint centre{int64_t(x) * units_a_pixel + units_a_pixel / 2, int64_t(y) * units_a_pixel + units_a_pixel / 2};
+      const long double weighted = z[0] * twice_area_of(centre, p[1], p[2]) + z[1] * twice_area_of(p[0], centre, p[2]) + z[2] * twice_area_of(p[0], p[1], centre);
+      const long double slope = std::abs(gradient_x * (centre.x - p[0].x)) + std::abs(gradient_y * (centre.y - p[0].y));
+      CoveredPixel covered;
+      covered.triangle = count_;
+      covered.depth = double(weighted / twice_area);
+      covered.bound = double(std::min(8 * half_ulp_at_one * (slope + size), (most - least) + 4 * half_ulp_at_one * size));
+      std::vector<CoveredPixel>& here = pixels_[size_t(y) * width_ + x];
+      if (here.empty() || here.back().triangle != count_) {
+        here.push_back(covered);
+      } else if (covered.depth > here.back().depth) {
+        here.back() = covered;
+      }
+    }
+  }
+}
+
+std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle, float depth) {
+  const CoveredPixel* shown = nullptr;
+  for (const CoveredPixel& c : covered) {
+    if (c.triangle == triangle) shown = &c;
+    if (c.depth - c.bound > std::max<double>(depth, least_depth)) {
+      return fmt::format("triangle {} at depth {} lies in front of triangle {} at {}", c.triangle, c.depth, int32_t(triangle), depth);
+    }
+  }
+  if (triangle == 0xffffffffu) return depth == 0 ? "" : fmt::format("no triangle, but depth {}", depth);
+  if (!shown) return fmt::format("triangle {} does not cover the pixel", triangle);
+  if (std::abs(depth - shown->depth) > shown->bound) {
+    return fmt::format("triangle {} has depth {}, {} off {} where {} is allowed", triangle, depth, std::abs(depth - shown->depth),
+                       shown->depth, shown->bound);
+  }
+  return {};
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,69 @@
+// The oracle of rasterising: which triangles cover a pixel's centre, in exact integers, and their depths there in extended
+// precision. What is to be drawn is written down in docs/raster.md; this shares no code with the kernels.
+//
+// Given are positions in clip space as the transform left them. Snapping to 1/256 pixel and cutting at the near plane and
+// the guard band are done again here. Coverage counts the crossings of a half-line with the outline, where kernels take
+// signs of edge functions: the top-left rule is the limit of a sample moved right and, far less, down. Depth is a weighted
+// mean, where kernels evaluate a plane.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lightgrid {
+
+struct CoverageTriangle {
+  std::array<glm::vec4, 3> clip;  // counter-clockwise from the front
+  bool two_sided = false;
+  bool mirrored = false;  // clockwise from the front instead
+};
+
+// One triangle at one pixel.
+struct CoveredPixel {
+  uint32_t triangle = 0;
+  double depth = 0;  // exact to 2^-60 or so
+  double bound = 0;  // how far from it a float depth as docs/raster.md has it may lie
+};
+
+// 1/256 pixel from the image's lower left corner.
+struct SnappedPoint {
+  int64_t x = 0, y = 0;
+  bool operator==(const SnappedPoint&) const = default;
+};
+
+// Whether the outline of the triangle winds around the centre of a pixel: 1 counter-clockwise, -1 clockwise, 0 not at all.
+int winding_at(const std::array<SnappedPoint, 3>& triangle, int x, int y);
+
+// Where a vertex in front of the eye and within the guard band is snapped to.
+SnappedPoint snapped(const glm::vec4& clip, int width, int height);
+
+// What cutting leaves of a triangle: 0 corners, or 3 and more; nothing where one is not finite, before or after.
+std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width, int height);
+
+class CoverageOracle {
+ public:
+  CoverageOracle(int width, int height) : width_(width), height_(height), pixels_(size_t(width) * height) {}
+  // Triangles are numbered in the order of these calls.
+  void add(const CoverageTriangle& triangle);
+
+  // All that cover the pixel, in the order of their numbers; a triangle once, with its nearest part where it was cut.
+  const std::vector<CoveredPixel>& at(int x, int y) const { return pixels_[size_t(y) * width_ + x]; }
+  uint32_t invalid_triangles() const { return invalid_; }
+
+ private:
+  void add_part(const std::array<glm::vec4, 3>& clip, const CoverageTriangle& triangle);
+
+  int width_, height_;
+  uint32_t count_ = 0, invalid_ = 0;
+  std::vector<std::vector<CoveredPixel>> pixels_;
+};
+
+// What is wrong with a pixel that shows `triangle` (0xffffffff: none) at `depth`, in words; empty: nothing. It may show what is
+// nearest, or may be nearest as far as the bounds of the depths say.
+std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle, float depth);
+
+}  // namespace lightgrid
