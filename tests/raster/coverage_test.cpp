@@ -1,0 +1,257 @@
+// The rasteriser's pixels against the coverage oracle, one by one.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "raster/drawn.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr int sizes[][2] = {{1, 1}, {17, 9}, {64, 64}, {65, 63}, {200, 130}};
+
+RasterScene scene_of(const RasterView& view) {
+  RasterScene scene;
+  scene.view = view;
+  scene.meshes.resize(1);
+  scene.instances.push_back({.mesh = 0});
+  return scene;
+}
+
+// `kind` 0: any; 1: small; 2: slivers; 3: corners on pixel centres and corners; 4: across the near plane; 5: huge.
+void add_random_triangle(RandomNumbers& random, int kind, RasterScene& scene) {
+  const RasterView& view = scene.view;
+  const double x = random.between(-0.3, 1.3) * view.width, y = random.between(-0.3, 1.3) * view.height;
+  const double reach = kind == 1 ? 3 : kind == 5 ? 1e6 : 0.6 * std::max(view.width, view.height);
+  glm::vec3 corners[3];
+  for (int k = 0; k < 3; ++k) {
+    double px = x + random.between(-reach, reach), py = y + random.between(-reach, reach);
+    if (kind == 2) px = x + (k == 0 ? -reach : reach), py = y + (k == 0 ? 1 : k == 1 ? -1 : -1.01) * random.between(0, 1) * reach;
+    if (kind == 3) px = std::round(px * 2) / 2, py = std::round(py * 2) / 2;
+    const double w = std::exp(random.between(std::log(0.1), std::log(1000.0)));
+    corners[k] = at(view, px, py, kind == 3 ? std::exp2(std::round(std::log2(w)) + 1) : w);
+    if (kind == 4) corners[k] = glm::vec3(random.between(-5, 5), random.between(-5, 5), random.between(-5, 5));
+  }
+  add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
+}
+
+class RasterCoverage : public testing::TestWithParam<bool> {
+ protected:
+  RasterOptions options() const { return {.portable = GetParam()}; }
+};
+
+TEST_P(RasterCoverage, RandomTrianglesOfEachKind) {
+  size_t covered = 0;
+  for (int kind = 0; kind < 6; ++kind) {
+    for (const auto& [width, height] : sizes) {
+      SCOPED_TRACE(fmt::format("kind {}, {} x {}", kind, width, height));
+      RandomNumbers random(uint32_t(100 * kind + width));
+      for (const bool two_sided : {false, true}) {
+        RasterScene scene = scene_of(plain_view(width, height));
+        scene.instances[0].two_sided = two_sided;
+        for (int i = 0; i < 150; ++i) add_random_triangle(random, kind, scene);
+        const Drawn result = drawn(scene, options());
+        ASSERT_EQ(count_wrong(result, oracle_of(result, scene)), 0);
+        covered += result.covered();
+      }
+    }
+  }
+  EXPECT_GT(covered, 50000u) << "little was drawn";
+}
+
+TEST_P(RasterCoverage, OneTriangleAtATimeHasExactlyItsPixels) {
+  RandomNumbers random(7);
+  for (int i = 0; i < 200; ++i) {
+    RasterScene scene = scene_of(i % 2 ? plain_view(70, 66) : plain_view(33, 130));
+    scene.instances[0].two_sided = true;
+    add_random_triangle(random, i % 6, scene);
+    SCOPED_TRACE(i);
+    const Drawn result = drawn(scene, options());
+    ASSERT_EQ(count_wrong(result, oracle_of(result, scene)), 0);
+  }
+}
+
+TEST_P(RasterCoverage, LargerView) {
+  RandomNumbers random(3);
+  RasterScene scene = scene_of(plain_view(1279, 721));
+  for (int i = 0; i < 60; ++i) add_random_triangle(random, i % 6, scene);
+  expect_right(scene, options());
+}
+
+TEST_P(RasterCoverage, OrthographicViewsWithANearAndAFarPlane) {
+  RandomNumbers random(5);
+  RasterScene scene = scene_of(flat_view(100, 75));
+  scene.instances[0].two_sided = true;
+  for (int i = 0; i < 200; ++i) {
+    const auto corner = [&] { return glm::vec3(random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.5, 0.5)); };
+    const glm::vec3 a = corner(), b = corner(), c = corner();
+    add_triangle(scene.meshes[0], a, b, c);
+  }
+  expect_right(scene, options());
+}
+
+TEST_P(RasterCoverage, TurnedMovedScaledAndMirroredInstances) {
+  RandomNumbers random(11);
+  RasterScene scene;
+  scene.view = plain_view(160, 90);
+  scene.view.eye = {1e5, -3, 7};
+  for (int m = 0; m < 3; ++m) {
+    scene.meshes.emplace_back();
+    for (int i = 0; i < 20 + 33 * m; ++i) {
+      const auto corner = [&] { return glm::vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)); };
+      const glm::vec3 a = corner(), b = corner(), c = corner();
+      add_triangle(scene.meshes.back(), a, b, c);
+    }
+  }
+  for (int i = 0; i < 12; ++i) {
+    glm::dmat4 m(1);
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) m[c][r] = random.between(-1, 1);
+    }
+    m[3] = {1e5 + random.between(-4, 4), -3 + random.between(-3, 3), 7 - random.between(1, 8), 1};
+    scene.instances.push_back({.mesh = i % 3, .world_from_object = m, .two_sided = i % 4 == 3});
+  }
+  const Drawn result = drawn(scene, options());
+  EXPECT_EQ(count_wrong(result, oracle_of(result, scene)), 0);
+  EXPECT_GT(result.covered(), 5000u);
+}
+
+// A mesh of triangles over the whole image and beyond, its inner vertices anywhere near their place.
+RasterScene sheet(const RasterView& view, int cells, uint32_t seed, bool on_centres) {
+  RandomNumbers random(seed);
+  RasterScene scene = scene_of(view);
+  RasterScene::MeshData& mesh = scene.meshes[0];
+  for (int y = 0; y <= cells; ++y) {
+    for (int x = 0; x <= cells; ++x) {
+      // A little more than the image; vertices move by less than a quarter of a cell, so that no triangle turns over.
+      double px = (double(x) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.width;
+      double py = (double(y) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.height;
+      if (on_centres) px = std::floor(px) + 0.5, py = std::floor(py) + 0.5;
+      mesh.positions.push_back(at(view, px, py, on_centres ? 1.0 : random.between(1, 1.1)));
+    }
+  }
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      const uint32_t a = uint32_t(y * (cells + 1) + x), b = a + 1, c = a + uint32_t(cells) + 1, d = c + 1;
+      for (const uint32_t i : {a, b, d, a, d, c}) mesh.indices.push_back(i);
+    }
+  }
+  return scene;
+}
+
+// Every triangle of `scene` in one of `count` scenes of its own.
+std::vector<RasterScene> dealt_out(const RasterScene& scene, size_t count) {
+  std::vector<RasterScene> parts(count, scene);
+  for (size_t part = 0; part < count; ++part) {
+    std::vector<uint32_t>& indices = parts[part].meshes[0].indices;
+    indices.clear();
+    const std::vector<uint32_t>& all = scene.meshes[0].indices;
+    for (size_t i = 3 * part; i < all.size(); i += 3 * count) indices.insert(indices.end(), &all[i], &all[i] + 3);
+  }
+  return parts;
+}
+
+TEST_P(RasterCoverage, TrianglesThatShareEdgesLeaveNoPixelOutAndClaimNoneTwice) {
+  for (const bool on_centres : {false, true}) {
+    const RasterScene scene = sheet(plain_view(150, 140), 23, 5, on_centres);
+    const Drawn whole = drawn(scene, options());
+    EXPECT_EQ(whole.covered(), whole.triangles.size());
+    EXPECT_EQ(count_wrong(whole, oracle_of(whole, scene)), 0);
+    // Two triangles that share an edge or a corner are never in one of 11 parts, so that claims add up.
+    size_t claims = 0;
+    for (const RasterScene& part : dealt_out(scene, 11)) claims += drawn(part, options()).covered();
+    EXPECT_EQ(claims, whole.triangles.size());
+  }
+}
+
+// A floor and a ceiling that begin behind the eye, in triangles of any shape: none may gape where the near plane and the guard
+// band cut them.
+TEST_P(RasterCoverage, CutTrianglesMeetTheirNeighbours) {
+  RandomNumbers random(2);
+  RasterScene scene = scene_of(plain_view(123, 140, 0.01));
+  RasterScene::MeshData& mesh = scene.meshes[0];
+  constexpr int cells = 12;
+  for (int y = 0; y <= cells; ++y) {
+    for (int x = 0; x <= cells; ++x) {
+      const double across = (x - cells * 0.5 + random.between(-0.3, 0.3)) * 1000, along = (y - cells * 0.5 + random.between(-0.3, 0.3)) * 800;
+      mesh.positions.push_back(glm::vec3(across, -0.05, along));
+    }
+  }
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      const uint32_t a = uint32_t(y * (cells + 1) + x), b = a + 1, c = a + cells + 1, d = c + 1;
+      for (const uint32_t i : {a, c, b, b, c, d}) mesh.indices.push_back(i);
+    }
+  }
+  const Drawn whole = drawn(scene, options());
+  EXPECT_EQ(count_wrong(whole, oracle_of(whole, scene)), 0);
+  size_t holes = 0, below_horizon = 0;
+  for (int y = 0; y < 65; ++y) {  // the horizon is at row 70; the mesh ends thousands of metres away
+    for (int x = 0; x < whole.width; ++x) holes += whole.triangles[size_t(y) * whole.width + x] == no_triangle, ++below_horizon;
+  }
+  EXPECT_EQ(holes, 0u);
+  size_t claims = 0;
+  for (const RasterScene& part : dealt_out(scene, 11)) {
+    const Drawn some = drawn(part, options());
+    claims += size_t(std::count_if(some.triangles.begin(), some.triangles.begin() + 65 * whole.width, [](uint32_t t) { return t != no_triangle; }));
+  }
+  EXPECT_EQ(claims, below_horizon);
+}
+
+TEST_P(RasterCoverage, AFanOfAThousandSliversAroundAPixelsCentre) {
+  RasterScene scene = scene_of(plain_view(131, 127));
+  RasterScene::MeshData& mesh = scene.meshes[0];
+  constexpr int count = 1000;
+  mesh.positions.push_back(at(scene.view, 65.5, 60.5, 2));
+  for (int i = 0; i < count; ++i) {
+    const double angle = i * 6.283185307179586 / count;
+    mesh.positions.push_back(at(scene.view, 65.5 + 300 * std::cos(angle), 60.5 + 300 * std::sin(angle), 3));
+    for (const int k : {0, 1 + i, 1 + (i + 1) % count}) mesh.indices.push_back(uint32_t(k));
+  }
+  const Drawn whole = drawn(scene, options());
+  EXPECT_EQ(whole.covered(), whole.triangles.size());
+  const CoverageOracle oracle = oracle_of(whole, scene);
+  EXPECT_EQ(count_wrong(whole, oracle), 0);
+  for (int y = 0; y < whole.height; ++y) {
+    for (int x = 0; x < whole.width; ++x) ASSERT_EQ(oracle.at(x, y).size(), 1u) << x << " " << y;
+  }
+}
+
+TEST_P(RasterCoverage, CornersThatAreNoNumbersOrFarTooLarge) {
+  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN(), most = std::numeric_limits<float>::max();
+  RasterScene scene = scene_of(plain_view(50, 40));
+  scene.instances[0].two_sided = true;
+  for (const float strange : {inf, -inf, nan, most, -most, 1e30f, -1e30f, 1e-40f, 0.0f}) {
+    for (int part = 0; part < 3; ++part) {
+      for (int corner = 0; corner < 3; ++corner) {
+        glm::vec3 corners[3] = {at(scene.view, 5, 4, 3), at(scene.view, 45, 8, 4), at(scene.view, 20, 35, 5)};
+        corners[corner][part] = strange;
+        add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
+      }
+    }
+  }
+  const Drawn result = drawn(scene, options());
+  const CoverageOracle oracle = oracle_of(result, scene);
+  EXPECT_EQ(count_wrong(result, oracle), 0);
+  EXPECT_EQ(result.counts.invalid_triangles, oracle.invalid_triangles());
+  EXPECT_GE(result.counts.invalid_triangles, 27u);
+}
+
+TEST_P(RasterCoverage, TrianglesThroughTheEye) {
+  RandomNumbers random(9);
+  RasterScene scene = scene_of(plain_view(90, 70));
+  scene.instances[0].two_sided = true;
+  for (int i = 0; i < 200; ++i) {
+    const auto corner = [&] { return glm::vec3(random.below(3) - 1, random.below(3) - 1, random.below(3) - 1); };
+    const glm::vec3 a = corner(), b = corner(), c = corner();
+    add_triangle(scene.meshes[0], a, b, c);
+  }
+  expect_right(scene, options());
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtins, RasterCoverage, testing::Values(false, true),
+                         [](const auto& info) { return info.param ? "Portable" : "Tuned"; });
+
+}  // namespace
+}  // namespace lightgrid

@@ -1,0 +1,157 @@
+// What the rasteriser draws, on the host, and what the coverage oracle says of it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "cl/transfer.h"
+#include "raster/rasterizer.h"
+#include "reference/coverage.h"
+
+namespace lightgrid {
+
+inline ClDevice& raster_device() {
+  static ClDevice* const device = new ClDevice;
+  return *device;
+}
+
+inline ProgramCache& raster_programs() {
+  static ProgramCache* const programs = new ProgramCache(raster_device());
+  return *programs;
+}
+
+struct RasterScene {
+  struct MeshData {
+    std::vector<glm::vec3> positions;
+    std::vector<uint32_t> indices;
+  };
+  std::vector<MeshData> meshes;
+  std::vector<RasterInstance> instances;
+  RasterView view;
+};
+
+// A view with its eye at the origin, whose clip space is (x, y, near, -z) of the position: x = y = -z are the image's corner.
+inline RasterView plain_view(int width, int height, double near = 0.1) {
+  RasterView view{width, height, glm::dmat4(0), glm::dmat4(1), glm::dvec3(0)};
+  view.clip_from_view[0][0] = view.clip_from_view[1][1] = 1;
+  view.clip_from_view[2][3] = -1;
+  view.clip_from_view[3][2] = near;
+  return view;
+}
+
+// Orthographic: clip space is (x, y, z + 1, 1), for z from -1 to 0.
+inline RasterView flat_view(int width, int height) {
+  RasterView view{width, height, glm::dmat4(1), glm::dmat4(1), glm::dvec3(0)};
+  view.clip_from_view[3][2] = 1;
+  return view;
+}
+
+// Where plain_view has pixel (x, y) at distance w.
+inline glm::vec3 at(const RasterView& view, double x, double y, double w) {
+  return glm::vec3((2 * x / view.width - 1) * w, (2 * y / view.height - 1) * w, -w);
+}
+
+struct Drawn {
+  int width = 0, height = 0;
+  std::vector<uint32_t> triangles;
+  std::vector<float> depths;
+  std::vector<glm::vec4> clip;
+  std::vector<RasterInstanceRecord> instances;
+  RasterCounts counts;
+
+  bool same_image(const Drawn& other) const {
+    return triangles == other.triangles && std::memcmp(depths.data(), other.depths.data(), depths.size() * sizeof(float)) == 0;
+  }
+  size_t covered() const {
+    return size_t(std::count_if(triangles.begin(), triangles.end(), [](uint32_t t) { return t != no_triangle; }));
+  }
+};
+
+template <typename T>
+std::vector<T> read_all(const cl::Buffer& from, size_t count) {
+  std::vector<T> values(count);
+  if (count != 0) read_buffer(raster_device(), "test", from, values.data(), count * sizeof(T));
+  return values;
+}
+
+inline void set_scene(Rasterizer& rasterizer, const RasterScene& scene) {
+  std::vector<RasterMesh> meshes;
+  for (const RasterScene::MeshData& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
+  rasterizer.set_meshes(meshes);
+  rasterizer.set_instances(scene.instances);
+  rasterizer.set_view(scene.view);
+}
+
+inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene) {
+  const Visibility visibility = rasterizer.draw();
+  Drawn drawn{visibility.width, visibility.height, {}, {}, {}, {}, rasterizer.counts()};
+  const size_t pixels = size_t(drawn.width) * drawn.height;
+  drawn.triangles = read_all<uint32_t>(visibility.triangle, pixels);
+  drawn.depths = read_all<float>(visibility.depth, pixels);
+  drawn.instances = read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size());
+  size_t vertices = 0;
+  for (const RasterInstanceRecord& i : drawn.instances) vertices = i.first_clip_vertex + size_t(i.vertex_count);
+  drawn.clip = read_all<glm::vec4>(rasterizer.buffers().clip, vertices);
+  return drawn;
+}
+
+inline Drawn drawn(const RasterScene& scene, const RasterOptions& options = {}) {
+  Rasterizer rasterizer(raster_device(), raster_programs(), options);
+  set_scene(rasterizer, scene);
+  return drawn_by(rasterizer, scene);
+}
+
+// The oracle on the clip-space positions that the kernels made.
+inline CoverageOracle oracle_of(const Drawn& drawn, const RasterScene& scene) {
+  CoverageOracle oracle(drawn.width, drawn.height);
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    const std::vector<uint32_t>& indices = scene.meshes[scene.instances[i].mesh].indices;
+    const glm::vec4* const clip = drawn.clip.data() + drawn.instances[i].first_clip_vertex;
+    const bool mirrored = glm::determinant(glm::dmat3(scene.instances[i].world_from_object)) < 0;
+    for (size_t k = 0; k < indices.size(); k += 3) {
+      oracle.add({{clip[indices[k]], clip[indices[k + 1]], clip[indices[k + 2]]}, scene.instances[i].two_sided, mirrored});
+    }
+  }
+  return oracle;
+}
+
+// Every pixel against the oracle; says the first few that are wrong.
+inline int count_wrong(const Drawn& drawn, const CoverageOracle& oracle) {
+  int wrong = 0;
+  for (int y = 0; y < drawn.height; ++y) {
+    for (int x = 0; x < drawn.width; ++x) {
+      const size_t i = size_t(y) * drawn.width + x;
+      const std::string why = wrong_at(oracle.at(x, y), drawn.triangles[i], drawn.depths[i]);
+      if (!why.empty() && ++wrong <= 5) ADD_FAILURE() << "pixel " << x << " " << y << ": " << why;
+    }
+  }
+  return wrong;
+}
+
+inline void expect_right(const RasterScene& scene, const RasterOptions& options = {}) {
+  const Drawn result = drawn(scene, options);
+  EXPECT_EQ(count_wrong(result, oracle_of(result, scene)), 0);
+}
+
+// A mesh whose triangles share no vertex.
+inline void add_triangle(RasterScene::MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  for (const glm::vec3& p : {a, b, c}) {
+    mesh.indices.push_back(uint32_t(mesh.positions.size()));
+    mesh.positions.push_back(p);
+  }
+}
+
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(uint32_t seed) : engine_(seed) {}
+  double between(double low, double high) { return low + (high - low) * (engine_() / 4294967295.0); }
+  int below(int count) { return int(engine_() % uint32_t(count)); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+}  // namespace lightgrid
