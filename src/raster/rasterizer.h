@@ -11,7 +11,7 @@
 // by tiles in software (Laine, Karras, "High-Performance Software Rasterization on GPUs", HPG 2011).
 //
 // What is drawn is a function of meshes, instances and view alone: the same bytes on every device that rounds divisions
-// correctly, in every kernel shape, for any number of threads. src/raster/README.md has the arithmetic; in short:
+// correctly, in every kernel shape, for any number of threads. docs/raster.md has the arithmetic; in short:
 //
 // - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and snapped once to
 //   1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left rule: a centre on an edge

@@ -1,0 +1,303 @@
+// What the rasteriser promises beside coverage: order, room, errors, the same bytes whatever does the work.
+#include "raster/rasterizer.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "base/error.h"
+#include "raster/drawn.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+// A rectangle of pixels at distance w, as two triangles.
+RasterScene::MeshData rectangle(const RasterView& view, double x0, double y0, double x1, double y1, double w) {
+  return {{at(view, x0, y0, w), at(view, x1, y0, w), at(view, x1, y1, w), at(view, x0, y1, w)}, {0, 1, 2, 0, 2, 3}};
+}
+
+// Triangles of every size, some thousands of pixels wide, in several instances.
+RasterScene many_triangles(int count, int width, int height, uint32_t seed) {
+  RandomNumbers random(seed);
+  RasterScene scene;
+  scene.view = plain_view(width, height);
+  scene.meshes.resize(3);
+  for (int i = 0; i < count; ++i) {
+    const double x = random.between(-0.1, 1.1) * width, y = random.between(-0.1, 1.1) * height;
+    const double reach = std::exp(random.between(-1, std::log(i % 50 == 0 ? 1000.0 : 20.0))), w = random.between(1, 5);
+    const auto corner = [&] { return at(scene.view, x + random.between(-reach, reach), y + random.between(-reach, reach), w + random.between(-0.5, 0.5)); };
+    const glm::vec3 a = corner(), b = corner(), c = corner();
+    add_triangle(scene.meshes[i % 3], a, b, c);
+  }
+  for (int m = 0; m < 3; ++m) scene.instances.push_back({.mesh = m, .two_sided = m == 1});
+  return scene;
+}
+
+TEST(Rasterizer, DrawsNothingWhereThereIsNothing) {
+  RasterScene scene;
+  scene.view = plain_view(17, 9);
+  Rasterizer rasterizer(raster_device(), raster_programs());
+  rasterizer.set_view(scene.view);
+  Drawn nothing = drawn_by(rasterizer, scene);
+  EXPECT_THAT(nothing.triangles, testing::Each(no_triangle));
+  EXPECT_THAT(nothing.depths, testing::Each(0.0f));
+  scene.meshes.push_back({});
+  scene.instances.push_back({});
+  nothing = drawn(scene);
+  EXPECT_THAT(nothing.triangles, testing::Each(no_triangle));
+}
+
+TEST(Rasterizer, NumbersTrianglesInDrawingOrderAndSaysWhatTheyBelongTo) {
+  RasterScene scene;
+  scene.view = plain_view(40, 20);
+  scene.meshes = {rectangle(scene.view, 0, 0, 10, 20, 2), rectangle(scene.view, 10, 0, 20, 20, 3)};
+  glm::dmat4 right(1);
+  right[3].x = at(scene.view, 40, 0, 2).x - at(scene.view, 20, 0, 2).x;
+  scene.instances = {{.mesh = 1}, {.mesh = 0, .alpha_material = 7}, {.mesh = 0, .world_from_object = right, .two_sided = true}};
+  Rasterizer rasterizer(raster_device(), raster_programs());
+  set_scene(rasterizer, scene);
+  const Drawn image = drawn_by(rasterizer, scene);
+  const auto number = [&](int x, int y) { return image.triangles[size_t(y) * 40 + x]; };
+  EXPECT_EQ(number(15, 2), 0u);
+  EXPECT_EQ(number(15, 18), 1u);
+  EXPECT_EQ(number(5, 2), 2u);
+  EXPECT_EQ(number(5, 18), 3u);
+  EXPECT_EQ(number(25, 2), 4u);
+  EXPECT_EQ(number(25, 18), 5u);
+  EXPECT_EQ(number(35, 10), no_triangle);
+  EXPECT_FLOAT_EQ(image.depths[5], 0.1f / 2);
+  EXPECT_FLOAT_EQ(image.depths[15], 0.1f / 3);
+  EXPECT_EQ(image.depths[35], 0);
+
+  EXPECT_EQ(read_all<uint32_t>(rasterizer.buffers().triangle_instance, 6), (std::vector<uint32_t>{0, 0, 1, 1, 2, 2}));
+  const std::vector<uint32_t> indices = read_all<uint32_t>(rasterizer.buffers().indices, 12);
+  for (uint32_t triangle = 0; triangle < 6; ++triangle) {
+    const RasterInstanceRecord& instance = image.instances[triangle / 2];
+    EXPECT_EQ(instance.first_triangle, triangle / 2 * 2);
+    EXPECT_EQ(instance.triangle_count, 2u);
+    EXPECT_EQ(instance.first_vertex, triangle < 2 ? 4u : 0u);
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t index = indices[instance.first_index + 3 * (triangle - instance.first_triangle) + k];
+      EXPECT_EQ(index, scene.meshes[triangle < 2].indices[3 * (triangle % 2) + k]);
+      const glm::vec4 clip = image.clip[instance.first_clip_vertex + index];
+      EXPECT_EQ(clip.w, triangle < 2 ? 3.0f : 2.0f);
+      EXPECT_EQ(clip.z, 0.1f);
+    }
+  }
+  EXPECT_EQ(image.instances[1].alpha_material, 7);
+  EXPECT_EQ(image.instances[2].flags, RASTER_TWO_SIDED);
+}
+
+TEST(Rasterizer, OfEqualDepthsTheLowestNumberIsShown) {
+  // The same triangles over and over, in clusters of different distance, so that a later one is drawn first.
+  RandomNumbers random(4);
+  RasterScene scene;
+  scene.view = plain_view(150, 80);
+  RasterScene::MeshData one;
+  for (int i = 0; i < 40; ++i) {
+    const auto corner = [&] { return at(scene.view, random.between(-20, 170), random.between(-20, 100), random.between(1, 4)); };
+    const glm::vec3 a = corner(), b = corner(), c = corner();
+    add_triangle(one, a, b, c);
+  }
+  RasterScene::MeshData nearer = one;
+  add_triangle(nearer, at(scene.view, -50, -50, 0.2), at(scene.view, -49, -50, 0.2), at(scene.view, -50, -49, 0.2));
+  scene.meshes = {one, nearer};
+  scene.instances = {{.mesh = 0}};
+  const Drawn alone = drawn(scene);
+  EXPECT_GT(alone.covered(), 3000u);
+  scene.instances = {{.mesh = 0}, {.mesh = 1}, {.mesh = 0}};
+  EXPECT_TRUE(drawn(scene).same_image(alone));
+}
+
+TEST(Rasterizer, RoomThatIsShortGrowsAndNothingIsLost) {
+  const RasterScene few = many_triangles(10, 300, 200, 1), many = many_triangles(30000, 300, 200, 2);
+  Rasterizer rasterizer(raster_device(), raster_programs());
+  set_scene(rasterizer, few);
+  EXPECT_EQ(drawn_by(rasterizer, few).counts.redone, 0);
+  set_scene(rasterizer, many);
+  const Drawn grown = drawn_by(rasterizer, many), again = drawn_by(rasterizer, many);
+  EXPECT_GE(grown.counts.redone, 2) << "for records and for lists";
+  EXPECT_EQ(again.counts.redone, 0);
+  EXPECT_TRUE(again.same_image(grown));
+  EXPECT_EQ(count_wrong(grown, oracle_of(grown, many)), 0);
+  EXPECT_GT(grown.counts.records, 16u * 256);
+  set_scene(rasterizer, few);
+  EXPECT_TRUE(drawn_by(rasterizer, few).same_image(drawn(few)));
+}
+
+// A device of one thread, which takes clusters in other chunks.
+TEST(Rasterizer, TheSameBytesWithOneThread) {
+  std::vector<cl::Device> parts;
+  const cl_device_partition_property one[] = {CL_DEVICE_PARTITION_BY_COUNTS, 1, CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+  try {
+    raster_device().device().createSubDevices(one, &parts);
+  } catch (const cl::Error&) {
+    GTEST_SKIP() << "the device has no parts";
+  }
+  const cl::Context context(parts[0]);
+  ClDevice single(parts[0], context, cl::CommandQueue(context, parts[0]));
+  ASSERT_EQ(single.info().compute_units, 1);
+  ProgramCache programs(single);
+  const RasterScene scene = many_triangles(5000, 500, 300, 8);
+  const Drawn expected = drawn(scene);
+  Rasterizer rasterizer(single, programs);
+  set_scene(rasterizer, scene);
+  const Visibility visibility = rasterizer.draw();
+  std::vector<uint32_t> triangles(expected.triangles.size());
+  std::vector<float> depths(triangles.size());
+  read_buffer(single, "test", visibility.triangle, triangles.data(), triangles.size() * 4);
+  read_buffer(single, "test", visibility.depth, depths.data(), depths.size() * 4);
+  EXPECT_EQ(triangles, expected.triangles);
+  EXPECT_EQ(depths, expected.depths);
+}
+
+TEST(Rasterizer, TheSameBytesWithAndWithoutBuiltins) {
+  const RasterScene scene = many_triangles(5000, 501, 299, 8);
+  const Drawn tuned = drawn(scene);
+  EXPECT_GT(tuned.covered(), 100000u);
+  EXPECT_TRUE(drawn(scene, {.portable = true}).same_image(tuned));
+}
+
+// A scene and an eye that move together by an exact amount give the same bits.
+TEST(Rasterizer, TheSameBytesFarFromTheOrigin) {
+  RasterScene scene = many_triangles(500, 200, 150, 3);
+  const Drawn here = drawn(scene);
+  const glm::dvec3 far(double(1 << 22), -double(1 << 21), double(1 << 23));
+  scene.view.eye = far;
+  for (RasterInstance& i : scene.instances) i.world_from_object[3] = glm::dvec4(far, 1);
+  EXPECT_TRUE(drawn(scene).same_image(here));
+}
+
+RasterScene sphere(const RasterView& view, int rings, double radius, const glm::dvec3& center) {
+  RasterScene scene;
+  scene.view = view;
+  scene.meshes.resize(1);
+  RasterScene::MeshData& mesh = scene.meshes[0];
+  const int around = 2 * rings;
+  for (int y = 0; y <= rings; ++y) {
+    for (int x = 0; x < around; ++x) {
+      const double up = 3.14159265358979 * y / rings, turn = 6.28318530717959 * x / around;
+      mesh.positions.push_back(glm::vec3(radius * std::sin(up) * std::cos(turn), radius * std::cos(up), -radius * std::sin(up) * std::sin(turn)));
+    }
+  }
+  for (int y = 0; y < rings; ++y) {
+    for (int x = 0; x < around; ++x) {
+      const uint32_t a = uint32_t(y * around + x), b = uint32_t(y * around + (x + 1) % around), c = a + around, d = b + around;
+      for (const uint32_t i : {a, c, b, b, c, d}) mesh.indices.push_back(i);
+    }
+  }
+  scene.instances.push_back({.mesh = 0});
+  scene.instances[0].world_from_object[3] = glm::dvec4(center, 1);
+  return scene;
+}
+
+TEST(Rasterizer, ClustersThatFaceAwayAreLeftOutAndDoNotShow) {
+  for (const double distance : {1.5, 4.0, 40.0}) {
+    for (const bool mirrored : {false, true}) {
+      RasterScene scene = sphere(plain_view(300, 260, 0.01), 60, 1, {0.3, 0.1, -distance});
+      if (mirrored) scene.instances[0].world_from_object[0][0] = -1;
+      const Drawn with = drawn(scene), without = drawn(scene, {.cluster_cones = false});
+      EXPECT_LT(with.counts.clusters, without.counts.clusters * 4 / 5);
+      EXPECT_TRUE(with.same_image(without));
+      EXPECT_EQ(count_wrong(with, oracle_of(with, scene)), 0);
+      EXPECT_GT(with.covered(), distance > 10 ? 20u : 3000u);
+    }
+  }
+  RasterScene inside = sphere(plain_view(300, 260, 0.01), 60, 1, {0, 0, 0});
+  EXPECT_EQ(drawn(inside).covered(), 0u);
+  inside.instances[0].two_sided = true;
+  const Drawn seen = drawn(inside);
+  EXPECT_EQ(seen.covered(), seen.triangles.size()) << "a hole in a closed mesh";
+  EXPECT_EQ(count_wrong(seen, oracle_of(seen, inside)), 0);
+}
+
+TEST(Rasterizer, ClustersOutOfViewAreLeftOut) {
+  RasterScene scene = sphere(plain_view(100, 100), 30, 1, {0, 0, 0});
+  for (const glm::dvec3& place : {glm::dvec3{0, 0, 5}, {20, 0, -5}, {-20, 0, -5}, {0, 20, -5}, {0, -20, -5}}) {
+    scene.instances[0].world_from_object[3] = glm::dvec4(place, 1);
+    EXPECT_EQ(drawn(scene).counts.clusters, 0u);
+  }
+  scene.instances[0].world_from_object[3] = glm::dvec4(0, 0, -5, 1);
+  EXPECT_GT(drawn(scene).counts.clusters, 10u);
+}
+
+TEST(Rasterizer, InstancesThatMoveKeepTheirNumbers) {
+  RasterScene scene = many_triangles(300, 120, 100, 5);
+  Rasterizer rasterizer(raster_device(), raster_programs());
+  set_scene(rasterizer, scene);
+  drawn_by(rasterizer, scene);
+  for (RasterInstance& i : scene.instances) i.world_from_object[3].x += 0.25;
+  rasterizer.set_instances(scene.instances);
+  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene)));
+  scene.instances[0].two_sided = true;
+  rasterizer.set_instances(scene.instances);
+  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene)));
+}
+
+// The widest and the highest view; 16,384 x 16,384 takes 2 GB and was tried by hand.
+TEST(Rasterizer, LargestViews) {
+  for (const auto& [width, height] : {std::pair{16384, 70}, std::pair{70, 16384}}) {
+    RasterScene scene;
+    scene.view = plain_view(width, height);
+    scene.meshes.resize(1);
+    scene.instances.resize(1);
+    const RasterView& view = scene.view;
+    add_triangle(scene.meshes[0], at(view, -3e6, -2e6, 5), at(view, 2.1e6, -1e6, 4), at(view, 1e4, 9e6, 3));
+    add_triangle(scene.meshes[0], at(view, 0, 0, 2), at(view, width, height - 0.5, 2), at(view, width - 1, height, 2));
+    add_triangle(scene.meshes[0], at(view, width - 3.75, 0.25, 1), at(view, width, 0, 1), at(view, width, 3.5, 1));
+    const Drawn image = drawn(scene);
+    EXPECT_EQ(image.covered(), image.triangles.size());
+    EXPECT_EQ(count_wrong(image, oracle_of(image, scene)), 0);
+    for (const uint32_t triangle : {0u, 1u, 2u}) EXPECT_GT(std::count(image.triangles.begin(), image.triangles.end(), triangle), 4);
+  }
+}
+
+TEST(Rasterizer, RefusesWhatItCannotDraw) {
+  Rasterizer rasterizer(raster_device(), raster_programs());
+  const auto message = [](auto&& call) -> std::string {
+    try {
+      call();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message([&] { rasterizer.draw(); }), HasSubstr("set_view has to come before"));
+  const std::vector<glm::vec3> positions(3);
+  const std::vector<uint32_t> two = {0, 1}, past = {0, 1, 3};
+  EXPECT_THAT(message([&] { rasterizer.set_meshes(std::vector<RasterMesh>{{positions, two}}); }), HasSubstr("mesh 0: 2 indices"));
+  EXPECT_THAT(message([&] { rasterizer.set_meshes(std::vector<RasterMesh>{{}, {positions, past}}); }), HasSubstr("mesh 1: index 3"));
+  EXPECT_THAT(message([&] { rasterizer.set_instances(std::vector<RasterInstance>(1)); }), HasSubstr("instance 0: there is no mesh 0"));
+  const std::vector<uint32_t> one = {0, 1, 2};
+  rasterizer.set_meshes(std::vector<RasterMesh>{{positions, one}});
+  std::vector<RasterInstance> instances(1);
+  instances[0].world_from_object[1][2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(message([&] { rasterizer.set_instances(instances); }), HasSubstr("instance 0: its matrix holds nan"));
+  instances[0].world_from_object = glm::dmat4(1);
+  instances[0].world_from_object[1][3] = 1;
+  EXPECT_THAT(message([&] { rasterizer.set_instances(instances); }), HasSubstr("not affine"));
+
+  const auto refused = [&](auto&& change) {
+    RasterView view = plain_view(10, 10);
+    change(view);
+    return message([&] { rasterizer.set_view(view); });
+  };
+  EXPECT_THAT(refused([](RasterView& v) { v.width = 0; }), HasSubstr("0 pixels"));
+  EXPECT_THAT(refused([](RasterView& v) { v.height = 16385; }), HasSubstr("16385 pixels"));
+  EXPECT_THAT(refused([](RasterView& v) { v.eye.y = HUGE_VAL; }), HasSubstr("eye"));
+  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = NAN; }), HasSubstr("clip_from_view holds nan"));
+  EXPECT_THAT(refused([](RasterView& v) { v.view_from_world[0][0] = 2; }), HasSubstr("rigid"));
+  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = -1; }), HasSubstr("mirrors"));
+  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[3][2] = -0.1; }), HasSubstr("reversed"));
+  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][3] = 0.1; }), HasSubstr("along -z"));
+  EXPECT_EQ(refused([](RasterView&) {}), "no error");
+}
+
+}  // namespace
+}  // namespace lightgrid
