@@ -1,6 +1,6 @@
-// Which z-bins each light may reach: a work-item takes a light. Drobot, "Improved Culling for Tiled and Clustered Rendering"
-// (SIGGRAPH 2017), keeps for each bin the range of the lights, sorted by distance; ours keep their order, on which the bits
-// of sums depend, so each light keeps its range of bins. That needs no sort and is as tight as bins can be.
+// The range of z-bins that each light may reach; a work-item takes a light. Drobot, "Improved Culling for Tiled and Clustered
+// Rendering" (SIGGRAPH 2017), sorts lights by distance and stores a range of lights for each bin. Sums of light here must
+// keep the lights' own order to stay bit-equal, so each light stores its range of bins instead: no sort, and no less tight.
 //
 // lights      as kernels/common/light_arrays.h says
 // bins        near and far of each, metres, ascending, widened by rounding
@@ -16,7 +16,7 @@ kernel void light_z_bins(global const float* lights, global const float2* bins, 
                                    lights[3 * stride + light], p);
   const float near = s.d - s.r, far = s.d + s.r;
   uint first = 0, end = 0;
-  // Comparisons are put so that NaN keeps every bin.
+  // The comparisons are written so that NaN keeps every bin.
   for (uint high = bin_count; first < high;) {
     const uint middle = (first + high) / 2;
     if (bins[middle].y < near) first = middle + 1;

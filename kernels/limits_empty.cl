@@ -1,4 +1,4 @@
-// Does nothing: what a launch costs. The argument keeps drivers from leaving it out.
+// An empty launch, to measure its cost. The argument keeps drivers from removing it.
 kernel void limits_empty(global uint* unused) {
   if (get_global_id(0) == 0xffffffffu) unused[0] = 0u;
 }

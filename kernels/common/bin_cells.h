@@ -1,6 +1,6 @@
-// What the tiles of a bin span, and the test of lights against one cell of it.
+// A bin's cells, and the test of lights against one of them.
 //
-// -DSLICES: tiles are cut into slices by `slices`, float2 each: near and far, metres, widened by rounding.
+// -DSLICES  tiles are divided by `slices`, a float2 each: near and far distance, metres, widened by rounding
 #pragma once
 
 #ifndef DEPTH_MODE
@@ -17,7 +17,7 @@
 #endif
 #define NOTHING 3e38f                          // side of the box around no tile at all
 
-// One cell: its intervals each with a box. A light need touch one of them only.
+// A cell: each of its depth intervals with a box. A light is listed when it may touch one of them.
 typedef struct TestCell {
   Cell parts[INTERVALS];
 #if DEPTH_MODE == DEPTH_MASK32
@@ -26,11 +26,11 @@ typedef struct TestCell {
 #endif
 } TestCell;
 
-// 0 to 31, in a word each: bits from the slot of the light's near side to that of its far side.
+// Harada, "A 2.5D Culling for Forward+" (2012): the light's bits go from that of its near side to that of its far side.
 #if DEPTH_MODE == DEPTH_MASK32
 static inline mask_t mask_meets(ViewSphere s, const TestCell* c) {
-  const whole low = mask_slot(s.d - s.r, c->mask_near, c->mask_far), high = mask_slot(s.d + s.r, c->mask_near, c->mask_far);
-  return (mask_of_slots(low, high) & c->mask) != (bits_t)(0u);
+  const whole low = mask_bit(s.d - s.r, c->mask_near, c->mask_far), high = mask_bit(s.d + s.r, c->mask_near, c->mask_far);
+  return (mask_of_bits(low, high) & c->mask) != (bits_t)(0u);
 }
 #endif
 

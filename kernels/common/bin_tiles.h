@@ -13,7 +13,7 @@ typedef struct BinTiles {
 #endif
 } BinTiles;
 
-// Boxes that grow: a lane each.
+// Boxes, one a lane.
 typedef struct Span {
   float16 near, far, x0, x1, y0, y1;
 } Span;

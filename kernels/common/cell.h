@@ -9,7 +9,7 @@ typedef struct TileSides {
   real x0, x1, y0, y1;
 } TileSides;
 
-// tx, ty: whole numbers. The last tiles are cut at the view's edge.
+// tx, ty: whole numbers. The last tile of a row or column ends at the view's edge.
 static inline TileSides tile_sides(real tx, real ty, constant CullParams* p) {
   const float size = (float)p->tile_size, inset = p->inset;
   TileSides s;
@@ -34,7 +34,7 @@ static inline Box box_between(TileSides s, real near, real far, constant CullPar
   return b;
 }
 
-// One cell against many lights. near > far: it holds no surface.
+// A cell as the tests read it. near > far: it holds no surface.
 typedef struct Cell {
   float near, far;                        // metres
   float box_x0, box_x1, box_y0, box_y1;   // metres

@@ -1,4 +1,4 @@
-// What both shapes of depth_bounds share: options, and the second look at a tile that the finer bounds take.
+// Options and layout that both forms of depth_bounds share. The finer bounds read a tile's depths a second time.
 //
 // Bounds are BOUND_PLANES floats a tile (shared/cull_settings.h): for each bin, plane after plane of BIN_SIZE slots.
 // Distances are metres, each widened by rounding; (FAR_AWAY, -FAR_AWAY) where a tile holds no surface.

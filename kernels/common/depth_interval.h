@@ -1,13 +1,13 @@
 // From the depths of a tile to its intervals of distances.
 //
-// Depths are compared as keys: integers in the order of depths, nearest greatest, 0 where nothing is. Reversed depth's
-// key is its bits (for floats in [0, 1] their order is that of the values); standard depth's is the bits of 1 less its
-// own. NaN, infinite, negative and too large values have keys above those of depths.
+// Depths are compared as keys: integers that grow towards the eye, 0 where no surface is. The key of a reversed depth is its
+// bits, since floats in [0, 1] have the order of their bits; the key of a standard depth is the bits of 1 minus its bits.
+// NaN, infinities, negative values and values above 1 have keys above those of valid depths.
 #pragma once
 
 #include "kernels/common/cell.h"
 
-// A distance rounds a few times on its way from depth, in the shader perhaps with a division that is 2.5 units off:
+// Relative error of a distance computed from depth. It allows for a shader's division that is 2.5 units off:
 // docs/hard_cases.md#slack.
 #define WIDEN 4.8e-7f
 #define ONE_BITS 0x3f800000u
@@ -69,9 +69,9 @@ static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullPa
 static inline Interval opaque_interval(bits_t low, bits_t high, constant CullParams* p) {
   Interval i = interval_of_keys(low, high, p);
   const mask_t none = high == (bits_t)(0u);
-  const mask_t strange = (high > (bits_t)(ONE_BITS)) | (i.far > (real)(FARTHEST_SURFACE));
-  i.near = none ? (real)(FAR_AWAY) : (strange ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : i.near);
-  i.far = none ? (real)(-FAR_AWAY) : (strange ? (real)(FAR_AWAY) : i.far);
+  const mask_t invalid = (high > (bits_t)(ONE_BITS)) | (i.far > (real)(FARTHEST_SURFACE));
+  i.near = none ? (real)(FAR_AWAY) : (invalid ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : i.near);
+  i.far = none ? (real)(-FAR_AWAY) : (invalid ? (real)(FAR_AWAY) : i.far);
   return i;
 }
 
@@ -80,30 +80,30 @@ static inline Interval blend_interval(bits_t lowest, bits_t high, constant CullP
   Interval i = interval_of_keys(lowest, lowest, p);
   const float margin = p->orthographic ? WIDEN * fabs(p->depth_b * p->depth_a) : 0.0f;
   const float near = p->near_distance - (WIDEN * fabs(p->near_distance) + margin);
-  const mask_t strange = high > (bits_t)(ONE_BITS), endless = i.far > (real)(FARTHEST_SURFACE);
-  i.near = strange ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : (real)(near);
-  i.far = (strange | endless | (lowest == (bits_t)(0u))) ? (real)(FAR_AWAY) : i.far;
+  const mask_t invalid = high > (bits_t)(ONE_BITS), endless = i.far > (real)(FARTHEST_SURFACE);
+  i.near = invalid ? (real)(p->orthographic ? -FAR_AWAY : 0.0f) : (real)(near);
+  i.far = (invalid | endless | (lowest == (bits_t)(0u))) ? (real)(FAR_AWAY) : i.far;
   return i;
 }
 
-// The slot of a mask that a distance falls into, of 32 from near to far. Monotone: what lies between two distances lies
-// between their slots.
-static inline whole mask_slot(real distance, real near, real far) {
+// The bit of a mask that a distance falls into, of 32 from near to far. Monotone: a distance between two others has a bit
+// between theirs.
+static inline whole mask_bit(real distance, real near, real far) {
   const real scale = far > near ? (real)(32.0f) / (far - near) : (real)(0.0f);
   return TO_WHOLE(lane_min(lane_max((distance - near) * scale, (real)(0.0f)), (real)(31.0f)));
 }
 
-// The bits from slot `low` to slot `high`, low <= high.
-static inline bits_t mask_of_slots(whole low, whole high) {
+// The bits `low` to `high`, low <= high.
+static inline bits_t mask_of_bits(whole low, whole high) {
   return (((bits_t)(2u) << AS_BITS(high)) - 1u) & ~(((bits_t)(1u) << AS_BITS(low)) - 1u);
 }
 
-// The slots of a tile's interval that a surface may lie in. Its distance is known to a step of the depth format, and in
-// orthographic views only to the rounding of the terms that cancel, which no light's slack covers.
-static inline bits_t slots_of_key(bits_t key, real near, real far, constant CullParams* p) {
+// The bits of a tile's interval that a surface with this key may lie in. Its distance is known to a step of the depth format,
+// and in orthographic views only to the rounding of terms that cancel, which no light's slack covers.
+static inline bits_t mask_of_key(bits_t key, real near, real far, constant CullParams* p) {
   if (!p->orthographic && p->depth_step == 0.0f) {
-    return (bits_t)(1u) << AS_BITS(mask_slot(distance_of_depth(AS_REAL(KEY(key)), p), near, far));
+    return (bits_t)(1u) << AS_BITS(mask_bit(distance_of_depth(AS_REAL(KEY(key)), p), near, far));
   }
   const Interval i = interval_of_keys(key, key, p);
-  return mask_of_slots(mask_slot(i.near, near, far), mask_slot(i.far, near, far));
+  return mask_of_bits(mask_bit(i.near, near, far), mask_bit(i.far, near, far));
 }

@@ -1,4 +1,4 @@
-// The surface of LANES pixels out of the geometry buffer (src/passes/gbuffer.h).
+// The surface of LANES pixels, read from the geometry buffer (src/passes/gbuffer.h).
 //
 // -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
 #pragma once
@@ -30,7 +30,7 @@ typedef struct Texels {
 #define CHANNELS16(p) convert_float16(vload16(0, p))
 #endif
 
-// 8 pixels from each of two places.
+// 8 pixels from each of two addresses.
 static inline Texels load_texels(global const channel_t* first, global const channel_t* second) {
   const float16 a = CHANNELS16(first), b = CHANNELS16(first + 16), c = CHANNELS16(second), d = CHANNELS16(second + 16);
   const Texels t = {(float16)(a.s048c, b.s048c, c.s048c, d.s048c), (float16)(a.s159d, b.s159d, c.s159d, d.s159d),

@@ -1,5 +1,5 @@
-// What the culling kernels for GPUs hand from one to the next. They cull by blocks of 4 x 4 tiles, four a bin: more groups
-// than bins, with less to do each. A block's slots lie side by side in its bin.
+// Data that the culling kernels for GPUs share. They cull by blocks of 4 x 4 tiles, four to a bin, which gives more and
+// smaller work-groups than bins would. A block's slots lie side by side in its bin.
 #pragma once
 
 #include "kernels/common/light_arrays.h"
@@ -38,7 +38,7 @@ static inline TileRect record_rect(global const float4* record) {
   return rect;
 }
 
-// Lights that each group of project_lights_group.cl takes, and the words it marks for each column and row of blocks.
+// Lights that a work-group of gpu/project_lights.cl takes, and the words that it marks for each column and row of blocks.
 #define PROJECT_GROUP 128  // as group_pipeline.cpp
 #define PROJECT_WORDS (PROJECT_GROUP / 32)
 
@@ -47,7 +47,7 @@ static inline uint light_mark_words(constant CullParams* p) {
   return (p->light_count + PROJECT_GROUP - 1) / PROJECT_GROUP * PROJECT_WORDS;
 }
 
-// Where a cell of a block lies in the grid: cells of a block are its slots' slices. Returns whether it is in the view.
+// Index in the grid of a block's cell, given by slot and slice. Returns whether the cell is in the view.
 static inline bool cell_of(uint block, uint slot, uint slice, uint* index, constant CullParams* p) {
   const uint tx = (uint)block_x(block, p) + tile_x_of_slot(slot), ty = (uint)block_y(block, p) + tile_y_of_slot(slot);
   *index = (slice * p->tiles_y + ty) * p->tiles_x + tx;

@@ -1,14 +1,14 @@
-// May this light touch this cell? A light may be kept in vain, never dropped in error.
+// Whether a light may touch a cell. A test may keep a light that does not, and never drops one that does.
 //
-// Why conservative: each test computes, in float, a lower bound of a distance and compares it with the radius, which has
-// grown by more than all roundings on the way: docs/hard_cases.md#slack. Why a coarse step drops nothing that the fine
-// one would keep: for a larger box each expression below is, operation by operation, no larger, and rounding keeps that
-// order. So the lists are those of testing every light against every cell, however the work is cut.
+// Why they are conservative: each test computes, in float, a lower bound of a distance and compares it with the radius, which
+// has grown by more than all rounding errors of the computation: docs/hard_cases.md#slack. Why a coarse step drops nothing
+// that the fine step would keep: for a larger box each expression below is, operation by operation, no larger, and rounding
+// preserves that order. The lists are therefore those of testing every light against every cell, whatever the hierarchy.
 #pragma once
 
 #include "kernels/common/cell.h"
 
-// Squared distance from the centre to the cell's box; NaN for a light that is none.
+// Squared distance from the centre to the cell's box; NaN where the light's radius is invalid.
 static inline real box_distance2(ViewSphere s, const Cell* c) {
   const real x = s.x - lane_min(lane_max(s.x, (real)(c->box_x0)), (real)(c->box_x1));
   const real y = s.y - lane_min(lane_max(s.y, (real)(c->box_y0)), (real)(c->box_y1));
@@ -28,8 +28,8 @@ static inline mask_t sphere_may_touch(ViewSphere s, const Cell* c) {
 #endif
 
 #if CULL_TEST == CULL_EXACT
-// The squared distance f from the centre to the cell's cross-section at distance t, half its slope in t, and how much
-// that slope grows with t at least where the nearest side stays the same.
+// The squared distance f from the centre to the cell's cross-section at distance t; g, half its derivative in t; and bend,
+// the derivative of g while the nearest side stays the same.
 typedef struct Section {
   real f, g, bend;
 } Section;
@@ -49,9 +49,10 @@ static inline Section section_at(ViewSphere s, const Cell* c, real t, uint ortho
 }
 
 // Of the lights in `keep`, those that may touch the cell itself. f is convex in t with f'' >= 2, so for every u in
-// [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a certain lower bound, whatever t is. t follows Newton, who mostly
-// ends on the minimum at once, since f is quadratic in pieces. g is taken by its rounding error nearer to the minimum.
-// A light is decided by a section that it touches, or by a bound past its radius; after four steps, or by NaN, it is kept.
+// [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a lower bound whatever t is. t is a Newton iterate. f is quadratic in
+// pieces, so one step is exact unless the nearest faces change. g is moved towards the minimum by its rounding error. A
+// light is kept when a section touches it and dropped when the bound exceeds its radius; after four steps, or with NaN, it
+// is kept.
 static inline mask_t exact_may_touch(mask_t keep, ViewSphere s, const Cell* c, uint orthographic) {
   const real near = c->near, far = c->far, r2 = s.r * s.r;
   real t = lane_min(lane_max(s.d, near), far);
@@ -71,7 +72,7 @@ static inline mask_t exact_may_touch(mask_t keep, ViewSphere s, const Cell* c, u
 }
 #endif
 
-// What a coarse step asks of lights whose tile rectangle meets the cell's.
+// The coarse steps' test, for lights whose tile rectangle meets the cell's.
 static inline mask_t may_touch_coarsely(ViewSphere s, const Cell* c) {
 #if CULL_TEST == CULL_SPHERE || CULL_TEST == CULL_PLANES
   return (s.d + s.r >= c->near) & (s.d - s.r <= c->far);
@@ -80,7 +81,7 @@ static inline mask_t may_touch_coarsely(ViewSphere s, const Cell* c) {
 #endif
 }
 
-// What the fine step asks of lights whose tile rectangle holds the cell's tile. NaN keeps the light.
+// The fine step's test, for lights whose tile rectangle holds the cell's tile. NaN keeps the light.
 static inline mask_t may_touch(ViewSphere s, const Cell* c, constant CullParams* p) {
 #if CULL_TEST == CULL_SPHERE
   return sphere_may_touch(s, c);
@@ -98,14 +99,14 @@ typedef struct ViewCone {
 } ViewCone;
 
 // The cone against the sphere around the cell's box (Wronski, "Cull that cone!", 2017). Sound up to a half-angle of 90
-// degrees; past that a cone is not convex and the test loses cells (12 % of them at 100 degrees), so such a light has no
-// cone here and its sphere decides. The distance from the axis comes from the cross product: |v|^2 - along^2 would
-// cancel near the axis. Asked so that NaN keeps the light: far, wide cells overflow.
+// degrees. Past that a cone is not convex and the test loses cells (12 % of them at 100 degrees), so such a light has no
+// cone here and only its sphere is tested. The distance from the axis comes from the cross product: |v|^2 - along^2 would
+// cancel near the axis. The comparisons are written so that NaN keeps the light: far, wide cells overflow.
 static inline mask_t cone_may_touch(ViewSphere s, ViewCone k, const Cell* c, constant CullParams* p) {
   const float cx = 0.5f * (c->box_x0 + c->box_x1), cy = 0.5f * (c->box_y0 + c->box_y1), cd = 0.5f * (c->near + c->far);
   const float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hd = c->far - c->near;
   const float half_size = 0.5f * sqrt(hx * hx + hy * hy + hd * hd) * (1.0f + SLACK);
-  // The apex' rounding on upload and that of the tile's sides are no part of the coordinates' roundings.
+  // The rounding of the apex on upload and of the tile's sides come on top of the coordinates' own rounding.
   const float sides = p->side_slack * (fabs(c->near) + fabs(c->far)) + (p->side_slack_m + LEAST_RADIUS);
   const float size = half_size + (sides + p->cone_slack_m);
   const float centre = fabs(cx) + fabs(cy) + fabs(cd);

@@ -1,5 +1,5 @@
-// Lights in view space as records, for CPUs: with all of a light in one place, lists of indices are enough to sort lights
-// by place, and any 16 of them become vectors in a few shuffles.
+// Lights in view space as records, for CPUs. All values of a light lie side by side, so that lists of indices suffice to
+// sort lights by screen position, and any 16 records become vectors in a few shuffles.
 //
 // A record: x, y, d, r; first and last of its TileRect; two unused; with cones the axis x, y, d and the cosine.
 #pragma once
@@ -96,12 +96,12 @@ static inline void store_records(LightRecords l, global float* records) {
   }
 }
 
-// What a light asks of a bin in a region, in two words. Each of their parts has its top bit set and loses it when more is
-// taken away than is there, so that one subtraction compares all parts.
+// Packed range test of a light against a bin of a region, in two words. Each field has a guard bit on top; after one 32-bit
+// subtraction a cleared guard bit means that this field's ranges do not overlap.
 //
-// Tiles: last column and row, and how far the first ones are from column and row 127, a byte each.
-// Distances: the farthest, and how far the nearest is from the greatest one there is, 15 bits each: the upper half of a
-// float. Both round in the order of floats, so that nothing that overlaps comes apart.
+// Word of tiles, a byte each: last column, last row, 127 - first column, 127 - first row.
+// Word of distances, 15 bits each, the upper half of a float: the far one, and the largest value less the near one. Cutting
+// a float's lower half keeps the order of floats, so ranges that overlap still overlap.
 #define REGION_TILES 128u  // a side at most
 #define BYTE_TOPS 0x80808080u
 #define HALF_TOPS 0x80008000u
@@ -120,8 +120,8 @@ static inline uint16 short_distance(float16 distance, float otherwise) {
   return as_uint16(some) >> 16;
 }
 
-// A light's span of distances. It is wider than the sphere's by more than the finer tests' roundings, so that none of them
-// would keep what this drops: they compare squares, of which small ones vanish and large ones are infinite, and keep both.
+// A light's span of distances. It exceeds the sphere's by more than the rounding of the finer tests, so that it drops no
+// light which they would keep. They compare squares and keep a light where a square underflows or overflows.
 static inline uint16 span_of(ViewSphere s) {
   const float16 margin = 1e-6f * (fabs(s.d) + s.r) + 1e-18f, zero = 0.0f, far_away = FAR_AWAY;
   const int16 bounded = s.r * s.r < (float16)(INFINITY);
@@ -130,20 +130,20 @@ static inline uint16 span_of(ViewSphere s) {
   return far | (0x7fffu - near) << 16 | HALF_TOPS;
 }
 
-// The least words that meet the bin whose first tile is (x, y) of the region, and the distances that it spans.
-typedef struct BinAsks {
+// The words that a light's words are compared with, of the bin whose first tile is (x, y) of the region.
+typedef struct PackedRange {
   uint tiles, span;
-} BinAsks;
+} PackedRange;
 
-static inline BinAsks asks_of_bin(uint x, uint y, const Cell* bin) {
+static inline PackedRange packed_range_of_bin(uint x, uint y, const Cell* bin) {
   // Not max(x, 0.0f): for -0.0 it may return either zero, and the sign bit of -0.0 would reject every light.
   const float first = bin->near > 0.0f ? bin->near : 0.0f, end = bin->far > 0.0f ? bin->far : 0.0f;
   const uint near = as_uint(first) >> 16, far = as_uint(end) >> 16;
   const uint last = REGION_TILES - BIN_TILES;
-  const BinAsks asks = {x | y << 8 | (last - x) << 16 | (last - y) << 24, near | (0x7fffu - far) << 16};
-  return asks;
+  const PackedRange range = {x | y << 8 | (last - x) << 16 | (last - y) << 24, near | (0x7fffu - far) << 16};
+  return range;
 }
 
-static inline int16 meets_bin(uint16 tiles, uint16 span, BinAsks asks) {
-  return ((((tiles - asks.tiles) & BYTE_TOPS) ^ BYTE_TOPS) | (((span - asks.span) & HALF_TOPS) ^ HALF_TOPS)) == (uint16)(0u);
+static inline int16 meets_bin(uint16 tiles, uint16 span, PackedRange range) {
+  return ((((tiles - range.tiles) & BYTE_TOPS) ^ BYTE_TOPS) | (((span - range.span) & HALF_TOPS) ^ HALF_TOPS)) == (uint16)(0u);
 }

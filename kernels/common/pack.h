@@ -1,5 +1,5 @@
-// Masks of 16 lanes as bits, and ordered appending of the lanes they keep. With -DAVX512 one instruction each, through
-// builtins of the compiler; else plain OpenCL C.
+// A mask of 16 lanes as bits, and stores of the lanes that a mask keeps, in order. With -DAVX512 each is one instruction,
+// through builtins of the compiler; without it, plain OpenCL C.
 #pragma once
 
 #include "kernels/common/lanes.h"
@@ -13,7 +13,7 @@ typedef uint unaligned_uints __attribute__((ext_vector_type(16), aligned(4)));
 static inline uint mask_bits(mask_t m) { return (ushort)__builtin_ia32_cvtd2mask512(m); }
 static inline int16 packed(int16 v, uint bits) { return __builtin_ia32_compresssi512_mask(v, v, (ushort)bits); }
 
-// Each writes 16 values, of which those kept come first: memory after a list's end is its own spare room.
+// Each writes 16 values, the kept ones first. Lists therefore have room for 16 values past their end.
 static inline void append_reals(global float* to, real v, uint bits) {
   *(global unaligned_floats*)to = as_float16(packed(as_int16(v), bits));
 }
@@ -35,8 +35,8 @@ static inline uint mask_bits(mask_t m) {
   return (uint)(e.x | e.y);
 }
 
-// As above. To write each lane where the next one belongs costs less than to branch on what is kept; the upper half
-// starts from its own sum, so that it need not wait for the lower one.
+// As above. Every lane is written to the next free entry, which advances only for kept lanes: cheaper than a branch. The
+// upper half starts from its own count and does not wait for the lower half.
 #define APPEND_LANES(WRITE)                                         \
   _Pragma("unroll") for (uint h = 0; h < 16; h += 8) {              \
     uint n = h == 0 ? 0u : popcount(bits & 0xffu);                  \

@@ -12,10 +12,10 @@
 // Stands for infinity: its square is finite in float, so no test meets inf - inf or 0 * inf.
 #define FAR_AWAY 1e18f
 
-// Radii grow by this much of |x| + |y| + |d| + radius before any test; it covers every rounding from the light's world
-// position to the comparison, but for the rounding of tile sides, which is the view's: docs/hard_cases.md#slack.
+// Radii grow by this part of |x| + |y| + |d| + radius before any test. That covers every rounding from the light's world
+// position to the comparison, except the rounding of tile sides, which the view gives: docs/hard_cases.md#slack.
 #define SLACK (24.0f * 5.9604645e-8f)
-// And by this, metres: squares of smaller numbers underflow.
+// Radii also grow by this, metres: squares of smaller numbers underflow.
 #define LEAST_RADIUS 1e-18f
 // Tangents and tile coordinates round to this part of themselves: docs/hard_cases.md#tangents.
 #define TANGENT_SLACK (32.0f * 5.9604645e-8f)
@@ -39,10 +39,10 @@ static inline ViewSphere view_sphere(real world_x, real world_y, real world_z, r
   return s;
 }
 
-// Slopes v / d of the two tangents from the eye to the circle of radius r around (v, d), d > -r. Each form below is free
-// of cancellation: sums of terms of one sign, and differences only of the numbers that came in. Where the circle reaches
-// past the eye (d <= r) it is open to the side it is on; where the eye is in it, to both. Near its edge from outside the
-// root does cancel; it is taken smaller by what it may be off, which moves the tangent outwards.
+// Slopes v / d of the two tangents from the eye to the circle of radius r around (v, d), d > -r. No form below cancels: sums
+// have terms of one sign, and differences are taken of input numbers only. Where the circle reaches past the eye (d <= r)
+// it has no bound on its own side; where the eye is inside, it has no bound on either side. Near the circle's edge, from
+// outside, the root does cancel. It is then reduced by its error bound, which moves the tangent outwards.
 static inline void tangent_slopes(real v, real d, real r, real* low, real* high) {
   const real n = (v - r) * (v + r), e = (d - r) * (d + r);
   const mask_t open = d <= r;
@@ -57,8 +57,8 @@ static inline void tangent_slopes(real v, real d, real r, real* low, real* high)
   *high = (open & ((v >= (real)(0.0f)) | (outside == (mask_t)(0)))) ? (real)(FAR_AWAY) : to;
 }
 
-// First and last of the tiles whose pixels some slope from `low` to `high` can reach; `pixels` are cut into tiles of
-// `size`, cells are smaller than their pixels by `inset` pixels. No tile: first > last. NaN keeps every tile.
+// First and last tile whose pixels a slope from `low` to `high` can reach. `pixels` pixels are divided into tiles of `size`;
+// a cell is smaller than its tile by `inset` pixels on each side. No tile: first > last. NaN keeps every tile.
 static inline void tile_range(real low, real high, float scale, float offset, float inset, uint pixels, float size,
                               whole* first, whole* last) {
   const float margin = inset / size, end = ((float)pixels - inset) / size;
@@ -73,7 +73,7 @@ static inline void tile_range(real low, real high, float scale, float offset, fl
   *last = min(TO_WHOLE(t), (whole)(last_tile));
 }
 
-// A tile rectangle in two words: columns in the low half, rows in the high one. An empty one passes no rect_meets().
+// A rectangle of tiles in two words: columns in the low half, rows in the high half. An empty one meets no rectangle.
 typedef struct TileRect {
   whole first, last;
 } TileRect;
@@ -100,8 +100,8 @@ static inline TileRect tile_rect(ViewSphere s, real radius, constant CullParams*
   return rect;
 }
 
-// Does it share a tile with columns x0 ... x1 and rows y0 ... y1, given as first = x0 | y0 << 16, last likewise? Both
-// halves at once: a half below 0 sets its top bit. Halves hold 15 bits.
+// Whether r shares a tile with columns x0 ... x1 and rows y0 ... y1, given as first = x0 | y0 << 16, last likewise. Both
+// halves are compared at once: a half below 0 sets its top bit. Halves hold 15 bits.
 static inline mask_t rect_meets(TileRect r, int first, int last) {
   return ((r.last - first | last - r.first) & (whole)(0x80008000)) == (whole)(0);
 }

@@ -1,8 +1,8 @@
 // The light pass in OpenCL: LANES pixels of one cell and the lights of its list.
 //
 // -DINDEX_32  indices are 32 bits, not 16
-// -DOWN_LIGHT the image holds ambient light and more already; else ambient light is added here
-// -DZ_BINS    lights are passed over whose z-bins hold none of the pixels
+// -DBASE_LIGHTING  the image already holds ambient, directional and emitted light; without it ambient light is added here
+// -DZ_BINS    lights whose z-bin range misses the pixels are skipped
 // -DSPOTS     some light has a cone
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 #pragma once
@@ -20,13 +20,13 @@ typedef ushort index_t;
 
 // Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
 typedef struct Lights {
-  global const float4 *places, *colors, *cones;
+  global const float4 *positions, *colors, *cones;
   global const uint* bins;
 } Lights;
 
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
-  light.place = lights->places[index];
+  light.position = lights->positions[index];
   light.color = lights->colors[index];
 #ifdef SPOTS
   light.cone = lights->cones[index];
@@ -76,7 +76,7 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const i
   for (uint begin = 0; begin < count; begin += STRETCH) {
     const uint end = min(begin + STRETCH, count);
     uint n = 0;
-    // Apart from the sum, and without a branch: one among the sums costs more than the lights that it leaves out.
+    // A loop of its own, without a branch: a branch inside the sum would cost more than the lights that it skips.
     for (uint i = begin; i < end; ++i) {
       met[n] = list[i];
       n += bins_meet(lights->bins[list[i]], bins.first, bins.last) ? 1 : 0;
@@ -100,7 +100,7 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const i
 
 static inline Real3 light_sum(const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
                               const Lights* lights, constant ViewParams* view) {
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
   const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
 #else
   const Real3 own = reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));

@@ -17,6 +17,11 @@ std::string common_options(const ClDeviceInfo& device) {
   return options;
 }
 
+bool builds_quickly() { return std::getenv("LIGHTGRID_CL_QUICK_BUILD") != nullptr; }
+
+// Of "cpu/cull_lights": "cull_lights".
+std::string entry_point(const std::string& file) { return file.substr(file.rfind('/') + 1); }
+
 bool disk_is_off() {
   const char* setting = std::getenv("LIGHTGRID_CL_CACHE");
   return setting && (std::string_view(setting) == "off" || std::string_view(setting) == "driver");
@@ -34,7 +39,7 @@ cl::Program load_binary(ClDevice& device, const std::string& options,
   }
 }
 
-cl::Program build_source(ClDevice& device, const std::string& entry, const std::string& options,
+cl::Program build_source(ClDevice& device, const std::string& file, const std::string& options,
                          const std::string& source) {
   cl::Program program;
   try {
@@ -43,7 +48,7 @@ cl::Program build_source(ClDevice& device, const std::string& entry, const std::
   } catch (const cl::Error& error) {
     std::string log;
     if (program()) program.getBuildInfo(device.device(), CL_PROGRAM_BUILD_LOG, &log);
-    throw machine_error("kernels/{}.cl ({}) on {}: {} failed with {}\n{}", entry, options, device.info().name,
+    throw machine_error("kernels/{}.cl ({}) on {}: {} failed with {}\n{}", file, options, device.info().name,
                         error.what(), cl_error_name(error.err()), log);
   }
   return program;
@@ -62,38 +67,39 @@ std::filesystem::path ProgramCache::default_folder() {
 ProgramCache::ProgramCache(ClDevice& device, std::filesystem::path folder)
     : device_(device), folder_(disk_is_off() ? std::filesystem::path() : std::move(folder)) {}
 
-cl::Kernel ProgramCache::kernel(const std::string& entry, const std::string& defines) {
-  return kernel_of(entry + ' ' + defines, entry, defines,
-                   [&] { return with_includes("kernels/" + entry + ".cl"); });
+cl::Kernel ProgramCache::kernel(const std::string& file, const std::string& defines) {
+  return kernel_of(file + ' ' + defines, file, defines,
+                   [&] { return with_includes("kernels/" + file + ".cl"); });
 }
 
-cl::Kernel ProgramCache::kernel_of_source(const std::string& entry, const std::string& source,
+cl::Kernel ProgramCache::kernel_of_source(const std::string& file, const std::string& source,
                                           const std::string& defines) {
-  return kernel_of(defines + '\n' + source, entry, defines, [&] { return source; });
+  return kernel_of(defines + '\n' + source, file, defines, [&] { return source; });
 }
 
-cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& entry,
+cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& file,
                                    const std::string& defines, const std::function<std::string()>& source) {
   try {
     cl::Program& program = programs_[key];
     if (program()) {
       ++counts_.from_memory;
     } else {
-      const std::string options = common_options(device_.info()) + (defines.empty() ? "" : " " + defines);
-      program = load_or_build(entry, options, "#pragma OPENCL FP_CONTRACT OFF\n" + source());
+      std::string options = common_options(device_.info()) + (defines.empty() ? "" : " " + defines);
+      if (file.starts_with("gpu/") && device_.info().cpu && builds_quickly()) options += " -cl-opt-disable";
+      program = load_or_build(file, options, "#pragma OPENCL FP_CONTRACT OFF\n" + source());
     }
-    return cl::Kernel(program, entry.c_str());
+    return cl::Kernel(program, entry_point(file).c_str());
   } catch (const cl::Error& error) {
-    throw cl_machine_error(error, "kernels/" + entry + ".cl");
+    throw cl_machine_error(error, "kernels/" + file + ".cl");
   }
 }
 
-cl::Program ProgramCache::load_or_build(const std::string& entry, const std::string& options,
+cl::Program ProgramCache::load_or_build(const std::string& kernel_file, const std::string& options,
                                         const std::string& source) {
   const ClDeviceInfo& info = device_.info();
   const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.name, info.version,
                                       info.driver, options, source);
-  const std::filesystem::path file = folder_.empty() ? "" : program_file_path(folder_, entry, key);
+  const std::filesystem::path file = folder_.empty() ? "" : program_file_path(folder_, entry_point(kernel_file), key);
   if (!file.empty()) {
     const std::vector<unsigned char> binary = read_program_file(file, key);
     if (!binary.empty()) {
@@ -103,7 +109,7 @@ cl::Program ProgramCache::load_or_build(const std::string& entry, const std::str
       }
     }
   }
-  cl::Program program = build_source(device_, entry, options, source);
+  cl::Program program = build_source(device_, kernel_file, options, source);
   ++counts_.built;
   if (!file.empty()) {
     const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();

@@ -19,14 +19,17 @@ class ProgramCache {
   // disk cache; "driver" does the same but keeps the driver's own cache. PoCL compiles each kernel a second
   // time to return its binary: without our cache a first build took less than half as long, and each later
   // start 35 ms a kernel more (measured with `verify --filter depth/all_sky$`, empty and warm caches).
+  // With LIGHTGRID_CL_QUICK_BUILD in the environment a CPU gets the kernels of kernels/gpu unoptimised: continuous integration
+  // runs them there for their bytes, and optimising them is most of what building them takes.
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
-  // The kernel `entry` of the embedded file "kernels/<entry>.cl" with its includes, built with the options
-  // that all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16 -DTILE=16").
-  cl::Kernel kernel(const std::string& entry, const std::string& defines);
+  // The kernel of the embedded file "kernels/<file>.cl" (e.g. "cpu/depth_bounds") with its includes, built with the
+  // options that all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16 -DTILE=16"). It has the
+  // file's own name, without the folder.
+  cl::Kernel kernel(const std::string& file, const std::string& defines);
 
-  // The same for a source that is not embedded; `source` is a function of `entry` (tests, tools).
-  cl::Kernel kernel_of_source(const std::string& entry, const std::string& source,
+  // The same for a source that is not embedded; `file` names it in messages (tests, tools).
+  cl::Kernel kernel_of_source(const std::string& file, const std::string& source,
                               const std::string& defines);
 
   struct Counts {
@@ -40,9 +43,9 @@ class ProgramCache {
 
  private:
   // `key` is that of programs_; `source` makes the text where it is not in memory.
-  cl::Kernel kernel_of(const std::string& key, const std::string& entry, const std::string& defines,
+  cl::Kernel kernel_of(const std::string& key, const std::string& file, const std::string& defines,
                        const std::function<std::string()>& source);
-  cl::Program load_or_build(const std::string& entry, const std::string& options, const std::string& source);
+  cl::Program load_or_build(const std::string& file, const std::string& options, const std::string& source);
 
   ClDevice& device_;
   std::filesystem::path folder_;

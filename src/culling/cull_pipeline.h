@@ -18,8 +18,9 @@ struct CullJob {
 };
 
 struct PipelineOptions {
-  std::string light_defines;  // of lights alone: test, cones
-  std::string defines;        // and of cells and index type
+  // Each kernel gets only the defines that it reads, so that none is compiled twice to the same code.
+  std::string light_defines;  // cull test, cones
+  std::string cell_defines;   // those, depth-bounds mode, slices
   bool avx512 = false;
   bool slices = false;  // cells a tile: more than one
   bool cones = false;   // at least one light is a spot
@@ -27,6 +28,8 @@ struct PipelineOptions {
   int group_size = 0;  // as in CullerOptions
   bool operator==(const PipelineOptions&) const = default;
 };
+
+inline std::string index_define(const PipelineOptions& options) { return options.index_bytes == 4 ? " -DINDEX_32" : ""; }
 
 class CullPipeline {
  public:
@@ -36,8 +39,8 @@ class CullPipeline {
   // Creates or enlarges its buffers for the job. params gives the capacity for candidates and staged lists
   // (or marks).
   virtual void prepare(const CullParams& params) = 0;
-  // Enqueues all, waits for nothing. counters afterwards: [0] blocks of 16 candidates and [1] units of 16 staged words
-  // asked for, [3] whether some bin found no room, [4] and [5] low and high word of the number of indices.
+  // Enqueues all and waits for nothing. counters afterwards: [0] batches of 16 candidates and [1] units of 16 staged words
+  // that the job needs, [3] whether a bin had no room, [4] and [5] low and high word of the number of indices.
   virtual void enqueue(const CullJob& job) = 0;
   virtual size_t candidate_bytes() const = 0;  // of one candidate
   virtual size_t memory_bytes() const = 0;

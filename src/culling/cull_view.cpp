@@ -1,5 +1,6 @@
 #include "culling/cull_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>

@@ -1,4 +1,4 @@
-// project_lights -> mark_cells -> fill_lists: for GPUs.
+// project_lights -> cull_lights -> write_lists, for GPUs.
 #include <fmt/format.h>
 
 #include "cl/launch.h"
@@ -23,12 +23,12 @@ class GroupPipeline : public CullPipeline {
       throw machine_error("light culling: kernel shape group needs work-groups of {} items, and {} allows {}; use shape lanes",
                           project_items, device.info().name, allowed);
     }
-    project_ = programs.kernel("project_lights_group", options.light_defines);
-    while (fill_items_ > allowed) fill_items_ /= 2;
-    if (options.group_size > 0) mark_items_ = size_t(options.group_size);
-    while (mark_items_ > allowed) mark_items_ /= 2;
-    mark_cells_ = programs.kernel("mark_cells_group", fmt::format("{} -DGROUP={}", options.defines, mark_items_));
-    fill_ = programs.kernel("fill_lists_group", options.defines + group_define(fill_items_));
+    project_ = programs.kernel("gpu/project_lights", options.light_defines);
+    while (write_items_ > allowed) write_items_ /= 2;
+    if (options.group_size > 0) cull_items_ = size_t(options.group_size);
+    while (cull_items_ > allowed) cull_items_ /= 2;
+    cull_ = programs.kernel("gpu/cull_lights", fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
+    write_ = programs.kernel("gpu/write_lists", index_define(options) + group_define(write_items_));
   }
 
   void prepare(const CullParams& p) override {
@@ -36,7 +36,7 @@ class GroupPipeline : public CullPipeline {
     const size_t lines = (p.bins_x + p.bins_y) * (BIN_TILES / block_tiles);
     views_.at_least(device_, p.light_stride * record * sizeof(float));
     light_marks_.at_least(device_, lines * project_groups(p) * (project_items / 32) * sizeof(cl_uint));
-    ids_.at_least(device_, size_t(p.pool_blocks) * 16 * candidate_bytes());
+    ids_.at_least(device_, size_t(p.pool_batches) * 16 * candidate_bytes());
     cell_marks_.at_least(device_, size_t(p.staging_units) * 16 * sizeof(cl_uint));
     places_.at_least(device_, blocks(p) * sizeof(cl_uint4));
     totals_.at_least(device_, blocks(p) * sizeof(cl_ulong));
@@ -46,10 +46,10 @@ class GroupPipeline : public CullPipeline {
     const CullParams& p = job.params;
     launch(device_, "project_lights", project_, cl::NDRange(project_groups(p) * project_items), cl::NDRange(project_items),
            job.lights, views_.get(), light_marks_.get(), job.counters, job.params_buffer);
-    launch(device_, "mark_cells", mark_cells_, cl::NDRange(blocks(p) * mark_items_), cl::NDRange(mark_items_), views_.get(),
+    launch(device_, "cull_lights", cull_, cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_), views_.get(),
            light_marks_.get(), job.bounds, job.slices, ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells,
            job.counters, job.params_buffer);
-    launch(device_, "fill_lists", fill_, cl::NDRange(blocks(p) * fill_items_), cl::NDRange(fill_items_), ids_.get(),
+    launch(device_, "write_lists", write_, cl::NDRange(blocks(p) * write_items_), cl::NDRange(write_items_), ids_.get(),
            places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
 
@@ -64,8 +64,8 @@ class GroupPipeline : public CullPipeline {
   static size_t blocks(const CullParams& p) { return size_t(p.bins_x) * p.bins_y * bin_blocks; }
 
   ClDevice& device_;
-  size_t mark_items_ = usual_items, fill_items_ = usual_items;
-  cl::Kernel project_, mark_cells_, fill_;
+  size_t cull_items_ = usual_items, write_items_ = usual_items;
+  cl::Kernel project_, cull_, write_;
   GrowingBuffer views_, light_marks_, ids_, cell_marks_, places_, totals_;
 };
 

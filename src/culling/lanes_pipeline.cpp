@@ -1,4 +1,4 @@
-// project_lights -> cull -> compact, a work-item a bin: for CPUs.
+// project_lights -> cull_lights -> write_lists, a work-item a bin, for CPUs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,11 +27,10 @@ class LanesPipeline : public CullPipeline {
  public:
   LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
-    const std::string builtins = options.avx512 ? " -DAVX512" : "", defines = options.defines + builtins;
-    project_ = programs.kernel("project_lights_lanes", options.light_defines + builtins);
-    cull_ = programs.kernel("cull_lanes", defines);
-    compact_ = programs.kernel("compact_lanes", fmt::format("{}{}{}", options.index_bytes == 4 ? "-DINDEX_32" : "",
-                                                            options.slices ? " -DSLICES" : "", builtins));
+    const std::string builtins = options.avx512 ? " -DAVX512" : "", index = index_define(options);
+    project_ = programs.kernel("cpu/project_lights", options.light_defines + builtins);
+    cull_ = programs.kernel("cpu/cull_lights", options.cell_defines + index + builtins);
+    write_ = programs.kernel("cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + builtins);
   }
 
   void prepare(const CullParams& p) override {
@@ -40,7 +39,7 @@ class LanesPipeline : public CullPipeline {
     records_.at_least(device_, size_t(p.light_stride) * (options.cones ? 12 : 8) * sizeof(float));
     lists_.at_least(device_, (regions * 3 * (p.light_stride + 16) + spare) * sizeof(cl_uint));
     run_counts_.at_least(device_, regions * runs_ * sizeof(cl_uint));
-    pool_.at_least(device_, size_t(p.pool_blocks) * 16 * candidate_bytes() + spare * sizeof(float));
+    pool_.at_least(device_, size_t(p.pool_batches) * 16 * candidate_bytes() + spare * sizeof(float));
     staged_.at_least(device_, (size_t(p.staging_units) * 16 + spare) * options.index_bytes);
     cell_counts_.at_least(device_, bins * BIN_SIZE * p.slices * sizeof(cl_uint));
     bins_.at_least(device_, bins * sizeof(cl_uint2));
@@ -55,7 +54,7 @@ class LanesPipeline : public CullPipeline {
     launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1), records_.get(),
            lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(),
            bins_.get(), job.counters, job.params_buffer);
-    launch(device_, "compact_lists", compact_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
+    launch(device_, "write_lists", write_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
            staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
 
@@ -68,7 +67,7 @@ class LanesPipeline : public CullPipeline {
  private:
   ClDevice& device_;
   cl_uint runs_ = 1;
-  cl::Kernel project_, cull_, compact_;
+  cl::Kernel project_, cull_, write_;
   GrowingBuffer records_, lists_, run_counts_, pool_, staged_, cell_counts_, bins_;
 };
 

@@ -201,10 +201,10 @@ class LightCuller {
  private:
   // Sizes of the buffers between kernels, and of the indices; units as in CullParams.
   struct Room {
-    uint pool_blocks = 0, staging_units = 0, index_capacity = 0;
+    uint pool_batches = 0, staging_units = 0, index_capacity = 0;
     bool operator==(const Room&) const = default;
   };
-  Room room() const { return {params_.pool_blocks, params_.staging_units, params_.index_capacity}; }
+  Room room() const { return {params_.pool_batches, params_.staging_units, params_.index_capacity}; }
   void set_room(const Room& room);
   Room first_room(size_t index_bytes) const;
 

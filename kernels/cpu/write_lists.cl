@@ -1,10 +1,10 @@
-// The light grid from each bin's lists, for CPUs: one work-item adds up the totals of the bins before its own and copies
-// its block.
+// Writes the light grid from each bin's staged lists, for CPUs. A work-item adds up the totals of the bins before its own
+// and copies its own bin's lists behind theirs.
 //
-// bins, cell_counts, staged  as cull_lanes.cl writes them
+// bins, cell_counts, staged  as cpu/cull_lights.cl writes them
 // cells     uint2 a cell: first, count; x fastest, then y, then slice
 // indices   the light index list
-// counters  [4], [5] = low and high word of the number of indices, which can pass 32 bits; the host then refuses
+// counters  [4], [5] = low and high word of the number of indices; past 2^32 the host refuses
 #include "shared/cull_params.h"
 #include "shared/light_grid.h"
 
@@ -18,15 +18,15 @@ typedef uint index_t;
 #else
 typedef ushort index_t;
 #endif
-#ifdef __clang__  // knows this; vstore16 of ushort becomes 16 stores in PoCL 3.1
+#ifdef __clang__  // PoCL 3.1 turns vstore16 of ushort into 16 stores
 typedef index_t unaligned_indices __attribute__((ext_vector_type(16), aligned(2)));
 #define COPY_16(to, from) *(global unaligned_indices*)(to) = *(global const unaligned_indices*)(from)
 #else
 #define COPY_16(to, from) vstore16(vload16(0, from), 0, to)
 #endif
 
-kernel void compact_lanes(global const uint2* bins, global const uint* cell_counts, global const index_t* staged,
-                          global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
+kernel void write_lists(global const uint2* bins, global const uint* cell_counts, global const index_t* staged,
+                        global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
   const uint bin = get_global_id(0), count = bins[bin].y;
   ulong before = 0;
   for (uint i = 0; i < bin; ++i) before += bins[i].y;

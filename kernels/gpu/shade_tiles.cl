@@ -1,14 +1,14 @@
 // Point and spot lights added to the image of every tile from its light list, for GPUs: a work-item a pixel. As
-// shade_tiles_lanes.cl, with the same arguments.
+// cpu/shade_tiles.cl, with the same arguments.
 #define LANES 1
 #include "kernels/common/shade_pixels.h"
 #include "shared/light_grid.h"
 
-kernel void shade_tiles_group(global const channel_t* first, global const channel_t* second, global const float* depth,
-                              global const float4* places, global const float4* colors, global const float4* cones,
-                              global const uint2* cells, global const index_t* indices, global const uint* light_bins,
-                              constant float* bin_edges, global float* image, float4 background,
-                              constant ViewParams* view) {
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const float* depth,
+                        global const float4* positions, global const float4* colors, global const float4* cones,
+                        global const uint2* cells, global const index_t* indices, global const uint* light_bins,
+                        constant float* bin_edges, global float* image, float4 background,
+                        constant ViewParams* view) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
@@ -17,12 +17,12 @@ kernel void shade_tiles_group(global const channel_t* first, global const channe
   const bool lit = depth[at] > 0.0f && color.w > 0.0f;
   Real3 sum = real3(background.x, background.y, background.z);
   if (lit) {
-    const Lights lights = {places, colors, cones, light_bins};
+    const Lights lights = {positions, colors, cones, light_bins};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
     sum = light_sum(&p, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
   }
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
   const float4 under = vload4(at, image);
 #else
   const float4 under = (float4)(0.0f, 0.0f, 0.0f, 1.0f);

@@ -2,11 +2,11 @@
 // at once. The light pass of Lauritzen, "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
 //
 // first, second  geometry buffer, and depth: row 0 at the bottom (kernels/common/gbuffer.h)
-// places, colors, cones  of lights (shared/punctual_light.h)
+// positions, colors, cones  of lights (shared/punctual_light.h)
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with -DZ_BINS alone
-// image           RGBA a pixel. With -DOWN_LIGHT it holds what surfaces show without these lights, which are added
-// background      of pixels without a surface; without -DOWN_LIGHT alone
+// image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show without these lights, which are added
+// background      of pixels without a surface; without -DBASE_LIGHTING alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
 // -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DORTHOGRAPHIC  as the headers say
 //
@@ -19,18 +19,18 @@
 #define TILE 16
 #endif
 
-// 16 pixels are two runs of 8: beside each other, or in tiles of 8 x 8 above each other.
+// 16 pixels are two halves of 8, side by side; in tiles of 8 x 8 one above the other.
 #if TILE == 8
-#define RUN_DX 0u
-#define RUN_DY 1u
+#define HALF_DX 0u
+#define HALF_DY 1u
 #else
-#define RUN_DX 8u
-#define RUN_DY 0u
+#define HALF_DX 8u
+#define HALF_DY 0u
 #endif
 
 static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f); }
 
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
 #define UNDER(i) vload16(i, image)
 #define COVERAGE 0.0f  // is there already
 #else
@@ -39,7 +39,7 @@ static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5
 #endif
 
 // The first `count` of 8 pixels.
-static inline void put_run(global float* image, float8 r, float8 g, float8 b, uint count) {
+static inline void store_half(global float* image, float8 r, float8 g, float8 b, uint count) {
   const float a = COVERAGE;
   const float16 low = (float16)(r.s0, g.s0, b.s0, a, r.s1, g.s1, b.s1, a, r.s2, g.s2, b.s2, a, r.s3, g.s3, b.s3, a);
   const float16 high = (float16)(r.s4, g.s4, b.s4, a, r.s5, g.s5, b.s5, a, r.s6, g.s6, b.s6, a, r.s7, g.s7, b.s7, a);
@@ -49,33 +49,33 @@ static inline void put_run(global float* image, float8 r, float8 g, float8 b, ui
   }
   float light[32];
   vstore16(low, 0, light), vstore16(high, 1, light);
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
   for (uint i = 0; i < 4 * count; ++i) light[i] += image[i];
 #endif
   for (uint i = 0; i < 4 * count; ++i) image[i] = light[i];
 }
 
-kernel void shade_tiles_lanes(global const channel_t* first, global const channel_t* second, global const float* depth,
-                              global const float4* places, global const float4* colors, global const float4* cones,
-                              global const uint2* cells, global const index_t* indices, global const uint* light_bins,
-                              constant float* bin_edges, global float* image, float4 background,
-                              constant ViewParams* view) {
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const float* depth,
+                        global const float4* positions, global const float4* colors, global const float4* cones,
+                        global const uint2* cells, global const index_t* indices, global const uint* light_bins,
+                        constant float* bin_edges, global float* image, float4 background,
+                        constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
   if (range.y == 0) return;
 #endif
-  const Lights lights = {places, colors, cones, light_bins};
+  const Lights lights = {positions, colors, cones, light_bins};
   const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
-  for (uint y = tile_y * TILE; y < y_end; y += 1 + RUN_DY) {
-    for (uint x = tile_x * TILE; x < x_end; x += 8 + RUN_DX) {
-      const uint x2 = min(x + RUN_DX, view->width - 1), y2 = min(y + RUN_DY, view->height - 1);
+  for (uint y = tile_y * TILE; y < y_end; y += 1 + HALF_DY) {
+    for (uint x = tile_x * TILE; x < x_end; x += 8 + HALF_DX) {
+      const uint x2 = min(x + HALF_DX, view->width - 1), y2 = min(y + HALF_DY, view->height - 1);
       const size_t at = (size_t)y * view->width + x, at2 = (size_t)y2 * view->width + x2;
       const real depths = (real)(vload8(0, depth + at), vload8(0, depth + at2));
       const Texels normal = load_texels(first + 4 * at, first + 4 * at2);
       const Texels color = load_texels(second + 4 * at, second + 4 * at2);
       const mask_t lit = (depths > REAL(0.0f)) & (color.w > REAL(0.0f));
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
       if (!any_lane(lit)) continue;
 #endif
       const real px = (real)((float)x + pixel_offsets(), (float)x2 + pixel_offsets());
@@ -86,9 +86,9 @@ kernel void shade_tiles_lanes(global const channel_t* first, global const channe
       const Real3 sum = light_sum(&p, indices + range.x, range.y, bins, &lights, view);
       const real r = lit ? sum.x : REAL(background.x), g = lit ? sum.y : REAL(background.y);
       const real b = lit ? sum.z : REAL(background.z);
-      put_run(image + 4 * at, r.lo, g.lo, b.lo, x_end - x);
-      if (RUN_DX && x + RUN_DX < x_end) put_run(image + 4 * at2, r.hi, g.hi, b.hi, x_end - x2);
-      if (RUN_DY && y + RUN_DY < y_end) put_run(image + 4 * at2, r.hi, g.hi, b.hi, x_end - x2);
+      store_half(image + 4 * at, r.lo, g.lo, b.lo, x_end - x);
+      if (HALF_DX && x + HALF_DX < x_end) store_half(image + 4 * at2, r.hi, g.hi, b.hi, x_end - x2);
+      if (HALF_DY && y + HALF_DY < y_end) store_half(image + 4 * at2, r.hi, g.hi, b.hi, x_end - x2);
     }
   }
 }

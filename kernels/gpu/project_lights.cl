@@ -1,5 +1,5 @@
-// Lights to view space, and which of them each column and each row of blocks of tiles may see, for GPUs: one work-item a
-// light. A block may see those that its column and its row both do.
+// Transforms lights to view space and marks the columns and rows of blocks of tiles that each may reach, for GPUs: a
+// work-item a light. A light may reach a block when it is marked for the block's column and for its row.
 //
 // lights    as kernels/common/light_arrays.h says
 // views     a RECORD a light (kernels/common/group_grid.h)
@@ -8,7 +8,7 @@
 #define LANES 1
 #include "kernels/common/group_grid.h"
 
-kernel __attribute__((reqd_work_group_size(PROJECT_GROUP, 1, 1))) void project_lights_group(
+kernel __attribute__((reqd_work_group_size(PROJECT_GROUP, 1, 1))) void project_lights(
     global const float* lights, global float4* views, global uint* marks, global uint* counters, constant CullParams* p) {
   local int2 rects[PROJECT_GROUP];
   const uint light = get_global_id(0), item = get_local_id(0);

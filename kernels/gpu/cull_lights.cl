@@ -1,30 +1,30 @@
-// The lights that may touch each block of tiles, in their order, and a bit for each of them and each of the block's cells,
-// for GPUs: one work-group of GROUP items a block.
+// Candidates of each block of 4 x 4 tiles, in order, and for each candidate and cell of the block a bit: listed or not. For
+// GPUs; a work-group of GROUP items takes a block.
 //
-// views, light_marks  as project_lights_group.cl writes them
-// bounds    as depth_bounds_group.cl writes them
+// views, light_marks  as gpu/project_lights.cl writes them
+// bounds    as gpu/depth_bounds.cl writes them
 // slices    where there are some: as kernels/common/bin_cells.h says
-// ids       the blocks' candidates, in units of 16: how many were asked for is in counters[0]
-// places    uint4 a block: where its candidates lie (in units), how many they are, where its marks lie (in units of 16
-//           words: counters[1]), 0
+// ids       the blocks' candidates, in units of 16; the units needed are counted in counters[0]
+// offsets   uint4 a block: its first unit of candidates, their number, its first unit of marks (16 words each; the units
+//           needed are counted in counters[1]), 0
 // totals    number of indices, a block, 64 bits
 // marks     a block's cells (BLOCK_SIZE slots, slices each), a word for each 32 candidates
 // cells     uint2 a cell, of which .y: the number of its indices
 //
-// Where room runs out a block writes nothing and sets counters[3]; the host reads what was asked for and runs the kernels
-// again with more.
+// A block without room writes nothing and sets counters[3]; the host then reads the counters and runs the kernels again
+// with more room.
 // -DGROUP  items a group, a power of two, 64 at least (default 256)
 #ifndef GROUP
 #define GROUP 256
 #endif
 #define LANES 1
 #include "kernels/common/bin_cells.h"
-#include "kernels/common/append.h"
+#include "kernels/common/group_sums.h"
 #include "kernels/common/group_grid.h"
 
 #define LIGHT_WORDS 2048              // words of lights' marks handled at once
 #define MARK_WORDS 32                 // words of candidates, likewise
-#define MARK_STRIDE (MARK_WORDS + 1)  // items that each read their own cell use other banks
+#define MARK_STRIDE (MARK_WORDS + 1)  // a padding word: items that each read their own cell use different banks
 #define SPANS 6
 #define MOST_MARK_UNITS 0x0fffffffu
 
@@ -51,8 +51,8 @@ static inline bool cell_in_block(const Block* block, uint slot, uint slice, Test
 #endif
 }
 
-// The box around all that the block's tiles show; near > far where that is nothing. Makes block->cells.
-// spans: near, x0, y0, -far, -x1, -y1 of each tile: their least are the box.
+// The box around all surfaces of the block's tiles; near > far where there are none. Also fills block->cells.
+// spans: near, x0, y0, -far, -x1, -y1 of each tile; their minima are the box.
 static inline Cell block_box(const Block* block, local float* spans, constant CullParams* p) {
   const uint item = get_local_id(0);
   if (item < BLOCK_SIZE) {
@@ -94,8 +94,8 @@ static inline uint touch_block(uint bits, global const float4* first, const Cell
   return kept;
 }
 
-// Appends the block's candidates to `ids` and returns how many they are. Lights are those that the marks of its column and
-// of its row share; where they are few words, several items take a part of each.
+// Appends the block's candidates to `ids` and returns their number: lights that are marked for its column and its row and
+// touch its box. Where these marks are few words, several items share a word.
 static inline uint list_candidates(global const uint* column, global const uint* row, uint words,
                                    global const float4* views, const Cell* box, global uint* ids, local uint* kept,
                                    local uint* scratch) {
@@ -119,12 +119,12 @@ static inline uint list_candidates(global const uint* column, global const uint*
     const uint from = min(item * each, some), to = min(from + each, some);
     uint count = 0;
     for (uint i = from; i < to; ++i) count += popcount(kept[i]);
-    const uint2 place = append_place(count, scratch);
-    uint k = n + place.x;
+    const uint2 offset = prefix_sum(count, scratch);
+    uint k = n + offset.x;
     for (uint i = from; i < to; ++i) {
       for (uint bits = kept[i]; bits; bits &= bits - 1, ++k) ids[k] = (base + i) * 32 + lowest_bit(bits);
     }
-    n += place.y;
+    n += offset.y;
     barrier(CLK_LOCAL_MEM_FENCE);
   }
   return n;
@@ -161,11 +161,11 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
   }
 }
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
     global const float4* views, global const uint* light_marks, global const float* bounds, global const float2* slices,
-    global uint* ids, global uint4* places, global ulong* totals, global uint* marks, global uint2* cells,
+    global uint* ids, global uint4* offsets, global ulong* totals, global uint* marks, global uint2* cells,
     global volatile uint* counters, constant CullParams* p) {
-  local uint scratch[APPEND_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
+  local uint scratch[PREFIX_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
   local float spans[SPANS * BLOCK_SIZE];
   local TestCell made[BLOCK_SIZE];
   local uint most, ids_at, marks_at;
@@ -187,11 +187,11 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
   const uint units = some ? (most + 15) / 16 : 0u;
   if (item == 0) ids_at = atomic_add(counters, units);
   barrier(CLK_LOCAL_MEM_FENCE);
-  const bool room = (ulong)ids_at + units <= p->pool_blocks;
+  const bool room = (ulong)ids_at + units <= p->pool_batches;
   ids += (size_t)ids_at * 16;
   const uint count = list_candidates(column, row, some && room ? all_words : 0u, views, &box, ids, kept, scratch);
 
-  // A block's marks are counted in 32-bit words: with more it has no room, and the host refuses.
+  // Marks are counted in 32 bits. A block with more gets no room, and the host refuses.
   const uint words = (count + 31) / 32;
   const ulong wanted = (ulong)words * (BLOCK_SIZE / 16) * p->slices;
   const uint mark_units = (uint)min(wanted, (ulong)MOST_MARK_UNITS);
@@ -226,7 +226,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void mark_cells_group(
   if (item != 0) return;
   for (uint i = 1; i < BLOCK_SIZE; ++i) tile_total += tile_totals[i];
   const bool fits = room && countable && (ulong)mark_units_at + mark_units <= p->staging_units;
-  places[index] = fits ? (uint4)(ids_at, count, mark_units_at, 0u) : (uint4)(0u);
+  offsets[index] = fits ? (uint4)(ids_at, count, mark_units_at, 0u) : (uint4)(0u);
   totals[index] = fits ? tile_total : 0u;
   if (!fits) counters[3] = 1u;
 }

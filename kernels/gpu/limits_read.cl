@@ -1,7 +1,7 @@
-// What reading alone takes, for GPUs: the same contract as limits_read_lanes.cl, but items side by side read side by
+// What reading alone takes, for GPUs: the same contract as cpu/limits_read.cl, but items side by side read side by
 // side, and all of them stride through the buffer together.
 // values  count vectors of 4; sums  one uint an item
-kernel void limits_read_group(global const uint4* values, uint count, global uint* sums) {
+kernel void limits_read(global const uint4* values, uint count, global uint* sums) {
   const uint item = get_global_id(0), items = get_global_size(0);
   uint4 a = 0u, b = 0u, c = 0u, d = 0u;
   uint i = item;

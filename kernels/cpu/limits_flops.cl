@@ -2,7 +2,7 @@
 // of 16. A product and a sum are two operations: contraction is off, as in every kernel here. For CPUs.
 #define CHAINS 12
 
-kernel void limits_flops_lanes(float factor, float term, uint steps, global float* results) {
+kernel void limits_flops(float factor, float term, uint steps, global float* results) {
   const float16 a = factor, b = term;
   float16 x[CHAINS];
   for (int i = 0; i < CHAINS; ++i) x[i] = (float16)(factor * (float)i + (float)get_global_id(0));

@@ -1,16 +1,16 @@
-// The light grid from the cells' marks, for GPUs: one work-group of GROUP items takes a block of tiles, adds up the totals
-// of those before it, and writes its lists in order, an item a run of words.
+// Writes the light grid from the cells' marks, for GPUs. A work-group of GROUP items takes a block of tiles, adds up the
+// totals of the blocks before it, and writes its lists in order, an item a run of words.
 //
-// ids, places, totals, marks  as mark_cells_group.cl writes them
-// cells     uint2 a cell: first, and count as mark_cells_group.cl has written it; x fastest, then y, then slice
+// ids, offsets, totals, marks  as gpu/cull_lights.cl writes them
+// cells     uint2 a cell: first, and count as gpu/cull_lights.cl has written it; x fastest, then y, then slice
 // indices   the light index list
-// counters  [4], [5] = low and high word of the number of indices, which can pass 32 bits; the host then refuses
+// counters  [4], [5] = low and high word of the number of indices; past 2^32 the host refuses
 // -DGROUP   items a group, a power of two (default 256)
 #ifndef GROUP
 #define GROUP 256
 #endif
 #define LANES 1
-#include "kernels/common/append.h"
+#include "kernels/common/group_sums.h"
 #include "kernels/common/group_grid.h"
 
 #ifdef INDEX_32
@@ -19,22 +19,22 @@ typedef uint index_t;
 typedef ushort index_t;
 #endif
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void fill_lists_group(
-    global const uint* ids, global const uint4* places, global const ulong* totals, global const uint* marks,
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void write_lists(
+    global const uint* ids, global const uint4* offsets, global const ulong* totals, global const uint* marks,
     global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
-  local uint scratch[APPEND_SCRATCH];
+  local uint scratch[PREFIX_SCRATCH];
   local ulong sums[GROUP];
   const uint block = get_group_id(0), item = get_local_id(0);
-  const uint4 place = places[block];
-  const uint words = (place.y + 31) / 32, block_cells = BLOCK_SIZE * p->slices, all = block_cells * words;
+  const uint4 offset = offsets[block];
+  const uint words = (offset.y + 31) / 32, block_cells = BLOCK_SIZE * p->slices, all = block_cells * words;
   const uint each = (all + GROUP - 1) / GROUP, from = min(item * each, all), to = min(from + each, all);
-  ids += (size_t)place.x * 16, marks += (size_t)place.z * 16;
+  ids += (size_t)offset.x * 16, marks += (size_t)offset.z * 16;
   ulong sum = 0;
   for (uint i = item; i < block; i += GROUP) sum += totals[i];
   uint mine = 0;
   for (uint i = from; i < to; ++i) mine += popcount(marks[i]);
   const ulong before = sum_of_group(sum, sums), end = before + totals[block];
-  const uint mine_at = append_place(mine, scratch).x;
+  const uint mine_at = prefix_sum(mine, scratch).x;
   if (item == 0 && block + 1 == BLOCKS_X(p) * BLOCKS_Y(p)) counters[4] = (uint)end, counters[5] = (uint)(end >> 32);
   if (end > p->index_capacity) return;
 

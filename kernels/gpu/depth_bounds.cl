@@ -1,6 +1,6 @@
-// Depth bounds of every tile, for GPUs: one work-group takes GROUP values of a row side by side, an item each, down a
-// row of tiles, so that each item waits for TILE loads at once and memory is read in long stretches. Then an item a
-// tile. The same contract, arguments and bytes as depth_bounds_lanes.cl.
+// Depth bounds of every tile, for GPUs. A work-group takes GROUP neighbouring columns of a row of tiles, one column an item,
+// so that each item has TILE loads in flight and memory is read in long stretches. Then one item finishes a tile. Same
+// contract, arguments and bytes as cpu/depth_bounds.cl.
 // -DGROUP  items a group, a power of two (default 256)
 #define LANES 1
 #include "kernels/common/depth_bounds.h"
@@ -23,7 +23,7 @@
     }                                                                                                         \
   }
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_group(
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds(
     global const uint* depth, global float* opaque, global float* blend, global volatile uint* counters, uint counter,
     uint next_counter, constant CullParams* p) {
   local uint lows[PLACE(GROUP)], highs[PLACE(GROUP)], lowests[PLACE(GROUP)];
@@ -32,7 +32,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
   const uint last_row = min((uint)TILE, p->height - ty * TILE) - 1u, from = PLACE(item * WIDTH);
   global const uint* strip = depth + p->depth_first + (size_t)ty * TILE * p->depth_row;
   if (get_global_id(0) == 0 && ty == 0) counters[next_counter] = 0;
-  // Least key less 1, so that nothing there (0) goes to the top and is left out; greatest key; least key.
+  // Least key minus 1, which leaves out the key 0 (no surface); greatest key; least key.
   uint low = 0xffffffffu, high = 0u, lowest = 0xffffffffu;
   FOR_KEYS(low = min(low, key - 1u); high = max(high, key); lowest = min(lowest, key);)
   lows[PLACE(item)] = low, highs[PLACE(item)] = high, lowests[PLACE(item)] = lowest;
@@ -54,8 +54,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
   const uint tile = item / WIDTH;
   barrier(CLK_LOCAL_MEM_FENCE);  // lows and highs are free again
 #if DEPTH_MODE == DEPTH_HALFZ_MODIFIED
-  // Least key at or above the cut, and greatest below it. A side without a key is empty; a tile with strange depths
-  // keeps its interval.
+  // Least key at or above the cut, and greatest below it. A side without a key is empty; a tile with an invalid depth
+  // keeps its whole interval.
   local uint cuts[TILES];
   if (item < TILES) cuts[item] = max(KEY(as_uint(depth_of_distance(middle, p))), 1u);  // 0: nothing there
   barrier(CLK_LOCAL_MEM_FENCE);
@@ -78,7 +78,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds_grou
   barrier(CLK_LOCAL_MEM_FENCE);
   const float near = nears[tile], far = fars[tile];
   uint slots = 0u;
-  FOR_KEYS(if (key != 0u) slots |= slots_of_key(key, near, far, p);)
+  FOR_KEYS(if (key != 0u) slots |= mask_of_key(key, near, far, p);)
   atomic_or(&masks[tile], slots);
   barrier(CLK_LOCAL_MEM_FENCE);
   if (writes) planes[2] = as_float(high == 0u || high > ONE_BITS || all.far == FAR_AWAY ? 0xffffffffu : masks[item]);

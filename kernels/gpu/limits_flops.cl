@@ -1,7 +1,7 @@
-// What arithmetic alone takes, for GPUs: as limits_flops_lanes.cl, with scalar chains and many items.
+// What arithmetic alone takes, for GPUs: as cpu/limits_flops.cl, with scalar chains and many items.
 #define CHAINS 12
 
-kernel void limits_flops_group(float factor, float term, uint steps, global float* results) {
+kernel void limits_flops(float factor, float term, uint steps, global float* results) {
   float x[CHAINS];
 #pragma unroll
   for (int i = 0; i < CHAINS; ++i) x[i] = factor * (float)i + (float)get_global_id(0);

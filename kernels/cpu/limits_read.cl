@@ -3,7 +3,7 @@
 // values  count vectors of 16, a multiple of 8 of them; sums  one uint an item
 #define CHAINS 8u
 
-kernel void limits_read_lanes(global const uint16* values, uint count, global uint* sums) {
+kernel void limits_read(global const uint16* values, uint count, global uint* sums) {
   const size_t blocks = count / CHAINS, item = get_global_id(0), items = get_global_size(0);
   global const uint16* p = values + blocks * item / items * CHAINS;
   global const uint16* end = values + blocks * (item + 1) / items * CHAINS;

@@ -1,10 +1,10 @@
-// Depth bounds of every tile, for CPUs: one work-item reduces 16 tiles of a row of tiles, four of them at a time, so
-// that memory is read in long stretches.
+// Depth bounds of every tile, for CPUs. A work-item reduces 16 tiles of a row of tiles, four at a time, so that it reads long
+// stretches of memory.
 //
 // depth     floats; rows of the view start depth_row apart from depth_first on
 // opaque, blend  as kernels/common/depth_bounds.h says
-// counters  [counter] += tiles in which some value is no depth; they span every distance. [next_counter] = 0, for the
-//           next launch to count in
+// counters  [counter] += tiles with an invalid depth; such a tile spans every distance. [next_counter] = 0, for the next
+//           launch
 #define LANES 16
 #include "kernels/common/depth_bounds.h"
 
@@ -20,7 +20,7 @@ static inline uint lowest_lane(uint16 v) {
 }
 static inline uint highest_lane(uint16 v) { return ~lowest_lane(~v); }
 
-// 16 keys of a tile: of one row, or of two where rows are shorter; of an odd number of rows the last one counts twice.
+// 16 keys of a tile: of one row, or of two where rows are shorter. The last of an odd number of rows is read twice.
 static inline uint16 load_keys(global const uint* depth, uint row, uint rows, uint stride) {
 #if ROW == 8
   global const uint* other = depth + (size_t)min(row + 1, rows - 1) * stride;
@@ -30,7 +30,7 @@ static inline uint16 load_keys(global const uint* depth, uint row, uint rows, ui
 #endif
 }
 
-// Least key less 1, so that nothing there (0) goes to the top and is left out at no cost; greatest key; least key.
+// Least key minus 1, which turns the key 0 (no surface) into the greatest number and so leaves it out; greatest key; least key.
 typedef struct Keys {
   uint low1[TILES], high[TILES], lowest[TILES];
 } Keys;
@@ -100,13 +100,13 @@ static inline uint2 keys_around(global const uint* depth, uint stride, uint rows
   return (uint2)(lowest_lane(above), highest_lane(below));
 }
 
-// The slots of the tile's interval that hold a surface.
-static inline uint occupied_slots(global const uint* depth, uint stride, uint rows, uint columns, float near, float far,
+// The bits of the tile's interval that hold a surface.
+static inline uint occupied_bits(global const uint* depth, uint stride, uint rows, uint columns, float near, float far,
                                   constant CullParams* p) {
   uint16 mask = (uint16)(0u);
 #define OCCUPY(keys)                                                                           \
   const uint16 key = keys;                                                                     \
-  mask |= key != (uint16)(0u) ? slots_of_key(key, near, far, p) : (uint16)(0u);
+  mask |= key != (uint16)(0u) ? mask_of_key(key, near, far, p) : (uint16)(0u);
   FOR_KEYS(OCCUPY)
   const uint8 a = mask.lo | mask.hi;
   const uint4 b = a.lo | a.hi;
@@ -114,9 +114,9 @@ static inline uint occupied_slots(global const uint* depth, uint stride, uint ro
 }
 #endif
 
-kernel void depth_bounds_lanes(global const uint* depth, global float* opaque, global float* blend,
-                               global volatile uint* counters,
-                               uint counter, uint next_counter, constant CullParams* p) {
+kernel void depth_bounds(global const uint* depth, global float* opaque, global float* blend,
+                         global volatile uint* counters,
+                         uint counter, uint next_counter, constant CullParams* p) {
   const uint tx0 = get_global_id(0) * TILES, ty = get_global_id(1), stride = p->depth_row;
   const uint rows = min((uint)TILE, p->height - ty * TILE), tiles = min((uint)TILES, p->tiles_x - tx0);
   global const uint* first = depth + p->depth_first + (size_t)ty * TILE * stride + tx0 * ROW;
@@ -159,17 +159,17 @@ kernel void depth_bounds_lanes(global const uint* depth, global float* opaque, g
     const uint2 around = keys_around(first + t * ROW, stride, rows, columns, cuts[t]);
     found[0][t] = around.x, found[1][t] = around.y;
 #else
-    if (planes[1][t] == FAR_AWAY) continue;  // every distance: every slot
-    found[0][t] = occupied_slots(first + t * ROW, stride, rows, columns, planes[0][t], planes[1][t], p);
+    if (planes[1][t] == FAR_AWAY) continue;  // every distance: every bit
+    found[0][t] = occupied_bits(first + t * ROW, stride, rows, columns, planes[0][t], planes[1][t], p);
 #endif
   }
 #if DEPTH_MODE == DEPTH_HALFZ_MODIFIED
   const uint16 above = vload16(0, found[0]), below = vload16(0, found[1]);
-  // A side without a key is empty; a tile with strange depths keeps its interval.
-  const int16 strange = high > (uint16)(ONE_BITS);
+  // A side without a key is empty; a tile with an invalid depth keeps its whole interval.
+  const int16 invalid = high > (uint16)(ONE_BITS);
   const Interval nearer = opaque_interval(above, above == (uint16)(0xffffffffu) ? (uint16)(0u) : high, p);
   const Interval farther = opaque_interval(low, below, p);
-  vstore16(strange ? nears : nearer.near, 0, planes[0]), vstore16(strange ? fars : nearer.far, 0, planes[1]);
+  vstore16(invalid ? nears : nearer.near, 0, planes[0]), vstore16(invalid ? fars : nearer.far, 0, planes[1]);
   vstore16(farther.near, 0, planes[2]), vstore16(farther.far, 0, planes[3]);
 #else
   for (uint t = 0; t < TILES; ++t) planes[2][t] = as_float(found[0][t]);
