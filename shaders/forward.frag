@@ -25,7 +25,7 @@
 #include "shaders/lights/all.glsl"
 #endif
 #endif
-#include "shaders/common/own_light.glsl"
+#include "shaders/common/base_lighting.glsl"
 
 layout(location = 0) out vec4 radiance;
 #ifdef FIRST_OF_DRAWS
@@ -48,7 +48,7 @@ void main() {
     vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
     ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
 #ifndef ADDED
-    color = own_light(s, p);
+    color = base_lighting(s, p);
 #endif
 #ifdef LIGHTS
     color += light_sum(p);

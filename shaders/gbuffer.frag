@@ -1,16 +1,16 @@
 // A surface into the geometry buffer, and what it shows without point and spot lights into the image: light passes
 // only add to it.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
-//   OWN_LIGHT: there is an image to write
+//   BASE_LIGHTING: there is an image to write
 #include "shaders/common/surface.glsl"
 #include "shaders/common/gbuffer.glsl"
 
 layout(location = 0) out vec4 normal_roughness_metallic;
 layout(location = 1) out vec4 base_color_lit;
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
 #include "shaders/common/position.glsl"
 #include "shared/brdf.h"
-#include "shaders/common/own_light.glsl"
+#include "shaders/common/base_lighting.glsl"
 
 layout(location = 2) out vec4 radiance;
 
@@ -20,7 +20,7 @@ vec3 light_of(Surface s) {
 #endif
   vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
   vec3 to_viewer = direction_to_viewer(position);
-  return own_light(s, shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness));
+  return base_lighting(s, shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness));
 }
 #endif
 
@@ -32,7 +32,7 @@ void main() {
   GBufferTexels texels = gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit));
   normal_roughness_metallic = texels.normal_roughness_metallic;
   base_color_lit = texels.base_color_lit;
-#ifdef OWN_LIGHT
+#ifdef BASE_LIGHTING
   radiance = vec4(light_of(s), 1.0);
 #endif
 }

@@ -1,7 +1,7 @@
 // The point and spot lights by index.
 #include "shared/punctual_light.h"
 
-layout(binding = 8) uniform samplerBuffer light_places;
+layout(binding = 8) uniform samplerBuffer light_positions;
 layout(binding = 9) uniform samplerBuffer light_colors;
 #ifdef SPOTS
 layout(binding = 10) uniform samplerBuffer light_cones;
@@ -9,7 +9,7 @@ layout(binding = 10) uniform samplerBuffer light_cones;
 
 PunctualLight light_at(int index) {
   PunctualLight light;
-  light.place = texelFetch(light_places, index);
+  light.position = texelFetch(light_positions, index);
   light.color = texelFetch(light_colors, index);
 #ifdef SPOTS
   light.cone = texelFetch(light_cones, index);

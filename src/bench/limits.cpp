@@ -44,7 +44,7 @@ Spread copy_ms(ClDevice& device, const cl::Buffer& from, size_t bytes, int runs)
 
 Spread flops_ms(ClDevice& device, ProgramCache& programs, int runs, double& operations) {
   const bool cpu = device.info().cpu;
-  cl::Kernel kernel = programs.kernel(cpu ? "limits_flops_lanes" : "limits_flops_group", "");
+  cl::Kernel kernel = programs.kernel(cpu ? "cpu/limits_flops" : "gpu/limits_flops", "");
   const size_t items = cpu ? 4 * size_t(device.info().compute_units) : gpu_group * 32 * device.info().compute_units;
   const cl_uint steps = cpu ? 20000 : 4000;
   const cl::Buffer results = device_buffer(device, items * sizeof(float));
@@ -98,7 +98,7 @@ Spread read_ms(ClDevice& device, PlainRead& read, const cl::Buffer& buffer, size
 
 PlainRead::PlainRead(ClDevice& device, ProgramCache& programs)
     : device_(device),
-      kernel_(programs.kernel(device.info().cpu ? "limits_read_lanes" : "limits_read_group", "")),
+      kernel_(programs.kernel(device.info().cpu ? "cpu/limits_read" : "gpu/limits_read", "")),
       group_(device.info().cpu ? 1 : gpu_group) {
   items_ = group_ * size_t(device.info().compute_units);
   sums_ = device_buffer(device, 64 * items_ * sizeof(cl_uint));

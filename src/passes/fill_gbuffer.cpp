@@ -16,13 +16,13 @@ const GBufferLayout& layout_of(const Settings& settings) {
 
 // Bytes a pixel, besides depth.
 size_t written_bytes(const GBuffer& gbuffer) {
-  return gbuffer.layout->bytes() + (gbuffer.own_light == OwnLight::in_image ? 16 : 0);
+  return gbuffer.layout->bytes() + (gbuffer.base_lighting == BaseLighting::in_image ? 16 : 0);
 }
 
 void clear(RenderView& v, const GBuffer& gbuffer) {
   const float background[4] = {v.scene.background.r, v.scene.background.g, v.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
-  if (gbuffer.own_light == OwnLight::in_image) glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
+  if (gbuffer.base_lighting == BaseLighting::in_image) glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
   for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
 }
 
@@ -34,16 +34,16 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
   glDisable(GL_BLEND);
   LightSource source = base_lighting(v);
   if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
-  if (gbuffer.own_light == OwnLight::in_image) source.defines.emplace_back("OWN_LIGHT");
+  if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
   source.bind(v);
   draw_list(v, surfaces, DrawStreams::all, v.programs("shaders/scene.vert", "shaders/gbuffer.frag", source.defines));
 }
 
 }  // namespace
 
-GBuffer gbuffer_of(RenderView& v, OwnLight own_light) {
+GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
   GBuffer g;
-  g.own_light = own_light;
+  g.base_lighting = base_lighting;
   g.layout = &layout_of(v.plan.settings);
   for (int i = 0; i < 2; ++i) {
     g.textures[i] =
@@ -51,16 +51,16 @@ GBuffer gbuffer_of(RenderView& v, OwnLight own_light) {
   }
   g.depth = v.targets.depth();
   const GLuint image = v.targets.texture("color", GL_RGBA32F);
-  g.framebuffer = own_light == OwnLight::in_image ? v.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
+  g.framebuffer = base_lighting == BaseLighting::in_image ? v.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
                                                   : v.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
   g.depth_image = {v.depth_framebuffer()};
   g.image = {v.color_framebuffer()};
   return g;
 }
 
-GBuffer fill_gbuffer(RenderView& v, OwnLight own_light) {
+GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting) {
   auto pass = v.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(v, own_light);
+  const GBuffer gbuffer = gbuffer_of(v, base_lighting);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as in forward shading
   glDepthMask(GL_TRUE);
@@ -71,9 +71,9 @@ GBuffer fill_gbuffer(RenderView& v, OwnLight own_light) {
   return gbuffer;
 }
 
-GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, OwnLight own_light) {
+GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_lighting) {
   auto pass = v.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(v, own_light);
+  const GBuffer gbuffer = gbuffer_of(v, base_lighting);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   draw_surfaces(v, gbuffer, surfaces);

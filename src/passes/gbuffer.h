@@ -48,11 +48,11 @@ inline constexpr GBufferLayout gbuffer_layouts[] = {
 
 // Where light that is no point or spot light's is added: ambient, emissive, directional, unlit color. in_image: by the
 // geometry pass; light passes add to the image. in_light_pass: by it, which is only for plain ambient light
-// (FramePlan::own_light); the image is not written.
-enum class OwnLight { in_image, in_light_pass };
+// (FramePlan::base_lighting); the image is not written.
+enum class BaseLighting { in_image, in_light_pass };
 
 struct GBuffer {
-  OwnLight own_light = OwnLight::in_image;
+  BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
   GLuint framebuffer = 0;  // the layout's images and, for own light, the image; over depth
   std::array<GLuint, 2> textures{};
@@ -62,13 +62,13 @@ struct GBuffer {
 };
 
 // The view's geometry buffer as the setting buffer-bits lays it out, drawn or not.
-GBuffer gbuffer_of(RenderView& v, OwnLight own_light = OwnLight::in_image);
+GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
 
 // Opaque surfaces with their depth, in one pass over the geometry.
-GBuffer fill_gbuffer(RenderView& v, OwnLight own_light = OwnLight::in_image);
+GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
 
 // These surfaces alone, at the depth that a prepass left.
-GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, OwnLight own_light = OwnLight::in_image);
+GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_lighting = BaseLighting::in_image);
 
 // The defines of shaders that read the geometry buffer (shaders/common/read_gbuffer.glsl), whose textures
 // bind_gbuffer binds.

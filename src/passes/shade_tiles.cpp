@@ -37,7 +37,7 @@ class Uploaded {
 };
 
 // Whether the image holds what surfaces show of themselves before the light pass.
-bool holds_own_light(const GBuffer& gbuffer) { return gbuffer.own_light == OwnLight::in_image; }
+bool holds_base_lighting(const GBuffer& gbuffer) { return gbuffer.base_lighting == BaseLighting::in_image; }
 
 // The geometry buffer and the image as OpenCL reads them, the lights, and the kernels.
 class TileShading : public PassState {
@@ -67,17 +67,17 @@ class TileShading : public PassState {
 
   // Built at first use.
   cl::Kernel& kernel(RenderView& v, const GBuffer& gbuffer) {
-    cl::Kernel& kernel = kernels_[holds_own_light(gbuffer)];
+    cl::Kernel& kernel = kernels_[holds_base_lighting(gbuffer)];
     if (kernel()) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
-                                            holds_own_light(gbuffer) ? " -DOWN_LIGHT" : "");
-    kernel = v.renderer.kernels->kernel(lanes ? "shade_tiles_lanes" : "shade_tiles_group", defines);
+                                            holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
+    kernel = v.renderer.kernels->kernel(lanes ? "cpu/shade_tiles" : "gpu/shade_tiles", defines);
     return kernel;
   }
 
   const bool lanes;
   SharedBuffer surfaces[2], image;
-  Uploaded places, colors, cones, view, bin_edges;
+  Uploaded positions, colors, cones, view, bin_edges;
 
  private:
   static bool takes_lanes(const RenderView& v) {
@@ -106,7 +106,7 @@ class TileShading : public PassState {
   void upload(RenderView& v) {
     const LightTexels texels = light_texels(v.scene, v.view, v.plan);
     ClDevice& device = *v.renderer.cl;
-    places.put(device, texels.places);
+    positions.put(device, texels.positions);
     colors.put(device, texels.colors);
     cones.put(device, texels.cones);
     view.put(device, std::vector<ViewParams>{v.params});
@@ -116,11 +116,11 @@ class TileShading : public PassState {
       bin_edges.put(device, std::vector<float>(keys.begin(), keys.end()));
       edge_bytes_ = sizeof keys;
     }
-    light_bytes_ = (texels.places.size() + texels.colors.size() + texels.cones.size()) * sizeof(glm::vec4);
+    light_bytes_ = (texels.positions.size() + texels.colors.size() + texels.cones.size()) * sizeof(glm::vec4);
   }
 
   std::string defines_;    // of the view and its plan
-  cl::Kernel kernels_[2];  // by holds_own_light
+  cl::Kernel kernels_[2];  // by holds_base_lighting
   size_t light_bytes_ = 0, edge_bytes_ = 0;
 };
 
@@ -133,14 +133,14 @@ void copy_attachment(RenderView& v, int attachment, GLenum type, SharedBuffer& t
 
 void gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer, TileShading& shading) {
   const size_t pixels = v.pixels();
-  const bool own_light = holds_own_light(gbuffer);
+  const bool base_lighting = holds_base_lighting(gbuffer);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
   for (int i = 0; i < 2; ++i) copy_attachment(v, i, gbuffer.layout->images[i].type, shading.surfaces[i]);
-  if (own_light) copy_attachment(v, 2, GL_FLOAT, shading.image);
+  if (base_lighting) copy_attachment(v, 2, GL_FLOAT, shading.image);
   for (int i = 0; i < 2; ++i) shading.surfaces[i].hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
-  if (own_light) shading.image.hand_to_cl(pixels * 16);
-  const size_t bytes = pixels * (gbuffer.layout->bytes() + (own_light ? 16 : 0));
+  if (base_lighting) shading.image.hand_to_cl(pixels * 16);
+  const size_t bytes = pixels * (gbuffer.layout->bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
 }
 
@@ -161,16 +161,16 @@ void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const Dept
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y)
                                     : cl::NDRange(whole(v.view.width), whole(v.view.height));
-  const bool own_light = holds_own_light(gbuffer);
-  const glm::vec3 background = own_light ? glm::vec3(0) : v.scene.background;  // in the image already, or not
+  const bool base_lighting = holds_base_lighting(gbuffer);
+  const glm::vec3 background = base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(),
-         depth.values, s.places.buffer(), s.colors.buffer(), s.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
+         depth.values, s.positions.buffer(), s.colors.buffer(), s.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
          v.opaque_grid().indices(grid.index_bytes), light_bins, s.bin_edges.buffer(), s.image.cl_buffer(),
          cl_float4{{background.r, background.g, background.b, 0}}, s.view.buffer());
   const size_t pixels = v.pixels();
-  const size_t surface_bytes = gbuffer.layout->bytes() + 4 + (own_light ? 16 : 0);
+  const size_t surface_bytes = gbuffer.layout->bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
 }
 

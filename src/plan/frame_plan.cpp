@@ -39,18 +39,18 @@ std::string light_witness(const Scene& scene, int light) {
   return fmt::format("light {} \"{}\"", light, scene.lights[light].name);
 }
 
-bool shows_own_light(const Scene& scene, int instance) {
+bool shows_base_lighting(const Scene& scene, int instance) {
   const Material& material = scene.materials[scene.meshes[scene.instances[instance].mesh].material];
   return material.unlit || material.emissive != glm::vec3(0) || material.occlusion_map.texture >= 0;
 }
 
 // After surfaces and lights.
-void plan_own_light(const Scene& scene, FramePlan& plan) {
-  const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(), [&](int i) { return shows_own_light(scene, i); });
-  plan.own_light = plan.directional || first != plan.opaque.end();
-  plan.decisions.push_back({"light of surfaces' own", plan.own_light,
+void plan_base_lighting(const Scene& scene, FramePlan& plan) {
+  const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(), [&](int i) { return shows_base_lighting(scene, i); });
+  plan.base_lighting = plan.directional || first != plan.opaque.end();
+  plan.decisions.push_back({"light of surfaces' own", plan.base_lighting,
                             plan.directional ? light_witness(scene, plan.directional_lights[0])
-                            : plan.own_light ? instance_witness(scene, *first)
+                            : plan.base_lighting ? instance_witness(scene, *first)
                                              : "nothing opaque glows, is unlit or has an occlusion map, and no light is directional"});
 }
 
@@ -142,7 +142,7 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
 
 void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
-  plan.local_lights = plan.spots = plan.directional = plan.own_light = plan.blend = plan.mask = true;
+  plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
   plan.index_bits = 32;
   plan.features = feature_all;
   for (int i : plan.opaque) plan.features_of_instance[i] = feature_all;
@@ -187,7 +187,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   plan_surfaces(scene, view, plan);
   plan_lights(scene, view, plan);
-  plan_own_light(scene, plan);
+  plan_base_lighting(scene, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;
   const bool bounded = settings.depth_bounds != DepthBoundsMode::none;
   plan.blend_grid = plan.light_grid && plan.blend && bounded;

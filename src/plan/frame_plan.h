@@ -64,7 +64,7 @@ struct FramePlan {
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // and a grid of its own
-  bool own_light = false;      // some opaque surface shows more than point, spot and plain ambient light
+  bool base_lighting = false;      // some opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
   bool stencil = false;        // 8 bits beside depth
   bool reversed_triangles = false;

@@ -133,7 +133,7 @@ void apply_setting(Settings& settings, const std::string& assignment) {
   if (equals == std::string::npos || setting == all.end()) {
     std::string keys;
     for (const Setting& s : all) keys += (keys.empty() ? "" : ", ") + s.key;
-    throw input_error("--set {}: not KEY=VALUE with a known key; keys are {}", assignment, keys);
+    throw input_error("set {}: not KEY=VALUE with a known key; keys are {}", assignment, keys);
   }
   const std::string value = assignment.substr(equals + 1);
   std::string values;
@@ -144,7 +144,7 @@ void apply_setting(Settings& settings, const std::string& assignment) {
     }
     values += (values.empty() ? "" : ", ") + c.value;
   }
-  throw input_error("--set {}: \"{}\" is not a value of {}; values are {}", assignment, value, key, values);
+  throw input_error("set {}: \"{}\" is not a value of {}; values are {}", assignment, value, key, values);
 }
 
 const std::vector<std::string>& tunable_settings() {

@@ -1,5 +1,6 @@
 #include "plan/visibility.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lightgrid {

@@ -1,5 +1,6 @@
 #include "renderer/draw_list.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>

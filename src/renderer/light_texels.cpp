@@ -16,7 +16,7 @@ LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& 
     // window is 0 instead of infinity times 0.
     const double inverse_radius_squared = std::clamp(1.0 / (light.radius_m * light.radius_m), 2e-38, 3e38);
     const glm::dvec3 position = glm::clamp(light.position, -max_float, max_float);
-    texels.places.emplace_back(glm::vec3(position), float(inverse_radius_squared));
+    texels.positions.emplace_back(glm::vec3(position), float(inverse_radius_squared));
     // A light without extent lights nothing, also not the point it is at.
     texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
     if (!plan.spots) continue;

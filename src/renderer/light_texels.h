@@ -10,7 +10,7 @@ namespace lightgrid {
 // View space. Point and spot lights in the order of plan.local as shared/punctual_light.h has them; `cones` only where the
 // plan has spots. Directional lights two each: direction to the light, and illuminance.
 struct LightTexels {
-  std::vector<glm::vec4> places, colors, cones, directional;
+  std::vector<glm::vec4> positions, colors, cones, directional;
 };
 
 LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& plan);

@@ -40,7 +40,7 @@ bool same_culler(const FramePlan& a, const FramePlan& b) {
 }  // namespace
 
 RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
-                       const TechniqueNeeds& needs)
+                       const TechniqueNeeds& needs, std::shared_ptr<TargetPool> pool)
     : renderer(renderer),
       gpu(gpu),
       scene(gpu.scene()),
@@ -48,9 +48,10 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       plan(tuned_plan(scene, view, settings, needs, renderer.tuned)),
       params(params_of(view, plan, scene.ambient)),
       timer(wait_for(renderer)),
-      targets(view.width, view.height, plan.stencil),
+      targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
       settings_(settings),
-      needs_(needs) {
+      needs_(needs),
+      shared_pool_(std::move(pool)) {
   if (plan.reversed_triangles) gpu.add_reversed_triangles();
   lights.update(scene, view, plan, params);
   make_draw_lists();
@@ -64,7 +65,8 @@ void RenderView::look(const View& next) {
   plan = tuned_plan(scene, view, settings_, needs_, renderer.tuned);
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
-    targets = Targets(view.width, view.height, plan.stencil);
+    const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
+    targets = Targets(pool, view.width, view.height, plan.stencil);
     depth_copy_.reset();
     states_.clear();
   }

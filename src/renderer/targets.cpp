@@ -19,23 +19,31 @@ size_t bits_of_pixel(GLuint texture) {
 
 }  // namespace
 
-GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
-  const auto found = targets_.find(name);
-  if (found != targets_.end()) return found->second.texture.name();
-  GlTexture texture = make_texture_2d(format, width_, height_);
-  const size_t bytes = size_t(width_) * size_t(height_) * bits_of_pixel(texture.name()) / 8;
-  return targets_.try_emplace(name, Target{std::move(texture), use, bytes}).first->second.texture.name();
+const TargetPool::Image& TargetPool::image(const std::string& name, GLenum format, int width, int height) {
+  const Key key{name, format, width, height};
+  const auto found = images_.find(key);
+  if (found != images_.end()) return found->second;
+  GlTexture texture = make_texture_2d(format, width, height);
+  const size_t bytes = size_t(width) * size_t(height) * bits_of_pixel(texture.name()) / 8;
+  return images_.try_emplace(key, Image{std::move(texture), bytes}).first->second;
 }
 
-GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
-
-GLuint Targets::framebuffer(const std::vector<GLuint>& colors, GLuint depth) {
+GLuint TargetPool::framebuffer(const std::vector<GLuint>& colors, GLuint depth) {
   std::vector<GLuint> key = colors;
   key.push_back(depth);
   const auto found = framebuffers_.find(key);
   if (found != framebuffers_.end()) return found->second.name();
   return framebuffers_.try_emplace(key, make_framebuffer(colors, depth)).first->second.name();
 }
+
+GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
+  const auto found = targets_.find(name);
+  if (found != targets_.end()) return found->second.texture;
+  const TargetPool::Image& image = pool_->image(name, format, width_, height_);
+  return targets_.try_emplace(name, Target{image.texture.name(), use, image.bytes}).first->second.texture;
+}
+
+GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
 
 size_t Targets::bytes() const {
   return std::accumulate(targets_.begin(), targets_.end(), size_t(0),

@@ -2,7 +2,9 @@
 // frame.
 #pragma once
 
+#include <compare>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,32 +15,57 @@ namespace lightgrid {
 // The category under which an image's memory is counted.
 enum class TargetUse { image, gbuffer, light_index };
 
+// Images and framebuffers in OpenGL's memory, by name, format and size. Views that share a pool draw into the same images: what
+// one drew is lost when the next one draws. All of one context; they live as long as the pool.
+class TargetPool {
+ public:
+  struct Image {
+    GlTexture texture;
+    size_t bytes;
+  };
+  const Image& image(const std::string& name, GLenum format, int width, int height);
+  GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth);  // depth 0: none
+
+ private:
+  struct Key {
+    std::string name;
+    GLenum format;
+    int width, height;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::map<Key, Image> images_;
+  std::map<std::vector<GLuint>, GlFramebuffer> framebuffers_;
+};
+
+// One view's images in a pool.
 class Targets {
  public:
   // stencil: the depth image has 8 bits of it.
-  Targets(int width, int height, bool stencil) : width_(width), height_(height), stencil_(stencil) {}
+  Targets(std::shared_ptr<TargetPool> pool, int width, int height, bool stencil)
+      : pool_(std::move(pool)), width_(width), height_(height), stencil_(stencil) {}
 
-  // The image of this name, in the format and for the use it is first asked in.
+  // The image of this name, in the format and for the use of its first call.
   GLuint texture(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
   GLuint depth();  // reversed 32-bit float
 
   // Over images of this frame; depth 0: none.
-  GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth);
+  GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) { return pool_->framebuffer(colors, depth); }
 
-  size_t bytes() const;               // of all images
-  size_t bytes(TargetUse use) const;  // of some
+  // Of the images that this view uses, whether or not it shares them.
+  size_t bytes() const;
+  size_t bytes(TargetUse use) const;
 
  private:
   struct Target {
-    GlTexture texture;
+    GLuint texture;
     TargetUse use;
     size_t bytes;
   };
 
+  std::shared_ptr<TargetPool> pool_;
   int width_, height_;
   bool stencil_;
   std::map<std::string, Target> targets_;
-  std::map<std::vector<GLuint>, GlFramebuffer> framebuffers_;
 };
 
 }  // namespace lightgrid

@@ -40,7 +40,7 @@ void ViewLightBuffers::update(const Scene& scene, const View& view, const FrameP
   put_keys(slice_block_, plan.light_grid && plan.slices > 1, slice_keys(culled));
   put_keys(z_bin_block_, plan.z_bins > 1, z_bin_keys(culled));
   const LightTexels texels = light_texels(scene, view, plan);
-  const std::vector<glm::vec4>* arrays[4] = {&texels.places, &texels.colors, &texels.cones, &texels.directional};
+  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones, &texels.directional};
   const bool needed[4] = {plan.local_lights, plan.local_lights, plan.spots, plan.directional};
   light_bytes_ = 0;
   for (int i = 0; i < 4; ++i) {

@@ -15,7 +15,7 @@ namespace lightgrid {
 #define LARGEST_ATTENUATION 1e31f
 
 SHARED_STRUCT(PunctualLight) {
-  Float4 place;  // view space, and 1 / radius^2 (next to 0: no range)
+  Float4 position;  // view space, and 1 / radius^2 (next to 0: no range)
   Float4 color;  // radiant intensity
 #ifdef SPOTS
   Float4 cone;   // axis times scale, and offset: 1 inside, 0 outside
@@ -29,9 +29,9 @@ SHARED_STRUCT(Arrival) {
 };
 
 SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
-  Real3 to_light = real3(light.place.x - position.x, light.place.y - position.y, light.place.z - position.z);
+  Real3 to_light = real3(light.position.x - position.x, light.position.y - position.y, light.position.z - position.z);
   real distance_squared = dot3(to_light, to_light);
-  real ratio = distance_squared * light.place.w;
+  real ratio = distance_squared * light.position.w;
   // At the light itself there is no direction, and nothing is reflected.
   real inverse_distance = inverse_sqrt_real(max_real(distance_squared, REAL(1.2e-38f)));
   Arrival arrival;

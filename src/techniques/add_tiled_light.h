@@ -7,8 +7,8 @@
 namespace lightgrid {
 
 // Without point and spot lights there is no light pass, and the image takes all.
-inline OwnLight own_light_of(const RenderView& v) {
-  return v.plan.light_grid && !v.plan.own_light ? OwnLight::in_light_pass : OwnLight::in_image;
+inline BaseLighting base_lighting_of(const RenderView& v) {
+  return v.plan.light_grid && !v.plan.base_lighting ? BaseLighting::in_light_pass : BaseLighting::in_image;
 }
 
 // Culls lights, adds those of each tile's list to the geometry buffer's image, and blends blended surfaces

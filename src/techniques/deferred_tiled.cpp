@@ -4,7 +4,7 @@
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  const GBuffer gbuffer = fill_gbuffer(v, own_light_of(v));
+  const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
   if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
   const DepthBuffer depth = depth_to_cl(v, gbuffer.depth_image);
   return add_tiled_light(v, gbuffer, depth, depth_bounds(v, depth));

@@ -8,7 +8,7 @@ static Frame render(RenderView& v) {
   const DepthBuffer depth = depth_to_cl(v, depth_prepass(v));
   const DepthBounds bounds = depth_bounds(v, depth);
   const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
-  return add_tiled_light(v, fill_gbuffer(v, surfaces, own_light_of(v)), depth, bounds);
+  return add_tiled_light(v, fill_gbuffer(v, surfaces, base_lighting_of(v)), depth, bounds);
 }
 
 extern const Technique forward_plus_compute{

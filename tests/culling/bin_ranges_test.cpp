@@ -18,7 +18,7 @@ kernel void lights_that_meet(float near, float far, global uint* out) {
   Cell bin = {near, far, -1.0f, 1.0f, -1.0f, 1.0f};
   ViewSphere s = {0.0f, 0.0f, 5.0f, 1.0f};
   TileRect rect = {0, 7 | 7 << 16};
-  const BinAsks asks = asks_of_bin(0, 0, &bin);
+  const PackedRange asks = packed_range_of_bin(0, 0, &bin);
   out[0] = popcount(mask_bits(meets_bin(tiles_in_region(rect, 0, 0), span_of(s), asks)));
 }
 )";

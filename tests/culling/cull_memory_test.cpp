@@ -1,6 +1,7 @@
 // What cull does where memory is short: it takes what is needed where it cannot have more, and says when that is too much.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 // Depth bounds against a plain scan in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

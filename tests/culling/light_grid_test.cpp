@@ -1,6 +1,7 @@
 // The light grid between what certainly touches a cell and what possibly does.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "culling/cell_truth.h"

@@ -1,6 +1,8 @@
 // Views with an oblique near plane: mirrors and portals. Positions are the oracle's, in double.
 #include "culling/oblique_view.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "base/error.h"

@@ -1,6 +1,7 @@
 // Depth slices: which one a depth falls into, and what their cells must list.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"

@@ -1,4 +1,6 @@
 // Tiles cut into slices of distance: clusters.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "culling/cell_truth.h"

@@ -1,5 +1,6 @@
 #include "passes/light_volumes/light_volumes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -55,7 +55,7 @@ void bounds_of_tile(const std::vector<uint>& keys, int mode, const CullParams& p
     const bool bounded = depths && whole_tile.far != FAR_AWAY;
     uint slots = bounded ? 0u : 0xffffffffu;
     for (const uint key : keys) {
-      if (bounded && key != 0) slots |= slots_of_key(key, whole_tile.near, whole_tile.far, &p);
+      if (bounded && key != 0) slots |= mask_of_key(key, whole_tile.near, whole_tile.far, &p);
     }
     planes[2] = as_float(slots);
   }

@@ -3,7 +3,7 @@
 #include "shaders/lights/directional.glsl"
 #endif
 
-vec3 own_light(Surface s, ShadingPoint p) {
+vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
   // Precise: a compiler that fuses multiplications with additions would round by what else the program holds.
   precise vec3 own = s.emissive + ambient * (p.diffuse * (SHADING_PI / (1.0 - DIELECTRIC_F0)) + p.f0) * s.occlusion;
