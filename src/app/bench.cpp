@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/contestants.h"
+#include "session/contestants.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"

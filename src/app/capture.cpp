@@ -14,7 +14,7 @@ namespace lightgrid {
 namespace {
 
 struct CaptureOptions {
-  SceneOptions scene;
+  SceneChoice scene;
   DeviceOptions devices;
   std::string technique = "forward_plus", output = "out/capture", json;
 };

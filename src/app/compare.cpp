@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/contestants.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
@@ -16,13 +15,15 @@
 #include "base/write_file.h"
 #include "compare/compare.h"
 #include "report/report.h"
+#include "session/contestants.h"
+#include "session/loaded_views.h"
 #include "results/words.h"
 
 namespace lightgrid {
 namespace {
 
 struct CompareCommand {
-  SceneOptions scene;  // what all views share
+  SceneChoice scene;  // what all views share
   std::vector<std::string> scenes = {"hall"}, sizes = {"1280x720"}, lights;
   DeviceOptions devices;
   TimingOptions timing;
@@ -31,78 +32,6 @@ struct CompareCommand {
   std::string reference = "auto";
   int page_mb = 30;
 };
-
-void apply_own_setting(Contestant& contestant, const std::string& assignment) {
-  apply_setting(contestant.settings, assignment);
-  const std::string key = assignment.substr(0, assignment.find('='));
-  if (!reads_setting(*contestant.technique, key)) {
-    throw input_error("-t {}:{}: {} does not read {}; it reads {}", contestant.technique->name, assignment,
-                      contestant.technique->name, key, fmt::join(contestant.technique->settings, ", "));
-  }
-}
-
-// The names and settings of -t, as split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". What has
-// a "=" but no name before a colon is one more setting of the name before it.
-std::vector<Contestant> contestants_of(const std::vector<std::string>& items, const Settings& common) {
-  std::vector<Contestant> contestants;
-  for (const std::string& item : items) {
-    const size_t colon = item.find(':');
-    const bool setting_only = colon == std::string::npos && item.find('=') != std::string::npos;
-    if (setting_only && !contestants.empty()) {
-      apply_own_setting(contestants.back(), item);
-      continue;
-    }
-    contestants.push_back({&find_technique(item.substr(0, colon)), common});
-    if (colon != std::string::npos) apply_own_setting(contestants.back(), item.substr(colon + 1));
-  }
-  return contestants;
-}
-
-// --compare: each contestant with each of the values of the settings that it reads.
-std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
-  std::vector<Contestant> all;
-  for (const Contestant& contestant : contestants) {
-    std::vector<std::string> own;
-    for (const std::string& comparison : comparisons) {
-      if (reads_setting(*contestant.technique, comparison.substr(0, comparison.find('=')))) own.push_back(comparison);
-    }
-    for (const BenchContestant& c : contestants_of(contestant.settings, own, 64)) {
-      all.push_back({contestant.technique, c.settings});
-    }
-  }
-  return all;
-}
-
-void check_comparisons(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
-  for (const std::string& comparison : comparisons) {
-    const std::string key = comparison.substr(0, comparison.find('='));
-    const auto reads = [&](const Contestant& c) { return reads_setting(*c.technique, key); };
-    if (std::ranges::any_of(contestants, reads)) continue;
-    throw input_error("--compare {}: no technique of -t reads {}", comparison, key);
-  }
-}
-
-// All are held against one image of every light: of another BRDF, what differs would be taken for a technique's error.
-void check_brdf(const std::vector<Contestant>& contestants) {
-  const Contestant& first = contestants.front();
-  const auto brdf_of = [](const Contestant& c) { return to_strings(c.settings).at("brdf"); };
-  for (const Contestant& c : contestants) {
-    if (c.settings.brdf == first.settings.brdf) continue;
-    throw input_error(
-        "compare: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose with --brdf",
-        first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
-  }
-}
-
-std::vector<Contestant> chosen_contestants(const CompareCommand& o) {
-  const Settings common = chosen_settings(o.scene);
-  contestants_of(common, o.compare, 64);  // what is wrong with a comparison that no technique reads
-  const std::vector<Contestant> named = contestants_of(o.techniques, common);
-  check_comparisons(named, o.compare);
-  const std::vector<Contestant> all = swept(named, o.compare);
-  check_brdf(all);
-  return all;
-}
 
 int parse_lights(const std::string& text) {
   int count = 0;
@@ -121,46 +50,19 @@ ReferencePixels parse_reference(const std::string& text) {
 }
 
 // Every scene at every size with every number of lights.
-std::vector<SceneOptions> chosen_views(const CompareCommand& o) {
+std::vector<SceneChoice> chosen_views(const CompareCommand& o) {
   std::vector<int> counts;
   for (const std::string& text : o.lights) counts.push_back(parse_lights(text));
   if (counts.empty()) counts.push_back(-1);
-  std::vector<SceneOptions> views;
+  std::vector<SceneChoice> views;
   for (const std::string& scene : o.scenes) {
     for (const std::string& size : o.sizes) {
       parse_size(size);
       for (const int lights : counts) {
-        SceneOptions& view = views.emplace_back(o.scene);
+        SceneChoice& view = views.emplace_back(o.scene);
         view.scene = scene, view.size = size, view.lights = lights;
       }
     }
-  }
-  return views;
-}
-
-// A view and its lights, over a scene that several views share.
-struct LoadedView {
-  std::shared_ptr<Scene> scene;
-  View view;
-  std::vector<Light> lights;
-  glm::vec3 ambient;
-};
-
-// All of them, so that what is wrong with one is told before the first is run.
-std::vector<LoadedView> load_views(const std::vector<SceneOptions>& choices) {
-  std::vector<LoadedView> views;
-  std::string loaded;
-  Scene own;  // the lights that the scene comes with
-  std::shared_ptr<Scene> scene;
-  for (const SceneOptions& choice : choices) {
-    if (!scene || choice.scene != loaded) {
-      scene = std::make_shared<Scene>(load_scene(choice.scene));
-      loaded = choice.scene;
-      own.lights = scene->lights, own.ambient = scene->ambient;
-    }
-    scene->lights = own.lights, scene->ambient = own.ambient;
-    const View view = choose_view(*scene, choice);
-    views.push_back({scene, view, scene->lights, scene->ambient});
   }
   return views;
 }
@@ -186,10 +88,10 @@ void run_views(Renderer& devices, const std::vector<LoadedView>& views, const st
     const std::string which = views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
     options.progress = [&](double done, const std::string& step) { bar((before + done * cost) / total, which + step); };
     options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
-    view.scene->lights = view.lights, view.scene->ambient = view.ambient;
-    options.path = chosen_path(*view.scene, view.view, o.scene);
-    if (!options.path.empty()) options.advance = chosen_motion(*view.scene, o.scene);
-    found(compare_techniques(devices, *view.scene, view.view, contestants, options));
+    Scene& scene = view.with_lights();
+    options.path = chosen_path(scene, view.view, o.scene);
+    if (!options.path.empty()) options.advance = chosen_motion(scene, o.scene);
+    found(compare_techniques(devices, scene, view.view, contestants, options));
     before += cost;
   }
 }
@@ -242,7 +144,7 @@ int compare_several(const CompareCommand& o, Renderer& devices, const std::vecto
 }
 
 int compare(const CompareCommand& o) {
-  const std::vector<Contestant> contestants = chosen_contestants(o);
+  const std::vector<Contestant> contestants = chosen_contestants(o.techniques, chosen_settings(o.scene), o.compare);
   parse_reference(o.reference);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   const std::vector<LoadedView> views = load_views(chosen_views(o));

@@ -2,13 +2,14 @@
 // for every pixel, as pictures. --compare KEY=A,B: the accuracy of the lists of several settings.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "app/commands.h"
-#include "app/contestants.h"
+#include "session/contestants.h"
 #include "app/options.h"
 #include "base/error.h"
 #include "base/write_file.h"
@@ -21,7 +22,7 @@ namespace lightgrid {
 namespace {
 
 struct InspectOptions {
-  SceneOptions scene;
+  SceneChoice scene;
   DeviceOptions devices;
   std::string pixel, technique = "forward_plus", output, json;
   std::vector<std::string> compare;
@@ -63,8 +64,8 @@ struct Subject {
   const View& view() const { return scene ? scene->view : frame.view; }
 };
 
-Subject load_frame(const SceneOptions& o) {
-  const SceneOptions plain;
+Subject load_frame(const SceneChoice& o) {
+  const SceneChoice plain;
   const std::pair<const char*, bool> given[] = {{"--size", o.size != plain.size},
                                                 {"--camera", !o.camera.empty()},
                                                 {"--lights", o.lights >= 0},
@@ -79,7 +80,7 @@ Subject load_frame(const SceneOptions& o) {
   return subject;
 }
 
-Subject load_subject(const SceneOptions& o) {
+Subject load_subject(const SceneChoice& o) {
   std::error_code unreadable;
   if (std::filesystem::is_directory(o.scene, unreadable)) return load_frame(o);
   return {load_chosen_scene(o), {}, chosen_settings(o)};

@@ -12,7 +12,7 @@ namespace lightgrid {
 namespace {
 
 struct PlanOptions {
-  SceneOptions scene;
+  SceneChoice scene;
   std::string technique = "forward_plus", json;
 };
 

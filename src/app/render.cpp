@@ -13,7 +13,7 @@ namespace lightgrid {
 namespace {
 
 struct RenderOptions {
-  SceneOptions scene;
+  SceneChoice scene;
   DeviceOptions devices;
   TimingOptions timing{.frames = 1, .warmup = 0};
   std::string technique = "forward_plus", output = "out.png", json;

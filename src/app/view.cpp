@@ -14,7 +14,7 @@ namespace lightgrid {
 namespace {
 
 struct ViewOptions {
-  SceneOptions scene;
+  SceneChoice scene;
   std::string device, left = "forward_plus", right = "deferred_tiled", script, screenshot;
   int frames = 60;
 };
@@ -23,12 +23,12 @@ struct ViewOptions {
 
 // The options that select the scene and its lights, for `lightgrid render`.
 std::string scene_words(const ViewOptions& o) {
-  const SceneOptions& s = o.scene;
+  const SceneChoice& s = o.scene;
   std::string words = shell_word(s.scene);
   if (s.lights >= 0) words += fmt::format(" --lights {}", s.lights);
   if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
   if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
-  if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneOptions().seed)
+  if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!o.device.empty()) words += " --device " + shell_word(o.device);
   return words;

@@ -127,7 +127,7 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options) {
     const CapturedFrame frame = frame_of(c);
     keep_rows(report, options, filter, measure_case(device, programs, options, c, frame, report.limits));
   }
-  if (report.rows.empty()) throw input_error("--filter {}: no row's name matches", options.filter);
+  if (report.rows.empty()) throw input_error("filter {}: no row's name matches", options.filter);
   return report;
 }
 

@@ -44,16 +44,16 @@ const std::map<std::string, Formula>& formulas() {
          return KernelCost{interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + count_bytes * w.cells + w.index_bytes,
                            test_flops(w) * w.indices};
        }},
-      {"compact_lists",
+      {"write_lists",
        [](const KernelWork& w) { return KernelCost{2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0.0}; }},
       // For GPUs.
-      {"mark_cells",
+      {"cull_lights",
        [](const KernelWork& w) {
          return KernelCost{interval_bytes * w.tiles + w.lights / 8.0 + (view_bytes(w) + 2 * id_bytes) * least_candidates(w) +
                                cell_mark_bytes(w) + count_bytes * w.cells,
                            test_flops(w) * w.indices};
        }},
-      {"fill_lists",
+      {"write_lists",
        [](const KernelWork& w) { return KernelCost{cell_mark_bytes(w) + cell_bytes * w.cells + w.index_bytes, 0.0}; }},
       // Used only if the settings need their result.
       {"light_z_bins",

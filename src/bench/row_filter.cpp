@@ -18,11 +18,11 @@ constexpr auto syntax = std::regex::ECMAScript
 }  // namespace
 
 RowFilter::RowFilter(const std::string& expression) : all_(expression.empty()) {
-  if (expression.size() > max_length) throw input_error("--filter: longer than {} characters", max_length);
+  if (expression.size() > max_length) throw input_error("filter: longer than {} characters", max_length);
   try {
     expression_ = std::regex(expression, syntax);
   } catch (const std::regex_error& error) {
-    throw input_error("--filter {}: not a regular expression: {}", expression, error.what());
+    throw input_error("filter {}: not a regular expression: {}", expression, error.what());
   }
 }
 

@@ -38,12 +38,15 @@ void attempt(Entry& entry, const Work& work, bool ends_run = true) {
   if (entry.refusal && ends_run) entry.run.reset();
 }
 
+// All draw into the same images in turn, but the reference, whose depth and surfaces are read after other runs' frames.
 std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& view,
-                                const std::vector<Contestant>& contestants) {
+                                const std::vector<Contestant>& contestants, const std::string& reference) {
   std::vector<Entry> entries;
+  const auto shared = std::make_shared<TargetPool>();
   for (const Contestant& c : contestants) {
     Entry& entry = entries.emplace_back(&c);
-    attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique); });
+    const auto pool = c.technique->name == reference ? nullptr : shared;
+    attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique, pool); });
   }
   return entries;
 }
@@ -124,7 +127,7 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
   const size_t pixels = pixels_of(blocks, view.width, view.height).size(), all = size_t(view.width) * size_t(view.height);
   const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame", time_in_words(frame_ms))
                                     : std::string("asked for");
-  const std::string what = fmt::format("{} at {} of {} pixels ({}; --reference full shades all)", technique, with_commas(pixels),
+  const std::string what = fmt::format("{} at {} of {} pixels ({}; reference full shades all)", technique, with_commas(pixels),
                                        with_commas(all), why);
   if (options.notice) options.notice("the reference is " + what);
   for (Entry& entry : entries) {
@@ -142,7 +145,8 @@ Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
   return picked;
 }
 
-// All or nothing: the lists of lights may be more than memory holds.
+// All or nothing: the lists of lights may be more than memory holds. The run's images may hold another run's frame: it draws
+// once more before its lists are read.
 void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference, const std::vector<float>& depth) {
   RunResult row = run.result();
   if (reference.sampled()) {
@@ -151,10 +155,12 @@ void add_row(CompareReport& report, TechniqueRun& run, const Reference& referenc
   } else {
     row.error = compare_images(run.image(), reference.image());
   }
+  const bool is_reference = &run == reference.run;
+  if (!is_reference) run.draw_frame();
   LitPairs pairs = count_listed_pairs(run, depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
-  Image image = run.image();
+  Image image = is_reference ? run.image() : run.take_image();
   report.rows.push_back(std::move(row));
   report.images.push_back(std::move(image));
   report.listed.push_back(std::move(pairs.listed_of_pixel));
@@ -209,7 +215,7 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
 
   GpuScene gpu(renderer, scene);
-  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants);
+  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants, report.reference);
   Reference reference;
   choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, report.reference);
   time_interleaved(entries, options);

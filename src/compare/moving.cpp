@@ -107,11 +107,11 @@ void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& refere
       reference.look(path[frame], changes);
       reference.run_frame(true);
     }
-    for (Path& p : paths) run_one(p, path[frame], changes, frame);
     for (Path& p : paths) {
-      add_errors(p, reference.image());
-      add_pairs(p);
+      run_one(p, path[frame], changes, frame);
+      add_pairs(p);  // before the next run draws into the images that they share
     }
+    for (Path& p : paths) add_errors(p, reference.image());
   }
   for (Path& p : paths) finish(p, path.size());
 }

@@ -7,8 +7,8 @@
 namespace lightgrid {
 
 TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
-                           const Technique& technique)
-    : technique_(technique), view_(renderer, gpu, view, settings, technique.needs) {}
+                           const Technique& technique, std::shared_ptr<TargetPool> pool)
+    : technique_(technique), view_(renderer, gpu, view, settings, technique.needs, std::move(pool)) {}
 
 TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)

@@ -10,7 +10,9 @@ namespace lightgrid {
 // interleaved; they share the scene's memory if they are given the same GpuScene.
 class TechniqueRun {
  public:
-  TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const Technique& technique);
+  // pool: images to draw into that other runs share (RenderView); after their frames, draw_frame() before targets are read.
+  TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const Technique& technique,
+               std::shared_ptr<TargetPool> pool = nullptr);
   // With a GPU scene of its own.
   TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings, const Technique& technique);
 
@@ -30,6 +32,7 @@ class TechniqueRun {
   void run_profiled_frames();
 
   const Image& image() const { return image_; }
+  Image take_image() { return std::move(image_); }  // image() is empty until the next run_frame()
   RenderView& view() { return view_; }
   const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }

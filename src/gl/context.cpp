@@ -34,7 +34,7 @@ GlBackend parse_gl_backend(const std::string& name) {
   if (name == "auto") return GlBackend::automatic;
   if (name == "osmesa") return GlBackend::osmesa;
   if (name == "egl") return GlBackend::egl;
-  throw input_error("--gl: \"{}\" is not one of auto, osmesa, egl", name);
+  throw input_error("gl: \"{}\" is not one of auto, osmesa, egl", name);
 }
 
 void GlContext::describe() {

@@ -2,6 +2,7 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 

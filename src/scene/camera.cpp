@@ -88,10 +88,10 @@ double parse_number(std::string_view text, const std::string& wish) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw input_error("--camera {}: \"{}\" is not a number", wish, text);
+    throw input_error("camera {}: \"{}\" is not a number", wish, text);
   }
   if (std::abs(value) > max_coordinate_m) {
-    throw input_error("--camera {}: {} is beyond {:g}", wish, text, max_coordinate_m);
+    throw input_error("camera {}: {} is beyond {:g}", wish, text, max_coordinate_m);
   }
   return value;
 }
@@ -123,7 +123,7 @@ LookAtWish parse_look_at(const std::string& wish) {
     const auto key =
         std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return item.starts_with(k.name); });
     if (key == keys.end() || key->seen) {
-      throw input_error("--camera {}: \"{}\" is {}; the form is eye:x,y,z,target:x,y,z,fov:deg", wish, item,
+      throw input_error("camera {}: \"{}\" is {}; the form is eye:x,y,z,target:x,y,z,fov:deg", wish, item,
                         key == keys.end() ? "not eye:, target: or fov:" : "there twice");
     }
     key->seen = true;
@@ -132,12 +132,12 @@ LookAtWish parse_look_at(const std::string& wish) {
     for (int i = 1; i < key->count; ++i) key->values[i] = parse_number(next_item(), wish);
   }
   for (const Key& key : keys) {
-    if (!key.seen && key.count == 3) throw input_error("--camera {}: {} is missing", wish, key.name);
+    if (!key.seen && key.count == 3) throw input_error("camera {}: {} is missing", wish, key.name);
   }
   if (!(parsed.fov_deg > 0 && parsed.fov_deg < 180)) {
-    throw input_error("--camera {}: fov {} is not between 0 and 180 degrees", wish, parsed.fov_deg);
+    throw input_error("camera {}: fov {} is not between 0 and 180 degrees", wish, parsed.fov_deg);
   }
-  if (parsed.eye == parsed.target) throw input_error("--camera {}: the target is the eye", wish);
+  if (parsed.eye == parsed.target) throw input_error("camera {}: the target is the eye", wish);
   return parsed;
 }
 
@@ -158,7 +158,7 @@ Camera find_camera(const Scene& scene, const std::string& wish) {
   const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), index);
   const bool is_index = error == std::errc() && end == wish.data() + wish.size();
   if (is_index && index < scene.cameras.size()) return scene.cameras[index];
-  throw input_error("--camera {}: no camera of that name or index; {}", wish, known_cameras(scene));
+  throw input_error("camera {}: no camera of that name or index; {}", wish, known_cameras(scene));
 }
 
 }  // namespace

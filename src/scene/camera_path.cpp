@@ -1,5 +1,6 @@
 #include "scene/camera_path.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>

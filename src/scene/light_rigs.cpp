@@ -77,14 +77,14 @@ glm::vec3 color_of_hue(float hue) {
 
 void check(const Scene& scene, const ScatterSettings& settings, double area) {
   if (settings.count < 0 || settings.count > max_count) {
-    throw input_error("--lights {}: not in 0..{}", settings.count, max_count);
+    throw input_error("lights {}: not in 0..{}", settings.count, max_count);
   }
   const float low = settings.min_radius_m, high = settings.max_radius_m;
   if (!(low == 0 && high == 0) && !(low > 0 && low <= high && std::isfinite(high))) {
-    throw input_error("--light-radius {},{}: not 0 < MIN <= MAX", low, high);
+    throw input_error("light-radius {},{}: not 0 < MIN <= MAX", low, high);
   }
   if (settings.count > 0 && !(area > 0)) {
-    throw input_error("--lights {}: scene \"{}\" has no surface to scatter lights over", settings.count,
+    throw input_error("lights {}: scene \"{}\" has no surface to scatter lights over", settings.count,
                       scene.name);
   }
 }
@@ -129,7 +129,7 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
   }
   // Intensity is radius^2 / 8 (scatter_one).
   if (!(double(max_radius) * max_radius / 8 <= double(std::numeric_limits<float>::max()))) {
-    throw input_error("--light-radius {:g}: the intensity of a light that wide passes the largest float", max_radius);
+    throw input_error("light-radius {:g}: the intensity of a light that wide passes the largest float", max_radius);
   }
   std::vector<Light> lights;
   lights.reserve(settings.count);

@@ -1,5 +1,6 @@
 #include "scene/lights_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>

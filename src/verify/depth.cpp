@@ -95,9 +95,9 @@ void strange_value(Check& c, std::initializer_list<float> values) {
   }
 }
 
-constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-void nan_depth(Check& c) { strange_value(c, {nan, -nan}); }
-void infinite_depth(Check& c) { strange_value(c, {inf, -inf}); }
+constexpr float infinite = std::numeric_limits<float>::infinity(), not_a_number = std::numeric_limits<float>::quiet_NaN();
+void nan_depth(Check& c) { strange_value(c, {not_a_number, -not_a_number}); }
+void infinite_depth(Check& c) { strange_value(c, {infinite, -infinite}); }
 void negative_depth(Check& c) { strange_value(c, {-0.5f, -1e-45f, -1e30f}); }
 void depth_above_one(Check& c) { strange_value(c, {std::nextafter(1.0f, 2.0f), 1e30f}); }
 

@@ -1,4 +1,5 @@
 // Hard cases of depth bounds: every kind of them, several samples, blended surfaces. depth_formats.cpp has formats.
+#include <algorithm>
 #include <cmath>
 
 #include "verify/depth_images.h"

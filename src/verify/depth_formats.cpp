@@ -1,4 +1,5 @@
 // Hard cases of depth formats: what the depth buffer rounded away, and what orthographic views cancel.
+#include <algorithm>
 #include <cmath>
 
 #include "verify/depth_images.h"

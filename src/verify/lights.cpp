@@ -1,4 +1,5 @@
 // Hard cases of lights: spheres and cones at the edge of what numbers hold, or of a cell.
+#include <algorithm>
 #include <cmath>
 
 #include "verify/check.h"

@@ -1,5 +1,7 @@
 #include "verify/replay.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/timer.h"
 #include "renderer/render_view.h"

@@ -1,5 +1,6 @@
 #include "verify/tangent_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -147,7 +147,7 @@ TEST(CompareCommand, ShadesTheReferenceAtASampleOfPixelsWhereAskedTo) {
   EXPECT_THAT(run.err, HasSubstr("the reference is forward at 65,536 of 230,400 pixels"));
   const auto results = nlohmann::json::parse(file_bytes(folder.path / "results.json"));
   EXPECT_EQ(results["reference"], nlohmann::json({{"technique", "forward"}, {"pixels", 65536}}));
-  EXPECT_THAT(results["rows"][0]["refused"].get<std::string>(), HasSubstr("--reference full"));
+  EXPECT_THAT(results["rows"][0]["refused"].get<std::string>(), HasSubstr("reference full"));
   EXPECT_EQ(results["rows"][1]["error"]["max_abs"], 0);
   EXPECT_EQ(results["rows"][1]["pairs"]["lost"], 0);
 }

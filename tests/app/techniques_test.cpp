@@ -2,6 +2,7 @@
 // another.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cctype>
 #include <set>
 

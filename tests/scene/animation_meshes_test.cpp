@@ -1,4 +1,5 @@
 // Skins and morph targets at a time: vertices worked out by hand.
+#include <algorithm>
 #include <cmath>
 
 #include "scene/rig.h"

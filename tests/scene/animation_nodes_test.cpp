@@ -1,4 +1,5 @@
 // Nodes at a time: matrices worked out by hand.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

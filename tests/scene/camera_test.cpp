@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -156,9 +157,9 @@ TEST(ChooseCamera, ByNameThenIndexThenFirst) {
   EXPECT_EQ(choose_camera(scene, "1").name, "0");
   EXPECT_EQ(choose_camera(scene, "2").name, "");
   EXPECT_EQ(message_of([&] { choose_camera(scene, "3"); }),
-            "--camera 3: no camera of that name or index; the scene has 0 \"aisle\", 1 \"0\", 2 \"\"");
+            "camera 3: no camera of that name or index; the scene has 0 \"aisle\", 1 \"0\", 2 \"\"");
   EXPECT_EQ(message_of([] { choose_camera(Scene(), "door"); }),
-            "--camera door: no camera of that name or index; the scene has none");
+            "camera door: no camera of that name or index; the scene has none");
 }
 
 TEST(ChooseCamera, EyeTargetAndField) {
@@ -183,7 +184,7 @@ TEST(ChooseCamera, SaysWhatIsWrong) {
     return message_of([&] { choose_camera(Scene(), wish); });
   };
   using testing::HasSubstr;
-  EXPECT_EQ(refused("eye:0,0,x,target:1,1,1"), "--camera eye:0,0,x,target:1,1,1: \"x\" is not a number");
+  EXPECT_EQ(refused("eye:0,0,x,target:1,1,1"), "camera eye:0,0,x,target:1,1,1: \"x\" is not a number");
   EXPECT_THAT(refused("eye:0,0,nan,target:1,1,1"), HasSubstr("\"nan\" is not a number"));
   EXPECT_THAT(refused("eye:0,0,1e999,target:1,1,1"), HasSubstr("\"1e999\" is not a number"));
   EXPECT_THAT(refused("eye:0,0,1e300,target:1,1,1"), HasSubstr("beyond 1e+12"));

@@ -1,6 +1,8 @@
 // Extensions and optional features: which are an error, which one line of warning.
 #include "support/gltf_builder.h"
 
+#include <algorithm>
+
 namespace lightgrid {
 namespace {
 

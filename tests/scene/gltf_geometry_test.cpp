@@ -1,4 +1,5 @@
 // Accessors and primitives.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 

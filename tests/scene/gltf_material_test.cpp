@@ -1,4 +1,5 @@
 // Materials, textures and images.
+#include <algorithm>
 #include <cmath>
 
 #include "base/image.h"

@@ -118,15 +118,15 @@ TEST(ScatterLights, RefusesWhatCannotBeScattered) {
     return "no error";
   };
   const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(refused(floor_scene(), {-1}), "--lights -1: not in 0..10000000");
-  EXPECT_EQ(refused(floor_scene(), {1 << 30}), "--lights 1073741824: not in 0..10000000");
-  EXPECT_EQ(refused(floor_scene(), {1, 2, 1}), "--light-radius 2,1: not 0 < MIN <= MAX");
-  EXPECT_EQ(refused(floor_scene(), {1, 0, 1}), "--light-radius 0,1: not 0 < MIN <= MAX");
-  EXPECT_EQ(refused(floor_scene(), {1, nan, nan}), "--light-radius nan,nan: not 0 < MIN <= MAX");
-  EXPECT_EQ(refused(floor_scene(), {1, 1, inf}), "--light-radius 1,inf: not 0 < MIN <= MAX");
+  EXPECT_EQ(refused(floor_scene(), {-1}), "lights -1: not in 0..10000000");
+  EXPECT_EQ(refused(floor_scene(), {1 << 30}), "lights 1073741824: not in 0..10000000");
+  EXPECT_EQ(refused(floor_scene(), {1, 2, 1}), "light-radius 2,1: not 0 < MIN <= MAX");
+  EXPECT_EQ(refused(floor_scene(), {1, 0, 1}), "light-radius 0,1: not 0 < MIN <= MAX");
+  EXPECT_EQ(refused(floor_scene(), {1, nan, nan}), "light-radius nan,nan: not 0 < MIN <= MAX");
+  EXPECT_EQ(refused(floor_scene(), {1, 1, inf}), "light-radius 1,inf: not 0 < MIN <= MAX");
   EXPECT_EQ(refused(floor_scene(), {1, 1, 1e20f}),
-            "--light-radius 1e+20: the intensity of a light that wide passes the largest float");
-  EXPECT_EQ(refused(Scene(), {1}), "--lights 1: scene \"\" has no surface to scatter lights over");
+            "light-radius 1e+20: the intensity of a light that wide passes the largest float");
+  EXPECT_EQ(refused(Scene(), {1}), "lights 1: scene \"\" has no surface to scatter lights over");
   EXPECT_TRUE(scatter_lights(Scene(), {0}).empty());
 }
 

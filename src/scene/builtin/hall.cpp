@@ -241,7 +241,7 @@ class Hall {
   }
 
   Scene scene_;
-  const Materials m_ = add_materials(scene_);
+  const hall::Materials m_ = add_materials(scene_);
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Floating spheres with nothing behind them: every silhouette is a step in depth, and most of a tile's depth
 // range is empty. What depth bounds and cull tests find hardest.
+#include <algorithm>
 #include <cmath>
 
 #include "scene/builtin/compose.h"

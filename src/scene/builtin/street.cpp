@@ -130,7 +130,7 @@ class Street {
 
   Scene scene_;
   Random random_{17};
-  const Materials m_ = add_materials(scene_, neon);
+  const street::Materials m_ = add_materials(scene_, neon);
   const std::vector<int> facades_ = added(street::facades(m_)), cars_ = added(car_bodies(m_)),
                          signs_ = added(sign_meshes(m_)), bulbs_ = added(bulb_meshes(m_)),
                          lit_windows_ = added(lit_windows(m_)), dark_windows_ = added(dark_windows(m_)),

@@ -1,5 +1,6 @@
 #include "scene/gltf/accessor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

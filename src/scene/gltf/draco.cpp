@@ -1,5 +1,6 @@
 #include "scene/gltf/draco.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

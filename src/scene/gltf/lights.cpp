@@ -1,5 +1,6 @@
 #include "scene/gltf/lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

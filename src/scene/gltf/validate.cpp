@@ -1,5 +1,7 @@
 #include "scene/gltf/validate.h"
 
+#include <algorithm>
+
 #include "scene/gltf/materials.h"
 
 namespace lightgrid::gltf {

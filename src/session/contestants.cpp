@@ -1,0 +1,126 @@
+#include "session/contestants.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "capture/frame_culler.h"
+
+namespace lightgrid {
+namespace {
+
+// "KEY=A,B": each of the previous contestants with A, then each with B.
+std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before, const std::string& comparison) {
+  const size_t equals = comparison.find('=');
+  if (equals == std::string::npos) throw input_error("compare {}: not KEY=VALUE,VALUE,…", comparison);
+  const std::string key = comparison.substr(0, equals + 1);
+  std::vector<BenchContestant> after;
+  for (size_t begin = equals + 1; begin <= comparison.size();) {
+    const size_t end = std::min(comparison.find(',', begin), comparison.size());
+    const std::string assignment = key + comparison.substr(begin, end - begin);
+    for (BenchContestant contestant : before) {
+      apply_setting(contestant.settings, assignment);
+      contestant.compared += (contestant.compared.empty() ? "" : " ") + assignment;
+      after.push_back(contestant);
+    }
+    begin = end + 1;
+  }
+  return after;
+}
+
+void apply_own_setting(Contestant& contestant, const std::string& assignment) {
+  apply_setting(contestant.settings, assignment);
+  const std::string key = assignment.substr(0, assignment.find('='));
+  if (!reads_setting(*contestant.technique, key)) {
+    throw input_error("techniques {}:{}: {} does not read {}; it reads {}", contestant.technique->name, assignment,
+                      contestant.technique->name, key, fmt::join(contestant.technique->settings, ", "));
+  }
+}
+
+// Items of a list of techniques, as split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". What has
+// a "=" but no name before a colon is one more setting of the name before it.
+std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common) {
+  std::vector<Contestant> contestants;
+  for (const std::string& item : items) {
+    const size_t colon = item.find(':');
+    const bool setting_only = colon == std::string::npos && item.find('=') != std::string::npos;
+    if (setting_only && !contestants.empty()) {
+      apply_own_setting(contestants.back(), item);
+      continue;
+    }
+    contestants.push_back({&find_technique(item.substr(0, colon)), common});
+    if (colon != std::string::npos) apply_own_setting(contestants.back(), item.substr(colon + 1));
+  }
+  return contestants;
+}
+
+// Each contestant with each of the values of the settings that it reads.
+std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
+  std::vector<Contestant> all;
+  for (const Contestant& contestant : contestants) {
+    std::vector<std::string> own;
+    for (const std::string& comparison : comparisons) {
+      if (reads_setting(*contestant.technique, comparison.substr(0, comparison.find('=')))) own.push_back(comparison);
+    }
+    for (const BenchContestant& c : contestants_of(contestant.settings, own, 64)) {
+      all.push_back({contestant.technique, c.settings});
+    }
+  }
+  return all;
+}
+
+void check_comparisons(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
+  for (const std::string& comparison : comparisons) {
+    const std::string key = comparison.substr(0, comparison.find('='));
+    const auto reads = [&](const Contestant& c) { return reads_setting(*c.technique, key); };
+    if (std::ranges::any_of(contestants, reads)) continue;
+    throw input_error("compare {}: no technique reads {}", comparison, key);
+  }
+}
+
+// All are held against one image of every light: of another BRDF, what differs would be taken for a technique's error.
+void check_brdf(const std::vector<Contestant>& contestants) {
+  const Contestant& first = contestants.front();
+  const auto brdf_of = [](const Contestant& c) { return to_strings(c.settings).at("brdf"); };
+  for (const Contestant& c : contestants) {
+    if (c.settings.brdf == first.settings.brdf) continue;
+    throw input_error(
+        "compare: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose one brdf for all",
+        first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
+  }
+}
+
+}  // namespace
+
+std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
+                                            size_t most) {
+  std::vector<BenchContestant> contestants{{"", base}};
+  for (const std::string& comparison : comparisons) contestants = multiplied(contestants, comparison);
+  if (contestants.size() > most) throw input_error("compare: {} combinations; {} at most", contestants.size(), most);
+  return contestants;
+}
+
+std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
+                                                 size_t most) {
+  const std::vector<BenchContestant> contestants = contestants_of(base, comparisons, most);
+  for (const std::string& comparison : comparisons) {
+    const std::string key = comparison.substr(0, comparison.find('='));
+    if (std::ranges::count(culling_settings(), key) > 0) continue;
+    throw input_error("compare {}: culling does not read {}; it reads {}", comparison, key,
+                      fmt::join(culling_settings(), ", "));
+  }
+  return contestants;
+}
+
+std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techniques, const Settings& common,
+                                           const std::vector<std::string>& comparisons) {
+  contestants_of(common, comparisons, 64);  // what is wrong with a comparison that no technique reads
+  const std::vector<Contestant> named = named_contestants(techniques, common);
+  check_comparisons(named, comparisons);
+  const std::vector<Contestant> all = swept(named, comparisons);
+  check_brdf(all);
+  return all;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,28 @@
+// Techniques and settings that run beside each other, chosen by text. Error(input) names the field and its value.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/bench.h"
+#include "compare/compare.h"
+
+namespace lightgrid {
+
+// Every combination of the values in the comparisons ("KEY=A,B"), applied to `base`; `base` alone if there
+// are none. Throws Error(input) past `most` combinations.
+std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
+                                            size_t most);
+
+// The same for settings that culling reads. Throws Error(input) for others, whose values would all run the same.
+std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
+                                                 size_t most);
+
+// techniques: a list split at its commas, as "forward", "forward_plus:tile=32", "cull-test=aabb"; an item with "=" but no name
+// before a colon is one more setting of the name before it. comparisons: "KEY=A,B", applied to each technique that reads KEY.
+// Throws Error(input) for a setting that a technique does not read, a KEY that none reads, and for BRDFs that differ, since one
+// reference image cannot serve both.
+std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techniques, const Settings& common,
+                                           const std::vector<std::string>& comparisons);
+
+}  // namespace lightgrid

@@ -1,0 +1,51 @@
+// The scene, lights, camera and settings of a run, chosen by text: what the command line, the window and other front ends share.
+// Error(input) names the field and its value.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/compare.h"
+#include "plan/settings.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+// Fields as docs/command_line.md explains them.
+struct SceneChoice {
+  std::string scene = "hall";
+  std::string size = "1280x720";
+  std::string camera;
+  std::string camera_path;  // empty: a camera at rest
+  std::string time;         // seconds; empty: at rest
+  std::string light_motion = "none";
+  int lights = -1;  // -1: as the scene has them
+  std::string lights_file;
+  std::string light_radius;
+  uint64_t seed = 1;
+  std::string brdf;  // empty: ggx, or as --set has it
+  std::vector<std::string> set;
+};
+
+inline constexpr int most_lights = 10'000'000;
+
+struct ImageSize {
+  int width = 0, height = 0;
+};
+ImageSize parse_size(const std::string& text);
+Scene load_scene(const std::string& name);
+// The view of a loaded scene, whose lights become those that the choice names.
+View choose_view(Scene& scene, const SceneChoice& choice);
+// The scene's motion along a path, 30 frames a second from the chosen time on; empty where nothing moves. The scene outlives it.
+SceneMotion chosen_motion(Scene& scene, const SceneChoice& choice);
+// The views of the camera path, or none.
+std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneChoice& choice);
+struct ChosenScene {
+  Scene scene;
+  View view;
+};
+ChosenScene load_chosen_scene(const SceneChoice& choice);
+Settings chosen_settings(const SceneChoice& choice);
+
+}  // namespace lightgrid
