@@ -1,5 +1,6 @@
 #include "capture/frame_culler.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/error.h"

@@ -1,5 +1,6 @@
 #include "capture/frame_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "results/json_file.h"

@@ -1,6 +1,7 @@
 // The fraction of a light's intensity that arrives at a point (KHR_lights_punctual), in double.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

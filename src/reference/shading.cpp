@@ -1,5 +1,6 @@
 #include "reference/shading.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>

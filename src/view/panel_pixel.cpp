@@ -1,4 +1,6 @@
 // The lights at the pixel that was clicked.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 

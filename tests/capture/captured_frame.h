@@ -1,6 +1,7 @@
 // A small frame to write, read and break: a sloped floor before a far wall, lights of every kind.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "capture/frame_file.h"

@@ -1,6 +1,8 @@
 // Captured frames through the culler: no light lost, whoever captured them.
 #include "capture/frame_culler.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "reference/position.h"

@@ -1,4 +1,6 @@
 // What each of Khronos' and others' sample models is there to show. The numbers are read off the files' JSON.
+#include <algorithm>
+
 #include <glm/gtc/constants.hpp>
 
 #include "scene/load_gltf.h"

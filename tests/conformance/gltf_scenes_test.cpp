@@ -1,4 +1,6 @@
 // The large scenes and those with artists' lights.
+#include <algorithm>
+
 #include "base/error.h"
 #include "scene/gltf/geometry.h"
 #include "scene/load_gltf.h"
@@ -16,8 +18,9 @@ void expect_complete(const Scene& scene) {
     ASSERT_EQ(mesh.indices.size() % 3, 0u);
     ASSERT_LT(*std::max_element(mesh.indices.begin(), mesh.indices.end()), mesh.positions.size());
     ASSERT_LT(size_t(mesh.material), scene.materials.size());
-    if (scene.materials[mesh.material].normal_map.texture >= 0)
+    if (scene.materials[mesh.material].normal_map.texture >= 0) {
       ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
+    }
   }
   for (const Texture& texture : scene.textures) ASSERT_LT(size_t(texture.bitmap), scene.bitmaps.size());
   for (const Bitmap& bitmap : scene.bitmaps)

@@ -1,6 +1,8 @@
 // KHR_lights_punctual from a file to the picture: radiances worked out by hand.
 #include "conformance/own_model.h"
 
+#include <algorithm>
+
 namespace lightgrid {
 namespace {
 

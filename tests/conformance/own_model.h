@@ -1,6 +1,8 @@
 // Small glTF models of our own: a plate that fills the picture, so that pixels can be worked out by hand.
 #pragma once
 
+#include <algorithm>
+
 #include <glm/gtc/constants.hpp>
 
 #include "base/image.h"

@@ -1,6 +1,7 @@
 // Pictures of the conformance models, asked by places in the world rather than by pixels.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -1,6 +1,7 @@
 // The oracle of poses, and cases worked out by hand that it must get right.
 #include "conformance/pose_oracle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>

@@ -2,6 +2,8 @@
 // were looked at first.
 #include "conformance/picture.h"
 
+#include <algorithm>
+
 namespace lightgrid {
 namespace {
 

@@ -1,6 +1,7 @@
 // The standing hunt: it finds nothing in the library, and it finds, saves and shrinks what a culler without slack loses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 

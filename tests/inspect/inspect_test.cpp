@@ -2,6 +2,8 @@
 // oracle.
 #include "inspect/inspect.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

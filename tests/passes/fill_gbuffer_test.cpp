@@ -1,6 +1,7 @@
 // What the geometry buffer gives back of the surfaces that were put into it.
 #include "passes/gbuffer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

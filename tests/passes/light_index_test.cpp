@@ -1,6 +1,7 @@
 // Light indices into channels and out again, and a machine whose blending does not keep them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes/light_index/light_groups.h"

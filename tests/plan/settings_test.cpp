@@ -1,5 +1,7 @@
 #include "plan/settings.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "base/error.h"

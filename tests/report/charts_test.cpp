@@ -1,5 +1,7 @@
 #include "report/charts.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "report/synthetic_report.h"

@@ -1,5 +1,7 @@
 // lidr within its overlap limit is the brute-force image, in every packing and row of the table; past it, lights are missing
 // and none is another.
+#include <algorithm>
+
 #include "base/error.h"
 #include "passes/light_index/layout.h"
 #include "passes/light_volumes/light_volumes.h"

@@ -1,4 +1,5 @@
 // The volumes that lidr draws hold every pixel that their lights reach, from any place and through any camera.
+#include <algorithm>
 #include <cstdlib>
 
 #include "passes/light_volumes/light_volumes.h"

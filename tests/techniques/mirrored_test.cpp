@@ -1,4 +1,6 @@
 // A mirrored instance is the mirror image of one that is not.
+#include <algorithm>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/small_scene.h"

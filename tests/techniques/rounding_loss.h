@@ -1,6 +1,8 @@
 // What an image loses to the rounding of the geometry buffer, explained by the oracle.
 #pragma once
 
+#include <algorithm>
+
 #include "techniques/rendering.h"
 
 namespace lightgrid {
