@@ -7,6 +7,7 @@
 #include "base/embedded.h"
 #include "base/image.h"
 #include "report/charts.h"
+#include "results/error_measures.h"
 #include "results/metrics.h"
 #include "report/overview.h"
 #include "results/words.h"
@@ -126,6 +127,10 @@ json page_data(const std::vector<ReportView>& views) {
                {"difference_legend", store.number_of(legend_png(difference_ramp()))},
                {"heat_legend", store.number_of(legend_png(viridis_ramp()))}};
   data["pictures"] = store.urls();
+  data["measures"] = json::array();
+  for (const ErrorMeasure& measure : error_measures()) {
+    if (*measure.title) data["measures"].push_back({{"key", measure.key}, {"title", measure.title}});
+  }
   return data;
 }
 

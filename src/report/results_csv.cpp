@@ -4,17 +4,22 @@
 
 #include <cmath>
 
+#include "results/error_measures.h"
+
 namespace lightgrid {
 namespace {
 
 using Fields = std::vector<std::string>;
 
-const Fields heading = {"commit",     "cl",         "gl",           "scene",      "size",       "lights",
-                        "in_view",    "technique",  "settings",     "row",        "refused",    "min_ms",
-                        "median_ms",  "max_ms",     "runs",         "memory",     "light_grid", "gbuffer",
-                        "listed",     "lit",        "lost",         "wrong",      "max_abs",    "max_rel",
-                        "rmse",       "p99",        "bit_identical", "nan_pixels", "overflow",
-                        "oracle_max_rel", "oracle_rmse_rel", "oracle_of_reference_max_rel", "reference_pixels"};
+Fields heading() {
+  Fields names = {"commit",    "cl",      "gl",        "scene",   "size", "lights", "in_view",    "technique", "settings",
+                  "row",       "refused", "min_ms",    "median_ms", "max_ms", "runs", "memory",   "light_grid", "gbuffer",
+                  "listed",    "lit",     "lost",      "wrong"};
+  for (const ErrorMeasure& measure : error_measures()) names.emplace_back(measure.key);
+  names.insert(names.end(), {"bit_identical", "nan_pixels", "overflow", "oracle_max_rel", "oracle_rmse_rel",
+                             "oracle_of_reference_max_rel", "reference_pixels"});
+  return names;
+}
 
 std::string quoted(const std::string& field) {
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
@@ -37,8 +42,8 @@ std::string number(bool there, Number value) {
 void add_error(Fields& fields, const std::optional<ImageError>& error) {
   const auto finite = [&](double value) { return number(error && std::isfinite(value), value); };
   const ImageError e = error.value_or(ImageError{});
-  fields.insert(fields.end(), {finite(e.max_abs), finite(e.max_rel), finite(e.rmse), finite(e.p99),
-                               number(error.has_value(), e.bit_identical)});
+  for (const ErrorMeasure& measure : error_measures()) fields.push_back(finite(e.*measure.value));
+  fields.push_back(number(error.has_value(), e.bit_identical));
 }
 
 void add_oracle(Fields& fields, const std::optional<ImageError>& error) {
@@ -73,7 +78,7 @@ Fields fields_of(const CompareReport& report, const RunResult& row, const std::s
 }  // namespace
 
 std::string results_csv(const std::vector<ReportView>& views) {
-  std::string text = line_of(heading);
+  std::string text = line_of(heading());
   for (const ReportView& view : views) {
     const auto names = row_names(view.report);
     for (size_t i = 0; i < names.size(); ++i) text += line_of(fields_of(view.report, view.report.rows[i], names[i]));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "results/error_measures.h"
 
 namespace lightgrid {
 namespace {
@@ -42,13 +43,11 @@ json to_json(const ImageError& error) {
               {"rmse_rel", finite_or_null(error.oracle->rmse_rel)},
               {"of_reference_max_rel", finite_or_null(error.oracle->of_reference_max_rel)}};
   }
-  return {{"max_abs", finite_or_null(error.max_abs)},
-          {"max_rel", finite_or_null(error.max_rel)},
-          {"rmse", finite_or_null(error.rmse)},
-          {"p99", finite_or_null(error.p99)},
-          {"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
-          {"bit_identical", error.bit_identical},
-          {"oracle", oracle}};
+  json values = {{"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
+                 {"bit_identical", error.bit_identical},
+                 {"oracle", oracle}};
+  for (const ErrorMeasure& measure : error_measures()) values[measure.key] = finite_or_null(error.*measure.value);
+  return values;
 }
 
 json to_json(const PairCounts& pairs) {
