@@ -69,4 +69,12 @@ Command CommandLine::parse(int argc, const char* const* argv) {
   }
 }
 
+std::string CommandLine::with_option(const std::string& message) const {
+  const std::string option = "--" + message.substr(0, message.find_first_of(" :"));
+  for (const CLI::App* command : app_->get_subcommands()) {
+    if (command->get_option_no_throw(option)) return "--" + message;
+  }
+  return message;
+}
+
 }  // namespace lightgrid

@@ -44,6 +44,10 @@ class CommandLine {
   // is printed in one line on stderr and returns a command that ends with status 2.
   Command parse(int argc, const char* const* argv);
 
+  // A message of a run, which begins with the name of a field ("size 0x0: …"), as the user gave it ("--size 0x0: …"). Other
+  // messages stay as they are.
+  std::string with_option(const std::string& message) const;
+
   bool quiet() const { return quiet_; }
 
  private:

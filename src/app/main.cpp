@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   try {
     return command();
   } catch (const Error& error) {
-    std::fprintf(stderr, "lightgrid: %s\n", error.what());
+    std::fprintf(stderr, "lightgrid: %s\n", line.with_option(error.what()).c_str());
     return error.exit_code();
   } catch (const cl::Error& error) {
     std::fprintf(stderr, "lightgrid: %s\n", cl_machine_error(error).what());

@@ -7,8 +7,8 @@ struct TwoFloats {
   float value, rest;
 };
 
-// A function of its own, never inlined: GCC 12.2 at -O2 vectorizes two of these side by side and then
+// Never inlined: GCC 12.2 at -O2 vectorizes two of these side by side and then
 // computes double(float(x)) as x, which makes the second floats 0 (docs/devices.md#known-faults).
-TwoFloats two_floats(double number);
+[[gnu::noinline]] TwoFloats two_floats(double number);
 
 }  // namespace lightgrid

@@ -86,7 +86,7 @@ void check_brdf(const std::vector<Contestant>& contestants) {
   for (const Contestant& c : contestants) {
     if (c.settings.brdf == first.settings.brdf) continue;
     throw input_error(
-        "compare: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose one brdf for all",
+        "brdf: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose one for all",
         first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
   }
 }

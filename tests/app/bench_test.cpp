@@ -166,7 +166,7 @@ TEST(BenchCommand, RefusesToCompareWhatCullingDoesNotRead) {
   const std::string frame = write_small_frame(folder.path);
   const ProgramRun run = run_program({"bench", "--replay", frame, "--compare", "brdf=ggx,blinn"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("compare brdf=ggx,blinn: culling does not read brdf; it reads cull-test"));
+  EXPECT_THAT(run.err, HasSubstr("--compare brdf=ggx,blinn: culling does not read brdf; it reads cull-test"));
 }
 
 TEST(BenchCommand, PrintsATable) {

@@ -51,7 +51,7 @@ TEST_F(RenderAtTime, WhatIsNoTimeIsRefused) {
   for (const char* time : {"-1", "soon", "nan", "inf", "1s"}) {
     const ProgramRun run = run_program({"render", file_, "--time", time, "-o", folder_.path / "x.png"});
     EXPECT_EQ(run.status, 2);
-    EXPECT_THAT(run.err, testing::HasSubstr(std::string("time ") + time + ": not a number of seconds"));
+    EXPECT_THAT(run.err, testing::HasSubstr(std::string("--time ") + time + ": not a number of seconds"));
   }
 }
 
