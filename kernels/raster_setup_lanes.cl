@@ -40,9 +40,10 @@ static inline global RasterRecord* next_record(Output* out, constant RasterParam
 
 static inline void count_in_tiles(global const RasterRecord* record, global uint* tile_counts, constant RasterParams* p) {
   const TileBox box = tile_box(record->box_low, record->box_high);
+  const RasterRecord r = *record;
   for (int y = box.y0; y <= box.y1; ++y) {
     for (int x = box.x0; x <= box.x1; ++x) {
-      if (!box.some_outside || meets_tile(record, x, y)) ++tile_counts[y * p->tiles_x + x];
+      if (!box.some_outside || meets_tile(&r, x, y)) ++tile_counts[y * p->tiles_x + x];
     }
   }
 }

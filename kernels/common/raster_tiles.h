@@ -36,7 +36,7 @@ static inline TileBox tile_box(uint box_low, uint box_high) {
   return b;
 }
 
-static inline bool meets_tile(global const RasterRecord* r, int tile_x, int tile_y) {
+static inline bool meets_tile(const RasterRecord* r, int tile_x, int tile_y) {
   return edge_meets_tile(r->x[0], r->y[0], r->x[1], r->y[1], tile_x, tile_y) &&
          edge_meets_tile(r->x[1], r->y[1], r->x[2], r->y[2], tile_x, tile_y) &&
          edge_meets_tile(r->x[2], r->y[2], r->x[0], r->y[0], tile_x, tile_y);

@@ -32,5 +32,7 @@ class RasterPipeline {
 };
 
 std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs, bool portable);
+// Without `wide_atomics`, or where the device has none of 64 bits, in two passes.
+std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics);
 
 }  // namespace lightgrid

@@ -8,7 +8,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t most_numbers = 0xffffffffu - 64;
+constexpr size_t most_indices = 0xffffffffu - 64;
 constexpr double least_cosine = 0.1;  // of a cone: wider ones face away from next to nothing
 
 glm::dvec3 corner(const RasterMesh& mesh, size_t index) { return mesh.positions[mesh.indices[index]]; }
@@ -87,7 +87,7 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
       throw input_error("rasterizer: mesh {}: index {} is past its {} positions", m, *largest, mesh.positions.size());
     }
     indices += mesh.indices.size(), vertices += mesh.positions.size() + 15;
-    if (std::max(indices, vertices) > most_numbers) throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
+    if (std::max(indices, vertices) > most_indices) throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
 
     RasterMeshPlace place;
     place.first_index = uint32_t(all.indices.size()), place.triangles = uint32_t(mesh.indices.size() / 3);
@@ -123,7 +123,7 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
     }
     const RasterMeshPlace& mesh = meshes.places[instance.mesh];
     triangles += mesh.triangles;
-    if (std::max(triangles, all.clip_vertices + mesh.vertices) > most_numbers) {
+    if (std::max(triangles, all.clip_vertices + mesh.vertices) > most_indices) {
       throw machine_error("rasterizer: instances have 2^32 triangles or vertices or more");
     }
     RasterInstanceRecord record{};
@@ -141,7 +141,7 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
     for (uint32_t v = 0; v < mesh.vertices; v += RASTER_VERTEX_RUN) all.vertex_runs.push_back({uint32_t(i), v});
     for (uint32_t c = 0; c < mesh.clusters; ++c) all.pairs.push_back({uint32_t(i), mesh.first_cluster + c});
   }
-  if (all.pairs.size() > most_numbers) throw machine_error("rasterizer: 2^32 clusters or more");
+  if (all.pairs.size() > most_indices) throw machine_error("rasterizer: 2^32 clusters or more");
   return all;
 }
 

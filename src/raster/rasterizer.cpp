@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t spare_indices = 48;  // that kernels may read past the last
 constexpr uint32_t first_entries_a_tile = 64;
+constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
 
 template <typename T>
 void upload(ClDevice& device, GrowingBuffer& buffer, const std::vector<T>& values, size_t spare = 0) {
@@ -31,10 +32,9 @@ bool same_layout(const RasterInstance& a, const RasterInstance& b) {
 
 struct Rasterizer::State {
   State(ClDevice& device, ProgramCache& programs, const RasterOptions& options) : device(device), options(options) {
-    if (options.shape == KernelShape::group || (options.shape == KernelShape::automatic && !device.info().cpu)) {
-      throw machine_error("rasterizer: {} has no kernels of its own yet; take a CPU", device.info().name);
-    }
-    pipeline = make_raster_lanes_pipeline(device, programs, options.portable);
+    const bool lanes = options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
+    pipeline = lanes ? make_raster_lanes_pipeline(device, programs, options.portable)
+                     : make_raster_group_pipeline(device, programs, options.wide_atomics);
     params_buffer = device_buffer(device, sizeof(RasterParams));
     counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
   }
@@ -118,17 +118,17 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
   const uint64_t entries = counted[RASTER_ENTRIES] | uint64_t(counted[RASTER_ENTRIES + 1]) << 32, blocks = counted[RASTER_BLOCKS];
   const size_t largest = device.info().max_allocation_bytes;
   // A quarter more than was asked for, since views move.
-  const auto grow = [&](uint64_t wanted, size_t bytes_each, const char* what, uint32_t& room) {
-    const uint64_t most = std::min<uint64_t>(0xffffffffu / RASTER_BLOCK * (bytes_each == sizeof(cl_uint) ? RASTER_BLOCK : 1), largest / bytes_each);
+  const auto grow = [&](uint64_t wanted, size_t bytes_each, uint64_t most, const char* what, uint32_t& room) {
+    most = std::min<uint64_t>(most, largest / bytes_each);
     if (wanted > most) throw machine_error("rasterizer: {} {} need more memory than {} allows", wanted, what, device.info().name);
     room = uint32_t(std::min(most, wanted + wanted / 4));
   };
   if (blocks > params.record_blocks) {
-    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), "blocks of 256 triangles in view", params.record_blocks);
+    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), most_numbers / RASTER_BLOCK, "blocks of 256 triangles in view", params.record_blocks);
     return true;
   }
   if (entries > params.entry_capacity) {
-    grow(entries, sizeof(cl_uint), "pairs of a triangle and a tile", params.entry_capacity);
+    grow(entries, sizeof(cl_uint2), most_numbers, "pairs of a triangle and a tile", params.entry_capacity);
     return true;
   }
   return false;

@@ -87,6 +87,7 @@ struct RasterOptions {
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bytes
   bool portable = false;                       // no builtins of one kind of CPU; the same bytes
   bool cluster_cones = true;                   // leaves out clusters that face away
+  bool wide_atomics = true;                    // group shape: false uses 32-bit atomics, in two passes; the same bytes
 };
 
 // Of the last draw().

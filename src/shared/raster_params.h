@@ -18,6 +18,7 @@
 #define RASTER_RECORDS 2
 #define RASTER_INVALID 3   // triangles with a corner that is not finite
 #define RASTER_ENTRIES 4   // low word, then high word: pairs of a record and a tile
+#define RASTER_LARGE 6    // records of triangles that are not drawn at once, in the group shape
 #define RASTER_COUNTERS 8
 
 #if !defined(__OPENCL_VERSION__)

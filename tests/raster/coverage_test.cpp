@@ -36,9 +36,9 @@ void add_random_triangle(RandomNumbers& random, int kind, RasterScene& scene) {
   add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
 }
 
-class RasterCoverage : public testing::TestWithParam<bool> {
+class RasterCoverage : public testing::TestWithParam<RasterOptions> {
  protected:
-  RasterOptions options() const { return {.portable = GetParam()}; }
+  RasterOptions options() const { return GetParam(); }
 };
 
 TEST_P(RasterCoverage, RandomTrianglesOfEachKind) {
@@ -251,8 +251,17 @@ TEST_P(RasterCoverage, TrianglesThroughTheEye) {
   expect_right(scene, options());
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtins, RasterCoverage, testing::Values(false, true),
-                         [](const auto& info) { return info.param ? "Portable" : "Tuned"; });
+std::string shape_name(const testing::TestParamInfo<RasterOptions>& info) {
+  if (info.param.shape == KernelShape::lanes) return info.param.portable ? "PortableLanes" : "Lanes";
+  return info.param.wide_atomics ? "Group" : "GroupIn32Bits";
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, RasterCoverage,
+                         testing::Values(RasterOptions{.shape = KernelShape::lanes},
+                                         RasterOptions{.shape = KernelShape::lanes, .portable = true},
+                                         RasterOptions{.shape = KernelShape::group},
+                                         RasterOptions{.shape = KernelShape::group, .wide_atomics = false}),
+                         shape_name);
 
 }  // namespace
 }  // namespace lightgrid

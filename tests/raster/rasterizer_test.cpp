@@ -93,7 +93,13 @@ TEST(Rasterizer, NumbersTrianglesInDrawingOrderAndSaysWhatTheyBelongTo) {
   EXPECT_EQ(image.instances[2].flags, RASTER_TWO_SIDED);
 }
 
-TEST(Rasterizer, OfEqualDepthsTheLowestNumberIsShown) {
+// What must hold in each shape.
+class RasterizerShapes : public testing::TestWithParam<KernelShape> {
+ protected:
+  RasterOptions options() const { return {.shape = GetParam()}; }
+};
+
+TEST_P(RasterizerShapes, OfEqualDepthsTheLowestNumberIsShown) {
   // The same triangles over and over, in clusters of different distance, so that a later one is drawn first.
   RandomNumbers random(4);
   RasterScene scene;
@@ -108,15 +114,15 @@ TEST(Rasterizer, OfEqualDepthsTheLowestNumberIsShown) {
   add_triangle(nearer, at(scene.view, -50, -50, 0.2), at(scene.view, -49, -50, 0.2), at(scene.view, -50, -49, 0.2));
   scene.meshes = {one, nearer};
   scene.instances = {{.mesh = 0}};
-  const Drawn alone = drawn(scene);
+  const Drawn alone = drawn(scene, options());
   EXPECT_GT(alone.covered(), 3000u);
   scene.instances = {{.mesh = 0}, {.mesh = 1}, {.mesh = 0}};
-  EXPECT_TRUE(drawn(scene).same_image(alone));
+  EXPECT_TRUE(drawn(scene, options()).same_image(alone));
 }
 
-TEST(Rasterizer, RoomThatIsShortGrowsAndNothingIsLost) {
+TEST_P(RasterizerShapes, RoomThatIsShortGrowsAndNothingIsLost) {
   const RasterScene few = many_triangles(10, 300, 200, 1), many = many_triangles(30000, 300, 200, 2);
-  Rasterizer rasterizer(raster_device(), raster_programs());
+  Rasterizer rasterizer(raster_device(), raster_programs(), options());
   set_scene(rasterizer, few);
   EXPECT_EQ(drawn_by(rasterizer, few).counts.redone, 0);
   set_scene(rasterizer, many);
@@ -127,8 +133,11 @@ TEST(Rasterizer, RoomThatIsShortGrowsAndNothingIsLost) {
   EXPECT_EQ(count_wrong(grown, oracle_of(grown, many)), 0);
   EXPECT_GT(grown.counts.records, 16u * 256);
   set_scene(rasterizer, few);
-  EXPECT_TRUE(drawn_by(rasterizer, few).same_image(drawn(few)));
+  EXPECT_TRUE(drawn_by(rasterizer, few).same_image(drawn(few, options())));
 }
+
+INSTANTIATE_TEST_SUITE_P(Shapes, RasterizerShapes, testing::Values(KernelShape::lanes, KernelShape::group),
+                         [](const auto& info) { return info.param == KernelShape::lanes ? "Lanes" : "Group"; });
 
 // A device of one thread, which takes clusters in other chunks.
 TEST(Rasterizer, TheSameBytesWithOneThread) {
@@ -156,11 +165,19 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
   EXPECT_EQ(depths, expected.depths);
 }
 
-TEST(Rasterizer, TheSameBytesWithAndWithoutBuiltins) {
-  const RasterScene scene = many_triangles(5000, 501, 299, 8);
-  const Drawn tuned = drawn(scene);
-  EXPECT_GT(tuned.covered(), 100000u);
-  EXPECT_TRUE(drawn(scene, {.portable = true}).same_image(tuned));
+TEST(Rasterizer, TheSameBytesInEveryShape) {
+  for (const RasterScene& scene : {many_triangles(5000, 501, 299, 8), many_triangles(300, 130, 70, 9), many_triangles(400, 1, 1, 10)}) {
+    const Drawn lanes = drawn(scene, {.shape = KernelShape::lanes});
+    EXPECT_GT(lanes.covered(), lanes.triangles.size() / 5);
+    for (const RasterOptions& options : {RasterOptions{.shape = KernelShape::lanes, .portable = true},
+                                         RasterOptions{.shape = KernelShape::group},
+                                         RasterOptions{.shape = KernelShape::group, .wide_atomics = false}}) {
+      const Drawn other = drawn(scene, options);
+      EXPECT_TRUE(other.same_image(lanes)) << int(options.shape) << options.portable << options.wide_atomics;
+      EXPECT_EQ(other.counts.records, lanes.counts.records);
+      EXPECT_EQ(other.counts.clusters, lanes.counts.clusters);
+    }
+  }
 }
 
 // A scene and an eye that move together by an exact amount give the same bits.

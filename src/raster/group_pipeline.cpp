@@ -1,0 +1,88 @@
+// transform, clusters -> small -> large -> keys: for GPUs. With 32-bit atomics small and large run twice.
+#include <algorithm>
+
+#include "cl/launch.h"
+#include "cl/transfer.h"
+#include "raster/raster_pipeline.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr size_t group_items = 64, groups_a_unit = 32;
+
+bool has_64_bit_atomics(ClDevice& device) {
+  return device.device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_int64_extended_atomics") != std::string::npos;
+}
+
+cl::NDRange items_for(size_t count) {
+  return cl::NDRange(std::max<size_t>(1, (count + group_items - 1) / group_items) * group_items);
+}
+
+class RasterGroupPipeline : public RasterPipeline {
+ public:
+  RasterGroupPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
+      : device_(device), wide_(wide_atomics && has_64_bit_atomics(device)) {
+    transform_ = programs.kernel("raster_transform_group", "");
+    clusters_ = programs.kernel("raster_clusters_group", "");
+    if (wide_) keys_kernel_ = programs.kernel("raster_keys_group", "");
+    const char* const passes[] = {wide_ ? "-DATOMICS=64" : "-DATOMICS=32 -DPASS=1", "-DATOMICS=32 -DPASS=2"};
+    for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
+      small_[pass] = programs.kernel("raster_small_group", passes[pass]);
+      large_[pass] = programs.kernel("raster_large_group", passes[pass]);
+    }
+  }
+
+  uint32_t chunks(const RasterParams&) const override { return 1; }
+
+  void prepare(const RasterParams& p) override {
+    visible_.at_least(device_, size_t(p.pairs) * sizeof(cl_uint));
+    records_.at_least(device_, size_t(p.record_blocks) * RASTER_BLOCK * sizeof(RasterRecord));
+    entries_.at_least(device_, size_t(p.entry_capacity) * sizeof(cl_uint2));
+    keys_.at_least(device_, wide_ ? size_t(p.width) * p.height * sizeof(cl_ulong) : 0);
+  }
+
+  void enqueue(const RasterJob& job) override {
+    const RasterParams& p = job.params;
+    const size_t pixels = size_t(p.width) * p.height;
+    const cl::NDRange group(group_items);
+    const cl::NDRange all(size_t(std::max(1, device_.info().compute_units)) * groups_a_unit * group_items);
+    fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
+    if (wide_) {
+      fill_buffer(device_, "rasterizer: image", keys_.get(), 0, pixels * sizeof(cl_ulong));
+    } else {
+      fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
+      fill_buffer(device_, "rasterizer: image", job.depths, 0, pixels * sizeof(cl_uint));
+    }
+    launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN), group, job.positions,
+           job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
+    launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters, job.frame, visible_.get(),
+           job.counters, job.params_buffer);
+    // The second pass needs the depths of all triangles.
+    for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
+      launch(device_, "raster_small", small_[pass], all, group, visible_.get(), job.pairs, job.clusters, job.instances,
+             job.indices, job.clip, records_.get(), entries_.get(), keys_.get(), job.triangles, job.depths, job.counters,
+             job.params_buffer);
+      launch(device_, "raster_large", large_[pass], all, group, records_.get(), entries_.get(), keys_.get(), job.triangles,
+             job.depths, job.counters, job.params_buffer);
+    }
+    if (wide_) {
+      launch(device_, "raster_keys", keys_kernel_, items_for(pixels), group, keys_.get(), job.triangles, job.depths, cl_uint(pixels));
+    }
+  }
+
+  size_t memory_bytes() const override { return visible_.bytes() + records_.bytes() + entries_.bytes() + keys_.bytes(); }
+
+ private:
+  ClDevice& device_;
+  const bool wide_;
+  cl::Kernel transform_, clusters_, small_[2], large_[2], keys_kernel_;
+  GrowingBuffer visible_, records_, entries_, keys_;
+};
+
+}  // namespace
+
+std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics) {
+  return std::make_unique<RasterGroupPipeline>(device, programs, wide_atomics);
+}
+
+}  // namespace lightgrid
