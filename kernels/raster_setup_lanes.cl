@@ -2,7 +2,9 @@
 // order, 16 triangles at once, and counts its records in each tile.
 //
 // visible, counters    as raster_order_lanes.cl writes them
-// pairs, clusters, instances, indices, clip  as rasterizer.h and raster_params.h have them; 48 more indices may be read
+// pairs, clusters, instances, clip  as rasterizer.h and raster_params.h have them
+// indices, numbers     corners and numbers within their mesh of all meshes' triangles, in the order of clusters; 48 more of each
+//                      may be read
 // records              room, handed out in blocks of RASTER_BLOCK: how many were asked for is in counters[RASTER_BLOCKS]
 // next_block           uint a block: the one that goes on where it is full
 // chunks               uint2 a chunk: its first block, and how many records it has
@@ -99,7 +101,7 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
 }
 
 kernel void raster_setup_lanes(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
-                               global const RasterInstanceRecord* instances, global const uint* indices,
+                               global const RasterInstanceRecord* instances, global const uint* indices, global const uint* numbers,
                                global const float4* clip, global RasterRecord* records, global uint* next_block,
                                global uint2* chunks, global uint* tile_counts, global volatile uint* counters,
                                constant RasterParams* p) {
@@ -110,9 +112,9 @@ kernel void raster_setup_lanes(global const uint* visible, global const uint2* p
   for (uint i = (uint)((ulong)in_view * chunk / p->chunks); i < end; ++i) {
     const uint2 pair = pairs[visible[i]];
     const RasterInstanceRecord instance = instances[pair.x];
-    const uint first = clusters[pair.y].first_triangle, count = clusters[pair.y].count;
+    const uint first = clusters[pair.y].first, count = clusters[pair.y].count;
     for (uint t = 0; t < count; t += 16) {
-      global const uint* from = indices + instance.first_index + 3 * (size_t)(first + t);
+      global const uint* from = indices + 3 * (size_t)(first + t);
       const int16 live = LANE_INDEX < (int16)((int)(count - t));
       const uint16 i0 = vload16(0, from), i1 = vload16(1, from), i2 = vload16(2, from), none = 0;
       const uint16 a = (uint16)(i0.s0369, i0.scf, i1.s258b, i1.se, i2.s147a, i2.sd);
@@ -125,13 +127,14 @@ kernel void raster_setup_lanes(global const uint* visible, global const uint2* p
       if (mask_bits(seen) == 0) continue;
       const int16 whole_inside = seen & is_inside(v[0], p) & is_inside(v[1], p) & is_inside(v[2], p);
       RecordLanes record;
-      record.triangle = (int)(instance.first_triangle + first + t) + LANE_INDEX;
+      const uint16 triangles = vload16(0, numbers + first + t) + instance.first_triangle;
+      record.triangle = as_int16(triangles);
       record.instance = (int)pair.x;
       record.alpha_material = instance.alpha_material;
       write_records(&record, mask_bits(set_up(v, whole_inside, instance.flags, &record, p)), &out, p);
       for (uint cut = mask_bits(seen & ~whole_inside); cut != 0; cut &= cut - 1) {
         const uint lane = lowest_bit(cut);
-        record.triangle = (int)(instance.first_triangle + first + t + lane);
+        record.triangle = (int)((const private uint*)&triangles)[lane];
         set_up_cut(v, lane, &record, instance.flags, &out, p);
       }
     }

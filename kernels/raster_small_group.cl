@@ -2,7 +2,7 @@
 // triangles are drawn at once; large ones are kept for raster_large_group.cl.
 //
 // visible, counters  as raster_clusters_group.cl writes them
-// pairs, clusters, instances, indices, clip  as rasterizer.h and raster_params.h have them
+// pairs, clusters, instances, indices, numbers, clip  as raster_setup_lanes.cl has them
 // records   the large ones
 // entries   uint2: a large record and one of the tiles that it may cover some of, x | y << 16
 // keys, triangles, depths  the image: kernels/common/raster_image.h, with -DATOMICS and -DPASS
@@ -81,7 +81,7 @@ static inline uint draw_triangle(const float4* clip, RecordLanes* lanes, uint fl
 }
 
 kernel void raster_small_group(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
-                               global const RasterInstanceRecord* instances, global const uint* indices,
+                               global const RasterInstanceRecord* instances, global const uint* indices, global const uint* numbers,
                                global const float4* clip, global RasterRecord* records, global uint2* entries,
                                global volatile ulong* keys, global volatile uint* triangles, global volatile uint* depths,
                                global volatile uint* counters, constant RasterParams* p) {
@@ -93,12 +93,12 @@ kernel void raster_small_group(global const uint* visible, global const uint2* p
     const uint2 pair = pairs[visible[i]];
     if (item >= clusters[pair.y].count) continue;
     const RasterInstanceRecord instance = instances[pair.x];
-    const uint triangle = clusters[pair.y].first_triangle + item;
-    global const uint* index = indices + instance.first_index + 3 * (size_t)triangle;
+    const uint place = clusters[pair.y].first + item;
+    global const uint* index = indices + 3 * (size_t)place;
     const float4 corners[3] = {clip[instance.first_clip_vertex + index[0]], clip[instance.first_clip_vertex + index[1]],
                                clip[instance.first_clip_vertex + index[2]]};
     RecordLanes lanes;
-    lanes.triangle = (int)(instance.first_triangle + triangle);
+    lanes.triangle = (int)(instance.first_triangle + numbers[place]);
     lanes.instance = (int)pair.x;
     lanes.alpha_material = instance.alpha_material;
     made += draw_triangle(corners, &lanes, instance.flags, &image, &large, p);

@@ -60,7 +60,7 @@ class RasterGroupPipeline : public RasterPipeline {
     // The second pass needs the depths of all triangles.
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
       launch(device_, "raster_small", small_[pass], all, group, visible_.get(), job.pairs, job.clusters, job.instances,
-             job.indices, job.clip, records_.get(), entries_.get(), keys_.get(), job.triangles, job.depths, job.counters,
+             job.cluster_indices, job.cluster_triangles, job.clip, records_.get(), entries_.get(), keys_.get(), job.triangles, job.depths, job.counters,
              job.params_buffer);
       launch(device_, "raster_large", large_[pass], all, group, records_.get(), entries_.get(), keys_.get(), job.triangles,
              job.depths, job.counters, job.params_buffer);

@@ -57,7 +57,7 @@ class RasterLanesPipeline : public RasterPipeline {
            one, job.pairs, job.clusters, job.frame, buckets_.get(), job.params_buffer);
     launch(device_, "raster_order", order_, one, one, buckets_.get(), visible_.get(), job.counters, job.params_buffer);
     launch(device_, "raster_setup", setup_, cl::NDRange(p.chunks), one, visible_.get(), job.pairs, job.clusters, job.instances,
-           job.indices, job.clip, records_.get(), next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters,
+           job.cluster_indices, job.cluster_triangles, job.clip, records_.get(), next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters,
            job.params_buffer);
     launch(device_, "raster_scan", scan_, one, one, tile_counts_.get(), tile_begin_.get(), job.counters, job.params_buffer);
     launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(), chunks_.get(),

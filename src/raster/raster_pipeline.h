@@ -13,7 +13,7 @@ struct RasterJob {
   const RasterParams& params;
   cl::Buffer params_buffer;
   // The scene, as raster_scene.h has it.
-  cl::Buffer positions, indices, clusters, instances, vertex_runs, pairs;
+  cl::Buffer positions, cluster_indices, cluster_triangles, clusters, instances, vertex_runs, pairs;
   cl::Buffer frame;  // RasterFrameInstance an instance
   cl::Buffer clip, triangles, depths, counters;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "raster/cluster_order.h"
 
 namespace lightgrid {
 namespace {
@@ -11,16 +12,16 @@ namespace {
 constexpr size_t most_indices = 0xffffffffu - 64;
 constexpr double least_cosine = 0.1;  // of a cone: wider ones face away from next to nothing
 
-glm::dvec3 corner(const RasterMesh& mesh, size_t index) { return mesh.positions[mesh.indices[index]]; }
+using Corners = std::array<glm::dvec3, 3>;
 
 bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// The cone around the normals of triangles [first, first + count).
-void add_cone(const RasterMesh& mesh, uint32_t first, uint32_t count, RasterCluster& cluster) {
+// The cone around the triangles' normals.
+void add_cone(const std::vector<Corners>& triangles, RasterCluster& cluster) {
   std::vector<glm::dvec3> normals;
   glm::dvec3 sum{0};
-  for (size_t i = 3 * size_t(first); i < 3 * (size_t(first) + count); i += 3) {
-    const glm::dvec3 a = corner(mesh, i), normal = glm::cross(corner(mesh, i + 1) - a, corner(mesh, i + 2) - a);
+  for (const Corners& t : triangles) {
+    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double length = glm::length(normal);
     if (!(length > 0)) continue;  // it covers nothing
     normals.push_back(normal / length);
@@ -36,34 +37,49 @@ void add_cone(const RasterMesh& mesh, uint32_t first, uint32_t count, RasterClus
   cluster.sine = float(std::sqrt(std::max(0.0, 1 - cosine * cosine)) + 1e-5);
 }
 
-RasterCluster cluster_of(const RasterMesh& mesh, uint32_t first, uint32_t count) {
+RasterCluster cluster_of(const std::vector<Corners>& triangles) {
   RasterCluster cluster{};
-  cluster.first_triangle = first, cluster.count = count;
   cluster.sine = RASTER_NO_CONE;
   glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
-  bool finite = true;
-  for (size_t i = 3 * size_t(first); i < 3 * (size_t(first) + count); ++i) {
-    const glm::dvec3 p = corner(mesh, i);
-    finite &= all_finite(p);
-    low = glm::min(low, p), high = glm::max(high, p);
+  for (const Corners& t : triangles) {
+    for (const glm::dvec3& p : t) {
+      if (!all_finite(p)) {
+        cluster.half_x = cluster.half_y = cluster.half_z = cluster.radius = HUGE_VALF;
+        return cluster;
+      }
+      low = glm::min(low, p), high = glm::max(high, p);
+    }
   }
-  if (!finite) {
-    cluster.half_x = cluster.half_y = cluster.half_z = cluster.radius = HUGE_VALF;
-    return cluster;
-  }
-  const glm::vec3 center((low + high) * 0.5);
+  const glm::dvec3 center(glm::vec3((low + high) * 0.5));
   // Rounded up, from the center as it was rounded.
-  const glm::dvec3 half = glm::max(high - glm::dvec3(center), glm::dvec3(center) - low);
+  const glm::dvec3 half = glm::max(high - center, center - low);
   const auto up = [](double v) { return std::nextafter(float(v), HUGE_VALF); };
   double radius = 0;
-  for (size_t i = 3 * size_t(first); i < 3 * (size_t(first) + count); ++i) {
-    radius = std::max(radius, glm::length(corner(mesh, i) - glm::dvec3(center)));
+  for (const Corners& t : triangles) {
+    for (const glm::dvec3& p : t) radius = std::max(radius, glm::length(p - center));
   }
-  cluster.center_x = center.x, cluster.center_y = center.y, cluster.center_z = center.z;
+  cluster.center_x = float(center.x), cluster.center_y = float(center.y), cluster.center_z = float(center.z);
   cluster.half_x = up(half.x), cluster.half_y = up(half.y), cluster.half_z = up(half.z);
   cluster.radius = up(radius);
-  add_cone(mesh, first, count, cluster);
+  add_cone(triangles, cluster);
   return cluster;
+}
+
+void append_clusters(const RasterMesh& mesh, RasterMeshes& all) {
+  const std::vector<uint32_t> order = cluster_order(mesh);
+  std::vector<Corners> triangles;
+  for (size_t first = 0; first < order.size(); first += RASTER_CLUSTER) {
+    const size_t end = std::min(order.size(), first + RASTER_CLUSTER), place = all.cluster_triangles.size();
+    triangles.clear();
+    for (size_t i = first; i < end; ++i) {
+      const uint32_t* corners = &mesh.indices[3 * size_t(order[i])];
+      all.cluster_triangles.push_back(order[i]);
+      all.cluster_indices.insert(all.cluster_indices.end(), corners, corners + 3);
+      triangles.push_back({mesh.positions[corners[0]], mesh.positions[corners[1]], mesh.positions[corners[2]]});
+    }
+    RasterCluster& cluster = all.clusters.emplace_back(cluster_of(triangles));
+    cluster.first = uint32_t(place), cluster.count = uint32_t(end - first);
+  }
 }
 
 void append_positions(std::span<const glm::vec3> positions, std::vector<float>& to) {
@@ -99,9 +115,7 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
     all.places.push_back(place);
     all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
     append_positions(mesh.positions, all.positions);
-    for (uint32_t first = 0; first < place.triangles; first += RASTER_CLUSTER) {
-      all.clusters.push_back(cluster_of(mesh, first, std::min<uint32_t>(RASTER_CLUSTER, place.triangles - first)));
-    }
+    append_clusters(mesh, all);
   }
   return all;
 }

@@ -19,7 +19,9 @@ struct RasterMeshPlace {
 
 struct RasterMeshes {
   std::vector<RasterMeshPlace> places;
-  std::vector<uint32_t> indices;
+  std::vector<uint32_t> indices;  // as given, mesh after mesh
+  // The same triangles in the order of clusters: corners, and number within the mesh.
+  std::vector<uint32_t> cluster_indices, cluster_triangles;
   std::vector<float> positions;  // blocks of 16 vertices: 16 x, 16 y, 16 z; each mesh begins a block
   std::vector<RasterCluster> clusters;
 };

@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t spare_indices = 48;  // that kernels may read past the last
+constexpr size_t spare = 48;  // values that kernels may read past the last
 constexpr uint32_t first_entries_a_tile = 64;
 constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
 
@@ -47,7 +47,7 @@ struct Rasterizer::State {
   ClDevice& device;
   const RasterOptions options;
   std::unique_ptr<RasterPipeline> pipeline;
-  RasterMeshes meshes;  // indices and positions are on the device alone
+  RasterMeshes meshes;  // their places; the rest is on the device alone
   std::vector<RasterInstance> instances;
   std::optional<RasterView> view;
   RasterParams params{};
@@ -56,7 +56,7 @@ struct Rasterizer::State {
   RasterCounts counts;
   RasterBuffers shown;
 
-  GrowingBuffer positions, indices, clusters, records, triangle_instance, runs, pair_list, frame, clip, image_triangles, image_depths;
+  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, records, triangle_instance, runs, pair_list, frame, clip, image_triangles, image_depths;
   cl::Buffer params_buffer, counters;
 };
 
@@ -69,10 +69,12 @@ void Rasterizer::set_meshes(std::span<const RasterMesh> meshes) {
   State& s = *state_;
   RasterMeshes made = raster_meshes(meshes);
   set_instances({});
-  upload(s.device, s.indices, made.indices, spare_indices);
+  upload(s.device, s.indices, made.indices);
+  upload(s.device, s.cluster_indices, made.cluster_indices, spare);
+  upload(s.device, s.cluster_triangles, made.cluster_triangles, spare);
   upload(s.device, s.positions, made.positions);
   upload(s.device, s.clusters, made.clusters);
-  made.indices = {}, made.positions = {}, made.clusters = {};
+  made = {.places = std::move(made.places)};
   s.meshes = std::move(made);
   s.shown.indices = s.indices.get();
 }
@@ -109,7 +111,7 @@ void Rasterizer::State::upload_instances() {
 void Rasterizer::State::run(uint32_t (&counted)[RASTER_COUNTERS]) {
   write_buffer(device, "rasterizer: params", params_buffer, &params, sizeof params);
   pipeline->prepare(params);
-  pipeline->enqueue({params, params_buffer, positions.get(), indices.get(), clusters.get(), records.get(), runs.get(),
+  pipeline->enqueue({params, params_buffer, positions.get(), cluster_indices.get(), cluster_triangles.get(), clusters.get(), records.get(), runs.get(),
                      pair_list.get(), frame.get(), clip.get(), image_triangles.get(), image_depths.get(), counters});
   read_buffer(device, "rasterizer: counters", counters, counted, sizeof counted);
 }
@@ -167,7 +169,7 @@ const RasterCounts& Rasterizer::counts() const { return state_->counts; }
 size_t Rasterizer::memory_bytes() const {
   const State& s = *state_;
   size_t bytes = s.pipeline->memory_bytes() + sizeof(RasterParams) + RASTER_COUNTERS * sizeof(cl_uint);
-  for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.clusters, &s.records, &s.triangle_instance, &s.runs, &s.pair_list,
+  for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.cluster_indices, &s.cluster_triangles, &s.clusters, &s.records, &s.triangle_instance, &s.runs, &s.pair_list,
                                  &s.frame, &s.clip, &s.image_triangles, &s.image_depths}) {
     bytes += b->bytes();
   }

@@ -43,8 +43,8 @@
 
 namespace lightgrid {
 
-// Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front. Runs of 64
-// triangles are culled together: an order in which neighbours follow one another is drawn faster. Both are copied.
+// Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front. Both are
+// copied.
 struct RasterMesh {
   std::span<const glm::vec3> positions;
   std::span<const uint32_t> indices;

@@ -45,14 +45,14 @@ typedef struct RasterFrameInstance {
   uint eye_is_point;  // RASTER_NONE: cones do not apply
 } RasterFrameInstance;
 
-// Some triangles of a mesh that follow one another; object space.
+// Some triangles of a mesh that lie together; object space.
 typedef struct RasterCluster {
   float center_x, center_y, center_z;
   float half_x, half_y, half_z;  // of the box around them; infinite where a position is not finite
   float radius;                  // of the sphere around the center that holds them
   float axis_x, axis_y, axis_z;  // unit, of the cone that holds their normals
   float sine;                    // of the cone's half-angle, RASTER_NO_CONE where it is 90 degrees or more
-  uint first_triangle, count;    // of the mesh
+  uint first, count;             // of the triangles of all meshes, in the order of clusters
   uint pad0, pad1, pad2;
 } RasterCluster;
 
