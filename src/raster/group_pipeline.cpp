@@ -22,13 +22,13 @@ class RasterGroupPipeline : public RasterPipeline {
  public:
   RasterGroupPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
       : device_(device), wide_(wide_atomics && has_64_bit_atomics(device)) {
-    transform_ = programs.kernel("raster_transform_group", "");
-    clusters_ = programs.kernel("raster_clusters_group", "");
-    if (wide_) keys_kernel_ = programs.kernel("raster_keys_group", "");
+    transform_ = programs.kernel("gpu/raster_transform", "");
+    clusters_ = programs.kernel("gpu/raster_clusters", "");
+    if (wide_) keys_kernel_ = programs.kernel("gpu/raster_keys", "");
     const char* const passes[] = {wide_ ? "-DATOMICS=64" : "-DATOMICS=32 -DPASS=1", "-DATOMICS=32 -DPASS=2"};
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      small_[pass] = programs.kernel("raster_small_group", passes[pass]);
-      large_[pass] = programs.kernel("raster_large_group", passes[pass]);
+      small_[pass] = programs.kernel("gpu/raster_small", passes[pass]);
+      large_[pass] = programs.kernel("gpu/raster_large", passes[pass]);
     }
   }
 

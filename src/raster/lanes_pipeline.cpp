@@ -17,13 +17,13 @@ class RasterLanesPipeline : public RasterPipeline {
  public:
   RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable) : device_(device) {
     const std::string defines = !portable && builds_avx512(device, programs) ? "-DAVX512" : "";
-    transform_ = programs.kernel("raster_transform_lanes", "");
-    clusters_ = programs.kernel("raster_clusters_lanes", "");
-    order_ = programs.kernel("raster_order_lanes", "");
-    setup_ = programs.kernel("raster_setup_lanes", defines);
-    scan_ = programs.kernel("raster_scan_lanes", "");
-    fill_ = programs.kernel("raster_fill_lanes", "");
-    tiles_ = programs.kernel("raster_tiles_lanes", defines);
+    transform_ = programs.kernel("cpu/raster_transform", "");
+    clusters_ = programs.kernel("cpu/raster_clusters", "");
+    order_ = programs.kernel("cpu/raster_order", "");
+    setup_ = programs.kernel("cpu/raster_setup", defines);
+    scan_ = programs.kernel("cpu/raster_scan", "");
+    fill_ = programs.kernel("cpu/raster_fill", "");
+    tiles_ = programs.kernel("cpu/raster_tiles", defines);
   }
 
   uint32_t chunks(const RasterParams& p) const override {

@@ -1,6 +1,6 @@
 // Positions to clip space, for GPUs: a work-item a vertex.
 //
-// positions, runs, clip  as raster_transform_lanes.cl has them
+// positions, runs, clip  as cpu/raster_transform.cl has them
 #include "shared/raster_instance.h"
 #include "shared/raster_params.h"
 
@@ -8,7 +8,7 @@ static inline float times_row(global const float* row, float x, float y, float z
   return fma(row[0], x, fma(row[1], y, fma(row[2], z, row[3])));
 }
 
-kernel void raster_transform_group(global const float* positions, global const uint2* runs,
+kernel void raster_transform(global const float* positions, global const uint2* runs,
                                    global const RasterInstanceRecord* instances,
                                    global const RasterFrameInstance* frame, global float4* clip, constant RasterParams* p) {
   const uint item = get_global_id(0);

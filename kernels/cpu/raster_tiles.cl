@@ -2,7 +2,7 @@
 // Edges are exact: 64 bits at the tile's corner, 32 from there on. See Pineda, "A Parallel Algorithm for Polygon Rasterization"
 // (1988); Greene, Kass, Miller, "Hierarchical Z-Buffer Visibility" (1993) for the least depth a block.
 //
-// records, tile_begin, lists, counters  as raster_setup_lanes.cl and raster_fill_lanes.cl write them
+// records, tile_begin, lists, counters  as cpu/raster_setup.cl and cpu/raster_fill.cl write them
 // triangles  uint a pixel: the nearest triangle, the lowest number of those that are equally near; RASTER_NONE
 // depths     float a pixel, reversed: 0 where no triangle is
 #define LANES 16
@@ -151,7 +151,7 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
   }
 }
 
-kernel void raster_tiles_lanes(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
+kernel void raster_tiles(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
                                global uint* triangles, global float* depths, global const uint* counters,
                                constant RasterParams* p) {
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||

@@ -1,5 +1,5 @@
 // Keys of kernels/common/raster_image.h to triangle numbers and depths, for GPUs: a work-item a pixel.
-kernel void raster_keys_group(global const ulong* keys, global uint* triangles, global float* depths, uint pixels) {
+kernel void raster_keys(global const ulong* keys, global uint* triangles, global float* depths, uint pixels) {
   const uint i = get_global_id(0);
   if (i >= pixels) return;
   triangles[i] = ~(uint)keys[i];

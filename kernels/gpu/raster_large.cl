@@ -1,11 +1,11 @@
 // Large triangles to the image, for GPUs: a work-group of 64 takes entries in turn, a tile of a record each.
 //
-// records, entries, counters  as raster_small_group.cl writes them
+// records, entries, counters  as gpu/raster_small.cl writes them
 // keys, triangles, depths     the image: kernels/common/raster_image.h, with -DATOMICS and -DPASS
 #include "kernels/common/raster_tiles.h"
 #include "kernels/common/raster_image.h"
 
-kernel void raster_large_group(global const RasterRecord* records, global const uint2* entries, global volatile ulong* keys,
+kernel void raster_large(global const RasterRecord* records, global const uint2* entries, global volatile ulong* keys,
                                global volatile uint* triangles, global volatile uint* depths, global const uint* counters,
                                constant RasterParams* p) {
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||

@@ -22,7 +22,7 @@ static inline void store_corners(global float* to, float16 x, float16 y, float16
 #undef FOUR
 }
 
-kernel void raster_transform_lanes(global const float* positions, global const uint2* runs,
+kernel void raster_transform(global const float* positions, global const uint2* runs,
                                    global const RasterInstanceRecord* instances,
                                    global const RasterFrameInstance* frame, global float* clip, constant RasterParams* p) {
   const ulong items = get_global_size(0), item = get_global_id(0);

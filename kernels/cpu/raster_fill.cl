@@ -1,11 +1,11 @@
 // Records to the lists of the tiles that they may cover some of, for CPUs: one work-item takes a chunk.
 //
-// records, next_block, chunks  as raster_setup_lanes.cl writes them
-// tile_at   as raster_scan_lanes.cl leaves tile_counts; where each chunk goes on in each tile's list
+// records, next_block, chunks  as cpu/raster_setup.cl writes them
+// tile_at   as cpu/raster_scan.cl leaves tile_counts; where each chunk goes on in each tile's list
 // lists     uint an entry: a record. Nothing is written where records or lists found no room.
 #include "kernels/common/raster_tiles.h"
 
-kernel void raster_fill_lanes(global const RasterRecord* records, global const uint* next_block, global const uint2* chunks,
+kernel void raster_fill(global const RasterRecord* records, global const uint* next_block, global const uint2* chunks,
                               global uint* tile_at, global uint* lists, global const uint* counters, constant RasterParams* p) {
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {

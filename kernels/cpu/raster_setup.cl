@@ -1,7 +1,7 @@
 // Triangles of the clusters in view to records, for CPUs: one work-item takes a chunk of clusters that follow one another in
 // order, 16 triangles at once, and counts its records in each tile.
 //
-// visible, counters    as raster_order_lanes.cl writes them
+// visible, counters    as cpu/raster_order.cl writes them
 // pairs, clusters, instances, clip  as rasterizer.h and raster_params.h have them
 // indices, numbers     corners and numbers within their mesh of all meshes' triangles, in the order of clusters; 48 more of each
 //                      may be read
@@ -100,7 +100,7 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
   }
 }
 
-kernel void raster_setup_lanes(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
+kernel void raster_setup(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
                                global const RasterInstanceRecord* instances, global const uint* indices, global const uint* numbers,
                                global const float4* clip, global RasterRecord* records, global uint* next_block,
                                global uint2* chunks, global uint* tile_counts, global volatile uint* counters,

@@ -1,11 +1,11 @@
 // Clusters in view, nearest first, for CPUs: one work-item counts them by bucket and lists them.
 //
-// buckets   as raster_clusters_lanes.cl writes them
+// buckets   as cpu/raster_clusters.cl writes them
 // visible   uint a cluster in view: its pair
 // counters  RASTER_VISIBLE is written
 #include "shared/raster_params.h"
 
-kernel void raster_order_lanes(global const uchar* buckets, global uint* visible, global uint* counters, constant RasterParams* p) {
+kernel void raster_order(global const uchar* buckets, global uint* visible, global uint* counters, constant RasterParams* p) {
   uint place[RASTER_BUCKETS];
   for (uint b = 0; b < RASTER_BUCKETS; ++b) place[b] = 0;
   for (uint i = 0; i < p->pairs; ++i) ++place[buckets[i]];

@@ -6,7 +6,7 @@
 #include "shared/raster_instance.h"
 #include "kernels/common/raster_clusters.h"
 
-kernel void raster_clusters_lanes(global const uint2* pairs, global const RasterCluster* clusters,
+kernel void raster_clusters(global const uint2* pairs, global const RasterCluster* clusters,
                                   global const RasterFrameInstance* frame, global uchar* buckets, constant RasterParams* p) {
   const ulong items = get_global_size(0), item = get_global_id(0);
   const uint end = (uint)(p->pairs * (item + 1) / items);

@@ -1,12 +1,12 @@
 // The clusters of all instances that may be in view, for GPUs: a work-item a cluster of an instance. Their order is as it comes.
 //
-// pairs, clusters, frame  as raster_clusters_lanes.cl has them
+// pairs, clusters, frame  as cpu/raster_clusters.cl has them
 // visible   uint a cluster in view: its pair
 // counters  RASTER_VISIBLE is counted
 #include "shared/raster_instance.h"
 #include "kernels/common/raster_clusters.h"
 
-kernel void raster_clusters_group(global const uint2* pairs, global const RasterCluster* clusters,
+kernel void raster_clusters(global const uint2* pairs, global const RasterCluster* clusters,
                                   global const RasterFrameInstance* frame, global uint* visible,
                                   global volatile uint* counters, constant RasterParams* p) {
   const uint i = get_global_id(0);

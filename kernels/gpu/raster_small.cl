@@ -1,8 +1,8 @@
 // Triangles of the clusters in view, for GPUs: a work-group of RASTER_CLUSTER takes clusters in turn, a work-item a triangle. Small
-// triangles are drawn at once; large ones are kept for raster_large_group.cl.
+// triangles are drawn at once; large ones are kept for gpu/raster_large.cl.
 //
-// visible, counters  as raster_clusters_group.cl writes them
-// pairs, clusters, instances, indices, numbers, clip  as raster_setup_lanes.cl has them
+// visible, counters  as gpu/raster_clusters.cl writes them
+// pairs, clusters, instances, indices, numbers, clip  as cpu/raster_setup.cl has them
 // records   the large ones
 // entries   uint2: a large record and one of the tiles that it may cover some of, x | y << 16
 // keys, triangles, depths  the image: kernels/common/raster_image.h, with -DATOMICS and -DPASS
@@ -80,7 +80,7 @@ static inline uint draw_triangle(const float4* clip, RecordLanes* lanes, uint fl
   return records;
 }
 
-kernel void raster_small_group(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
+kernel void raster_small(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
                                global const RasterInstanceRecord* instances, global const uint* indices, global const uint* numbers,
                                global const float4* clip, global RasterRecord* records, global uint2* entries,
                                global volatile ulong* keys, global volatile uint* triangles, global volatile uint* depths,
