@@ -3,25 +3,29 @@
 
 #include "shared/raster_params.h"
 
-// Rounding of a sum of products in these tests, of the sum of their magnitudes: 2^-20, four times what the transform and the
-// test together lose.
+// Rounding of a sum of products in these tests, of the sum of their magnitudes: 2^-20, four times what the
+// transform and the test together lose.
 #define CLUSTER_SLACK 9.5367431640625e-7f
 
-// The greatest value of row . (p, 1) in the cluster's box is below zero for certain. Not so where a number is none.
+// The greatest value of row . (p, 1) in the cluster's box is below zero for certain. Not so where a number is
+// none.
 static inline bool box_is_outside(const float* row, const float* size, const RasterCluster* c) {
   const float value = row[0] * c->center_x + row[1] * c->center_y + row[2] * c->center_z + row[3];
   const float reach = fabs(row[0]) * c->half_x + fabs(row[1]) * c->half_y + fabs(row[2]) * c->half_z;
-  const float magnitude = size[0] * (fabs(c->center_x) + c->half_x) + size[1] * (fabs(c->center_y) + c->half_y) +
+  const float magnitude = size[0] * (fabs(c->center_x) + c->half_x) +
+                          size[1] * (fabs(c->center_y) + c->half_y) +
                           size[2] * (fabs(c->center_z) + c->half_z) + size[3];
   return value + reach + CLUSTER_SLACK * magnitude < 0.0f;
 }
 
-// All of its triangles face away from every point that the eye may be at: the cone of normals, moved by the cluster's
-// radius (Shirman, Abi-Ezzi, "The Cone of Normals Technique for Fast Processing of Curved Patches", Eurographics 1993).
+// All of its triangles face away from every point that the eye may be at: the cone of normals, moved by the
+// cluster's radius (Shirman, Abi-Ezzi, "The Cone of Normals Technique for Fast Processing of Curved Patches",
+// Eurographics 1993).
 static inline bool faces_away(const RasterCluster* c, global const RasterFrameInstance* frame) {
   if (frame->eye_is_point == RASTER_NONE || c->sine >= RASTER_NO_CONE) return false;
   const bool point = frame->eye_is_point != 0;
-  const float x = point ? c->center_x - frame->eye_x : frame->eye_x, y = point ? c->center_y - frame->eye_y : frame->eye_y;
+  const float x = point ? c->center_x - frame->eye_x : frame->eye_x,
+              y = point ? c->center_y - frame->eye_y : frame->eye_y;
   const float z = point ? c->center_z - frame->eye_z : frame->eye_z;
   const float along = x * c->axis_x + y * c->axis_y + z * c->axis_z, distance = sqrt(x * x + y * y + z * z);
   const float magnitude = fabs(frame->eye_x) + fabs(frame->eye_y) + fabs(frame->eye_z) + fabs(c->center_x) +

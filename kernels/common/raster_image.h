@@ -1,7 +1,9 @@
-// The image as work-items of the group shape write to it in any order: the greatest depth wins, of equal ones the lowest
-// triangle number. With -DATOMICS=64 in one pass, on keys of depth and number; with -DATOMICS=32 in two, first (-DPASS=1) all
-// depths, then (-DPASS=2) the numbers of those that are as near.
+// The image as work-items of the group shape write to it in any order: the greatest depth wins, of equal ones
+// the lowest triangle number. With -DATOMICS=64 in one pass, on keys of depth and number; with -DATOMICS=32
+// in two, first (-DPASS=1) all depths, then (-DPASS=2) the numbers of those that are as near.
 #pragma once
+
+#include "kernels/common/raster_tiles.h"
 
 #ifndef ATOMICS
 #define ATOMICS 64
@@ -18,7 +20,8 @@
 #define LEAST_DEPTH FLT_MIN  // less is not drawn
 
 typedef struct Image {
-  global volatile ulong* keys;  // a pixel: depth's bits << 32 | ~number; 0: none. Depths of one sign are ordered as their bits
+  global volatile ulong*
+      keys;  // a pixel: depth's bits << 32 | ~number; 0: none. Depths of one sign are ordered as their bits
   global volatile uint* triangles;
   global volatile uint* depths;
   uint width;
@@ -33,15 +36,17 @@ static inline void put_pixel(const Image* image, uint x, uint y, float depth, ui
 #elif PASS == 1
   if (image->depths[at] < as_uint(depth)) atomic_max(image->depths + at, as_uint(depth));
 #else
-  if (image->depths[at] == as_uint(depth) && image->triangles[at] > triangle) atomic_min(image->triangles + at, triangle);
+  if (image->depths[at] == as_uint(depth) && image->triangles[at] > triangle)
+    atomic_min(image->triangles + at, triangle);
 #endif
 }
 
-// The record's pixels in [x0, x1] x [y0, y1], at most RASTER_TILE either way, of which this work-item takes every step_x-th
-// and step_y-th from (first_x, first_y) on.
-static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, int y1, int first_x, int first_y, int step_x,
-                               int step_y, const Image* image) {
-  const Edge a = edge_at(r->x[0], r->y[0], r->x[1], r->y[1], x0, y0), b = edge_at(r->x[1], r->y[1], r->x[2], r->y[2], x0, y0);
+// The record's pixels in [x0, x1] x [y0, y1], at most RASTER_TILE either way, of which this work-item takes
+// every step_x-th and step_y-th from (first_x, first_y) on.
+static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, int y1, int first_x,
+                               int first_y, int step_x, int step_y, const Image* image) {
+  const Edge a = edge_at(r->x[0], r->y[0], r->x[1], r->y[1], x0, y0),
+             b = edge_at(r->x[1], r->y[1], r->x[2], r->y[2], x0, y0);
   const Edge c = edge_at(r->x[2], r->y[2], r->x[0], r->y[0], x0, y0);
   for (int y = first_y; y <= y1 - y0; y += step_y) {
     const float dy = (float)((y0 + y) * 256 + 128 - r->y[0]) * (1.0f / 256), row = fma(r->zy, dy, r->z0);

@@ -3,8 +3,9 @@
 
 #include "shared/raster_params.h"
 
-// One edge of a record, as seen from a pixel: a x + b y + c >= 0 at pixels x right of it and y above it whose centres the
-// edge lets in, with the top-left rule. c is cut off where no pixel within a tile's size can change the sign.
+// One edge of a record, as seen from a pixel: a x + b y + c >= 0 at pixels x right of it and y above it whose
+// centres the edge lets in, with the top-left rule. c is cut off where no pixel within a tile's size can
+// change the sign.
 typedef struct Edge {
   int a, b, c;
 } Edge;
@@ -12,7 +13,8 @@ typedef struct Edge {
 static inline Edge edge_at(int x0, int y0, int x1, int y1, int pixel_x, int pixel_y) {
   Edge e = {y0 - y1, x1 - x0, 0};
   const bool holds_its_points = e.a > 0 || (e.a == 0 && e.b < 0);
-  const long units = (long)e.a * (pixel_x * 256 + 128 - x0) + (long)e.b * (pixel_y * 256 + 128 - y0) - (holds_its_points ? 0 : 1);
+  const long units = (long)e.a * (pixel_x * 256 + 128 - x0) + (long)e.b * (pixel_y * 256 + 128 - y0) -
+                     (holds_its_points ? 0 : 1);
   e.c = (int)clamp(units >> 8, -(1L << 30), 1L << 30);
   return e;
 }

@@ -3,11 +3,12 @@
 // pairs     uint2: an instance and a cluster of its mesh
 // clusters  of all meshes
 // buckets   uchar a pair: kernels/common/raster_clusters.h
-#include "shared/raster_instance.h"
 #include "kernels/common/raster_clusters.h"
+#include "shared/raster_instance.h"
 
 kernel void raster_clusters(global const uint2* pairs, global const RasterCluster* clusters,
-                                  global const RasterFrameInstance* frame, global uchar* buckets, constant RasterParams* p) {
+                            global const RasterFrameInstance* frame, global uchar* buckets,
+                            constant RasterParams* p) {
   const ulong items = get_global_size(0), item = get_global_id(0);
   const uint end = (uint)(p->pairs * (item + 1) / items);
   for (uint i = (uint)(p->pairs * item / items); i < end; ++i) {

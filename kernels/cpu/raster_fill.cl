@@ -5,8 +5,9 @@
 // lists     uint an entry: a record. Nothing is written where records or lists found no room.
 #include "kernels/common/raster_tiles.h"
 
-kernel void raster_fill(global const RasterRecord* records, global const uint* next_block, global const uint2* chunks,
-                              global uint* tile_at, global uint* lists, global const uint* counters, constant RasterParams* p) {
+kernel void raster_fill(global const RasterRecord* records, global const uint* next_block,
+                        global const uint2* chunks, global uint* tile_at, global uint* lists,
+                        global const uint* counters, constant RasterParams* p) {
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;

@@ -5,7 +5,8 @@
 // counters  RASTER_VISIBLE is written
 #include "shared/raster_params.h"
 
-kernel void raster_order(global const uchar* buckets, global uint* visible, global uint* counters, constant RasterParams* p) {
+kernel void raster_order(global const uchar* buckets, global uint* visible, global uint* counters,
+                         constant RasterParams* p) {
   uint place[RASTER_BUCKETS];
   for (uint b = 0; b < RASTER_BUCKETS; ++b) place[b] = 0;
   for (uint i = 0; i < p->pairs; ++i) ++place[buckets[i]];

@@ -1,14 +1,14 @@
-// Triangles of the clusters in view to records, for CPUs: one work-item takes a chunk of clusters that follow one another in
-// order, 16 triangles at once, and counts its records in each tile.
+// Triangles of the clusters in view to records, for CPUs: one work-item takes a chunk of clusters that follow one
+// another in order, 16 triangles at once, and counts its records in each tile.
 //
-// visible, counters    as cpu/raster_order.cl writes them
+// visible, counters           as cpu/raster_order.cl writes them
 // pairs, clusters, instances, clip  as rasterizer.h and raster_params.h have them
-// indices, numbers     corners and numbers within their mesh of all meshes' triangles, in the order of clusters; 48 more of each
-//                      may be read
-// records              room, handed out in blocks of RASTER_BLOCK: how many were asked for is in counters[RASTER_BLOCKS]
-// next_block           uint a block: the one that goes on where it is full
-// chunks               uint2 a chunk: its first block, and how many records it has
-// tile_counts          uint a tile for each chunk: records that may cover some of it
+// indices      corners of all meshes' triangles, in the order of clusters; 48 more may be read
+// numbers      of these triangles within their mesh; 16 more may be read
+// records      room, handed out in blocks of RASTER_BLOCK; counters[RASTER_BLOCKS] says how many were asked for
+// next_block   uint a block: the one that goes on where it is full
+// chunks       uint2 a chunk: its first block, and how many records it has
+// tile_counts  uint a tile for each chunk: records that may cover some of it
 //
 // Where room runs out records are counted and not written; the host runs the kernels again with more.
 #define LANES 16
@@ -40,7 +40,8 @@ static inline global RasterRecord* next_record(Output* out, constant RasterParam
   return out->block < p->record_blocks ? out->records + (size_t)out->block * RASTER_BLOCK + in_block : 0;
 }
 
-static inline void count_in_tiles(global const RasterRecord* record, global uint* tile_counts, constant RasterParams* p) {
+static inline void count_in_tiles(global const RasterRecord* record, global uint* tile_counts,
+                                  constant RasterParams* p) {
   const TileBox box = tile_box(record->box_low, record->box_high);
   const RasterRecord r = *record;
   for (int y = box.y0; y <= box.y1; ++y) {
@@ -66,7 +67,8 @@ static inline void write_records(const RecordLanes* lanes, uint bits, Output* ou
 // Corners of 16 triangles.
 static inline Corners gather_corners(global const float4* clip, uint16 i) {
 #define FOUR(A, B, C, D) (float16)(clip[i.A], clip[i.B], clip[i.C], clip[i.D])
-  const float16 a = FOUR(s0, s1, s2, s3), b = FOUR(s4, s5, s6, s7), c = FOUR(s8, s9, sa, sb), d = FOUR(sc, sd, se, sf);
+  const float16 a = FOUR(s0, s1, s2, s3), b = FOUR(s4, s5, s6, s7), c = FOUR(s8, s9, sa, sb),
+                d = FOUR(sc, sd, se, sf);
 #undef FOUR
   Corners v;
   v.x = (float16)(a.s048c, b.s048c, c.s048c, d.s048c), v.y = (float16)(a.s159d, b.s159d, c.s159d, d.s159d);
@@ -74,8 +76,10 @@ static inline Corners gather_corners(global const float4* clip, uint16 i) {
   return v;
 }
 
-// A triangle that leaves the near plane or the guard band: its parts are set up as triangles of the same number.
-static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint flags, Output* out, constant RasterParams* p) {
+// A triangle that leaves the near plane or the guard band: its parts are set up as triangles of the same
+// number.
+static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint flags, Output* out,
+                       constant RasterParams* p) {
   float4 corners[MOST_CORNERS];
   for (int k = 0; k < 3; ++k) {
     const private float *x = (const private float*)&v[k].x, *y = (const private float*)&v[k].y;
@@ -100,11 +104,11 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
   }
 }
 
-kernel void raster_setup(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
-                               global const RasterInstanceRecord* instances, global const uint* indices, global const uint* numbers,
-                               global const float4* clip, global RasterRecord* records, global uint* next_block,
-                               global uint2* chunks, global uint* tile_counts, global volatile uint* counters,
-                               constant RasterParams* p) {
+kernel void raster_setup(global const uint* visible, global const uint2* pairs,
+                         global const RasterCluster* clusters, global const RasterInstanceRecord* instances,
+                         global const uint* indices, global const uint* numbers, global const float4* clip,
+                         global RasterRecord* records, global uint* next_block, global uint2* chunks,
+                         global uint* tile_counts, global volatile uint* counters, constant RasterParams* p) {
   const uint chunk = get_global_id(0), tiles = p->tiles_x * p->tiles_y, in_view = counters[RASTER_VISIBLE];
   Output out = {records, next_block, counters, tile_counts + (size_t)chunk * tiles, 0u, 0u, 0u};
   for (uint i = 0; i < tiles; ++i) out.tile_counts[i] = 0;
@@ -121,7 +125,8 @@ kernel void raster_setup(global const uint* visible, global const uint2* pairs, 
       const uint16 b = (uint16)(i0.s147a, i0.sd, i1.s0369, i1.scf, i2.s258b, i2.se);
       const uint16 c = (uint16)(i0.s258b, i0.se, i1.s147a, i1.sd, i2.s0369, i2.scf);
       global const float4* corners = clip + instance.first_clip_vertex;
-      const Corners v[3] = {gather_corners(corners, live ? a : none), gather_corners(corners, live ? b : none),
+      const Corners v[3] = {gather_corners(corners, live ? a : none),
+                            gather_corners(corners, live ? b : none),
                             gather_corners(corners, live ? c : none)};
       const int16 seen = live & ~out_of_view(v);
       if (mask_bits(seen) == 0) continue;

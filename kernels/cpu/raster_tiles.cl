@@ -1,9 +1,10 @@
-// Records to the visibility buffer, for CPUs: one work-item a tile of 64 x 64 pixels, in blocks of 4 x 4 pixels, a lane each.
-// Edges are exact: 64 bits at the tile's corner, 32 from there on. See Pineda, "A Parallel Algorithm for Polygon Rasterization"
-// (1988); Greene, Kass, Miller, "Hierarchical Z-Buffer Visibility" (1993) for the least depth a block.
+// Records to the visibility buffer, for CPUs: one work-item a tile of 64 x 64 pixels, in blocks of 4 x 4
+// pixels, a lane each. Edges are exact: 64 bits at the tile's corner, 32 from there on. See Pineda, "A
+// Parallel Algorithm for Polygon Rasterization" (1988); Greene, Kass, Miller, "Hierarchical Z-Buffer
+// Visibility" (1993) for the least depth a block.
 //
 // records, tile_begin, lists, counters  as cpu/raster_setup.cl and cpu/raster_fill.cl write them
-// triangles  uint a pixel: the nearest triangle, the lowest number of those that are equally near; RASTER_NONE
+// triangles  uint a pixel: the nearest triangle, of several equally near ones the lowest number; RASTER_NONE
 // depths     float a pixel, reversed: 0 where no triangle is
 #define LANES 16
 #include "kernels/common/pack.h"
@@ -26,7 +27,9 @@ typedef struct TileRecord {
   uint triangle;
 } TileRecord;
 
-static inline uint block_place(int x, int y) { return (uint)(((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3)); }
+static inline uint block_place(int x, int y) {
+  return (uint)(((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3));
+}
 
 // A pixel's place in its block, and a block's in its square.
 #define LANE_X (LANE_INDEX & 3)
@@ -46,8 +49,10 @@ static inline int16 edge_values(Edge e, int x, int y, int16 across, int16 up) {
 
 // dx and dy are exact: multiples of 1/256 below 2^16.
 static inline float16 plane_depth(const TileRecord* r, int x, int y, float16 across, float16 up) {
-  const float16 dx = (float)(r->dx + x * 256) * (1.0f / 256) + across, dy = (float)(r->dy + y * 256) * (1.0f / 256) + up;
-  return lane_min(fma((float16)(r->zx), dx, fma((float16)(r->zy), dy, (float16)(r->z0))), (float16)(r->z_max));
+  const float16 dx = (float)(r->dx + x * 256) * (1.0f / 256) + across,
+                dy = (float)(r->dy + y * 256) * (1.0f / 256) + up;
+  return lane_min(fma((float16)(r->zx), dx, fma((float16)(r->zy), dy, (float16)(r->z0))),
+                  (float16)(r->z_max));
 }
 
 static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int pixel_y) {
@@ -64,12 +69,15 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
 
 static inline void draw_block(const TileRecord* r, int block_x, int block_y, Tile* tile) {
   const uint at = block_place(block_x, block_y);
-  private float* least = (private float*)tile->least + at;
+ private
+  float* least = (private float*)tile->least + at;
   if (r->z_max < *least) return;
   const int x = block_x * 4, y = block_y * 4;
-  const int16 sides = edge_values(r->edges[0], x, y, LANE_X, LANE_Y) | edge_values(r->edges[1], x, y, LANE_X, LANE_Y) |
+  const int16 sides = edge_values(r->edges[0], x, y, LANE_X, LANE_Y) |
+                      edge_values(r->edges[1], x, y, LANE_X, LANE_Y) |
                       edge_values(r->edges[2], x, y, LANE_X, LANE_Y);
-  const float16 depth = lane_max(plane_depth(r, x, y, convert_float16(LANE_X), convert_float16(LANE_Y)), (float16)(r->z_min));
+  const float16 depth =
+      lane_max(plane_depth(r, x, y, convert_float16(LANE_X), convert_float16(LANE_Y)), (float16)(r->z_min));
   const float16 before = tile->depth[at];
   int16 shown = (sides >= 0) & (depth >= before);
   if (mask_bits(shown) == 0) return;
@@ -80,8 +88,8 @@ static inline void draw_block(const TileRecord* r, int block_x, int block_y, Til
   *least = least_lane(now);
 }
 
-// Of a square of blocks those that the triangle may show in. Depths grow or fall steadily along x and y, rounding included: the
-// depth at the corner where they are greatest bounds the block's.
+// Of a square of blocks those that the triangle may show in. Depths grow or fall steadily along x and y,
+// rounding included: the depth at the corner where they are greatest bounds the block's.
 static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_y, const Tile* tile) {
   const int x = square_x * 16, y = square_y * 16;
   const int16 across = LANE_X * 4, up = LANE_Y * 4;
@@ -90,8 +98,10 @@ static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_
     const Edge e = r->edges[k];
     sides |= edge_values(e, x, y, across + (e.a > 0 ? 3 : 0), up + (e.b > 0 ? 3 : 0));
   }
-  const float16 depth = plane_depth(r, x, y, convert_float16(across + (r->zx > 0 ? 3 : 0)), convert_float16(up + (r->zy > 0 ? 3 : 0)));
-  return mask_bits((sides >= 0) & (lane_max(depth, (float16)(r->z_min)) >= tile->least[square_y * 4 + square_x]));
+  const float16 depth = plane_depth(r, x, y, convert_float16(across + (r->zx > 0 ? 3 : 0)),
+                                    convert_float16(up + (r->zy > 0 ? 3 : 0)));
+  return mask_bits((sides >= 0) &
+                   (lane_max(depth, (float16)(r->z_min)) >= tile->least[square_y * 4 + square_x]));
 }
 
 static inline void draw(const TileRecord* r, int x0, int y0, int x1, int y1, Tile* tile) {
@@ -121,8 +131,8 @@ static inline void store_row(global uint* to, uint16 values, int count) {
   }
 }
 
-static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global uint* triangles, global float* depths,
-                              constant RasterParams* p) {
+static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global uint* triangles,
+                              global float* depths, constant RasterParams* p) {
   const int width = (int)p->width, height = (int)p->height;
   for (int y = 0; y < RASTER_TILE && pixel_y + y < height; y += 4) {
     for (int x = 0; x < RASTER_TILE && pixel_x + x < width; x += 16) {
@@ -134,13 +144,15 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
         blocks[1][i] = triangle == (uint16)(RASTER_NONE) ? (uint16)(0) : as_uint16(tile->depth[at + i]);
       }
       const size_t place = (size_t)(pixel_y + y) * width + pixel_x + x;
-#define STORE(ROW, A, B, C, D)                                                                                           \
-  if (pixel_y + y + ROW < height) {                                                                                      \
-    for (uint k = 0; k < 2; ++k) {                                                                                       \
-      const uint16 *b = blocks[k], row = (uint16)(b[0].A, b[0].B, b[0].C, b[0].D, b[1].A, b[1].B, b[1].C, b[1].D,        \
-                                                  b[2].A, b[2].B, b[2].C, b[2].D, b[3].A, b[3].B, b[3].C, b[3].D);       \
-      store_row((k == 0 ? triangles : (global uint*)depths) + place + (size_t)ROW * width, row, width - pixel_x - x);    \
-    }                                                                                                                    \
+#define STORE(ROW, A, B, C, D)                                                                            \
+  if (pixel_y + y + ROW < height) {                                                                       \
+    for (uint k = 0; k < 2; ++k) {                                                                        \
+      const uint16 *b = blocks[k],                                                                        \
+                   row = (uint16)(b[0].A, b[0].B, b[0].C, b[0].D, b[1].A, b[1].B, b[1].C, b[1].D, b[2].A, \
+                                  b[2].B, b[2].C, b[2].D, b[3].A, b[3].B, b[3].C, b[3].D);                \
+      store_row((k == 0 ? triangles : (global uint*)depths) + place + (size_t)ROW * width, row,           \
+                width - pixel_x - x);                                                                     \
+    }                                                                                                     \
   }
       STORE(0, s0, s1, s2, s3)
       STORE(1, s4, s5, s6, s7)
@@ -151,15 +163,16 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
   }
 }
 
-kernel void raster_tiles(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
-                               global uint* triangles, global float* depths, global const uint* counters,
-                               constant RasterParams* p) {
+kernel void raster_tiles(global const RasterRecord* records, global const uint* tile_begin,
+                         global const uint* lists, global uint* triangles, global float* depths,
+                         global const uint* counters, constant RasterParams* p) {
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;
   }
   const uint number = get_global_id(0);
-  const int pixel_x = (int)(number % p->tiles_x) * RASTER_TILE, pixel_y = (int)(number / p->tiles_x) * RASTER_TILE;
+  const int pixel_x = (int)(number % p->tiles_x) * RASTER_TILE,
+            pixel_y = (int)(number / p->tiles_x) * RASTER_TILE;
   Tile tile;
   for (uint i = 0; i < 256; ++i) tile.depth[i] = LEAST_DEPTH, tile.triangle[i] = RASTER_NONE;
   for (uint i = 0; i < 16; ++i) tile.least[i] = LEAST_DEPTH;
@@ -167,8 +180,10 @@ kernel void raster_tiles(global const RasterRecord* records, global const uint* 
   for (uint i = tile_begin[number]; i < end; ++i) {
     global const RasterRecord* record = records + lists[i];
     const int last = RASTER_TILE - 1;
-    const int x0 = max((int)(record->box_low & 0xffffu) - pixel_x, 0), y0 = max((int)(record->box_low >> 16) - pixel_y, 0);
-    const int x1 = min((int)(record->box_high & 0xffffu) - pixel_x, last), y1 = min((int)(record->box_high >> 16) - pixel_y, last);
+    const int x0 = max((int)(record->box_low & 0xffffu) - pixel_x, 0),
+              y0 = max((int)(record->box_low >> 16) - pixel_y, 0);
+    const int x1 = min((int)(record->box_high & 0xffffu) - pixel_x, last),
+              y1 = min((int)(record->box_high >> 16) - pixel_y, last);
     const TileRecord here = in_tile(record, pixel_x, pixel_y);
     draw(&here, x0 >> 2, y0 >> 2, x1 >> 2, y1 >> 2, &tile);
   }

@@ -14,7 +14,8 @@ static inline float16 times_row(global const float* row, float16 x, float16 y, f
 
 // Four float16 of x, y, z, w to 16 float4.
 static inline void store_corners(global float* to, float16 x, float16 y, float16 z, float16 w) {
-#define FOUR(A, B, C, D) (float16)(x.A, y.A, z.A, w.A, x.B, y.B, z.B, w.B, x.C, y.C, z.C, w.C, x.D, y.D, z.D, w.D)
+#define FOUR(A, B, C, D) \
+  (float16)(x.A, y.A, z.A, w.A, x.B, y.B, z.B, w.B, x.C, y.C, z.C, w.C, x.D, y.D, z.D, w.D)
   vstore16(FOUR(s0, s1, s2, s3), 0, to);
   vstore16(FOUR(s4, s5, s6, s7), 1, to);
   vstore16(FOUR(s8, s9, sa, sb), 2, to);
@@ -23,8 +24,9 @@ static inline void store_corners(global float* to, float16 x, float16 y, float16
 }
 
 kernel void raster_transform(global const float* positions, global const uint2* runs,
-                                   global const RasterInstanceRecord* instances,
-                                   global const RasterFrameInstance* frame, global float* clip, constant RasterParams* p) {
+                             global const RasterInstanceRecord* instances,
+                             global const RasterFrameInstance* frame, global float* clip,
+                             constant RasterParams* p) {
   const ulong items = get_global_size(0), item = get_global_id(0);
   const uint end = (uint)(p->vertex_runs * (item + 1) / items);
   for (uint run = (uint)(p->vertex_runs * item / items); run < end; ++run) {
@@ -34,8 +36,8 @@ kernel void raster_transform(global const float* positions, global const uint2* 
     for (uint i = runs[run].y; i < last; i += 16) {
       global const float* from = positions + (size_t)(instance->first_position + i) * 3;
       const float16 x = vload16(0, from), y = vload16(1, from), z = vload16(2, from);
-      store_corners(clip + (size_t)(instance->first_clip_vertex + i) * 4, times_row(m, x, y, z), times_row(m + 4, x, y, z),
-                    times_row(m + 8, x, y, z), times_row(m + 12, x, y, z));
+      store_corners(clip + (size_t)(instance->first_clip_vertex + i) * 4, times_row(m, x, y, z),
+                    times_row(m + 4, x, y, z), times_row(m + 8, x, y, z), times_row(m + 12, x, y, z));
     }
   }
 }

@@ -1,5 +1,5 @@
-// Triangles of the clusters in view, for GPUs: a work-group of RASTER_CLUSTER takes clusters in turn, a work-item a triangle. Small
-// triangles are drawn at once; large ones are kept for gpu/raster_large.cl.
+// Triangles of the clusters in view, for GPUs: a work-group of RASTER_CLUSTER takes clusters in turn, a
+// work-item a triangle. Small triangles are drawn at once; large ones are kept for gpu/raster_large.cl.
 //
 // visible, counters  as gpu/raster_clusters.cl writes them
 // pairs, clusters, instances, indices, numbers, clip  as cpu/raster_setup.cl has them
@@ -7,12 +7,13 @@
 // entries   uint2: a large record and one of the tiles that it may cover some of, x | y << 16
 // keys, triangles, depths  the image: kernels/common/raster_image.h, with -DATOMICS and -DPASS
 //
-// Where room for records or entries runs out they are counted and not written; the host runs the kernels again with more.
+// Where room for records or entries runs out they are counted and not written; the host runs the kernels
+// again with more.
 #define LANES 1
 #include "kernels/common/raster_clip.h"
+#include "kernels/common/raster_image.h"
 #include "kernels/common/raster_setup.h"
 #include "kernels/common/raster_tiles.h"
-#include "kernels/common/raster_image.h"
 
 #define SMALL_PIXELS 256  // of the box around a small triangle
 
@@ -36,14 +37,15 @@ static inline void keep_large(const RasterRecord* record, const LargeList* large
   large->records[place] = *record;
   for (int y = box.y0; y <= box.y1; ++y) {
     for (int x = box.x0; x <= box.x1; ++x) {
-      if (!box.some_outside || meets_tile(record, x, y)) large->entries[entry++] = (uint2)(place, (uint)x | (uint)y << 16);
+      if (!box.some_outside || meets_tile(record, x, y))
+        large->entries[entry++] = (uint2)(place, (uint)x | (uint)y << 16);
     }
   }
 }
 
 // A triangle that needs no cut, or no more. Returns how many records it made.
-static inline uint draw_or_keep(const Corners* v, RecordLanes* lanes, uint flags, const Image* image, const LargeList* large,
-                                constant RasterParams* p) {
+static inline uint draw_or_keep(const Corners* v, RecordLanes* lanes, uint flags, const Image* image,
+                                const LargeList* large, constant RasterParams* p) {
   if (!set_up(v, 1, flags, lanes, p)) return 0;
   const RasterRecord record = *(const private RasterRecord*)lanes;  // one lane has the same layout
   const int x0 = (int)(record.box_low & 0xffffu), y0 = (int)(record.box_low >> 16);
@@ -66,7 +68,8 @@ static inline uint draw_triangle(const float4* clip, RecordLanes* lanes, uint fl
                                  const LargeList* large, constant RasterParams* p) {
   Corners v[3] = {corners_of(clip[0]), corners_of(clip[1]), corners_of(clip[2])};
   if (out_of_view(v)) return 0;
-  if (is_inside(v[0], p) & is_inside(v[1], p) & is_inside(v[2], p)) return draw_or_keep(v, lanes, flags, image, large, p);
+  if (is_inside(v[0], p) & is_inside(v[1], p) & is_inside(v[2], p))
+    return draw_or_keep(v, lanes, flags, image, large, p);
   float4 corners[MOST_CORNERS] = {clip[0], clip[1], clip[2]};
   const int count = cut_triangle(corners, p);
   const bool first_pass = PASS == 1;
@@ -80,11 +83,12 @@ static inline uint draw_triangle(const float4* clip, RecordLanes* lanes, uint fl
   return records;
 }
 
-kernel void raster_small(global const uint* visible, global const uint2* pairs, global const RasterCluster* clusters,
-                               global const RasterInstanceRecord* instances, global const uint* indices, global const uint* numbers,
-                               global const float4* clip, global RasterRecord* records, global uint2* entries,
-                               global volatile ulong* keys, global volatile uint* triangles, global volatile uint* depths,
-                               global volatile uint* counters, constant RasterParams* p) {
+kernel void raster_small(global const uint* visible, global const uint2* pairs,
+                         global const RasterCluster* clusters, global const RasterInstanceRecord* instances,
+                         global const uint* indices, global const uint* numbers, global const float4* clip,
+                         global RasterRecord* records, global uint2* entries, global volatile ulong* keys,
+                         global volatile uint* triangles, global volatile uint* depths,
+                         global volatile uint* counters, constant RasterParams* p) {
   const uint in_view = counters[RASTER_VISIBLE], item = get_local_id(0);
   const Image image = {keys, triangles, depths, p->width};
   const LargeList large = {records, entries, counters};
@@ -95,7 +99,8 @@ kernel void raster_small(global const uint* visible, global const uint2* pairs, 
     const RasterInstanceRecord instance = instances[pair.x];
     const uint place = clusters[pair.y].first + item;
     global const uint* index = indices + 3 * (size_t)place;
-    const float4 corners[3] = {clip[instance.first_clip_vertex + index[0]], clip[instance.first_clip_vertex + index[1]],
+    const float4 corners[3] = {clip[instance.first_clip_vertex + index[0]],
+                               clip[instance.first_clip_vertex + index[1]],
                                clip[instance.first_clip_vertex + index[2]]};
     RecordLanes lanes;
     lanes.triangle = (int)(instance.first_triangle + numbers[place]);

@@ -9,8 +9,9 @@ static inline float times_row(global const float* row, float x, float y, float z
 }
 
 kernel void raster_transform(global const float* positions, global const uint2* runs,
-                                   global const RasterInstanceRecord* instances,
-                                   global const RasterFrameInstance* frame, global float4* clip, constant RasterParams* p) {
+                             global const RasterInstanceRecord* instances,
+                             global const RasterFrameInstance* frame, global float4* clip,
+                             constant RasterParams* p) {
   const uint item = get_global_id(0);
   if (item / RASTER_VERTEX_RUN >= p->vertex_runs) return;
   const uint2 run = runs[item / RASTER_VERTEX_RUN];
@@ -21,5 +22,6 @@ kernel void raster_transform(global const float* positions, global const uint2* 
   global const float* from = positions + (size_t)block * 3 + vertex % 16;
   const float x = from[0], y = from[16], z = from[32];
   clip[instances[run.x].first_clip_vertex + vertex] =
-      (float4)(times_row(m, x, y, z), times_row(m + 4, x, y, z), times_row(m + 8, x, y, z), times_row(m + 12, x, y, z));
+      (float4)(times_row(m, x, y, z), times_row(m + 4, x, y, z), times_row(m + 8, x, y, z),
+               times_row(m + 12, x, y, z));
 }

@@ -7,10 +7,12 @@
 namespace lightgrid {
 namespace {
 
-constexpr int levels = 10;                  // of the curve: cells a side are 2 to the power of this
-constexpr size_t triangles_a_cell = 512;    // of the coarse cells: some clusters for each of six directions
+constexpr int levels = 10;                // of the curve: cells a side are 2 to the power of this
+constexpr size_t triangles_a_cell = 512;  // of the coarse cells: some clusters for each of six directions
 
-glm::dvec3 corner_of(const RasterMesh& mesh, size_t triangle, int k) { return mesh.positions[mesh.indices[3 * triangle + k]]; }
+glm::dvec3 corner_of(const RasterMesh& mesh, size_t triangle, int k) {
+  return mesh.positions[mesh.indices[3 * triangle + k]];
+}
 
 // Place on the Z-order curve (Morton 1966) of a point in the unit cube.
 uint64_t morton(const glm::dvec3& p) {

@@ -11,7 +11,8 @@ namespace {
 constexpr size_t group_items = 64, groups_a_unit = 32;
 
 bool has_64_bit_atomics(ClDevice& device) {
-  return device.device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_int64_extended_atomics") != std::string::npos;
+  return device.device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_int64_extended_atomics") !=
+         std::string::npos;
 }
 
 cl::NDRange items_for(size_t count) {
@@ -53,24 +54,27 @@ class RasterGroupPipeline : public RasterPipeline {
       fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
       fill_buffer(device_, "rasterizer: image", job.depths, 0, pixels * sizeof(cl_uint));
     }
-    launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN), group, job.positions,
-           job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
-    launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters, job.frame, visible_.get(),
-           job.counters, job.params_buffer);
+    launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
+           group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
+    launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters,
+           job.frame, visible_.get(), job.counters, job.params_buffer);
     // The second pass needs the depths of all triangles.
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      launch(device_, "raster_small", small_[pass], all, group, visible_.get(), job.pairs, job.clusters, job.instances,
-             job.cluster_indices, job.cluster_triangles, job.clip, records_.get(), entries_.get(), keys_.get(), job.triangles, job.depths, job.counters,
-             job.params_buffer);
-      launch(device_, "raster_large", large_[pass], all, group, records_.get(), entries_.get(), keys_.get(), job.triangles,
-             job.depths, job.counters, job.params_buffer);
+      launch(device_, "raster_small", small_[pass], all, group, visible_.get(), job.pairs, job.clusters,
+             job.instances, job.cluster_indices, job.cluster_triangles, job.clip, records_.get(),
+             entries_.get(), keys_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
+      launch(device_, "raster_large", large_[pass], all, group, records_.get(), entries_.get(), keys_.get(),
+             job.triangles, job.depths, job.counters, job.params_buffer);
     }
     if (wide_) {
-      launch(device_, "raster_keys", keys_kernel_, items_for(pixels), group, keys_.get(), job.triangles, job.depths, cl_uint(pixels));
+      launch(device_, "raster_keys", keys_kernel_, items_for(pixels), group, keys_.get(), job.triangles,
+             job.depths, cl_uint(pixels));
     }
   }
 
-  size_t memory_bytes() const override { return visible_.bytes() + records_.bytes() + entries_.bytes() + keys_.bytes(); }
+  size_t memory_bytes() const override {
+    return visible_.bytes() + records_.bytes() + entries_.bytes() + keys_.bytes();
+  }
 
  private:
   ClDevice& device_;
@@ -81,7 +85,8 @@ class RasterGroupPipeline : public RasterPipeline {
 
 }  // namespace
 
-std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics) {
+std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs,
+                                                           bool wide_atomics) {
   return std::make_unique<RasterGroupPipeline>(device, programs, wide_atomics);
 }
 

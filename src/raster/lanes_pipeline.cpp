@@ -9,8 +9,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint32_t chunks_a_unit = 8, most_chunks = 64;        // enough to share out evenly
-constexpr uint32_t most_tile_counts = uint32_t(1) << 24;       // of all chunks
+constexpr uint32_t chunks_a_unit = 8, most_chunks = 64;   // enough to share out evenly
+constexpr uint32_t most_tile_counts = uint32_t(1) << 24;  // of all chunks
 constexpr uint32_t clusters_an_item = 256;
 
 class RasterLanesPipeline : public RasterPipeline {
@@ -28,7 +28,8 @@ class RasterLanesPipeline : public RasterPipeline {
 
   uint32_t chunks(const RasterParams& p) const override {
     const uint32_t units = uint32_t(std::max(1, device_.info().compute_units));
-    const uint32_t most = std::min({units * chunks_a_unit, most_chunks, most_tile_counts / (p.tiles_x * p.tiles_y)});
+    const uint32_t most =
+        std::min({units * chunks_a_unit, most_chunks, most_tile_counts / (p.tiles_x * p.tiles_y)});
     return std::clamp<uint32_t>(p.pairs, 1, std::max<uint32_t>(1, most));
   }
 
@@ -47,23 +48,28 @@ class RasterLanesPipeline : public RasterPipeline {
   void enqueue(const RasterJob& job) override {
     const RasterParams& p = job.params;
     const cl::NDRange one(1);
-    const size_t units = size_t(std::max(1, device_.info().compute_units)), tiles = size_t(p.tiles_x) * p.tiles_y;
+    const size_t units = size_t(std::max(1, device_.info().compute_units)),
+                 tiles = size_t(p.tiles_x) * p.tiles_y;
     fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
     if (p.vertex_runs != 0) {
-      launch(device_, "raster_transform", transform_, cl::NDRange(std::min<size_t>(p.vertex_runs, units * 16)), one,
-             job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
+      launch(device_, "raster_transform", transform_,
+             cl::NDRange(std::min<size_t>(p.vertex_runs, units * 16)), one, job.positions, job.vertex_runs,
+             job.instances, job.frame, job.clip, job.params_buffer);
     }
-    launch(device_, "raster_clusters", clusters_, cl::NDRange(std::clamp<size_t>(p.pairs / clusters_an_item, 1, units * 16)),
-           one, job.pairs, job.clusters, job.frame, buckets_.get(), job.params_buffer);
-    launch(device_, "raster_order", order_, one, one, buckets_.get(), visible_.get(), job.counters, job.params_buffer);
-    launch(device_, "raster_setup", setup_, cl::NDRange(p.chunks), one, visible_.get(), job.pairs, job.clusters, job.instances,
-           job.cluster_indices, job.cluster_triangles, job.clip, records_.get(), next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters,
+    launch(device_, "raster_clusters", clusters_,
+           cl::NDRange(std::clamp<size_t>(p.pairs / clusters_an_item, 1, units * 16)), one, job.pairs,
+           job.clusters, job.frame, buckets_.get(), job.params_buffer);
+    launch(device_, "raster_order", order_, one, one, buckets_.get(), visible_.get(), job.counters,
            job.params_buffer);
-    launch(device_, "raster_scan", scan_, one, one, tile_counts_.get(), tile_begin_.get(), job.counters, job.params_buffer);
-    launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(), chunks_.get(),
-           tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);
-    launch(device_, "raster_tiles", tiles_, cl::NDRange(tiles), one, records_.get(), tile_begin_.get(), lists_.get(),
-           job.triangles, job.depths, job.counters, job.params_buffer);
+    launch(device_, "raster_setup", setup_, cl::NDRange(p.chunks), one, visible_.get(), job.pairs,
+           job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip, records_.get(),
+           next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters, job.params_buffer);
+    launch(device_, "raster_scan", scan_, one, one, tile_counts_.get(), tile_begin_.get(), job.counters,
+           job.params_buffer);
+    launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(),
+           chunks_.get(), tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);
+    launch(device_, "raster_tiles", tiles_, cl::NDRange(tiles), one, records_.get(), tile_begin_.get(),
+           lists_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
   }
 
   size_t memory_bytes() const override {
@@ -79,7 +85,8 @@ class RasterLanesPipeline : public RasterPipeline {
 
 }  // namespace
 
-std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs, bool portable) {
+std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs,
+                                                           bool portable) {
   return std::make_unique<RasterLanesPipeline>(device, programs, portable);
 }
 

@@ -25,14 +25,16 @@ class RasterPipeline {
   virtual uint32_t chunks(const RasterParams& params) const = 0;
   // Makes or grows its buffers for the numbers and the room of the params.
   virtual void prepare(const RasterParams& params) = 0;
-  // Enqueues all, waits for nothing. Counters (raster_params.h) are cleared first. Where they show that room was short, the
-  // image was not written.
+  // Enqueues all, waits for nothing. Counters (raster_params.h) are cleared first. Where they show that room
+  // was short, the image was not written.
   virtual void enqueue(const RasterJob& job) = 0;
   virtual size_t memory_bytes() const = 0;
 };
 
-std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs, bool portable);
+std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs,
+                                                           bool portable);
 // Without `wide_atomics`, or where the device has none of 64 bits, in two passes.
-std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics);
+std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs,
+                                                           bool wide_atomics);
 
 }  // namespace lightgrid

@@ -14,7 +14,9 @@ constexpr double least_cosine = 0.1;  // of a cone: wider ones face away from ne
 
 using Corners = std::array<glm::dvec3, 3>;
 
-bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool all_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // The cone around the triangles' normals.
 void add_cone(const std::vector<Corners>& triangles, RasterCluster& cluster) {
@@ -75,7 +77,8 @@ void append_clusters(const RasterMesh& mesh, RasterMeshes& all) {
       const uint32_t* corners = &mesh.indices[3 * size_t(order[i])];
       all.cluster_triangles.push_back(order[i]);
       all.cluster_indices.insert(all.cluster_indices.end(), corners, corners + 3);
-      triangles.push_back({mesh.positions[corners[0]], mesh.positions[corners[1]], mesh.positions[corners[2]]});
+      triangles.push_back(
+          {mesh.positions[corners[0]], mesh.positions[corners[1]], mesh.positions[corners[2]]});
     }
     RasterCluster& cluster = all.clusters.emplace_back(cluster_of(triangles));
     cluster.first = uint32_t(place), cluster.count = uint32_t(end - first);
@@ -85,7 +88,8 @@ void append_clusters(const RasterMesh& mesh, RasterMeshes& all) {
 void append_positions(std::span<const glm::vec3> positions, std::vector<float>& to) {
   for (size_t first = 0; first < positions.size(); first += 16) {
     for (int axis = 0; axis < 3; ++axis) {
-      for (size_t i = first; i < first + 16; ++i) to.push_back(i < positions.size() ? positions[i][axis] : 0.0f);
+      for (size_t i = first; i < first + 16; ++i)
+        to.push_back(i < positions.size() ? positions[i][axis] : 0.0f);
     }
   }
 }
@@ -97,13 +101,16 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
   size_t indices = 0, vertices = 0;
   for (size_t m = 0; m < meshes.size(); ++m) {
     const RasterMesh& mesh = meshes[m];
-    if (mesh.indices.size() % 3 != 0) throw input_error("rasterizer: mesh {}: {} indices are no triangles", m, mesh.indices.size());
+    if (mesh.indices.size() % 3 != 0)
+      throw input_error("rasterizer: mesh {}: {} indices are no triangles", m, mesh.indices.size());
     const auto largest = std::max_element(mesh.indices.begin(), mesh.indices.end());
     if (largest != mesh.indices.end() && *largest >= mesh.positions.size()) {
-      throw input_error("rasterizer: mesh {}: index {} is past its {} positions", m, *largest, mesh.positions.size());
+      throw input_error("rasterizer: mesh {}: index {} is past its {} positions", m, *largest,
+                        mesh.positions.size());
     }
     indices += mesh.indices.size(), vertices += mesh.positions.size() + 15;
-    if (std::max(indices, vertices) > most_indices) throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
+    if (std::max(indices, vertices) > most_indices)
+      throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
 
     RasterMeshPlace place;
     place.first_index = uint32_t(all.indices.size()), place.triangles = uint32_t(mesh.indices.size() / 3);
@@ -126,14 +133,17 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
   for (size_t i = 0; i < instances.size(); ++i) {
     const RasterInstance& instance = instances[i];
     if (instance.mesh < 0 || size_t(instance.mesh) >= meshes.places.size()) {
-      throw input_error("rasterizer: instance {}: there is no mesh {} of {}", i, instance.mesh, meshes.places.size());
+      throw input_error("rasterizer: instance {}: there is no mesh {} of {}", i, instance.mesh,
+                        meshes.places.size());
     }
     const glm::dmat4& m = instance.world_from_object;
     for (int column = 0; column < 4; ++column) {
       for (int row = 0; row < 4; ++row) {
-        if (!std::isfinite(m[column][row])) throw input_error("rasterizer: instance {}: its matrix holds {}", i, m[column][row]);
+        if (!std::isfinite(m[column][row]))
+          throw input_error("rasterizer: instance {}: its matrix holds {}", i, m[column][row]);
       }
-      if (m[column][3] != (column == 3 ? 1 : 0)) throw input_error("rasterizer: instance {}: its matrix is not affine", i);
+      if (m[column][3] != (column == 3 ? 1 : 0))
+        throw input_error("rasterizer: instance {}: its matrix is not affine", i);
     }
     const RasterMeshPlace& mesh = meshes.places[instance.mesh];
     triangles += mesh.triangles;
@@ -152,7 +162,8 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
     all.records.push_back(record);
     all.clip_vertices += (mesh.vertices + 15) / 16 * 16;
     all.triangle_instance.insert(all.triangle_instance.end(), mesh.triangles, uint32_t(i));
-    for (uint32_t v = 0; v < mesh.vertices; v += RASTER_VERTEX_RUN) all.vertex_runs.push_back({uint32_t(i), v});
+    for (uint32_t v = 0; v < mesh.vertices; v += RASTER_VERTEX_RUN)
+      all.vertex_runs.push_back({uint32_t(i), v});
     for (uint32_t c = 0; c < mesh.clusters; ++c) all.pairs.push_back({uint32_t(i), mesh.first_cluster + c});
   }
   if (all.pairs.size() > most_indices) throw machine_error("rasterizer: 2^32 clusters or more");

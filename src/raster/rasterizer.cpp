@@ -19,20 +19,24 @@ constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
 template <typename T>
 void upload(ClDevice& device, GrowingBuffer& buffer, const std::vector<T>& values, size_t spare = 0) {
   buffer.at_least(device, (values.size() + spare) * sizeof(T));
-  if (!values.empty()) write_buffer(device, "rasterizer: scene", buffer.get(), values.data(), values.size() * sizeof(T));
+  if (!values.empty())
+    write_buffer(device, "rasterizer: scene", buffer.get(), values.data(), values.size() * sizeof(T));
 }
 
 // What must stay the same for triangle numbers to stay.
 bool same_layout(const RasterInstance& a, const RasterInstance& b) {
   return a.mesh == b.mesh && a.two_sided == b.two_sided && a.alpha_material == b.alpha_material &&
-         (glm::determinant(glm::dmat3(a.world_from_object)) < 0) == (glm::determinant(glm::dmat3(b.world_from_object)) < 0);
+         (glm::determinant(glm::dmat3(a.world_from_object)) < 0) ==
+             (glm::determinant(glm::dmat3(b.world_from_object)) < 0);
 }
 
 }  // namespace
 
 struct Rasterizer::State {
-  State(ClDevice& device, ProgramCache& programs, const RasterOptions& options) : device(device), options(options) {
-    const bool lanes = options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
+  State(ClDevice& device, ProgramCache& programs, const RasterOptions& options)
+      : device(device), options(options) {
+    const bool lanes =
+        options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
     pipeline = lanes ? make_raster_lanes_pipeline(device, programs, options.portable)
                      : make_raster_group_pipeline(device, programs, options.wide_atomics);
     params_buffer = device_buffer(device, sizeof(RasterParams));
@@ -56,7 +60,8 @@ struct Rasterizer::State {
   RasterCounts counts;
   RasterBuffers shown;
 
-  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, records, triangle_instance, runs, pair_list, frame, clip, image_triangles, image_depths;
+  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, records, triangle_instance,
+      runs, pair_list, frame, clip, image_triangles, image_depths;
   cl::Buffer params_buffer, counters;
 };
 
@@ -93,7 +98,8 @@ void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
   upload(s.device, s.runs, made.vertex_runs);
   upload(s.device, s.pair_list, made.pairs);
   s.clip.at_least(s.device, made.clip_vertices * sizeof(cl_float4));
-  s.shown.instances = s.records.get(), s.shown.triangle_instance = s.triangle_instance.get(), s.shown.clip = s.clip.get();
+  s.shown.instances = s.records.get(), s.shown.triangle_instance = s.triangle_instance.get(),
+  s.shown.clip = s.clip.get();
 }
 
 void Rasterizer::set_view(const RasterView& view) {
@@ -104,29 +110,35 @@ void Rasterizer::set_view(const RasterView& view) {
 void Rasterizer::State::upload_instances() {
   std::vector<RasterFrameInstance> values;
   values.reserve(instances.size());
-  for (const RasterInstance& i : instances) values.push_back(raster_frame_instance(*view, i.world_from_object, i.two_sided));
+  for (const RasterInstance& i : instances)
+    values.push_back(raster_frame_instance(*view, i.world_from_object, i.two_sided));
   upload(device, frame, values);
 }
 
 void Rasterizer::State::run(uint32_t (&counted)[RASTER_COUNTERS]) {
   write_buffer(device, "rasterizer: params", params_buffer, &params, sizeof params);
   pipeline->prepare(params);
-  pipeline->enqueue({params, params_buffer, positions.get(), cluster_indices.get(), cluster_triangles.get(), clusters.get(), records.get(), runs.get(),
-                     pair_list.get(), frame.get(), clip.get(), image_triangles.get(), image_depths.get(), counters});
+  pipeline->enqueue({params, params_buffer, positions.get(), cluster_indices.get(), cluster_triangles.get(),
+                     clusters.get(), records.get(), runs.get(), pair_list.get(), frame.get(), clip.get(),
+                     image_triangles.get(), image_depths.get(), counters});
   read_buffer(device, "rasterizer: counters", counters, counted, sizeof counted);
 }
 
 bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
-  const uint64_t entries = counted[RASTER_ENTRIES] | uint64_t(counted[RASTER_ENTRIES + 1]) << 32, blocks = counted[RASTER_BLOCKS];
+  const uint64_t entries = counted[RASTER_ENTRIES] | uint64_t(counted[RASTER_ENTRIES + 1]) << 32,
+                 blocks = counted[RASTER_BLOCKS];
   const size_t largest = device.info().max_allocation_bytes;
   // A quarter more than was asked for, since views move.
   const auto grow = [&](uint64_t wanted, size_t bytes_each, uint64_t most, const char* what, uint32_t& room) {
     most = std::min<uint64_t>(most, largest / bytes_each);
-    if (wanted > most) throw machine_error("rasterizer: {} {} need more memory than {} allows", wanted, what, device.info().name);
+    if (wanted > most)
+      throw machine_error("rasterizer: {} {} need more memory than {} allows", wanted, what,
+                          device.info().name);
     room = uint32_t(std::min(most, wanted + wanted / 4));
   };
   if (blocks > params.record_blocks) {
-    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), most_numbers / RASTER_BLOCK, "blocks of 256 triangles in view", params.record_blocks);
+    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), most_numbers / RASTER_BLOCK,
+         "blocks of 256 triangles in view", params.record_blocks);
     return true;
   }
   if (entries > params.entry_capacity) {
@@ -169,7 +181,8 @@ const RasterCounts& Rasterizer::counts() const { return state_->counts; }
 size_t Rasterizer::memory_bytes() const {
   const State& s = *state_;
   size_t bytes = s.pipeline->memory_bytes() + sizeof(RasterParams) + RASTER_COUNTERS * sizeof(cl_uint);
-  for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.cluster_indices, &s.cluster_triangles, &s.clusters, &s.records, &s.triangle_instance, &s.runs, &s.pair_list,
+  for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.cluster_indices, &s.cluster_triangles,
+                                 &s.clusters, &s.records, &s.triangle_instance, &s.runs, &s.pair_list,
                                  &s.frame, &s.clip, &s.image_triangles, &s.image_depths}) {
     bytes += b->bytes();
   }

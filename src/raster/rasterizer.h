@@ -7,29 +7,35 @@
 //   const Visibility visibility = rasterizer.draw();
 //   culler.depth_bounds({visibility.depth});
 //
-// A visibility buffer (Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading", JCGT 2013), filled
-// by tiles in software (Laine, Karras, "High-Performance Software Rasterization on GPUs", HPG 2011).
+// A visibility buffer (Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading",
+// JCGT 2013), filled by tiles in software (Laine, Karras, "High-Performance Software Rasterization on GPUs",
+// HPG 2011).
 //
-// What is drawn is a function of meshes, instances and view alone: the same bytes on every device that rounds divisions
-// correctly, in every kernel shape, for any number of threads. docs/raster.md has the arithmetic; in short:
+// What is drawn is a function of meshes, instances and view alone: the same bytes on every device that rounds
+// divisions correctly, in every kernel shape, for any number of threads. docs/raster.md has the arithmetic;
+// in short:
 //
-// - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and snapped once to
-//   1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left rule: a centre on an edge
-//   belongs to the triangle of which it is a left edge, or a horizontal top edge (rows count upwards).
-// - A triangle that crosses the near plane or leaves a guard band, 16,368 pixels on either side of the view's centre, is cut.
-//   What is cut of an edge depends on its two end points alone, so that neighbours meet without a gap.
-// - Depth is a plane through the snapped vertices, clamped to their depths: within 2^-21 (|zx dx| + |zy dy| + z) of the exact
-//   one, with dx, dy the pixel's distance from the first vertex and zx, zy the gradients, and within the vertices' depths.
-//   A depth below 2^-126, as at or past the far plane, is not drawn.
-// - The greatest depth wins (depth is reversed), and among equal ones the lowest triangle number, which is the one drawn
-//   first, as with OpenGL's GL_GREATER.
+// - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and snapped
+//   once to 1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left rule: a
+//   centre on an edge belongs to the triangle of which it is a left edge, or a horizontal top edge (rows count
+//   upwards).
+// - A triangle that crosses the near plane or leaves a guard band, 16,368 pixels on either side of the view's
+//   centre, is cut. Where an edge is cut depends on its two end points alone, so that neighbours meet without a
+//   gap.
+// - Depth is a plane through the snapped vertices, clamped to their depths. It is within
+//   2^-21 (|zx dx| + |zy dy| + z) of the exact one: dx, dy are the pixel's distance from the first vertex, zx and
+//   zy the gradients, z the greatest depth of the vertices. A depth below 2^-126, as at or past the far plane, is
+//   not drawn.
+// - The greatest depth wins (depth is reversed). Of equal ones the lowest triangle number wins, which is the one
+//   drawn first, as with OpenGL's GL_GREATER.
 // - A triangle with a corner that is not finite in clip space is left out and counted.
-// - Clusters of triangles that all face away are left out early. Where such a triangle is so thin on the screen that
-//   snapping turns it towards the eye, OpenGL would draw it; RasterOptions::cluster_cones = false does.
+// - Clusters of triangles that all face away are left out early. OpenGL draws such a triangle where it is so thin
+//   on the screen that snapping turns it towards the eye; so does RasterOptions::cluster_cones = false.
 //
-// Errors are of type Error (base/error.h) alone: input where an argument is wrong or a call is missing, machine where the
-// device or its memory does not suffice. Nothing is left out to make it fit: room that proves short is counted, grown, and
-// the frame drawn again. Objects of one device are for one thread at a time.
+// Errors are of type Error (base/error.h) alone: input where an argument is wrong or a call is missing,
+// machine where the device or its memory does not suffice. Nothing is left out to make it fit: room that
+// proves short is counted, grown, and the frame drawn again. Objects of one device are for one thread at a
+// time.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -43,8 +49,8 @@
 
 namespace lightgrid {
 
-// Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front. Both are
-// copied.
+// Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front.
+// Both are copied.
 struct RasterMesh {
   std::span<const glm::vec3> positions;
   std::span<const uint32_t> indices;
@@ -59,8 +65,8 @@ struct RasterInstance {
 
 struct RasterView {
   int width = 0, height = 0;  // pixels, 1 to 16,384
-  // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or orthographic,
-  // off-centre, far plane infinite or not.
+  // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or
+  // orthographic, off-centre, far plane infinite or not.
   glm::dmat4 clip_from_view{1};
   glm::dmat4 view_from_world{1};  // rigid; its translation is not used
   glm::dvec3 eye{0};              // world, metres
@@ -68,14 +74,17 @@ struct RasterView {
 
 constexpr uint32_t no_triangle = 0xffffffffu;
 
-// The rasteriser's own buffers, written again by the next draw(). Row 0 is at the bottom, rows lie without gaps.
+// The rasteriser's own buffers, written again by the next draw(). Row 0 is at the bottom, rows lie without
+// gaps.
 struct Visibility {
   cl::Buffer triangle;  // uint a pixel: the nearest triangle's number, or no_triangle
-  cl::Buffer depth;     // float a pixel: reversed z / w of clip_from_view, 0 where no triangle is: DepthInput::values
+  cl::Buffer
+      depth;  // float a pixel: reversed z / w of clip_from_view, 0 where no triangle is: DepthInput::values
   int width = 0, height = 0;
 };
 
-// What a triangle number leads to, on the device. Made by set_meshes and set_instances; `clip` is written by each draw().
+// What a triangle number leads to, on the device. Made by set_meshes and set_instances; `clip` is written by
+// each draw().
 struct RasterBuffers {
   cl::Buffer indices;            // uint[3] a triangle of each mesh, mesh after mesh
   cl::Buffer instances;          // RasterInstanceRecord an instance
@@ -87,7 +96,7 @@ struct RasterOptions {
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bytes
   bool portable = false;                       // no builtins of one kind of CPU; the same bytes
   bool cluster_cones = true;                   // leaves out clusters that face away
-  bool wide_atomics = true;                    // group shape: false uses 32-bit atomics, in two passes; the same bytes
+  bool wide_atomics = true;  // group shape: false uses 32-bit atomics, in two passes; the same bytes
 };
 
 // Of the last draw().
@@ -109,12 +118,15 @@ class Rasterizer {
   ~Rasterizer();
   Rasterizer(Rasterizer&&) noexcept;
 
-  // Throws input: an index out of range, a number of indices that is no multiple of 3. Instances are then none.
+  // Throws input: an index out of range, a number of indices that is no multiple of 3. Instances are then
+  // none.
   void set_meshes(std::span<const RasterMesh> meshes);
-  // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. Throws input: a mesh
-  // that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 1 triangles or vertices or more.
+  // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. Throws
+  // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 1 triangles
+  // or vertices or more.
   void set_instances(std::span<const RasterInstance> instances);
-  // Throws input: a size out of range, a matrix or an eye that is not finite, a projection that is not of the kinds above.
+  // Throws input: a size out of range, a matrix or an eye that is not finite, a projection that is not of the
+  // kinds above.
   void set_view(const RasterView& view);
 
   // Throws input where set_view is missing. Waits for the queue.

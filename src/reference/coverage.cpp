@@ -17,7 +17,8 @@ bool finite_corner(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-// The five half-spaces that a triangle is cut to, in turn: 0 or more inside. Each is one float operation on float values.
+// The five half-spaces that a triangle is cut to, in turn: 0 or more inside. Each is one float operation on
+// float values.
 using CutPlane = float (*)(const glm::vec4& v, float guard_x, float guard_y);
 constexpr CutPlane cut_planes[] = {
     [](const glm::vec4& v, float, float) { return v.w - v.z; },
@@ -35,7 +36,8 @@ glm::vec4 cut_point(const glm::vec4& inside, float d_inside, const glm::vec4& ou
   return point;
 }
 
-std::vector<glm::vec4> cut_polygon(const std::vector<glm::vec4>& polygon, CutPlane plane, float guard_x, float guard_y) {
+std::vector<glm::vec4> cut_polygon(const std::vector<glm::vec4>& polygon, CutPlane plane, float guard_x,
+                                   float guard_y) {
   std::vector<glm::vec4> kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::vec4 &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
@@ -58,7 +60,8 @@ int64_t twice_area_of(const SnappedPoint& a, const SnappedPoint& b, const Snappe
 }  // namespace
 
 int winding_at(const std::array<SnappedPoint, 3>& triangle, int x, int y) {
-  const int64_t sample_x = int64_t(x) * units_a_pixel + units_a_pixel / 2, sample_y = int64_t(y) * units_a_pixel + units_a_pixel / 2;
+  const int64_t sample_x = int64_t(x) * units_a_pixel + units_a_pixel / 2,
+                sample_y = int64_t(y) * units_a_pixel + units_a_pixel / 2;
   int winding = 0;
   for (int i = 0; i < 3; ++i) {
     const SnappedPoint &from = triangle[i], &to = triangle[(i + 1) % 3];
@@ -83,7 +86,8 @@ SnappedPoint snapped(const glm::vec4& clip, int width, int height) {
   return {units(clip.x, width), units(clip.y, height)};
 }
 
-std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width, int height) {
+std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width,
+                                                   int height) {
   const float guard_x = float(guard_units / (units_a_pixel / 2)) / float(width);
   const float guard_y = float(guard_units / (units_a_pixel / 2)) / float(height);
   std::vector<glm::vec4> polygon(clip.begin(), clip.end());
@@ -99,7 +103,8 @@ void CoverageOracle::add(const CoverageTriangle& triangle) {
   const auto polygon = cut_triangle(triangle.clip, width_, height_);
   if (!polygon) ++invalid_;
   if (polygon) {
-    for (size_t i = 2; i < polygon->size(); ++i) add_part({(*polygon)[0], (*polygon)[i - 1], (*polygon)[i]}, triangle);
+    for (size_t i = 2; i < polygon->size(); ++i)
+      add_part({(*polygon)[0], (*polygon)[i - 1], (*polygon)[i]}, triangle);
   }
   ++count_;
 }
@@ -114,22 +119,31 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
   const long double z[3] = {depth_of(clip[0]), depth_of(clip[1]), depth_of(clip[2])};
   const auto [least, most] = std::minmax({z[0], z[1], z[2]});
   const long double size = std::max(std::abs(least), std::abs(most));
-  const long double gradient_x = ((z[1] - z[0]) * (p[2].y - p[0].y) - (z[2] - z[0]) * (p[1].y - p[0].y)) / twice_area;
-  const long double gradient_y = ((z[2] - z[0]) * (p[1].x - p[0].x) - (z[1] - z[0]) * (p[2].x - p[0].x)) / twice_area;
+  const long double gradient_x =
+      ((z[1] - z[0]) * (p[2].y - p[0].y) - (z[2] - z[0]) * (p[1].y - p[0].y)) / twice_area;
+  const long double gradient_y =
+      ((z[2] - z[0]) * (p[1].x - p[0].x) - (z[1] - z[0]) * (p[2].x - p[0].x)) / twice_area;
 
   const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
   const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
-  const auto pixel = [](int64_t units, int most) { return int(std::clamp<int64_t>(units / units_a_pixel, 0, most)); };
+  const auto pixel = [](int64_t units, int most) {
+    return int(std::clamp<int64_t>(units / units_a_pixel, 0, most));
+  };
   for (int y = pixel(bottom, height_ - 1); y <= pixel(top, height_ - 1); ++y) {
     for (int x = pixel(left, width_ - 1); x <= pixel(right, width_ - 1); ++x) {
       if (winding_at(p, x, y) == 0) continue;
-      const SnappedPoint centre{int64_t(x) * units_a_pixel + units_a_pixel / 2, int64_t(y) * units_a_pixel + units_a_pixel / 2};
-      const long double weighted = z[0] * twice_area_of(centre, p[1], p[2]) + z[1] * twice_area_of(p[0], centre, p[2]) + z[2] * twice_area_of(p[0], p[1], centre);
-      const long double slope = std::abs(gradient_x * (centre.x - p[0].x)) + std::abs(gradient_y * (centre.y - p[0].y));
+      const SnappedPoint centre{int64_t(x) * units_a_pixel + units_a_pixel / 2,
+                                int64_t(y) * units_a_pixel + units_a_pixel / 2};
+      const long double weighted = z[0] * twice_area_of(centre, p[1], p[2]) +
+                                   z[1] * twice_area_of(p[0], centre, p[2]) +
+                                   z[2] * twice_area_of(p[0], p[1], centre);
+      const long double slope =
+          std::abs(gradient_x * (centre.x - p[0].x)) + std::abs(gradient_y * (centre.y - p[0].y));
       CoveredPixel covered;
       covered.triangle = count_;
       covered.depth = double(weighted / twice_area);
-      covered.bound = double(std::min(8 * half_ulp_at_one * (slope + size), (most - least) + 4 * half_ulp_at_one * size));
+      covered.bound =
+          double(std::min(8 * half_ulp_at_one * (slope + size), (most - least) + 4 * half_ulp_at_one * size));
       std::vector<CoveredPixel>& here = pixels_[size_t(y) * width_ + x];
       if (here.empty() || here.back().triangle != count_) {
         here.push_back(covered);
@@ -145,14 +159,15 @@ std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle
   for (const CoveredPixel& c : covered) {
     if (c.triangle == triangle) shown = &c;
     if (c.depth - c.bound > std::max<double>(depth, least_depth)) {
-      return fmt::format("triangle {} at depth {} lies in front of triangle {} at {}", c.triangle, c.depth, int32_t(triangle), depth);
+      return fmt::format("triangle {} at depth {} lies in front of triangle {} at {}", c.triangle, c.depth,
+                         int32_t(triangle), depth);
     }
   }
   if (triangle == 0xffffffffu) return depth == 0 ? "" : fmt::format("no triangle, but depth {}", depth);
   if (!shown) return fmt::format("triangle {} does not cover the pixel", triangle);
   if (std::abs(depth - shown->depth) > shown->bound) {
-    return fmt::format("triangle {} has depth {}, {} off {} where {} is allowed", triangle, depth, std::abs(depth - shown->depth),
-                       shown->depth, shown->bound);
+    return fmt::format("triangle {} has depth {}, {} off {} where {} is allowed", triangle, depth,
+                       std::abs(depth - shown->depth), shown->depth, shown->bound);
   }
   return {};
 }

@@ -1,10 +1,11 @@
-// The oracle of rasterising: which triangles cover a pixel's centre, in exact integers, and their depths there in extended
-// precision. What is to be drawn is written down in docs/raster.md; this shares no code with the kernels.
+// The oracle of rasterising: which triangles cover a pixel's centre, in exact integers, and their depths
+// there in extended precision. What is to be drawn is written down in docs/raster.md; this shares no code
+// with the kernels.
 //
-// Given are positions in clip space as the transform left them. Snapping to 1/256 pixel and cutting at the near plane and
-// the guard band are done again here. Coverage counts the crossings of a half-line with the outline, where kernels take
-// signs of edge functions: the top-left rule is the limit of a sample moved right and, far less, down. Depth is a weighted
-// mean, where kernels evaluate a plane.
+// Given are positions in clip space as the transform left them. Snapping to 1/256 pixel and cutting at the
+// near plane and the guard band are done again here. Coverage counts the crossings of a half-line with the
+// outline, where kernels take signs of edge functions: the top-left rule is the limit of a sample moved right
+// and, far less, down. Depth is a weighted mean, where kernels evaluate a plane.
 #pragma once
 
 #include <array>
@@ -35,14 +36,17 @@ struct SnappedPoint {
   bool operator==(const SnappedPoint&) const = default;
 };
 
-// Whether the outline of the triangle winds around the centre of a pixel: 1 counter-clockwise, -1 clockwise, 0 not at all.
+// Whether the outline of the triangle winds around the centre of a pixel: 1 counter-clockwise, -1 clockwise,
+// 0 not at all.
 int winding_at(const std::array<SnappedPoint, 3>& triangle, int x, int y);
 
 // Where a vertex in front of the eye and within the guard band is snapped to.
 SnappedPoint snapped(const glm::vec4& clip, int width, int height);
 
-// What cutting leaves of a triangle: 0 corners, or 3 and more; nothing where one is not finite, before or after.
-std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width, int height);
+// What cutting leaves of a triangle: 0 corners, or 3 and more; nothing where one is not finite, before or
+// after.
+std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width,
+                                                   int height);
 
 class CoverageOracle {
  public:
@@ -50,7 +54,8 @@ class CoverageOracle {
   // Triangles are numbered in the order of these calls.
   void add(const CoverageTriangle& triangle);
 
-  // All that cover the pixel, in the order of their numbers; a triangle once, with its nearest part where it was cut.
+  // All that cover the pixel, in the order of their numbers; a triangle once, with its nearest part where it
+  // was cut.
   const std::vector<CoveredPixel>& at(int x, int y) const { return pixels_[size_t(y) * width_ + x]; }
   uint32_t invalid_triangles() const { return invalid_; }
 
@@ -62,8 +67,8 @@ class CoverageOracle {
   std::vector<std::vector<CoveredPixel>> pixels_;
 };
 
-// What is wrong with a pixel that shows `triangle` (0xffffffff: none) at `depth`, in words; empty: nothing. It may show what is
-// nearest, or may be nearest as far as the bounds of the depths say.
+// What is wrong with a pixel that shows `triangle` (0xffffffff: none) at `depth`, in words; empty: nothing.
+// It may show what is nearest, or may be nearest as far as the bounds of the depths say.
 std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle, float depth);
 
 }  // namespace lightgrid

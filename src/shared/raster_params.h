@@ -3,21 +3,22 @@
 
 #include "shared/language.h"
 
-#define RASTER_TILE 64            // pixels a side
-#define RASTER_CLUSTER 64         // triangles at most
-#define RASTER_BLOCK 256          // records that room is handed out in
-#define RASTER_BUCKETS 256        // of distance, by which clusters are sorted
-#define RASTER_HIDDEN 255         // the bucket of clusters out of view
-#define RASTER_VERTEX_RUN 1024    // vertices of an instance that a work-item transforms in one go, a multiple of 16
+#define RASTER_TILE 64      // pixels a side
+#define RASTER_CLUSTER 64   // triangles at most
+#define RASTER_BLOCK 256    // records that room is handed out in
+#define RASTER_BUCKETS 256  // of distance, by which clusters are sorted
+#define RASTER_HIDDEN 255   // the bucket of clusters out of view
+#define RASTER_VERTEX_RUN \
+  1024  // vertices of an instance that a work-item transforms in one go, a multiple of 16
 #define RASTER_NO_CONE 2.0f
 #define RASTER_NONE 0xffffffffu
 
 // Counters that the host reads after a frame.
-#define RASTER_VISIBLE 0   // clusters that may be in view
-#define RASTER_BLOCKS 1    // blocks of records that were asked for
+#define RASTER_VISIBLE 0  // clusters that may be in view
+#define RASTER_BLOCKS 1   // blocks of records that were asked for
 #define RASTER_RECORDS 2
-#define RASTER_INVALID 3   // triangles with a corner that is not finite
-#define RASTER_ENTRIES 4   // low word, then high word: pairs of a record and a tile
+#define RASTER_INVALID 3  // triangles with a corner that is not finite
+#define RASTER_ENTRIES 4  // low word, then high word: pairs of a record and a tile
 #define RASTER_LARGE 6    // records of triangles that are not drawn at once, in the group shape
 #define RASTER_COUNTERS 8
 
@@ -30,11 +31,11 @@ typedef struct RasterParams {
   float guard_x, guard_y;  // the guard band's edge in normalized device coordinates
   uint width, height;      // pixels
   uint tiles_x, tiles_y;
-  uint pairs;              // of an instance and one of its mesh's clusters
+  uint pairs;  // of an instance and one of its mesh's clusters
   uint vertex_runs;
-  uint chunks;             // of the clusters in view: each is set up by one work-item
+  uint chunks;                         // of the clusters in view: each is set up by one work-item
   uint record_blocks, entry_capacity;  // room
-  uint cones;              // 1: clusters that face away are left out
+  uint cones;                          // 1: clusters that face away are left out
 } RasterParams;
 
 // An instance in this frame.
@@ -58,14 +59,14 @@ typedef struct RasterCluster {
 
 // A triangle on the screen, or a part of one that clipping left, counter-clockwise.
 typedef struct RasterRecord {
-  int x[3], y[3];       // 1/256 pixel
-  float z0, zx, zy;     // depth at corner 0, and what it gains a pixel
-  float z_min, z_max;   // of the corners
-  uint triangle;        // its number
-  uint box_low;         // first and last pixel whose centre may be covered, x | y << 16
+  int x[3], y[3];      // 1/256 pixel
+  float z0, zx, zy;    // depth at corner 0, and what it gains a pixel
+  float z_min, z_max;  // of the corners
+  uint triangle;       // its number
+  uint box_low;        // first and last pixel whose centre may be covered, x | y << 16
   uint box_high;
   uint instance;
-  int alpha_material;   // below 0: opaque
+  int alpha_material;  // below 0: opaque
 } RasterRecord;
 
 #if !defined(__OPENCL_VERSION__)

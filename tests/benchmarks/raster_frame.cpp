@@ -1,7 +1,7 @@
 // The rasteriser on a scene's opaque and masked triangles, on the OpenCL device that lightgrid would use.
 //   raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable]
-// Prints what was drawn, then least and median milliseconds of each kernel and of the frame. The view is that of the
-// repository's benchmarks of Sponza.
+// Prints what was drawn, then least and median milliseconds of each kernel and of the frame. The view is that
+// of the repository's benchmarks of Sponza.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,9 @@ void measure(const char* path, int width, int height, int runs, const RasterOpti
   for (const Instance& instance : scene.instances) {
     const Material& material = scene.materials[scene.meshes[instance.mesh].material];
     if (material.alpha_mode == AlphaMode::blend) continue;
-    instances.push_back({.mesh = instance.mesh, .world_from_object = instance.world_from_object, .two_sided = material.double_sided});
+    instances.push_back({.mesh = instance.mesh,
+                         .world_from_object = instance.world_from_object,
+                         .two_sided = material.double_sided});
   }
   rasterizer.set_meshes(meshes);
   rasterizer.set_instances(instances);
@@ -59,8 +61,9 @@ void measure(const char* path, int width, int height, int runs, const RasterOpti
     }
   }
   const RasterCounts& counts = rasterizer.counts();
-  fmt::print("{}: {} triangles, {} clusters in view, {} records, {} tile entries, {:.1f} MB\n", device.info().name, counts.triangles,
-             counts.clusters, counts.records, counts.tile_entries, double(rasterizer.memory_bytes()) * 1e-6);
+  fmt::print("{}: {} triangles, {} clusters in view, {} records, {} tile entries, {:.1f} MB\n",
+             device.info().name, counts.triangles, counts.clusters, counts.records, counts.tile_entries,
+             double(rasterizer.memory_bytes()) * 1e-6);
   for (const std::string& name : order) print_times(name, kernels[name]);
   print_times("frame", frames);
 }
@@ -73,12 +76,15 @@ int main(int count, char** arguments) {
   if (count > 2) std::sscanf(arguments[2], "%dx%d", &width, &height);
   lightgrid::RasterOptions options;
   if (count > 4) {
-    options.shape = std::strcmp(arguments[4], "group") == 0 ? lightgrid::KernelShape::group : lightgrid::KernelShape::lanes;
+    options.shape = std::strcmp(arguments[4], "group") == 0 ? lightgrid::KernelShape::group
+                                                            : lightgrid::KernelShape::lanes;
     options.portable = std::strcmp(arguments[4], "portable") == 0;
   }
   try {
-    if (count < 2) throw lightgrid::input_error("raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable]");
-    lightgrid::measure(arguments[1], width, height, count > 3 ? std::max(1, std::atoi(arguments[3])) : 21, options);
+    if (count < 2)
+      throw lightgrid::input_error("raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable]");
+    lightgrid::measure(arguments[1], width, height, count > 3 ? std::max(1, std::atoi(arguments[3])) : 21,
+                       options);
   } catch (const lightgrid::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_code();

@@ -19,7 +19,8 @@ RasterScene scene_of(const RasterView& view) {
   return scene;
 }
 
-// `kind` 0: any; 1: small; 2: slivers; 3: corners on pixel centres and corners; 4: across the near plane; 5: huge.
+// `kind` 0: any; 1: small; 2: slivers; 3: corners on pixel centres and corners; 4: across the near plane; 5:
+// huge.
 void add_random_triangle(RandomNumbers& random, int kind, RasterScene& scene) {
   const RasterView& view = scene.view;
   const double x = random.between(-0.3, 1.3) * view.width, y = random.between(-0.3, 1.3) * view.height;
@@ -27,11 +28,16 @@ void add_random_triangle(RandomNumbers& random, int kind, RasterScene& scene) {
   glm::vec3 corners[3];
   for (int k = 0; k < 3; ++k) {
     double px = x + random.between(-reach, reach), py = y + random.between(-reach, reach);
-    if (kind == 2) px = x + (k == 0 ? -reach : reach), py = y + (k == 0 ? 1 : k == 1 ? -1 : -1.01) * random.between(0, 1) * reach;
+    if (kind == 2)
+      px = x + (k == 0 ? -reach : reach), py = y + (k == 0   ? 1
+                                                    : k == 1 ? -1
+                                                             : -1.01) *
+                                                       random.between(0, 1) * reach;
     if (kind == 3) px = std::round(px * 2) / 2, py = std::round(py * 2) / 2;
     const double w = std::exp(random.between(std::log(0.1), std::log(1000.0)));
     corners[k] = at(view, px, py, kind == 3 ? std::exp2(std::round(std::log2(w)) + 1) : w);
-    if (kind == 4) corners[k] = glm::vec3(random.between(-5, 5), random.between(-5, 5), random.between(-5, 5));
+    if (kind == 4)
+      corners[k] = glm::vec3(random.between(-5, 5), random.between(-5, 5), random.between(-5, 5));
   }
   add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
 }
@@ -84,7 +90,9 @@ TEST_P(RasterCoverage, OrthographicViewsWithANearAndAFarPlane) {
   RasterScene scene = scene_of(flat_view(100, 75));
   scene.instances[0].two_sided = true;
   for (int i = 0; i < 200; ++i) {
-    const auto corner = [&] { return glm::vec3(random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.5, 0.5)); };
+    const auto corner = [&] {
+      return glm::vec3(random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.5, 0.5));
+    };
     const glm::vec3 a = corner(), b = corner(), c = corner();
     add_triangle(scene.meshes[0], a, b, c);
   }
@@ -99,7 +107,9 @@ TEST_P(RasterCoverage, TurnedMovedScaledAndMirroredInstances) {
   for (int m = 0; m < 3; ++m) {
     scene.meshes.emplace_back();
     for (int i = 0; i < 20 + 33 * m; ++i) {
-      const auto corner = [&] { return glm::vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)); };
+      const auto corner = [&] {
+        return glm::vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+      };
       const glm::vec3 a = corner(), b = corner(), c = corner();
       add_triangle(scene.meshes.back(), a, b, c);
     }
@@ -124,7 +134,8 @@ RasterScene sheet(const RasterView& view, int cells, uint32_t seed, bool on_cent
   RasterScene::MeshData& mesh = scene.meshes[0];
   for (int y = 0; y <= cells; ++y) {
     for (int x = 0; x <= cells; ++x) {
-      // A little more than the image; vertices move by less than a quarter of a cell, so that no triangle turns over.
+      // A little more than the image; vertices move by less than a quarter of a cell, so that no triangle
+      // turns over.
       double px = (double(x) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.width;
       double py = (double(y) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.height;
       if (on_centres) px = std::floor(px) + 0.5, py = std::floor(py) + 0.5;
@@ -147,7 +158,8 @@ std::vector<RasterScene> dealt_out(const RasterScene& scene, size_t count) {
     std::vector<uint32_t>& indices = parts[part].meshes[0].indices;
     indices.clear();
     const std::vector<uint32_t>& all = scene.meshes[0].indices;
-    for (size_t i = 3 * part; i < all.size(); i += 3 * count) indices.insert(indices.end(), &all[i], &all[i] + 3);
+    for (size_t i = 3 * part; i < all.size(); i += 3 * count)
+      indices.insert(indices.end(), &all[i], &all[i] + 3);
   }
   return parts;
 }
@@ -165,8 +177,8 @@ TEST_P(RasterCoverage, TrianglesThatShareEdgesLeaveNoPixelOutAndClaimNoneTwice) 
   }
 }
 
-// A floor of planks that begin in front of the eye and end far behind it: the near plane cuts each in the lower half of the
-// image. One step of a float at the far end is half a pixel there.
+// A floor of planks that begin in front of the eye and end far behind it: the near plane cuts each in the
+// lower half of the image. One step of a float at the far end is half a pixel there.
 TEST_P(RasterCoverage, CutTrianglesMeetTheirNeighbours) {
   RandomNumbers random(2);
   RasterScene scene = scene_of(plain_view(223, 240, 0.01));
@@ -220,7 +232,8 @@ TEST_P(RasterCoverage, AFanOfAThousandSliversAroundAPixelsCentre) {
 }
 
 TEST_P(RasterCoverage, CornersThatAreNoNumbersOrFarTooLarge) {
-  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN(), most = std::numeric_limits<float>::max();
+  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN(),
+                  most = std::numeric_limits<float>::max();
   RasterScene scene = scene_of(plain_view(50, 40));
   scene.instances[0].two_sided = true;
   for (const float strange : {inf, -inf, nan, most, -most, 1e30f, -1e30f, 1e-40f, 0.0f}) {
@@ -244,7 +257,9 @@ TEST_P(RasterCoverage, TrianglesThroughTheEye) {
   RasterScene scene = scene_of(plain_view(90, 70));
   scene.instances[0].two_sided = true;
   for (int i = 0; i < 200; ++i) {
-    const auto corner = [&] { return glm::vec3(random.below(3) - 1, random.below(3) - 1, random.below(3) - 1); };
+    const auto corner = [&] {
+      return glm::vec3(random.below(3) - 1, random.below(3) - 1, random.below(3) - 1);
+    };
     const glm::vec3 a = corner(), b = corner(), c = corner();
     add_triangle(scene.meshes[0], a, b, c);
   }

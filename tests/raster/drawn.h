@@ -33,7 +33,8 @@ struct RasterScene {
   RasterView view;
 };
 
-// A view with its eye at the origin, whose clip space is (x, y, near, -z) of the position: x = y = -z are the image's corner.
+// A view with its eye at the origin, whose clip space is (x, y, near, -z) of the position: x = y = -z are the
+// image's corner.
 inline RasterView plain_view(int width, int height, double near = 0.1) {
   RasterView view{width, height, glm::dmat4(0), glm::dmat4(1), glm::dvec3(0)};
   view.clip_from_view[0][0] = view.clip_from_view[1][1] = 1;
@@ -63,10 +64,12 @@ struct Drawn {
   RasterCounts counts;
 
   bool same_image(const Drawn& other) const {
-    return triangles == other.triangles && std::memcmp(depths.data(), other.depths.data(), depths.size() * sizeof(float)) == 0;
+    return triangles == other.triangles &&
+           std::memcmp(depths.data(), other.depths.data(), depths.size() * sizeof(float)) == 0;
   }
   size_t covered() const {
-    return size_t(std::count_if(triangles.begin(), triangles.end(), [](uint32_t t) { return t != no_triangle; }));
+    return size_t(
+        std::count_if(triangles.begin(), triangles.end(), [](uint32_t t) { return t != no_triangle; }));
   }
 };
 
@@ -93,7 +96,8 @@ inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene) {
   drawn.depths = read_all<float>(visibility.depth, pixels);
   drawn.instances = read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size());
   size_t vertices = 0;
-  for (const RasterInstanceRecord& i : drawn.instances) vertices = i.first_clip_vertex + size_t(i.vertex_count);
+  for (const RasterInstanceRecord& i : drawn.instances)
+    vertices = i.first_clip_vertex + size_t(i.vertex_count);
   drawn.clip = read_all<glm::vec4>(rasterizer.buffers().clip, vertices);
   return drawn;
 }
@@ -112,7 +116,9 @@ inline CoverageOracle oracle_of(const Drawn& drawn, const RasterScene& scene) {
     const glm::vec4* const clip = drawn.clip.data() + drawn.instances[i].first_clip_vertex;
     const bool mirrored = glm::determinant(glm::dmat3(scene.instances[i].world_from_object)) < 0;
     for (size_t k = 0; k < indices.size(); k += 3) {
-      oracle.add({{clip[indices[k]], clip[indices[k + 1]], clip[indices[k + 2]]}, scene.instances[i].two_sided, mirrored});
+      oracle.add({{clip[indices[k]], clip[indices[k + 1]], clip[indices[k + 2]]},
+                  scene.instances[i].two_sided,
+                  mirrored});
     }
   }
   return oracle;
@@ -137,7 +143,8 @@ inline void expect_right(const RasterScene& scene, const RasterOptions& options 
 }
 
 // A mesh whose triangles share no vertex.
-inline void add_triangle(RasterScene::MeshData& mesh, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+inline void add_triangle(RasterScene::MeshData& mesh, const glm::vec3& a, const glm::vec3& b,
+                         const glm::vec3& c) {
   for (const glm::vec3& p : {a, b, c}) {
     mesh.indices.push_back(uint32_t(mesh.positions.size()));
     mesh.positions.push_back(p);

@@ -17,8 +17,10 @@ namespace {
 using testing::HasSubstr;
 
 // A rectangle of pixels at distance w, as two triangles.
-RasterScene::MeshData rectangle(const RasterView& view, double x0, double y0, double x1, double y1, double w) {
-  return {{at(view, x0, y0, w), at(view, x1, y0, w), at(view, x1, y1, w), at(view, x0, y1, w)}, {0, 1, 2, 0, 2, 3}};
+RasterScene::MeshData rectangle(const RasterView& view, double x0, double y0, double x1, double y1,
+                                double w) {
+  return {{at(view, x0, y0, w), at(view, x1, y0, w), at(view, x1, y1, w), at(view, x0, y1, w)},
+          {0, 1, 2, 0, 2, 3}};
 }
 
 // Triangles of every size, some thousands of pixels wide, in several instances.
@@ -29,8 +31,12 @@ RasterScene many_triangles(int count, int width, int height, uint32_t seed) {
   scene.meshes.resize(3);
   for (int i = 0; i < count; ++i) {
     const double x = random.between(-0.1, 1.1) * width, y = random.between(-0.1, 1.1) * height;
-    const double reach = std::exp(random.between(-1, std::log(i % 50 == 0 ? 1000.0 : 20.0))), w = random.between(1, 5);
-    const auto corner = [&] { return at(scene.view, x + random.between(-reach, reach), y + random.between(-reach, reach), w + random.between(-0.5, 0.5)); };
+    const double reach = std::exp(random.between(-1, std::log(i % 50 == 0 ? 1000.0 : 20.0))),
+                 w = random.between(1, 5);
+    const auto corner = [&] {
+      return at(scene.view, x + random.between(-reach, reach), y + random.between(-reach, reach),
+                w + random.between(-0.5, 0.5));
+    };
     const glm::vec3 a = corner(), b = corner(), c = corner();
     add_triangle(scene.meshes[i % 3], a, b, c);
   }
@@ -58,7 +64,9 @@ TEST(Rasterizer, NumbersTrianglesInDrawingOrderAndSaysWhatTheyBelongTo) {
   scene.meshes = {rectangle(scene.view, 0, 0, 10, 20, 2), rectangle(scene.view, 10, 0, 20, 20, 3)};
   glm::dmat4 right(1);
   right[3].x = at(scene.view, 40, 0, 2).x - at(scene.view, 20, 0, 2).x;
-  scene.instances = {{.mesh = 1}, {.mesh = 0, .alpha_material = 7}, {.mesh = 0, .world_from_object = right, .two_sided = true}};
+  scene.instances = {{.mesh = 1},
+                     {.mesh = 0, .alpha_material = 7},
+                     {.mesh = 0, .world_from_object = right, .two_sided = true}};
   Rasterizer rasterizer(raster_device(), raster_programs());
   set_scene(rasterizer, scene);
   const Drawn image = drawn_by(rasterizer, scene);
@@ -74,7 +82,8 @@ TEST(Rasterizer, NumbersTrianglesInDrawingOrderAndSaysWhatTheyBelongTo) {
   EXPECT_FLOAT_EQ(image.depths[15], 0.1f / 3);
   EXPECT_EQ(image.depths[35], 0);
 
-  EXPECT_EQ(read_all<uint32_t>(rasterizer.buffers().triangle_instance, 6), (std::vector<uint32_t>{0, 0, 1, 1, 2, 2}));
+  EXPECT_EQ(read_all<uint32_t>(rasterizer.buffers().triangle_instance, 6),
+            (std::vector<uint32_t>{0, 0, 1, 1, 2, 2}));
   const std::vector<uint32_t> indices = read_all<uint32_t>(rasterizer.buffers().indices, 12);
   for (uint32_t triangle = 0; triangle < 6; ++triangle) {
     const RasterInstanceRecord& instance = image.instances[triangle / 2];
@@ -106,12 +115,15 @@ TEST_P(RasterizerShapes, OfEqualDepthsTheLowestNumberIsShown) {
   scene.view = plain_view(150, 80);
   RasterScene::MeshData one;
   for (int i = 0; i < 40; ++i) {
-    const auto corner = [&] { return at(scene.view, random.between(-20, 170), random.between(-20, 100), random.between(1, 4)); };
+    const auto corner = [&] {
+      return at(scene.view, random.between(-20, 170), random.between(-20, 100), random.between(1, 4));
+    };
     const glm::vec3 a = corner(), b = corner(), c = corner();
     add_triangle(one, a, b, c);
   }
   RasterScene::MeshData nearer = one;
-  add_triangle(nearer, at(scene.view, -50, -50, 0.2), at(scene.view, -49, -50, 0.2), at(scene.view, -50, -49, 0.2));
+  add_triangle(nearer, at(scene.view, -50, -50, 0.2), at(scene.view, -49, -50, 0.2),
+               at(scene.view, -50, -49, 0.2));
   scene.meshes = {one, nearer};
   scene.instances = {{.mesh = 0}};
   const Drawn alone = drawn(scene, options());
@@ -137,12 +149,15 @@ TEST_P(RasterizerShapes, RoomThatIsShortGrowsAndNothingIsLost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, RasterizerShapes, testing::Values(KernelShape::lanes, KernelShape::group),
-                         [](const auto& info) { return info.param == KernelShape::lanes ? "Lanes" : "Group"; });
+                         [](const auto& info) {
+                           return info.param == KernelShape::lanes ? "Lanes" : "Group";
+                         });
 
 // A device of one thread, which takes clusters in other chunks.
 TEST(Rasterizer, TheSameBytesWithOneThread) {
   std::vector<cl::Device> parts;
-  const cl_device_partition_property one[] = {CL_DEVICE_PARTITION_BY_COUNTS, 1, CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+  const cl_device_partition_property one[] = {CL_DEVICE_PARTITION_BY_COUNTS, 1,
+                                              CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
   try {
     raster_device().device().createSubDevices(one, &parts);
   } catch (const cl::Error&) {
@@ -166,7 +181,8 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
 }
 
 TEST(Rasterizer, TheSameBytesInEveryShape) {
-  for (const RasterScene& scene : {many_triangles(5000, 501, 299, 8), many_triangles(300, 130, 70, 9), many_triangles(400, 1, 1, 10)}) {
+  for (const RasterScene& scene :
+       {many_triangles(5000, 501, 299, 8), many_triangles(300, 130, 70, 9), many_triangles(400, 1, 1, 10)}) {
     const Drawn lanes = drawn(scene, {.shape = KernelShape::lanes});
     EXPECT_GT(lanes.covered(), lanes.triangles.size() / 5);
     for (const RasterOptions& options : {RasterOptions{.shape = KernelShape::lanes, .portable = true},
@@ -199,12 +215,14 @@ RasterScene sphere(const RasterView& view, int rings, double radius, const glm::
   for (int y = 0; y <= rings; ++y) {
     for (int x = 0; x < around; ++x) {
       const double up = 3.14159265358979 * y / rings, turn = 6.28318530717959 * x / around;
-      mesh.positions.push_back(glm::vec3(radius * std::sin(up) * std::cos(turn), radius * std::cos(up), -radius * std::sin(up) * std::sin(turn)));
+      mesh.positions.push_back(glm::vec3(radius * std::sin(up) * std::cos(turn), radius * std::cos(up),
+                                         -radius * std::sin(up) * std::sin(turn)));
     }
   }
   for (int y = 0; y < rings; ++y) {
     for (int x = 0; x < around; ++x) {
-      const uint32_t a = uint32_t(y * around + x), b = uint32_t(y * around + (x + 1) % around), c = a + around, d = b + around;
+      const uint32_t a = uint32_t(y * around + x), b = uint32_t(y * around + (x + 1) % around),
+                     c = a + around, d = b + around;
       for (const uint32_t i : {a, c, b, b, c, d}) mesh.indices.push_back(i);
     }
   }
@@ -235,7 +253,8 @@ TEST(Rasterizer, ClustersThatFaceAwayAreLeftOutAndDoNotShow) {
 
 TEST(Rasterizer, ClustersOutOfViewAreLeftOut) {
   RasterScene scene = sphere(plain_view(100, 100), 30, 1, {0, 0, 0});
-  for (const glm::dvec3& place : {glm::dvec3{0, 0, 5}, {20, 0, -5}, {-20, 0, -5}, {0, 20, -5}, {0, -20, -5}}) {
+  for (const glm::dvec3& place :
+       {glm::dvec3{0, 0, 5}, {20, 0, -5}, {-20, 0, -5}, {0, 20, -5}, {0, -20, -5}}) {
     scene.instances[0].world_from_object[3] = glm::dvec4(place, 1);
     EXPECT_EQ(drawn(scene).counts.clusters, 0u);
   }
@@ -265,12 +284,15 @@ TEST(Rasterizer, LargestViews) {
     scene.instances.resize(1);
     const RasterView& view = scene.view;
     add_triangle(scene.meshes[0], at(view, -3e6, -2e6, 5), at(view, 2.1e6, -1e6, 4), at(view, 1e4, 9e6, 3));
-    add_triangle(scene.meshes[0], at(view, 0, 0, 2), at(view, width, height - 0.5, 2), at(view, width - 1, height, 2));
-    add_triangle(scene.meshes[0], at(view, width - 3.75, 0.25, 1), at(view, width, 0, 1), at(view, width, 3.5, 1));
+    add_triangle(scene.meshes[0], at(view, 0, 0, 2), at(view, width, height - 0.5, 2),
+                 at(view, width - 1, height, 2));
+    add_triangle(scene.meshes[0], at(view, width - 3.75, 0.25, 1), at(view, width, 0, 1),
+                 at(view, width, 3.5, 1));
     const Drawn image = drawn(scene);
     EXPECT_EQ(image.covered(), image.triangles.size());
     EXPECT_EQ(count_wrong(image, oracle_of(image, scene)), 0);
-    for (const uint32_t triangle : {0u, 1u, 2u}) EXPECT_GT(std::count(image.triangles.begin(), image.triangles.end(), triangle), 4);
+    for (const uint32_t triangle : {0u, 1u, 2u})
+      EXPECT_GT(std::count(image.triangles.begin(), image.triangles.end(), triangle), 4);
   }
 }
 
@@ -288,14 +310,22 @@ TEST(Rasterizer, RefusesWhatItCannotDraw) {
   EXPECT_THAT(message([&] { rasterizer.draw(); }), HasSubstr("set_view has to come before"));
   const std::vector<glm::vec3> positions(3);
   const std::vector<uint32_t> two = {0, 1}, past = {0, 1, 3};
-  EXPECT_THAT(message([&] { rasterizer.set_meshes(std::vector<RasterMesh>{{positions, two}}); }), HasSubstr("mesh 0: 2 indices"));
-  EXPECT_THAT(message([&] { rasterizer.set_meshes(std::vector<RasterMesh>{{}, {positions, past}}); }), HasSubstr("mesh 1: index 3"));
-  EXPECT_THAT(message([&] { rasterizer.set_instances(std::vector<RasterInstance>(1)); }), HasSubstr("instance 0: there is no mesh 0"));
+  EXPECT_THAT(message([&] {
+                rasterizer.set_meshes(std::vector<RasterMesh>{{positions, two}});
+              }),
+              HasSubstr("mesh 0: 2 indices"));
+  EXPECT_THAT(message([&] {
+                rasterizer.set_meshes(std::vector<RasterMesh>{{}, {positions, past}});
+              }),
+              HasSubstr("mesh 1: index 3"));
+  EXPECT_THAT(message([&] { rasterizer.set_instances(std::vector<RasterInstance>(1)); }),
+              HasSubstr("instance 0: there is no mesh 0"));
   const std::vector<uint32_t> one = {0, 1, 2};
   rasterizer.set_meshes(std::vector<RasterMesh>{{positions, one}});
   std::vector<RasterInstance> instances(1);
   instances[0].world_from_object[1][2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(message([&] { rasterizer.set_instances(instances); }), HasSubstr("instance 0: its matrix holds nan"));
+  EXPECT_THAT(message([&] { rasterizer.set_instances(instances); }),
+              HasSubstr("instance 0: its matrix holds nan"));
   instances[0].world_from_object = glm::dmat4(1);
   instances[0].world_from_object[1][3] = 1;
   EXPECT_THAT(message([&] { rasterizer.set_instances(instances); }), HasSubstr("not affine"));
@@ -308,7 +338,8 @@ TEST(Rasterizer, RefusesWhatItCannotDraw) {
   EXPECT_THAT(refused([](RasterView& v) { v.width = 0; }), HasSubstr("0 pixels"));
   EXPECT_THAT(refused([](RasterView& v) { v.height = 16385; }), HasSubstr("16385 pixels"));
   EXPECT_THAT(refused([](RasterView& v) { v.eye.y = HUGE_VAL; }), HasSubstr("eye"));
-  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = NAN; }), HasSubstr("clip_from_view holds nan"));
+  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = NAN; }),
+              HasSubstr("clip_from_view holds nan"));
   EXPECT_THAT(refused([](RasterView& v) { v.view_from_world[0][0] = 2; }), HasSubstr("rigid"));
   EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = -1; }), HasSubstr("mirrors"));
   EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[3][2] = -0.1; }), HasSubstr("reversed"));

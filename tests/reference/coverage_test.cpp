@@ -18,7 +18,9 @@ glm::vec4 at_pixel(double x, double y, double depth, int size) {
 }
 
 CoverageTriangle triangle_4x4(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, double depth = 0.5) {
-  return {{at_pixel(a.x, a.y, depth, 4), at_pixel(b.x, b.y, depth, 4), at_pixel(c.x, c.y, depth, 4)}, false, false};
+  return {{at_pixel(a.x, a.y, depth, 4), at_pixel(b.x, b.y, depth, 4), at_pixel(c.x, c.y, depth, 4)},
+          false,
+          false};
 }
 
 Pixels covered_4x4(const CoverageTriangle& triangle) {
@@ -45,7 +47,8 @@ TEST(Coverage, ACentreOnATopOrALeftEdgeIsCoveredOnABottomOrARightOneNot) {
   Pixels square = covered_4x4(triangle_4x4({0.5, 0.5}, {2.5, 0.5}, {0.5, 2.5}));
   EXPECT_EQ(square, (Pixels{{0, 1}})) << "left edge; the corners and the bottom edge are out";
   square = covered_4x4(triangle_4x4({2.5, 0.5}, {2.5, 2.5}, {0.5, 2.5}));
-  EXPECT_EQ(square, (Pixels{{1, 1}, {0, 2}, {1, 2}})) << "the diagonal is its left edge, its top edge is in, its right edge out";
+  EXPECT_EQ(square, (Pixels{{1, 1}, {0, 2}, {1, 2}}))
+      << "the diagonal is its left edge, its top edge is in, its right edge out";
 }
 
 TEST(Coverage, ATriangleThatFacesAwayCoversNothingUnlessItIsMirroredOrTwoSided) {
@@ -81,19 +84,26 @@ TEST(Coverage, DepthIsThePlaneThroughTheCorners) {
   EXPECT_LT(oracle.at(1, 1).at(0).bound, 0x1p-20);
 }
 
-// The third corner lies at the eye, w = 0; depth is z = 1 (infinite far plane, near 1), so that w >= 1 is inside.
+// The third corner lies at the eye, w = 0; depth is z = 1 (infinite far plane, near 1), so that w >= 1 is
+// inside.
 TEST(Coverage, ATriangleIsCutWhereItsEdgesMeetTheNearPlane) {
-  const auto polygon = cut_triangle({glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{0, 4, 1, 0}}, 4, 4);
+  const auto polygon =
+      cut_triangle({glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{0, 4, 1, 0}}, 4, 4);
   ASSERT_TRUE(polygon);
-  EXPECT_THAT(*polygon, ElementsAre(glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{1, 1, 1, 1}, glm::vec4{-1, 1, 1, 1}));
-  EXPECT_THAT(*cut_triangle({glm::vec4{-2, -2, 1, 0.5f}, glm::vec4{2, -2, 1, 0.5f}, glm::vec4{0, 4, 1, 0.5f}}, 4, 4), testing::IsEmpty());
+  EXPECT_THAT(*polygon, ElementsAre(glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{1, 1, 1, 1},
+                                    glm::vec4{-1, 1, 1, 1}));
+  EXPECT_THAT(
+      *cut_triangle({glm::vec4{-2, -2, 1, 0.5f}, glm::vec4{2, -2, 1, 0.5f}, glm::vec4{0, 4, 1, 0.5f}}, 4, 4),
+      testing::IsEmpty());
 }
 
 TEST(Coverage, TheGuardBandIsCutAt16368PixelsFromTheCentre) {
   // Of 4 pixels: x / w = 8184.
-  const auto polygon = cut_triangle({glm::vec4{0, 0, 0.5f, 1}, glm::vec4{16368, 0, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}}, 4, 4);
+  const auto polygon =
+      cut_triangle({glm::vec4{0, 0, 0.5f, 1}, glm::vec4{16368, 0, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}}, 4, 4);
   ASSERT_TRUE(polygon);
-  EXPECT_THAT(*polygon, ElementsAre(glm::vec4{0, 0, 0.5f, 1}, glm::vec4{8184, 0, 0.5f, 1}, glm::vec4{8184, 0.5f, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}));
+  EXPECT_THAT(*polygon, ElementsAre(glm::vec4{0, 0, 0.5f, 1}, glm::vec4{8184, 0, 0.5f, 1},
+                                    glm::vec4{8184, 0.5f, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}));
 }
 
 TEST(Coverage, ATriangleWithACornerThatIsNotFiniteIsCountedAndCoversNothing) {
