@@ -1,10 +1,10 @@
-# The culling library for others: find_package(lightgrid) gives lightgrid::culling. See docs/library.md.
+# The libraries for others: find_package(lightgrid) gives lightgrid::culling and lightgrid::raster. See docs/library.md.
 #
 #   cmake --install build --component library --prefix DIR
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(library_targets lightgrid_base lightgrid_shared lightgrid_cl lightgrid_culling)
+set(library_targets lightgrid_base lightgrid_shared lightgrid_cl lightgrid_culling lightgrid_raster)
 foreach(target IN LISTS library_targets)
   string(REPLACE lightgrid_ "" name ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
@@ -17,9 +17,10 @@ install(TARGETS ${library_targets} EXPORT lightgridTargets
 set(public_headers
   base/error.h
   shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h
-  shared/slices.h shared/view_params.h
-  cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h
-  culling/cull_view.h culling/light_culler.h)
+  shared/raster_instance.h shared/slices.h shared/view_params.h
+  cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h cl/transfer.h
+  culling/cull_view.h culling/light_culler.h
+  raster/rasterizer.h)
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES src/${header} DESTINATION include/lightgrid/${folder} COMPONENT library)

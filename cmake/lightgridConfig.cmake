@@ -1,4 +1,4 @@
-# find_package(lightgrid): the target lightgrid::culling.
+# find_package(lightgrid): the targets lightgrid::culling and lightgrid::raster.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 find_dependency(glm)

@@ -18,11 +18,17 @@ kernel void raster_fill(global const RasterRecord* records, global const uint* n
   for (uint i = 0; i < count; ++i) {
     if (i != 0 && i % RASTER_BLOCK == 0) block = next_block[block];
     const uint place = block * RASTER_BLOCK + i % RASTER_BLOCK;
+    const TileBox box = tile_box(records[place].box_low, records[place].box_high);
+    if (!box.some_outside) {
+      for (int y = box.y0; y <= box.y1; ++y) {
+        for (int x = box.x0; x <= box.x1; ++x) lists[at[y * p->tiles_x + x]++] = place;
+      }
+      continue;
+    }
     const RasterRecord record = records[place];
-    const TileBox box = tile_box(record.box_low, record.box_high);
     for (int y = box.y0; y <= box.y1; ++y) {
       for (int x = box.x0; x <= box.x1; ++x) {
-        if (!box.some_outside || meets_tile(&record, x, y)) lists[at[y * p->tiles_x + x]++] = place;
+        if (meets_tile(&record, x, y)) lists[at[y * p->tiles_x + x]++] = place;
       }
     }
   }

@@ -1,14 +1,14 @@
-// Triangles of the clusters in view to records, for CPUs: one work-item takes a chunk of clusters that follow one
-// another in order, 16 triangles at once, and counts its records in each tile.
+// Triangles of the clusters in view to records, for CPUs: one work-item takes a chunk of clusters that follow
+// one another in order, 16 triangles at once, and counts its records in each tile.
 //
 // visible, counters           as cpu/raster_order.cl writes them
 // pairs, clusters, instances, clip  as rasterizer.h and raster_params.h have them
 // indices      corners of all meshes' triangles, in the order of clusters; 48 more may be read
 // numbers      of these triangles within their mesh; 16 more may be read
-// records      room, handed out in blocks of RASTER_BLOCK; counters[RASTER_BLOCKS] says how many were asked for
-// next_block   uint a block: the one that goes on where it is full
-// chunks       uint2 a chunk: its first block, and how many records it has
-// tile_counts  uint a tile for each chunk: records that may cover some of it
+// records      room, handed out in blocks of RASTER_BLOCK; counters[RASTER_BLOCKS] says how many were asked
+// for next_block   uint a block: the one that goes on where it is full chunks       uint2 a chunk: its first
+// block, and how many records it has tile_counts  uint a tile for each chunk: records that may cover some of
+// it
 //
 // Where room runs out records are counted and not written; the host runs the kernels again with more.
 #define LANES 16
@@ -43,23 +43,26 @@ static inline global RasterRecord* next_record(Output* out, constant RasterParam
 static inline void count_in_tiles(global const RasterRecord* record, global uint* tile_counts,
                                   constant RasterParams* p) {
   const TileBox box = tile_box(record->box_low, record->box_high);
+  if (!box.some_outside) {
+    for (int y = box.y0; y <= box.y1; ++y) {
+      for (int x = box.x0; x <= box.x1; ++x) ++tile_counts[y * p->tiles_x + x];
+    }
+    return;
+  }
   const RasterRecord r = *record;
   for (int y = box.y0; y <= box.y1; ++y) {
-    for (int x = box.x0; x <= box.x1; ++x) {
-      if (!box.some_outside || meets_tile(&r, x, y)) ++tile_counts[y * p->tiles_x + x];
-    }
+    for (int x = box.x0; x <= box.x1; ++x) tile_counts[y * p->tiles_x + x] += meets_tile(&r, x, y);
   }
 }
 
 static inline void write_records(const RecordLanes* lanes, uint bits, Output* out, constant RasterParams* p) {
-  const private int* words = (const private int*)lanes;  // word k of lane l: words[16 k + l]
   for (; bits != 0; bits &= bits - 1) {
-    const uint lane = lowest_bit(bits);
+    const int* from = (const int*)lanes + lowest_bit(bits);  // the record's word k: from[16 k]
     global RasterRecord* record = next_record(out, p);
     if (record == 0) continue;
     global int* to = (global int*)record;
 #pragma unroll
-    for (uint k = 0; k < sizeof(RasterRecord) / sizeof(int); ++k) to[k] = words[16 * k + lane];
+    for (uint k = 0; k < sizeof(RasterRecord) / sizeof(int); ++k) to[k] = from[16 * k];
     count_in_tiles(record, out->tile_counts, p);
   }
 }
@@ -82,8 +85,8 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
                        constant RasterParams* p) {
   float4 corners[MOST_CORNERS];
   for (int k = 0; k < 3; ++k) {
-    const private float *x = (const private float*)&v[k].x, *y = (const private float*)&v[k].y;
-    const private float *z = (const private float*)&v[k].z, *w = (const private float*)&v[k].w;
+    const float *x = (const float*)&v[k].x, *y = (const float*)&v[k].y;
+    const float *z = (const float*)&v[k].z, *w = (const float*)&v[k].w;
     corners[k] = (float4)(x[lane], y[lane], z[lane], w[lane]);
   }
   const int count = cut_triangle(corners, p);
@@ -139,7 +142,7 @@ kernel void raster_setup(global const uint* visible, global const uint2* pairs,
       write_records(&record, mask_bits(set_up(v, whole_inside, instance.flags, &record, p)), &out, p);
       for (uint cut = mask_bits(seen & ~whole_inside); cut != 0; cut &= cut - 1) {
         const uint lane = lowest_bit(cut);
-        record.triangle = (int)((const private uint*)&triangles)[lane];
+        record.triangle = (int)((const uint*)&triangles)[lane];
         set_up_cut(v, lane, &record, instance.flags, &out, p);
       }
     }

@@ -47,7 +47,7 @@ static inline void keep_large(const RasterRecord* record, const LargeList* large
 static inline uint draw_or_keep(const Corners* v, RecordLanes* lanes, uint flags, const Image* image,
                                 const LargeList* large, constant RasterParams* p) {
   if (!set_up(v, 1, flags, lanes, p)) return 0;
-  const RasterRecord record = *(const private RasterRecord*)lanes;  // one lane has the same layout
+  const RasterRecord record = *(const RasterRecord*)lanes;  // one lane has the same layout
   const int x0 = (int)(record.box_low & 0xffffu), y0 = (int)(record.box_low >> 16);
   const int x1 = (int)(record.box_high & 0xffffu), y1 = (int)(record.box_high >> 16);
   const int width = x1 - x0 + 1, height = y1 - y0 + 1;

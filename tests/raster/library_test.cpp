@@ -1,0 +1,75 @@
+// The rasteriser as others use it: installed, found by CMake, linked into the example of docs/examples, run.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "support/paths.h"
+#include "support/run_command.h"
+#include "support/temp_folder.h"
+
+// The example's own view and boxes.
+#define main draw_boxes_main
+#include "../../docs/examples/draw_boxes/main.cpp"
+#undef main
+
+namespace lightgrid {
+namespace {
+
+// What a ray through a pixel's centre meets first: by slabs for boxes, by its height for the floor.
+char letter_at(int x, int y) {
+  const RasterView view = make_view();
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+  const glm::dvec3 ray = world_from_view * glm::dvec3(slope_x * ((x + 0.5) * 2 / width - 1),
+                                                      slope_y * ((y + 0.5) * 2 / height - 1), -1);
+  double nearest = HUGE_VAL;
+  char letter = ' ';
+  const double to_floor = -view.eye.y / ray.y;
+  const glm::dvec3 on_floor = view.eye + ray * to_floor;
+  if (to_floor > 0 && std::abs(on_floor.x) < 20 && std::abs(on_floor.z) < 20)
+    nearest = to_floor, letter = '.';
+  const glm::dmat4 places[] = {placed(-2, 0, 0.4), placed(0.5, -3, 0.8)};
+  for (int i = 0; i < 2; ++i) {
+    const glm::dmat4 box_from_world = glm::inverse(places[i]);
+    const glm::dvec3 from(box_from_world * glm::dvec4(view.eye, 1)),
+        along(box_from_world * glm::dvec4(ray, 0));
+    double enter = 0, leave = HUGE_VAL;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = axis == 1 ? 0 : -1, high = axis == 1 ? 2 : 1;
+      const double a = (low - from[axis]) / along[axis], b = (high - from[axis]) / along[axis];
+      enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+    }
+    if (enter < leave && enter < nearest) nearest = enter, letter = "ab"[i];
+  }
+  return letter;
+}
+
+TEST(RasterLibrary, InstalledIsFoundByCMakeAndDrawsInTheExample) {
+  if (run_command("command -v " LIGHTGRID_CMAKE).status != 0)
+    GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  const TempFolder temp;
+  const std::string prefix = temp.path / "prefix", build = temp.path / "build";
+  const auto must = [](const std::string& command) {
+    const CommandOutcome outcome = run_command(command + " 2>&1");
+    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
+    return outcome.output;
+  };
+  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR,
+                   prefix));
+  must(fmt::format("{} -S {}/docs/examples/draw_boxes -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
+                   source_folder, build, prefix));
+  must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
+  if (HasFailure()) return;
+  std::string expected;
+  for (int y = height - 1; y >= 0; --y) {
+    for (int x = 0; x < width; ++x) expected += letter_at(x, y);
+    expected += '\n';
+  }
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 'a'), 50);
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 'b'), 50);
+  EXPECT_EQ(must(build + "/draw_boxes"), expected);
+}
+
+}  // namespace
+}  // namespace lightgrid
