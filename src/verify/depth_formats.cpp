@@ -132,16 +132,16 @@ void mask_around_the_eye(Check& c) {
 std::vector<HardCase> depth_format_cases() {
   const char* g = "depth";
   return {
-      {g, "depth_of_16_bits", "D16, reversed and standard, perspective and orthographic; lights at the surfaces' true places",
-       "a step is 180 m at 1 km; a mask's bin is that of the rounded depth", "bounds hold the true distance, lists the light, in every mode",
+      {g, "depth_of_16_bits", "D16, reversed and standard, perspective and orthographic; lights at the surfaces' true positions",
+       "a step is 180 m at 1 km; a mask uses the slot of the rounded depth", "bounds contain the true distance, lists the light, in every mode",
        depth_of_16_bits},
       {g, "depth_of_24_bits", "D24, the same", "a step is 0.6 m at 1 km", "the same", depth_of_24_bits},
       {g, "depth_of_floats", "D32F, the same", "standard depth: as D24", "the same", depth_of_floats},
       {g, "position_from_depth", "tiles of one surface each, in each format, order and kind of view",
-       "distances from depth off by more than a step of it", "the interval holds the surface and no more than two steps to either side",
+       "distances from depth off by more than a step of it", "the interval contains the surface and at most two steps to either side",
        position_from_depth_bounded},
-      {g, "mask_around_the_eye", "orthographic, near 10³ and 10⁵ m behind the eye and far as far before it; surfaces around it on the mask's edges",
-       "the distance is what is left of two large numbers", "nothing lost in any mode", mask_around_the_eye},
+      {g, "mask_around_the_eye", "orthographic, near plane 10³ and 10⁵ m behind the eye, far plane as far in front; surfaces around the eye on the mask's edges",
+       "the distance is the difference of two large numbers", "nothing lost in any mode", mask_around_the_eye},
   };
 }
 
