@@ -34,7 +34,7 @@ void check_frame_folder(const std::string& folder) {
   std::error_code unreadable;
   for (const char* file : {"view.json", "lights.json", "depth.f32"}) {
     if (!std::filesystem::is_regular_file(std::filesystem::path(folder) / file, unreadable)) {
-      throw input_error("--replay {}: holds no {}", folder, file);
+      throw input_error("--replay {}: has no {}", folder, file);
     }
   }
 }
@@ -67,7 +67,7 @@ int tune(const BenchCommand& o) {
     json["trials"].push_back({{"setting", t.assignment}, {"ratio", t.ratio}, {"failure", t.failure}});
     if (o.json != "-") fmt::print("{:<28}{}\n", t.assignment, t.failure.empty() ? fmt::format("x {:.2f}", t.ratio) : t.failure);
   }
-  if (o.json != "-") fmt::print("kept in {}\n", tuned_sizes_file().string());
+  if (o.json != "-") fmt::print("stored in {}\n", tuned_sizes_file().string());
   if (!o.json.empty()) write_json(o.json, json.dump(1));
   return 0;
 }
@@ -104,10 +104,10 @@ int bench(const BenchCommand& o) {
 void add_bench(CommandLine& line) {
   auto o = std::make_shared<BenchCommand>();
   Subcommand command = line.add("bench", "the culling kernels against the machine's limits", [o] { return bench(*o); });
-  command.option("--filter", o->filter, "only rows in whose \"CASE/ROW\" this regular expression is found");
+  command.option("--filter", o->filter, "only rows whose \"CASE/ROW\" matches this regular expression");
   command.list("--replay", o->replay, "a captured frame's folder instead of the standard frames; may be repeated");
   command.option("--write-frames", o->write_frames, "writes the frames of the cases into this folder, and measures nothing");
-  command.flag("--tune", o->tune, "finds the fastest kernel shape and sizes, and keeps them for this device");
+  command.flag("--tune", o->tune, "finds the fastest kernel shape and sizes, and stores them for this device");
   command.list("--set", o->set, "a setting, KEY=VALUE; may be repeated");
   command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: run in turn, with ratios to the first; may be repeated");
   command.option("--device", o->device, "OpenCL device, by a part of its name");

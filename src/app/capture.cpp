@@ -46,7 +46,7 @@ void add_capture(CommandLine& line) {
       line.add("capture", "depth, lights, view and light grid as files", [o] { return capture(*o); });
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
-  command.option("-t,--technique", o->technique, "whose light grid: with slices for one that has some");
+  command.option("-t,--technique", o->technique, "whose light grid is written (clustered's has slices)");
   command.option("-o,--output", o->output, "folder of the frame");
   command.option("--json", o->json, "summary as JSON into a file, - for stdout");
 }

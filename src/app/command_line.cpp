@@ -64,7 +64,7 @@ Command CommandLine::parse(int argc, const char* const* argv) {
     }
     std::string line = error.what();
     std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fprintf(stderr, "lightgrid: %s (--help tells more)\n", line.c_str());
+    std::fprintf(stderr, "lightgrid: %s (see --help)\n", line.c_str());
     return [] { return int(ErrorKind::input); };
   }
 }

@@ -158,20 +158,20 @@ int compare(const CompareCommand& o) {
 
 void add_compare(CommandLine& line) {
   auto o = std::make_shared<CompareCommand>();
-  Subcommand command = line.add("compare", "techniques side by side, as a report to look at", [o] { return compare(*o); });
+  Subcommand command = line.add("compare", "techniques side by side, as a report", [o] { return compare(*o); });
   command.list("scene", o->scenes, "one or more: .gltf or .glb files, or built-in scenes");
-  command.list("--size", o->sizes, "image size, WxH, or several with commas between", ',');
-  command.list("--lights", o->lights, "scatter N lights; with --lights-file, its first N; or several with commas between", ',');
+  command.list("--size", o->sizes, "image size, WxH, or several separated by commas", ',');
+  command.list("--lights", o->lights, "scatter N lights; with --lights-file, its first N; or several separated by commas", ',');
   add_view_options(command, o->scene);
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
-  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]] with commas between; names are " + technique_names(), ',');
-  command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads it with each; may be repeated");
+  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names(), ',');
+  command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads KEY, with each value; may be repeated");
   command.option("--reference", o->reference, "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
   command.option("-o,--output", o->output, "folder of the report");
-  command.option("--page-mb", o->page_mb, "of several views: most MiB of pictures in the page", 1, 1000);
-  command.option("--json", o->json, "results.json once more, into a file, - for stdout");
+  command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1, 1000);
+  command.option("--json", o->json, "results.json also into a file, - for stdout");
 }
 
 }  // namespace lightgrid

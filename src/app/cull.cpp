@@ -51,9 +51,9 @@ int cull(const CullOptions& o) {
 void add_cull(CommandLine& line) {
   auto o = std::make_shared<CullOptions>();
   Subcommand command =
-      line.add("cull", "light grid of a captured frame, by OpenCL alone", [o] { return cull(*o); });
+      line.add("cull", "light grid of a captured frame, with OpenCL alone", [o] { return cull(*o); });
   command.option("frame", o->frame, "folder with view.json, lights.json and depth.f32");
-  command.option("-t,--technique", o->technique, "whose light grid: with slices for one that has some");
+  command.option("-t,--technique", o->technique, "whose light grid is made (clustered's has slices)");
   command.option("-o,--output", o->output, "folder of the grid");
   command.list("--set", o->set, "a setting, KEY=VALUE; may be repeated");
   command.option("--device", o->device, "OpenCL device, by a part of its name");

@@ -91,7 +91,7 @@ void print(const Found& found) {
                  g.context->software ? "software" : "hardware", g.context->renderer, g.context->version,
                  g.context->vendor);
     } else {
-      fmt::print("  {:<6} not here: {}\n", g.backend, g.why);
+      fmt::print("  {:<6} not available: {}\n", g.backend, g.why);
     }
   }
   fmt::print("Bridge\n  {}\n", found.bridge.empty() ? "none without both" : found.bridge);
@@ -155,7 +155,7 @@ int list_devices(const DevicesOptions& o) {
 void add_devices(CommandLine& line) {
   auto o = std::make_shared<DevicesOptions>();
   Subcommand command =
-      line.add("devices", "the OpenCL devices and OpenGL backends there are", [o] { return list_devices(*o); });
+      line.add("devices", "the available OpenCL devices and OpenGL backends", [o] { return list_devices(*o); });
   add_device_options(command, o->devices);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }

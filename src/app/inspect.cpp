@@ -124,7 +124,7 @@ int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGr
     fmt::print("{}: listed.png, false_positives.png, lost.png; black is 0, yellow {} lights and more\n",
                o.output, maps.top);
     fmt::print(
-        "  a pixel: {:.2f} listed, {:.2f} lit, {:.2f} in vain; {} (pixel, light) pairs lost, {} wrong\n",
+        "  a pixel: {:.2f} listed, {:.2f} lit, {:.2f} listed but unlit; {} (pixel, light) pairs lost, {} wrong\n",
         a_pixel(pairs.listed), a_pixel(pairs.lit), a_pixel(pairs.listed - (pairs.lit - pairs.lost)),
         pairs.lost, pairs.wrong);
   }
@@ -142,7 +142,7 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
     culler.run();
     const FrameGrid grid = culler.grid();
     if (grid.lists.slices != 1 || !grid.z_bin_edges.empty()) {
-      throw input_error("inspect: --compare takes grids of one slice and no z-bins, not {} slices", grid.lists.slices);
+      throw input_error("inspect: --compare supports grids of one slice and no z-bins, not {} slices", grid.lists.slices);
     }
     rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(grid))});
     lost += rows.back().accuracy.lost;
@@ -156,7 +156,7 @@ int inspect(const InspectOptions& o) {
   const std::optional<Place> place = parse_place(o.pixel);
   const bool one_grid = place || !o.output.empty();
   if (!one_grid && o.compare.empty()) {
-    throw input_error("inspect: none of --pixel X,Y, -o DIR and --compare KEY=A,B is given");
+    throw input_error("inspect: --pixel X,Y, -o DIR or --compare KEY=A,B is required");
   }
   if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
   const Settings given = chosen_settings(o.scene);  // reports a wrong setting before the scene is loaded
@@ -187,15 +187,15 @@ void add_inspect(CommandLine& line) {
                                 [o] { return inspect(*o); });
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
-  command.option("-t,--technique", o->technique, "whose light grid: with slices for one that has some");
+  command.option("-t,--technique", o->technique, "whose light grid is inspected (clustered's has slices)");
   command.option("--pixel", o->pixel, "X,Y from the lower left");
   command.option("--dropped", o->dropped, "how many dropped lights to show, the nearest first", 0,
                  100'000'000);
   command.flag("--all", o->all, "show every dropped light");
   command.option("-o,--output", o->output,
-                 "folder of pictures: listed, listed in vain and lost lights of each pixel");
+                 "folder of pictures: listed, listed but unlit, and lost lights of each pixel");
   command.list("--compare", o->compare,
-               "KEY=VALUE,VALUE,…: how accurate the lists of each are; repeated, every combination");
+               "KEY=VALUE,VALUE,…: accuracy of the lists of each; if repeated, every combination");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   using namespace lightgrid;
   prepare_environment();
   const TemporaryCache cache;
-  CommandLine line("lightgrid", "lightgrid: scenes with very many lights, and what each technique's accuracy costs in time");
+  CommandLine line("lightgrid", "lightgrid: scenes with very many lights: accuracy and time of each technique");
   for (const auto add : {add_render, add_compare, add_plan, add_capture, add_cull, add_inspect, add_scenes, add_techniques,
                          add_devices, add_bench, add_verify, add_view})
     add(line);

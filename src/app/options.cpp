@@ -23,7 +23,7 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
   command.option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
   command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
-  command.option("--seed", o.seed, "of the scatter");
+  command.option("--seed", o.seed, "seed of the scatter");
   command.option("--brdf", o.brdf, "ggx or blinn: short for --set brdf=…");
   command.option("--time", o.time, "seconds into the animations of the file; not given: at rest");
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
@@ -31,7 +31,7 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
 
 void add_path_option(Subcommand& command, SceneChoice& o) {
   command.option("--light-motion", o.light_motion, "lights that move along the path: none, orbit or drift");
-  command.option("--camera-path", o.camera_path, "a camera that moves: turn:N, dolly:N or a JSON file of keys");
+  command.option("--camera-path", o.camera_path, "a moving camera: turn:N, dolly:N or a JSON file of keys");
 }
 
 void add_device_options(Subcommand& command, DeviceOptions& o) {

@@ -38,7 +38,7 @@ int plan(const PlanOptions& o) {
 
 void add_plan(CommandLine& line) {
   auto o = std::make_shared<PlanOptions>();
-  Subcommand command = line.add("plan", "what this view needs a frame to do, and why", [o] { return plan(*o); });
+  Subcommand command = line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
   add_scene_options(command, o->scene);
   command.option("-t,--technique", o->technique, technique_names());
   command.option("--json", o->json, "as JSON into a file, - for stdout");

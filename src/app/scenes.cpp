@@ -46,7 +46,7 @@ nlohmann::ordered_json to_json(const Row& row) {
 int list_scenes(const std::string& json) {
   auto rows = nlohmann::ordered_json::array();
   if (json.empty())
-    fmt::print("{:<8} {:>9} {:>6}  {}\n", "scene", "triangles", "lights", "what it is, and its cameras");
+    fmt::print("{:<8} {:>9} {:>6}  {}\n", "scene", "triangles", "lights", "contents and cameras");
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const Row row = describe(builtin);
     rows.push_back(to_json(row));

@@ -65,7 +65,7 @@ int list_techniques(const std::string& json) {
 void add_techniques(CommandLine& line) {
   auto json = std::make_shared<std::string>();
   Subcommand command =
-      line.add("techniques", "the techniques and settings there are", [json] { return list_techniques(*json); });
+      line.add("techniques", "the available techniques and settings", [json] { return list_techniques(*json); });
   command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 

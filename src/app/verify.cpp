@@ -55,7 +55,7 @@ void print(const verify::VerifyReport& report) {
 
 int hunt(const VerifyCommand& o) {
   if (!o.replay.empty() || o.nightly || o.list)
-    throw input_error("verify: --hunt {} goes with none of --nightly, --list and --replay", o.hunt.minutes);
+    throw input_error("verify: --hunt {} cannot be combined with --nightly, --list or --replay", o.hunt.minutes);
   if (!o.json.empty()) check_output_file("--json", o.json);
   return run_hunt(o.hunt, *verify::device_engine(o.device), o.filter, o.json);
 }
@@ -70,8 +70,8 @@ int run(const VerifyCommand& o) {
   if (o.hunt.asked()) return hunt(o);
   const auto chosen = verify::chosen_cases(o.filter);
   if (!o.replay.empty() && (o.nightly || o.list || !o.filter.empty()))
-    throw input_error("verify: --replay {} goes with none of --filter, --nightly and --list", o.replay);
-  if (o.replay.empty() && !o.set.empty()) throw input_error("verify: --set {} goes with --replay alone", o.set[0]);
+    throw input_error("verify: --replay {} cannot be combined with --filter, --nightly or --list", o.replay);
+  if (o.replay.empty() && !o.set.empty()) throw input_error("verify: --set {} requires --replay", o.set[0]);
   if (o.list) {
     for (const std::string& row : verify::catalogue_rows(chosen)) fmt::print("{}\n", row);
     return 0;
@@ -92,12 +92,12 @@ int run(const VerifyCommand& o) {
 void add_verify(CommandLine& line) {
   auto o = std::make_shared<VerifyCommand>();
   Subcommand command = line.add("verify", "the hard cases of culling on this machine's devices", [o] { return run(*o); });
-  command.option("--filter", o->filter, "only cases whose GROUP/NAME holds this regular expression");
-  command.option("--device", o->device, "only the OpenCL device whose platform and name hold this text; else all");
-  command.option("--replay", o->replay, "a captured frame's folder instead: its lists against the oracle, and bit for bit against a flat C++ program's");
+  command.option("--filter", o->filter, "only cases whose GROUP/NAME matches this regular expression");
+  command.option("--device", o->device, "only the OpenCL device whose platform and name contain this text; else all");
+  command.option("--replay", o->replay, "a captured frame's folder instead: compares its lists with the oracle, and bit for bit with the float twin");
   command.list("--set", o->set, "with --replay: slices=N, z-bins=N, slice-spacing=… to replay beside the frame's own; may be repeated");
   command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand");
-  command.flag("--list", o->list, "the catalogue as a table, and nothing run");
+  command.flag("--list", o->list, "prints the catalogue as a table and runs nothing");
   add_hunt_options(command, o->hunt);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }

@@ -43,9 +43,9 @@ void print(const verify::HuntReport& report) {
 }  // namespace
 
 void add_hunt_options(Subcommand& command, HuntCommand& o) {
-  command.option("--hunt", o.minutes, "minutes of random views and lights that reach a pixel by a hair instead, on one device");
-  command.option("--contacts", o.contacts, "with --hunt: until so many contacts are counted, not by the clock; 0: by the clock");
-  command.option("--seed", o.seed, "with --hunt: of its random numbers");
+  command.option("--hunt", o.minutes, "instead, minutes of random views with lights that barely reach a pixel, on one device");
+  command.option("--contacts", o.contacts, "with --hunt: ends after this many contacts instead of a time; 0: by time");
+  command.option("--seed", o.seed, "with --hunt: seed of its random numbers");
   command.option("--save", o.save, "with --hunt: a folder for losing views, as captured frames with the fewest lights");
 }
 

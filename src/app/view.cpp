@@ -79,7 +79,7 @@ void add_view(CommandLine& line) {
   command.option("--device", o->device, "OpenCL device, by a part of its name");
   command.option("--left", o->left, "technique of the left side");
   command.option("--right", o->right, "technique of the right side");
-  command.option("--script", o->script, "a file of input to replay instead of a user's");
+  command.option("--script", o->script, "a file of input to replay");
   command.option("--frames", o->frames, "frames of a script, after which the program ends", 1, 1'000'000);
   command.option("--screenshot", o->screenshot, "the last frame of a script as a PNG");
 }

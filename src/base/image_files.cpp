@@ -132,7 +132,7 @@ void save_exr(const std::filesystem::path& path, const Image& image) {
 void check_image_path(const std::filesystem::path& path) {
   const auto extension = extension_of(path);
   if (extension != ".png" && extension != ".exr") {
-    throw input_error("{}: an image is written as .png or .exr, not \"{}\"", path.string(), extension);
+    throw input_error("{}: images are written as .png or .exr, not \"{}\"", path.string(), extension);
   }
 }
 

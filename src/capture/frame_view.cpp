@@ -117,7 +117,7 @@ void read_pose(const JsonFile& file, View& view) {
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {
       if (!(std::abs(product[column][row] - (row == column)) <= rotation_tolerance)) {
-        throw file.error(field, "is not rigid: its upper left 3x3 is no rotation");
+        throw file.error(field, "is not rigid: its upper left 3x3 is not a rotation");
       }
     }
   }

@@ -100,7 +100,7 @@ size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::str
     const std::string why = why_not_writable(cache);
     if (why.empty()) throw machine_error("there is no OpenCL device. The Debian package pocl-opencl-icd makes the CPU one");
     throw machine_error(
-        "there is no OpenCL device. PoCL offers none where it cannot write {}: {}; set POCL_CACHE_DIR to a folder that can be "
+        "there is no OpenCL device. PoCL offers none if it cannot write {}: {}; set POCL_CACHE_DIR to a folder that can be "
         "written. If it is not installed, the Debian package pocl-opencl-icd makes the CPU a device",
         cache.string(), why);
   }
@@ -136,7 +136,7 @@ ClDevice::ClDevice(const cl::Device& device, const cl::Context& context, const c
   try {
     info_ = describe(device);
     if (queue.getInfo<CL_QUEUE_CONTEXT>()() != context() || queue.getInfo<CL_QUEUE_DEVICE>()() != device()) {
-      throw input_error("OpenCL queue: it is of another context or device than those given with it");
+      throw input_error("OpenCL queue: its context or device differs from the given one");
     }
     if (queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) {
       throw input_error("OpenCL queue: it is out of order; launches here rely on their order");

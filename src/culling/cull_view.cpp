@@ -189,7 +189,7 @@ void check_rigid(const CullView& view) {
 
 void check_view(const CullView& view, int tile) {
   if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles || (view.height - 1) / tile >= most_tiles) {
-    throw input_error("view: {} x {} pixels is no size that {}-pixel tiles can cover", view.width, view.height, tile);
+    throw input_error("view: {} x {} pixels is not a size that {}-pixel tiles can cover", view.width, view.height, tile);
   }
   check_finite(view);
   check_projection(view);

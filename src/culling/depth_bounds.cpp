@@ -34,7 +34,7 @@ cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
 
 // Where kernels find the view's values in the depth buffer.
 void LightCuller::read_layout(const DepthInput& depth) {
-  if (!depth.values()) throw input_error("depth_bounds: there is no buffer of depth values");
+  if (!depth.values()) throw input_error("depth_bounds: the buffer of depth values is missing");
   if (depth.x < 0) throw input_error("depth_bounds: x is {}", depth.x);
   if (depth.y < 0) throw input_error("depth_bounds: y is {}", depth.y);
   const uint64_t width = uint64_t(depth.x) + params_.width, samples = uint64_t(options_.samples);

@@ -67,7 +67,7 @@ std::string inspection_table(const CapturedFrame& frame, const PixelInspection& 
   const auto rows = shown(p, most_dropped);
   std::string text = p.covered ? fmt::format("pixel {},{}: depth {}, {:.4f} m away along the view axis\n",
                                              p.x, p.y, p.depth, p.distance_m)
-                               : fmt::format("pixel {},{}: depth {}, nothing is there\n", p.x, p.y, p.depth);
+                               : fmt::format("pixel {},{}: depth {}, background\n", p.x, p.y, p.depth);
   text += fmt::format("cell {},{} slice {}: pixels {},{} to {},{}, {} of them with a surface, ", p.cell_x,
                       p.cell_y, p.slice, p.x0, p.y0, p.x1 - 1, p.y1 - 1, p.covered_pixels);
   text += p.near_m <= p.far_m ? fmt::format("{:.3f} m to {}\n", p.near_m, far_text(p.far_m))
@@ -75,7 +75,7 @@ std::string inspection_table(const CapturedFrame& frame, const PixelInspection& 
   text += fmt::format("{} lights listed, {} lit at the pixel, {} lost; {} of {} dropped ones shown",
                       p.listed(), p.lit(), p.lost(), rows.size() - p.listed(), p.lights.size() - p.listed());
   if (p.directional)
-    text += fmt::format("; {} directional lights reach every pixel and stand in no list", p.directional);
+    text += fmt::format("; {} directional lights reach every pixel and are in no list", p.directional);
   text += fmt::format(
       "\n\n{:>7}  {:<16} {:<5} {:>9} {:>9}  {:<7} {:<8} {:>9}  {:>9} {:>9} {:>9} {:>9} {:>9}  {:<4} {:>9}\n",
       "light", "name", "type", "away m", "radius m", "verdict", "by", "margin m", "interval", "planes",

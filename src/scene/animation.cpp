@@ -14,7 +14,7 @@ namespace {
 
 void check_animation(const Scene& scene, int animation) {
   if (animation >= -1 && animation < animation_count(scene)) return;
-  throw input_error("{}: animation {} was asked for, but there are {}",
+  throw input_error("{}: animation {} was requested, but there are {}",
                     scene.rig ? scene.rig->file : scene.name, animation, animation_count(scene));
 }
 

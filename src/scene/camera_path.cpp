@@ -58,7 +58,7 @@ class KeyFile {
     try {
       json_ = nlohmann::json::parse(file);
     } catch (const nlohmann::json::exception&) {
-      throw input_error("camera path {}: is no JSON", path);
+      throw input_error("camera path {}: is not JSON", path);
     }
     if (!json_.is_object() || !json_.contains("keys") || !json_["keys"].is_array() || json_["keys"].empty()) {
       throw input_error("camera path {}: has no \"keys\"", path);
@@ -92,7 +92,7 @@ class KeyFile {
   Key key(const nlohmann::json& object, size_t index) const {
     Key key{place(object, index, "eye"), place(object, index, "target")};
     if (!object.contains("fov")) return key;
-    if (!object["fov"].is_number()) throw input_error("camera path {}: key {}: fov is no number", path_, index);
+    if (!object["fov"].is_number()) throw input_error("camera path {}: key {}: fov is not a number", path_, index);
     key.fov_deg = object["fov"].get<double>();
     return key;
   }

@@ -13,7 +13,7 @@ static Frame render(RenderView& v) {
 
 extern const Technique forward_plus_compute{
     .name = "forward_plus_compute",
-    .summary = "per-tile light lists, gone through in OpenCL",
+    .summary = "per-tile light lists, shaded in OpenCL",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
     .needs = {.light_grid = true, .lists = true, .z_bins = true},
     .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",

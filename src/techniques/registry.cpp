@@ -23,7 +23,7 @@ const Technique& find_technique(const std::string& name) {
   for (const Technique* technique : techniques()) {
     if (technique->name == name) return *technique;
   }
-  throw input_error("technique \"{}\": there is none of that name; there are {}", name, technique_names());
+  throw input_error("technique \"{}\": unknown name; techniques are {}", name, technique_names());
 }
 
 }  // namespace lightgrid

@@ -99,7 +99,7 @@ Outcome Check::outcome() const {
   if (touching_) outcome.excess_ratio = double(listed_) / double(touching_);
   if (outcome.verdict == Verdict::pass && outcome.trials == 0) {  // a case without trials proves nothing
     outcome.verdict = Verdict::fail;
-    outcome.why = "the case asked nothing";
+    outcome.why = "the case compared nothing";
   }
   return outcome;
 }
@@ -214,9 +214,9 @@ std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage&
       const DepthInterval b = found[i];
       if (scan.strange || scan.far > farthest_surface) {  // the tile spans every distance
         that((is_orthographic(view) ? b.near <= -1e17f : b.near <= 0) && b.far >= 1e17f,
-             "{}: tile {} holds what is no depth, or a surface past 10^15 m, yet is bounded to [{}, {}]", to_string(shaped), i, b.near, b.far);
+             "{}: tile {} has an invalid depth, or a surface past 10^15 m, but is bounded to [{}, {}]", to_string(shaped), i, b.near, b.far);
       } else if (scan.near > scan.far) {
-        that(b.near > b.far, "{}: tile {} holds nothing, yet is [{}, {}]", to_string(shaped), i, b.near, b.far);
+        that(b.near > b.far, "{}: tile {} is empty, but is [{}, {}]", to_string(shaped), i, b.near, b.far);
       } else {
         const double far = scan.far;
         trials(1);
@@ -286,7 +286,7 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
     for (const auto& lit : rows) {
       for (const Lit& pair : lit) {
         if (passed_over(pair))
-          lost("z-bins: pixel {} {} at {:.9g} m passes over light {}", pair.x, pair.y, pair.distance, pair.light);
+          lost("z-bins: pixel {} {} at {:.9g} m skips light {}", pair.x, pair.y, pair.distance, pair.light);
         size_t cell = cell_of_pixel(pair.x, pair.y, uint(options.tile), uint(lanes.cells_x));
         const size_t slice = slice_of_key(depth_key(view, pair.depth), slices.data());
         cell += slice * lanes.cells_x * lanes.cells_y;

@@ -70,7 +70,7 @@ std::string difference(const HostGrid& twin, const HostGrid& grid) {
     for (const uint32_t light : b)
       if (!std::ranges::binary_search(a, light)) return fmt::format("cell {} has light {} too many", i, light);
   }
-  return "the same lists lie otherwise";
+  return "the same lists in another order";
 }
 
 std::string difference(std::span<const float> twin, std::span<const float> bounds) {

@@ -70,7 +70,7 @@ void radius_of(Check& c, std::initializer_list<double> radii, bool everywhere) {
   for (const DepthInterval b : {DepthInterval{5, 5}, DepthInterval{1, 10}, every_distance}) {
     const HostGrid grid = c.grid(sixty(), lights, {b});
     for (size_t i = 0; i < grid.cells.size() && everywhere; ++i)
-      c.that(grid.cells[i].y == lights.size(), "tile {} lists {} of {} endless lights", i, grid.cells[i].y, lights.size());
+      c.that(grid.cells[i].y == lights.size(), "tile {} lists {} of {} lights of infinite range", i, grid.cells[i].y, lights.size());
   }
 }
 
@@ -86,7 +86,7 @@ void lists_nothing(Check& c, const std::vector<CullLight>& strange) {
   lights.push_back(point({0, 0, -5}, 3));
   for (const DepthInterval b : {DepthInterval{4, 6}, every_distance}) {
     const HostGrid grid = c.grid(sixty(), lights, {b});
-    for (const uint32_t light : grid.indices) c.that(light % 2 == 0, "light {}, which is none, is listed", light);
+    for (const uint32_t light : grid.indices) c.that(light % 2 == 0, "the invalid light {} is listed", light);
     for (size_t i = 0; i < grid.cells.size(); ++i)
       c.that(grid.cells[i].y == 0 || grid.cells[i].y == strange.size() + 1, "tile {} lists {} of {} equal lights", i,
              grid.cells[i].y, strange.size() + 1);

@@ -118,7 +118,7 @@ void other_sizes_between(Check& c) {
   c.grid(large, many, {{1, 30}}, {tile_of(16)});
   c.grid(tiny, {}, {{1, 30}}, {tile_of(16)});
   c.grid(tiny, many, {{1, 30}}, {tile_of(16)});
-  c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}), "what came between changes the grid");
+  c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}), "another frame in between changes the grid");
 }
 
 // Enough tiles for many work-groups, which finish in a different order each time; another frame runs between

@@ -98,7 +98,7 @@ std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::opti
   Settings settings = frame_settings(frame, set);
   for (const std::string& key : settings.given) {
     if (key != "slices" && key != "z-bins" && key != "slice-spacing")
-      throw input_error("verify: --replay runs every value of what it can vary; --set {} is none of slices, z-bins "
+      throw input_error("verify: --replay already runs every value of the other settings; --set {} is not one of slices, z-bins "
                         "and slice-spacing", key);
   }
   const TechniqueNeeds needs{.slices = settings.given.contains("slices"), .z_bins = settings.given.contains("z-bins")};

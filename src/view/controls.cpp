@@ -15,7 +15,7 @@ SideMap parse_map(const std::string& name) {
     if (name == map_names()[i]) return SideMap(i);
     known += (i ? ", " : "") + std::string(map_names()[i]);
   }
-  throw input_error("\"{}\" is no map; there are {}", name, known);
+  throw input_error("\"{}\" is not a map; maps are {}", name, known);
 }
 
 }  // namespace lightgrid

@@ -97,7 +97,7 @@ void show_times(Controls& controls, const Shown& shown) {
   }
   ImGui::Checkbox("measure", &controls.measure_passes);
   ImGui::SameLine();
-  ImGui::Checkbox("draw also when nothing changes", &controls.draw_always);
+  ImGui::Checkbox("draw even if nothing changes", &controls.draw_always);
 }
 
 }  // namespace lightgrid

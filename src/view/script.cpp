@@ -41,7 +41,7 @@ FlightKey flight_key(const std::string& word) {
       {"w", FlightKey::forward}, {"a", FlightKey::left}, {"s", FlightKey::back},    {"d", FlightKey::right},
       {"q", FlightKey::down},    {"e", FlightKey::up},   {"shift", FlightKey::fast}};
   const auto found = keys.find(lower_case(word));
-  if (found == keys.end()) throw wrong(word, "is no key; there are w, a, s, d, q, e, shift");
+  if (found == keys.end()) throw wrong(word, "is not a key; keys are w, a, s, d, q, e, shift");
   return found->second;
 }
 
@@ -137,7 +137,7 @@ Run rate(Words words) {
 }
 
 Run switch_on(Words words, bool Controls::*member, bool value) {
-  expect_words(words, 0, "it stands alone");
+  expect_words(words, 0, "it takes no words");
   return [member, value](Controls& controls, Input&) { controls.*member = value; };
 }
 
@@ -182,7 +182,7 @@ ScriptAction parse_action(Words words, int line) {
   if (found == actions().end()) {
     std::string names;
     for (const auto& [name, parse] : actions()) names += (names.empty() ? "" : ", ") + name;
-    throw wrong(words[1], "is no action; there are " + names);
+    throw wrong(words[1], "is not an action; actions are " + names);
   }
   action.run = found->second(Words(words.begin() + 2, words.end()));
   return action;

@@ -137,7 +137,7 @@ TEST(CullerCalls, RefuseDepthBuffersThatDoNotCoverTheView) {
   const auto message_of = [&](const DepthInput& depth) {
     return refusal(ErrorKind::input, [&] { culler.depth_bounds(depth); });
   };
-  EXPECT_THAT(message_of({}), HasSubstr("no buffer"));
+  EXPECT_THAT(message_of({}), HasSubstr("buffer of depth values is missing"));
   EXPECT_THAT(message_of({buffer_of(std::vector<float>(16))}), HasSubstr("64 bytes"));
   EXPECT_THAT(message_of({buffer_of(same_depth)}), HasSubstr("of 12288 bytes, fewer than the 24576"));
   const std::vector<float> two_samples(2 * same_depth.size(), 0.5f);

@@ -111,7 +111,7 @@ TEST(Inspect, OfACellWithoutASurfaceSaysSo) {
   const Inspected inspected = inspect(frame, 0, 0);
   EXPECT_FALSE(inspected.pixel.covered);
   EXPECT_EQ(inspected.pixel.lights[0].test, "empty");
-  EXPECT_THAT(inspection_table(frame, inspected.pixel, 10), HasSubstr("nothing is there"));
+  EXPECT_THAT(inspection_table(frame, inspected.pixel, 10), HasSubstr("background"));
   const auto json = nlohmann::json::parse(inspection_json(frame, inspected.pixel, inspected.grid, 10));
   EXPECT_TRUE(json["distance"].is_null());
   EXPECT_EQ(json["cell"]["empty"], true);

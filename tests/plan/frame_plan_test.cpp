@@ -116,7 +116,7 @@ TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
   near_far.far_m = 3.5;
   EXPECT_NEAR(plan_frame(s.scene, make_view(near_far, 17, 9), {}, clusters).slice_far_m, 3.5, 1e-6);
   EXPECT_EQ(plan_of(s.scene).slices, 1);
-  EXPECT_EQ(decision(plan_of(s.scene), "depth slices").why, "the technique cuts tiles into none");
+  EXPECT_EQ(decision(plan_of(s.scene), "depth slices").why, "the technique uses none");
   EXPECT_FALSE(decision(plan_frame(s.scene, view, {.slices = 1}, clusters), "depth slices").needed);
   EXPECT_FALSE(decision(plan_frame(small_scene(false).scene, view, {}, clusters), "depth slices").needed);
   const FramePlan empty = plan_frame({}, view, {}, clusters);
@@ -138,7 +138,7 @@ TEST(FramePlan, WithoutALightThatHasAPlaceThereIsNoGrid) {
   const FramePlan plan = plan_of(s.scene);
   EXPECT_FALSE(plan.light_grid || plan.local_lights || plan.spots);
   EXPECT_TRUE(plan.directional);
-  EXPECT_EQ(decision(plan, "light grid").why, "no light has a place");
+  EXPECT_EQ(decision(plan, "light grid").why, "no light has a position");
 }
 
 TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {

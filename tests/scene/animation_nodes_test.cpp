@@ -280,8 +280,8 @@ std::string refusal_at(Scene& scene, double seconds, int animation) {
 
 TEST(AnimationNodes, times_and_animations_that_do_not_exist_are_refused) {
   Scene scene = moving("LINEAR");
-  EXPECT_EQ(refusal_at(scene, 1, 1), "made.gltf: animation 1 was asked for, but there are 1");
-  EXPECT_EQ(refusal_at(scene, 1, -2), "made.gltf: animation -2 was asked for, but there are 1");
+  EXPECT_EQ(refusal_at(scene, 1, 1), "made.gltf: animation 1 was requested, but there are 1");
+  EXPECT_EQ(refusal_at(scene, 1, -2), "made.gltf: animation -2 was requested, but there are 1");
   EXPECT_THAT([&] { set_time(scene, std::nan("")); },
               testing::ThrowsMessage<Error>("made: time nan is not a finite number of seconds"));
   EXPECT_THROW(duration_of(scene, 1), Error);

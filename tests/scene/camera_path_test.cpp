@@ -69,7 +69,7 @@ TEST(CameraPath, RefusesWhatIsNone) {
   }
   EXPECT_THAT(message("nowhere.json"), testing::HasSubstr("nor a file"));
   const std::pair<const char*, const char*> files[] = {
-      {"[", "no JSON"},
+      {"[", "not JSON"},
       {"{}", "keys"},
       {R"({"keys": []})", "keys"},
       {R"({"keys": [{"eye": [0, 0], "target": [0, 0, 1]}]})", "key 0: eye"},

@@ -74,7 +74,7 @@ TEST(GltfNodes, the_scene_asked_for_is_loaded_else_the_default_else_the_first_el
   made.root["scene"] = 1;
   EXPECT_EQ(made.load({}, 0).instances.at(0).name, "a");
   EXPECT_EQ(made.load().instances.at(0).name, "b");
-  EXPECT_EQ(made.refusal({}, 2), "made.gltf: scene 2 was asked for, but there are 2");
+  EXPECT_EQ(made.refusal({}, 2), "made.gltf: scene 2 was requested, but there are 2");
   made.root.erase("scene");
   EXPECT_EQ(made.load().instances.at(0).name, "a");
   made.root.erase("scenes");

@@ -68,7 +68,7 @@ TEST(Script, ChoosesForOneSideOrBoth) {
 
 TEST(Script, NamesTheLineAndTheWordThatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {{"jump 3", "\"jump\""},
-                                                       {"5 jump", "\"jump\" is no action; there are"},
+                                                       {"5 jump", "\"jump\" is not an action; actions are"},
                                                        {"5", "\"5\""},
                                                        {"-1 play", "\"-1\""},
                                                        {"5 key press w", "\"press\""},

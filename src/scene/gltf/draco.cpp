@@ -108,7 +108,7 @@ DracoGeometry decode_draco(Document& doc, const tinygltf::Primitive& primitive,
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok()) throw doc.error("{}: {}", place, decoded.status().error_msg());
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-  if (!mesh || mesh->num_points() == 0) throw doc.error("{}: holds no vertices", place);
+  if (!mesh || mesh->num_points() == 0) throw doc.error("{}: has no vertices", place);
   if (mesh->num_points() > max_vertices || mesh->num_faces() > max_vertices)
     throw doc.error("{}: has {} vertices and {} triangles; at most {} are read", place, mesh->num_points(),
                     mesh->num_faces(), max_vertices);

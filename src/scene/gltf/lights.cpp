@@ -134,7 +134,7 @@ std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& n
     else
       read_perspective(doc, in.perspective, camera_place, camera);
     const auto rigid = rigid_part(placed.world_from_node);
-    if (!rigid) throw doc.error("{}: its camera's axes are scaled to nothing", place);
+    if (!rigid) throw doc.error("{}: its camera's axes are scaled to 0", place);
     camera.world_from_view = *rigid;
     if (placed.moves) camera.node = static_cast<int>(i);
     out.push_back(std::move(camera));

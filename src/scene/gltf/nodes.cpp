@@ -57,7 +57,7 @@ std::vector<int> roots_of(Document& doc, int scene) {
   if (scene < 0) scene = model.defaultScene;
   if (scene < 0 && !model.scenes.empty()) scene = 0;
   if (scene >= 0 && static_cast<size_t>(scene) >= model.scenes.size())
-    throw doc.error("scene {} was asked for, but there are {}", scene, model.scenes.size());
+    throw doc.error("scene {} was requested, but there are {}", scene, model.scenes.size());
   if (scene >= 0) return model.scenes[scene].nodes;
   std::vector<char> is_child(model.nodes.size(), 0);
   for (size_t i = 0; i < model.nodes.size(); ++i)
@@ -66,7 +66,7 @@ std::vector<int> roots_of(Document& doc, int scene) {
   std::vector<int> roots;
   for (size_t i = 0; i < is_child.size(); ++i)
     if (!is_child[i]) roots.push_back(static_cast<int>(i));
-  if (roots.empty() && !is_child.empty()) throw doc.error("its nodes are all children of each other");
+  if (roots.empty() && !is_child.empty()) throw doc.error("its nodes form cycles");
   if (!roots.empty()) doc.warn("no scene", "has no scenes: all its nodes are used");
   return roots;
 }
