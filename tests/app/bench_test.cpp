@@ -86,7 +86,7 @@ TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
   EXPECT_GT(pipeline["params"]["indices"], 0);
 }
 
-// Rates of a machine that runs this test at all: within a factor of a hundred of an ordinary one.
+// Plausible rates: within a factor of a hundred of an ordinary machine.
 TEST(BenchCommand, MeasuresPlausibleLimitsThatNoKernelPasses) {
   const auto report = bench_of_small_frame({"--filter", "^limits/read|^limits/arith|depth_bounds", "--frames", "100"});
   EXPECT_GT(report["limits"]["read_gb_s"], 0.5);
@@ -141,7 +141,7 @@ TEST(BenchCommand, RunsTheKernelsThatTheSettingsAskForAndWaitsForThem) {
     EXPECT_TRUE(row["bytes"].is_number()) << "every kernel's cost is known";
     EXPECT_NEAR(row["params"]["mean_listed"], row["params"]["indices"].get<double>() / cells(row), 1e-9);
   }
-  // The wall at 10 m is in one slice of a tile, whose list stays what it was.
+  // The wall at 10 m is in one slice of a tile, whose list is unchanged.
   EXPECT_EQ(rows[0]["params"]["indices"], rows[1]["params"]["indices"]);
 }
 

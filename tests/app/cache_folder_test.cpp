@@ -1,4 +1,4 @@
-// The program where no cache folder can be written, as in a container without a home.
+// The program without a writable cache folder, as in a container without a home.
 #include <gmock/gmock.h>
 
 #include "support/run_program.h"

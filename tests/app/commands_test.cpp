@@ -1,4 +1,4 @@
-// Each subcommand as a user runs it: what it writes, prints and ends with.
+// Each subcommand as a user runs it: its files, output and exit status.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

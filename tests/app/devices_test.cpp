@@ -21,7 +21,7 @@ struct Ran {
   std::string out, err;
 };
 
-// `environment` goes before the program, as in a shell.
+// `environment` precedes the program, as in a shell.
 Ran run_devices(const std::string& arguments, const std::string& environment = "") {
   const std::string errors = testing::TempDir() + "/devices_stderr." + std::to_string(getpid());
   const std::string command =
@@ -71,7 +71,7 @@ TEST(DevicesCommand, ListsAllAndFailsWhereTheNamedDeviceIsNotThere) {
   EXPECT_THAT(ran.err, HasSubstr("\"nosuchdevice\""));
 }
 
-// PoCL makes as many devices of one name as it is told to.
+// PoCL offers as many devices of one name as configured.
 TEST(DevicesCommand, TellsDevicesOfOneNameApartByTheirNumber) {
   const char* two = "POCL_DEVICES='pthread pthread'";
   for (const int chosen : {0, 1}) {

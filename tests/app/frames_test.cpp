@@ -31,7 +31,7 @@ std::vector<std::string> names_in(const std::filesystem::path& folder) {
 
 class Frames : public testing::Test {
  protected:
-  // A frame of 93 x 61 pixels, captured once for all of a test.
+  // A frame of 93 x 61 pixels, captured once for each test.
   std::filesystem::path capture() {
     const auto frame = folder_.path / "frame";
     const ProgramRun run = run_program({"capture", "street", "--size", "93x61", "-o", frame});
@@ -41,7 +41,7 @@ class Frames : public testing::Test {
     return frame;
   }
 
-  // The shared libraries that the program loads, by the dynamic linker's own account.
+  // The shared libraries that the program loads, as reported by the dynamic linker.
   std::string libraries_of(std::vector<std::string> arguments) {
     const auto log = folder_.path / "loaded";
     std::filesystem::create_directory(log);
@@ -116,7 +116,7 @@ TEST_F(Frames, HaveSlicesWhereTheSettingSaysSoAndNoneFromATechniqueWithoutAGrid)
   EXPECT_THAT(none.err, HasSubstr("forward"));
 }
 
-// What --tune found goes before the default and after --set, and changes no byte.
+// Tuned values override the default but not --set, and change no byte.
 TEST_F(Frames, AreCulledAsTuned) {
   const auto frame = capture(), culled = folder_.path / "culled", file = folder_.path / "tuned.json";
   const ProgramRun devices = run_program({"devices", "--json", "-"});
@@ -164,7 +164,7 @@ TEST_F(Frames, CullOpensNoOpenGl) {
   const std::string libraries = libraries_of({"cull", frame, "-o", folder_.path / "culled"});
   EXPECT_THAT(libraries, HasSubstr("libOpenCL"));
   EXPECT_FALSE(holds_opengl(libraries)) << libraries;
-  // That this would have been seen:
+  // The check would detect it:
   EXPECT_TRUE(holds_opengl(libraries_of({"capture", "spheres", "--size", "8x8", "-o", folder_.path / "f"})));
 }
 

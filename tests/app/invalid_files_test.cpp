@@ -1,5 +1,5 @@
-// Files that are wrong, most of them on purpose (the Khronos validator's own test files): each ends quickly with an
-// image or with one line, and nothing is written but that image.
+// Invalid files, most of them invalid on purpose (the Khronos validator's own test files): each ends quickly
+// with an image or with one line, and nothing is written except that image.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::set<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-// Empty: as it must be.
+// Empty: valid.
 std::string fault_of(const fs::path& file, const TempFolder& folder, int& status) {
   const fs::path output = folder.path / "x.png";
   fs::remove(output);
@@ -69,7 +69,7 @@ TEST(InvalidFiles, EachEndsWithAnImageOrOneLineThatNamesIt) {
   other.join();
   RecordProperty("images", endings[0]);
   RecordProperty("refused", endings[2]);
-  // Both kinds are there: a loader that refuses all, or nothing, is no loader.
+  // Both kinds must occur: a loader that refuses everything, or nothing, would be useless.
   EXPECT_GT(endings[0], 50);
   EXPECT_GT(endings[2], 50);
   EXPECT_EQ(files_below(root), before);

@@ -1,5 +1,4 @@
-// The registry, the pages under docs/techniques, docs/command_line.md and what the program says of itself, held to one
-// another.
+// Compares the registry, the pages under docs/techniques, docs/command_line.md and the program's own output.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -33,7 +32,7 @@ std::set<std::string> registered() {
   return names;
 }
 
-// What a source cannot be told without: names, title and year. Words of three letters at least, and numbers.
+// The identifying words of a source: names, title and year. Words of at least three letters, and numbers.
 std::vector<std::string> telling_words(const std::string& source) {
   std::vector<std::string> words = {""};
   for (const char c : source) {
@@ -102,7 +101,7 @@ TEST(Techniques, AreListedWithSettingsDefaultsAndSource) {
 TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {
   for (const char* command : {"render", "compare", "plan"}) {
     const ProgramRun run = run_program({command, "--help"});
-    std::string words = run.out;  // the help breaks lines where it likes
+    std::string words = run.out;  // the help breaks lines anywhere
     std::erase_if(words, [](char c) { return std::isspace(static_cast<unsigned char>(c)); });
     for (const std::string& name : registered()) EXPECT_THAT(words, HasSubstr(name)) << command;
   }

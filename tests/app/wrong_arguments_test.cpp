@@ -1,4 +1,4 @@
-// What a user gets wrong: exit status 2, and one line that names the option and the value.
+// Errors of users: exit status 2, and one line that names the option and the value.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 struct Wrong {
   const char* name;
   std::vector<std::string> arguments;  // FOLDER stands for the test's folder
-  std::vector<std::string> told;       // what the line must hold
+  std::vector<std::string> told;       // required content of the line
 };
 
 std::string replace_folder(std::string text, const std::string& folder) {
@@ -31,7 +31,7 @@ TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
   std::filesystem::create_directory(folder.path / "is_a_folder.png");
   std::vector<std::string> arguments;
   for (const std::string& a : GetParam().arguments) arguments.push_back(replace_folder(a, folder.path));
-  // Where no device could be opened, a wrong argument must still be what is told: it comes first.
+  // A wrong argument must be reported first, even if no device could be opened.
   const ProgramRun run = run_program(arguments, {"OCL_ICD_VENDORS=/nonexistent"});
   EXPECT_EQ(run.status, 2) << "signal " << run.signal << "\n" << run.err;
   EXPECT_EQ(run.out, "");

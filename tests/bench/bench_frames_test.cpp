@@ -1,4 +1,4 @@
-// The standard frames of `lightgrid bench`, against a plain count of what their tiles list.
+// The standard frames of `lightgrid bench`, compared with a plain count of the lights that their tiles list.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The kernels that measure limits do the work that is counted: each value read once, each operation done.
+// The kernels that measure limits do the counted work: each value is read once, each operation done.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -21,7 +21,7 @@ std::vector<T> read_back(const cl::Buffer& buffer, size_t count) {
   return values;
 }
 
-// The sum of all sums, of values 1, 2, 3, … in 32 bits, which wrap the same wherever they are added.
+// The sum of all sums, of values 1, 2, 3, … in 32 bits, which wrap equally in any order.
 uint32_t sum_of_plain_read(const std::string& name, size_t values, cl_uint vectors, size_t items, size_t group) {
   std::vector<uint32_t> host(values);
   std::iota(host.begin(), host.end(), 1u);

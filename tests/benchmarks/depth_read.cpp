@@ -1,7 +1,7 @@
 // Depth bounds against a plain read of the same bytes, on the OpenCL device that lightgrid would use.
 //   depth_read [WIDTHxHEIGHT] [RUNS]
 // Prints one line: bytes, then least and median milliseconds on the device of the plain read and of depth
-// bounds. Both run in turn, on the same buffer, as a frame leaves it: in the cache where it fits.
+// bounds. Both run in turn, on the same buffer, in the cache if it fits.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr int group_items = 64;
 
-// One item (CPU) or one group (GPU) for each `span` values, as many as a tile has; the sum keeps the reads
-// alive.
+// One item (CPU) or one group (GPU) for each `span` values, as many as a tile has; the sum prevents removal
+// of the reads.
 constexpr const char* plain_read = R"(
 kernel void plain_read(global const uint* values, uint count, uint span, global uint* sums) {
 #ifdef GROUP

@@ -15,7 +15,7 @@ namespace {
 
 using Parameters = std::tuple<GlBackend, BridgeKind>;
 
-// Every test runs through every backend and both ways; a mapped buffer is tried only where it is allowed.
+// Every test runs with every backend and both kinds; a mapped buffer is tested only where it is allowed.
 struct SharedBufferOf : testing::TestWithParam<Parameters> {
   ClDevice cl;
   std::unique_ptr<GlContext> gl;
@@ -81,7 +81,7 @@ GLuint compute_program(const char* source) {
   return program;
 }
 
-// What a shader reads from `buffer`, which is bound as a texture buffer or as a storage buffer.
+// The values that a shader reads from `buffer`, bound as a texture buffer or as a storage buffer.
 std::vector<cl_uint> read_in_gl(const SharedBuffer& buffer, size_t count, const char* shader) {
   const GLuint program = compute_program(shader);
   GLuint out = 0, texture = 0;
@@ -198,7 +198,7 @@ TEST_P(SharedBufferOf, MayBeEmpty) {
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
-// An OpenGL that copies late, as a GPU does: copies wait until somebody waits for them.
+// An OpenGL that copies late, like a GPU: copies are delayed until a wait.
 struct LateCopies {
   LateCopies() {
     copy = glCopyNamedBufferSubData, wait = glClientWaitSync, finish = glFinish;
@@ -226,7 +226,7 @@ struct LateCopies {
   static inline PFNGLFINISHPROC finish;
 };
 
-// Handing over a second time may not overwrite what the first copy has still to read.
+// A second hand-over must not overwrite data that the first copy has not yet read.
 TEST_P(SharedBufferOf, WaitsForTheLastCopyBeforeItHandsOverAgain) {
   constexpr cl_uint count = 16;
   SharedBuffer buffer(cl, kind, count * 4);
@@ -235,7 +235,7 @@ TEST_P(SharedBufferOf, WaitsForTheLastCopyBeforeItHandsOverAgain) {
     const LateCopies late;
     write_squares(buffer, count, 1);
     buffer.hand_to_gl(count * 4);
-    // What OpenGL has once the first copy is made.
+    // OpenGL's contents after the first copy.
     LateCopies::pending.push_back([&] {
       glGetNamedBufferSubData(buffer.gl_buffer(), 0, count * 4, first_frame.data());
     });
@@ -248,7 +248,7 @@ TEST_P(SharedBufferOf, WaitsForTheLastCopyBeforeItHandsOverAgain) {
   EXPECT_EQ(read_in_gl(buffer, count, copy_shader), squares(count, 1000));
 }
 
-// What failed before is not blamed on the buffer. Debug builds abort at the call itself.
+// Earlier failures are not attributed to the buffer. Debug builds abort at the call itself.
 TEST_P(SharedBufferOf, DoesNotTakeAnEarlierErrorForItsOwn) {
 #ifndef NDEBUG
   GTEST_SKIP() << "this build aborts at the first OpenGL error";

@@ -1,4 +1,4 @@
-// A small frame to write, read and break: a sloped floor before a far wall, lights of every kind.
+// A small frame to write, read and damage: a sloped floor in front of a far wall, lights of every kind.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline CapturedFrame small_frame(int width = 37, int height = 21) {
   return frame;
 }
 
-// The same picture as an engine with standard depth has it: 0 at the near plane, 1 at the far one.
+// The same picture from an engine with standard depth: 0 at the near plane, 1 at the far one.
 inline CapturedFrame with_standard_depth(CapturedFrame frame, double far_m) {
   const double near_m = frame.view.near_m;
   frame.view.far_m = far_m;

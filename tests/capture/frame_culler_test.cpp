@@ -1,4 +1,4 @@
-// Captured frames through the culler: no light lost, whoever captured them.
+// Captured frames through the culler: no light is lost, from any engine.
 #include "capture/frame_culler.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST(FrameCuller, LosesNothingOffCentre) {
   expect_none_lost(frame);
 }
 
-// Values that are no depth: a tile that holds one spans everything, and the pixels beside it lose nothing.
+// Invalid depth values: a tile with one spans everything, and its other pixels lose nothing.
 TEST(FrameCuller, LosesNothingBesideDepthsThatAreNone) {
   const float strange[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                            -0.5f, 2.5f};
@@ -59,14 +59,14 @@ TEST(FrameCuller, LosesNothingBesideDepthsThatAreNone) {
     EXPECT_GT(culler.invalid_depth_tiles(), 20u);
     FrameGrid grid = culler.grid();
     for (size_t i = 0; i < frame.depth.size(); i += 97)
-      frame.depth[i] = standard ? 1 : 0;  // nothing to ask there
+      frame.depth[i] = standard ? 1 : 0;  // background: nothing to check
     const InspectionMaps maps = inspection_maps(frame, grid);
     EXPECT_EQ(maps.pairs.lost, 0u);
     EXPECT_GT(maps.pairs.lit, 500u);
   }
 }
 
-// Numbers as a lights file may hold them.
+// Numbers with the precision of a lights file.
 TEST(FrameCuller, LosesNothingOfHostileLights) {
   CapturedFrame frame = small_frame(133, 71);
   for (const double place : {0.0, 1e-30, 1e6, 1e20, 1e38}) {
@@ -86,7 +86,7 @@ TEST(FrameCuller, LosesNothingOfHostileLights) {
   EXPECT_GT(maps.pairs.lit, 500u);
 }
 
-// Views at the ends of what the reader takes, with depths and lights of every size.
+// Views at the limits of the reader, with depths and lights of every size.
 TEST(FrameCuller, LosesNothingInHostileViews) {
   const TempFolder folder;
   uint64_t state = 7;
@@ -124,7 +124,7 @@ TEST(FrameCuller, LosesNothingInHostileViews) {
     for (float& depth : frame.depth)
       depth = float(orthographic || trial % 5 == 0 ? uniform(0, 1) : decades(-6, 0));
     for (Light& light : frame.lights) {
-      // At some pixel's surface, or near it.
+      // At a pixel's surface, or near it.
       const int x = int(uniform(0, frame.view.width)), y = int(uniform(0, frame.view.height));
       const glm::dvec3 p =
           position_from_depth(frame.view, x, y, frame.depth[size_t(y) * frame.view.width + x]);
@@ -181,7 +181,7 @@ TEST(FrameCuller, SettingsAreTheFramesTileThenWhatIsGiven) {
   EXPECT_EQ(cull(frame, frame_settings(frame, {})).lists.cells_x, 2);
 }
 
-// With slices and z-bins, between depths that a frame tells or that its surfaces have; masks say what lists say.
+// With slices and z-bins, between distances from the frame or from its surfaces; masks equal the lists.
 TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
   for (CapturedFrame frame : {small_frame(133, 71), with_standard_depth(small_frame(133, 71), 60)}) {
     for (const double far_m : {0.0, 40.0}) {

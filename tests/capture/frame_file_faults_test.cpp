@@ -1,4 +1,4 @@
-// What is wrong in a frame's files is told in one line, whatever their bytes.
+// Faults in a frame's files are reported in one line, whatever their bytes.
 #include <gmock/gmock.h>
 
 #include <cstring>
@@ -14,7 +14,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-// A frame and its grid, of which a test breaks one file.
+// A frame and its grid; each test damages one file.
 class BrokenFrame : public testing::Test {
  protected:
   BrokenFrame() {
@@ -121,7 +121,7 @@ TEST_F(BrokenFrame, AnIndexThatIsNoLightIsTold) {
   expect_told("indices.u32", {"bytes"});
 }
 
-// Bytes changed, cut, doubled and put in: whatever comes out is a frame or one line that names a file of it.
+// Bytes changed, cut, doubled and inserted: the result is a frame or one line that names one of its files.
 TEST(FrameFileFuzz, EveryMutationIsReadOrToldInOneLine) {
   const TempFolder folder;
   write_frame(folder.path, small_frame(9, 5));

@@ -1,4 +1,4 @@
-// The small frame as files: to read, write and break them.
+// The small frame as files, to read, write and damage.
 #pragma once
 
 #include <fstream>
@@ -17,7 +17,7 @@ inline std::string file_bytes(const std::filesystem::path& path) {
 }
 
 inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::filesystem::remove(path);  // a file cut and written again is waited for by some file systems
+  std::filesystem::remove(path);  // some file systems delay the truncation and rewrite of a file
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
@@ -33,7 +33,7 @@ inline FrameGrid small_grid() {
   return grid;
 }
 
-// What reading the folder, its grid included, says; empty where it is read.
+// The error of reading the folder, its grid included; empty if it is read.
 inline std::string fault_of(const std::filesystem::path& folder) {
   try {
     read_frame_grid(folder, read_frame(folder));

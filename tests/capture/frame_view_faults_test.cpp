@@ -1,4 +1,4 @@
-// What is wrong in a frame's view.json is told in one line.
+// Faults in a frame's view.json are reported in one line.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-// One field of view.json made wrong: what the line must hold.
+// One invalid field of view.json, and the required content of the line.
 struct WrongView {
   const char* name;
   const char* field;

@@ -35,7 +35,7 @@ TEST(ClDeviceChoice, TakesTheFirstWhosePlatformAndNameHoldTheSubstringInAnyCase)
   EXPECT_EQ(choose_cl_device(three, "language PTHREAD"), 0u);
 }
 
-// Devices of the same name, as of a machine with several GPUs of one kind.
+// Devices of the same name, as on a machine with several GPUs of one kind.
 TEST(ClDeviceChoice, TakesTheOneAtAnIndexAfterAHash) {
   const std::vector<ClDeviceInfo> equal = {three[0], three[1], three[1]};
   EXPECT_EQ(choose_cl_device(equal, "H200"), 1u);
@@ -102,7 +102,7 @@ TEST(ClDevice, MayBeWhatTheHostProgramHasMade) {
   EXPECT_EQ(own.info().name, first.info().name);
   EXPECT_EQ(own.context()(), context());
   EXPECT_EQ(own.queue()(), queue());
-  // A buffer of that context is written through it.
+  // Writes a buffer of that context.
   const cl::Buffer buffer(context, CL_MEM_READ_WRITE, 64);
   own.queue().enqueueFillBuffer(buffer, cl_uint(7), 0, 64);
   cl_uint read = 0;
@@ -138,7 +138,7 @@ TEST(ClDevice, TakesNoQueueOutOfOrder) {
   }
 }
 
-// Only what the program itself sets: drivers add variables of their own.
+// Only the program's own: drivers add variables.
 std::vector<std::string> environment() {
   std::vector<std::string> values;
   for (const char* name : {"POCL_AFFINITY", "POCL_KERNEL_CACHE"}) {

@@ -143,7 +143,7 @@ TEST_F(ProgramCacheTest, MayBeSharedByCachesThatBuildAtOnce) {
       programs.kernel_of_source("fill", source, "-DVALUE=" + std::to_string(i));
   };
   { std::jthread first(build_all), second(build_all); }
-  EXPECT_EQ(files().size(), size_t(programs_each));  // no unfinished file is left either
+  EXPECT_EQ(files().size(), size_t(programs_each));  // no unfinished file remains either
   ProgramCache after(device, folder);
   for (int i = 0; i < programs_each; ++i) EXPECT_EQ(run(after, i), i);
   expect_counts(after, 0, programs_each, 0);

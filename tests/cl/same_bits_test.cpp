@@ -1,5 +1,5 @@
-// "The same bits everywhere" rests on the options that all kernels share: no product and sum fused into one
-// rounding, division and square root correctly rounded where the device can.
+// "The same bits everywhere" depends on the options that all kernels share: no product and sum fused into one
+// rounding, division and square root correctly rounded if the device supports it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct SameBits : testing::Test {
     }
   }
 
-  // out[i] = `expression` of a, b and c, which are of `type`.
+  // out[i] = `expression` of a, b and c, which have the type `type`.
   std::vector<float> evaluate(const std::string& type, int lanes, const std::string& expression) {
     const std::string source =
         "kernel void f(global const T* pa, global const T* pb, global const T* pc, "

@@ -44,7 +44,7 @@ TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
   EXPECT_FALSE(to_json(report.rows[1]).contains("refused"));
 }
 
-// The picture is there, and memory runs out when its lists are read.
+// The picture is rendered, then memory runs out while its lists are read.
 ListedLights out_of_memory(RenderView&) { throw std::bad_alloc(); }
 
 TEST(CompareTechniques, MakesARefusedRowOfListsThatMemoryDoesNotHold) {
@@ -59,7 +59,8 @@ TEST(CompareTechniques, MakesARefusedRowOfListsThatMemoryDoesNotHold) {
   EXPECT_EQ(report.listed.size(), 2u);
 }
 
-// 40 lights in one place where lidr has room for 4: what it leaves out is counted as overflow, and elsewhere nothing is.
+// 40 lights in one place, where lidr can store 4: the omitted ones are counted as overflow, and there is none
+// elsewhere.
 TEST(CompareTechniques, CountsLightsThatATechniqueHasNoPlaceFor) {
   SmallScene s = small_scene();
   for (int i = 0; i < 40; ++i) add_point(s.scene, "lamp", {0.01f * i, 0.4f, -3.5f}, {1, 1, 1}, 1, 2);
@@ -73,7 +74,7 @@ TEST(CompareTechniques, CountsLightsThatATechniqueHasNoPlaceFor) {
   EXPECT_EQ(report.rows[0].overflow, report.rows[0].pairs->lost);
   EXPECT_EQ(to_json(report.rows[0])["overflow"], report.rows[0].overflow);
   EXPECT_EQ(report.rows[1].overflow, 0u);
-  // Few enough lights: all have a place.
+  // Few enough lights: none is omitted.
   EXPECT_EQ(compared({{&lidr, {}}}).rows[0].overflow, 0u);
 }
 

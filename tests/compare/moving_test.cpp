@@ -1,4 +1,4 @@
-// Techniques along a camera path: same pictures as at rest, no work twice, and flicker is seen.
+// Techniques along a camera path: same pictures as at rest, no work twice, and flicker is detected.
 #include "compare/moving.h"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@
 namespace lightgrid {
 namespace {
 
-// A picture of a view that was reached by looking elsewhere first is that of a view made for it.
+// A picture of a view that look() reached from another view equals that of a view created for it.
 struct MovedView : testing::TestWithParam<const Technique*> {};
 
 TEST_P(MovedView, DrawsWhatAViewOfItsOwnDraws) {
@@ -62,7 +62,7 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
   }
 }
 
-// Deformed meshes, moved instances and lights: the picture of a scene that was made so.
+// Deformed meshes, moved instances and lights: the picture equals that of a scene created in that state.
 TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
   Scene scene = find_builtin_scene("hall")->make();
   scene.lights.resize(40);
@@ -98,7 +98,7 @@ TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
     EXPECT_GT(compare_images(run.image(), before).max_rel, 0.01) << "nothing moved";
     TechniqueRun fresh(software_devices(), moving, view, {}, find_technique(technique));
     fresh.run_frame();
-    // Clusters are cut by the shape at rest: where surfaces share a depth, another may be the last.
+    // Clusters are cut by the shape at rest: if surfaces share a depth, a different one may be last.
     EXPECT_LT(compare_images(run.image(), fresh.image()).rmse, 1e-6) << technique;
     const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
     EXPECT_EQ(pairs.lost, 0u) << technique;
@@ -120,7 +120,7 @@ TEST(Moving, SeesFlicker) {
       .name = "flickers", .summary = "flickers", .source = "none", .needs = {}, .settings = {}, .render = flicker};
   const Scene scene = small_scene().scene;
   GpuScene gpu(software_devices(), scene);
-  const std::vector<View> path(8, small_view(32, 24));  // at rest: all that changes is flicker
+  const std::vector<View> path(8, small_view(32, 24));  // at rest: flicker is the only change
   TechniqueRun forward(software_devices(), gpu, path[0], {}, find_technique("forward"));
   TechniqueRun grey(software_devices(), gpu, path[0], {}, flickers);
   std::vector<RunResult> rows(2);

@@ -29,7 +29,7 @@ TEST(ReferenceSample, BlocksCoverEachPixelOnceInAnOrderOfTheSeed) {
   EXPECT_GT(different.size(), 8u);
 }
 
-// A shuffle that is not one would cluster: of a tenth of the blocks, each quarter of the image has about a quarter.
+// A wrong shuffle would cluster: of a tenth of the blocks, each quarter of the image has about a quarter.
 TEST(ReferenceSample, IsSpreadOverTheImage) {
   std::vector<PixelBlock> blocks = shuffled_blocks(640, 360, 7);
   blocks.resize(blocks.size() / 10);

@@ -1,5 +1,5 @@
-// Files made to be wrong: the format's own validator's, and those of the conformance set with bytes changed. Those that load
-// are posed at one time too.
+// Files with faults: those of the format's own validator, and those of the conformance set with changed
+// bytes. Those that load are also posed at one time.
 #include <algorithm>
 #include <fstream>
 #include <random>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Small enough that a file which asks for the most is still soon done with.
+// Small limits, so that files with the largest allowed sizes are still processed quickly.
 constexpr GltfLimits limits{
     .max_image_side = 4096, .max_image_bytes = size_t(1) << 28, .max_vertices = 1'000'000};
 
@@ -40,7 +40,7 @@ void pose(Scene& scene) {
   }
 }
 
-// False where it is refused; anything but a scene or an input error fails the test.
+// False if it is refused; anything except a scene or an input error fails the test.
 bool loads(const fs::path& path) {
   try {
     Scene scene = load_gltf(path, -1, limits);
@@ -107,7 +107,7 @@ class Mutator {
   }
 
  private:
-  // Numbers are where JSON hurts: another digit, a longer number, a sign, an exponent.
+  // Numbers are the most sensitive: another digit, a longer number, a sign, an exponent.
   void change_digit(std::string& text, size_t from) {
     const size_t at = text.find_first_of("0123456789", from);
     if (at == std::string::npos) return;
@@ -141,7 +141,7 @@ TEST_F(GltfHostile, changed_bytes_end_in_a_scene_or_an_input_error) {
   }
 }
 
-// The validator's files are the seeds that lie nearest to the loader's checks.
+// The validator's files are the seeds closest to the loader's checks.
 TEST_F(GltfHostile, changed_bytes_of_wrong_files_end_in_a_scene_or_an_input_error) {
   LIGHTGRID_NEEDS_SHARED("scenes/invalid/glTF-Validator");
   const TempFolder folder;

@@ -265,7 +265,7 @@ TEST(GltfModels, texture_settings_wrap_and_sidedness) {
   EXPECT_EQ(scene.bitmaps.size(), 3u);
 }
 
-// The marker of each quad sits where the arrow must point: its place, turned by the transform, lies on the
+// The marker of each quad is where the arrow must point: its position, turned by the transform, lies on the
 // arrow's own line, the diagonal of the image, at (0.778, 0.778).
 TEST(GltfModels, texture_transforms_turn_the_arrow_to_its_marker) {
   NEEDS_MODEL("TextureTransformTest");

@@ -65,7 +65,7 @@ void expect_vertices(const std::vector<glm::vec3>& actual, const std::vector<Num
   }
 }
 
-// Without normals in the file, triangles are flat and vertices no longer shared.
+// Without normals in the file, triangles are flat and vertices are not shared.
 std::vector<Numbers> unshared(const PosedModel& model, const nlohmann::json& primitive,
                               const std::vector<Numbers>& vertices) {
   std::vector<Numbers> out;

@@ -61,7 +61,7 @@ TEST(GltfScenes, flight_helmet_is_complete) {
                           [](const Material& m) { return m.alpha_mode == AlphaMode::blend; }));
 }
 
-// The file's tangents are of MikkTSpace, which splits vertices where ours are shared.
+// The file's tangents are from MikkTSpace, which splits vertices that are shared here.
 TEST(GltfScenes, made_tangents_agree_with_those_of_flight_helmet) {
   LIGHTGRID_NEEDS_SHARED("scenes/large/FlightHelmet");
   const Scene scene = load_gltf(scene_file("large/FlightHelmet/FlightHelmet.gltf"));

@@ -1,5 +1,5 @@
-// Geometry and nodes from a file to the picture, worked out by hand. The plate is white and unlit, so that a
-// pixel says whether it is there.
+// Geometry and nodes from a file to the picture, computed by hand. The plate is white and unlit, so that a
+// pixel shows whether it is covered.
 #include "conformance/own_model.h"
 
 namespace lightgrid {
@@ -12,7 +12,7 @@ GltfBuilder white_plate() { return unlit_plate({1, 1, 1, 1}); }
 
 bool same_pixels(const Picture& a, const Picture& b) { return a.image.pixels == b.image.pixels; }
 
-// Values in bytes: a byte's share of 255, linear, times the factor; and between vertices what lies between.
+// Bytes as values: the byte's fraction of 255, linear, times the factor; interpolated between vertices.
 TEST(OwnGeometry, VertexColoursOfBytesAndShortsAreLinearAndTimesTheFactor) {
   GltfBuilder made = unlit_plate({1, 0.5f, 0.25f, 1});
   const Bytes colors = {0, 255, 51, 255, 255, 255, 51, 255, 255, 255, 51, 255, 0, 255, 51, 255};
@@ -119,7 +119,7 @@ TEST(OwnGeometry, IndicesOfEveryWidthAndStripsAndFansShowTheSame) {
   EXPECT_TRUE(same_pixels(shown(made), shorts));
 }
 
-// By its weight of a half, the target takes the right edge from 1 to 0; the node's weights come before the
+// With its weight of a half, the target moves the right edge from 1 to 0; the node's weights override the
 // mesh's.
 TEST(OwnGeometry, MorphTargetsAtTheirDefaultWeights) {
   GltfBuilder made = white_plate();
@@ -133,8 +133,8 @@ TEST(OwnGeometry, MorphTargetsAtTheirDefaultWeights) {
   expect_quarters(shown(made), {white, white, white, white});
 }
 
-// The lower corners hang on a joint that stays, the upper ones on its child, which goes down by 1; the node's
-// own place does not count.
+// The lower corners belong to a joint that stays, the upper ones to its child, which moves down by 1; the
+// node's own position is ignored.
 TEST(OwnGeometry, ASkinStandsInItsRestPose) {
   GltfBuilder made = white_plate();
   made.attribute("JOINTS_0", Bytes{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", u8, 4);
@@ -165,8 +165,8 @@ TEST(OwnGeometry, OnlyTheDefaultSceneIsShown) {
   expect_quarters(shown(made), {white, black, white, black});
 }
 
-// A mirrored node turns the winding around, and a plate that was seen from its front still is: in mirrored
-// places, and lit as before. Mirrored in depth it shows its back, which is culled, unless it has two sides.
+// A mirrored node reverses the winding. A plate seen from its front stays visible, at the mirrored position,
+// and lit as before. Mirrored in depth it shows its back, which is culled unless it is double-sided.
 TEST(OwnGeometry, NegativeScales) {
   GltfBuilder made = lit_plate({0.5f, 0.5f, 0.5f});
   add_light(made, {{"type", "directional"}, {"intensity", 2}});

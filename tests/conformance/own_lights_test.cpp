@@ -11,8 +11,8 @@ using nlohmann::json;
 constexpr double root_half = 0.70710678118654752;
 const glm::dvec3 base(0.2, 0.4, 0.8);
 
-// Appendix B of glTF 2.0 for the plate, of roughness 1 and no metal, seen along its normal: D is 1 / pi and
-// V is 1 / (2 (N.L + N.V)). `irradiance` on a surface across the light.
+// Appendix B of glTF 2.0 for the plate, of roughness 1 and no metal, seen along its normal: D is 1 / pi and V
+// is 1 / (2 (N.L + N.V)). `irradiance` is on a surface that faces the light.
 glm::dvec3 lit(double irradiance, double cosine) {
   const double view_half = std::sqrt((1 + cosine) / 2);
   const double fresnel = 0.04 + 0.96 * std::pow(1 - view_half, 5);
@@ -43,7 +43,7 @@ TEST(OwnLights, ADirectionalLightShinesAlongItsNodesNegativeZ) {
   expect_radiance(shown(made).at({0, 0, 0}), black);
 }
 
-// The parent turns x to y, doubles, and lifts by 1: the child at (0.25, 0, 0) is at (0, 0.5, 1).
+// The parent turns x to y, scales by 2, and lifts by 1: the child at (0.25, 0, 0) is at (0, 0.5, 1).
 TEST(OwnLights, APointLightInANestedNode) {
   GltfBuilder made = dark_plate();
   const json parent = {
@@ -70,13 +70,13 @@ TEST(OwnLights, ARangeEndsTheLight) {
     expect_radiance(picture.image.at(column, row),
                     lit(7 / (d * d) * (1 - std::pow(d / 1.25, 4)), to_light.z / d));
   }
-  // At 0.75 from the middle the range is reached.
+  // The range ends 0.75 from the middle.
   expect_radiance(picture.at({0.78, 0, 0}), black);
   EXPECT_GT(picture.at({0.7, 0, 0}).r, 0);
 }
 
-// Within the inner angle all of it, past the outer one nothing, between them the square of the cosine's
-// share.
+// Within the inner angle the full intensity, past the outer one nothing, between them the square of the
+// cosine's fraction.
 TEST(OwnLights, ASpotFadesBetweenItsAngles) {
   const double inner = 0.3, outer = 0.7;
   GltfBuilder made = dark_plate();

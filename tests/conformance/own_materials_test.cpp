@@ -79,7 +79,7 @@ Picture transformed(const json& transform) {
 TEST(OwnMaterials, TextureTransforms) {
   expect_quarters(transformed({{"offset", {0.5, 0}}}), {green, red, white, blue});
   expect_quarters(transformed({{"scale", {0.5, 1}}}), {red, red, blue, blue});
-  // A quarter turn of the image with the clock: lower left goes to upper left.
+  // A clockwise quarter turn of the image: lower left goes to upper left.
   expect_quarters(transformed({{"rotation", glm::half_pi<double>()}, {"offset", {0, 1}}}),
                   {blue, red, white, green});
   // Scaled, then turned, then moved: (u, v) to (u / 2, v), to (v, -u / 2), to (v, 1 - u / 2).
@@ -104,8 +104,8 @@ TEST(OwnMaterials, WrapModes) {
   EXPECT_EQ(wrapped(33648), "brrb") << "mirror";
 }
 
-// Base colour by the first set, emission by the second, in which the image is mirrored. The set that a
-// transform names comes before the texture's.
+// Base colour with the first set, emission with the second, in which the image is mirrored. The set of a
+// transform overrides the texture's.
 TEST(OwnMaterials, TwoUvSetsServeTwoMaps) {
   for (const bool by_transform : {false, true}) {
     GltfBuilder made = under_the_sun(lit_plate({1, 1, 1}));
@@ -120,7 +120,7 @@ TEST(OwnMaterials, TwoUvSetsServeTwoMaps) {
   }
 }
 
-// Texels of alpha 0, 64, 128 and 255: a cutoff lets through what is equal to it.
+// Texels of alpha 0, 64, 128 and 255: a cutoff keeps values equal to it.
 TEST(OwnMaterials, AlphaModes) {
   const auto over = [](const json& mode) {
     GltfBuilder made = unlit_plate({1, 1, 1, 1});

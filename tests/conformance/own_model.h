@@ -1,4 +1,4 @@
-// Small glTF models of our own: a plate that fills the picture, so that pixels can be worked out by hand.
+// Small generated glTF models: a plate that fills the picture, so that pixels can be computed by hand.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ inline GltfBuilder lit_plate(const glm::vec3& color, float metallic = 0, float r
   return made;
 }
 
-// The index of a new texture whose texels are not mixed; glTF's wrap modes.
+// The index of a new texture with unfiltered texels; glTF's wrap modes.
 inline int add_texels(GltfBuilder& made, int width, int height, int channels, const Bytes& texels,
                       int wrap_s = 10497, int wrap_t = 10497) {
   nlohmann::json& root = made.root;
@@ -80,7 +80,7 @@ inline nlohmann::json& add_light(GltfBuilder& made, const nlohmann::json& light)
   return nodes.back();
 }
 
-// As its own camera sees it, with its own lights and no others.
+// From its own camera, with its own lights only.
 inline Picture shown(Scene scene) {
   scene.ambient = glm::vec3(0);
   Picture picture{make_view(scene.cameras.at(0), own_size, own_size), {}};
@@ -98,7 +98,7 @@ inline glm::dvec3 pixel_center(int column, int row) {
   return {(column + 0.5) * 2 / own_size - 1, (row + 0.5) * 2 / own_size - 1, 0};
 }
 
-// Radiances, to the rounding of a few float operations.
+// Compares radiances, up to the rounding of a few float operations.
 inline void expect_radiance(const glm::vec3& found, const glm::dvec3& expected) {
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(found[c], expected[c], 2e-6 * std::max(1.0, expected[c])) << "channel " << c;

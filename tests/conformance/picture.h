@@ -1,4 +1,4 @@
-// Pictures of the conformance models, asked by places in the world rather than by pixels.
+// Pictures of the conformance models, addressed by positions in the world rather than by pixels.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline Scene load_model(const std::string& path, int scene = -1) {
   return load_gltf(shared_folder() / "scenes/conformance" / path, scene);
 }
 
-// Which colour stands out: by a factor of two over the others.
+// The dominant colour: by a factor of two over the others.
 enum class Hue { dark, red, green, blue, cyan, magenta, yellow, mixed };
 
 inline Hue hue_of(const glm::vec3& c) {
@@ -31,8 +31,9 @@ inline Hue hue_of(const glm::vec3& c) {
   return hues[high];
 }
 
-// The file's first camera; without one, one before the corner of the scene's box that keeps its eight corners in a square
-// image. The program's own default fills the image better; places in these pictures are told for this one.
+// The file's first camera; without one, one in front of the corner of the scene's box that keeps its eight
+// corners in a square image. The program's own default fills the image better; positions in these pictures
+// assume this one.
 inline Camera camera_at_the_corner(const Scene& scene) {
   if (!scene.cameras.empty()) return scene.cameras.front();
   const WorldBox box = world_box(scene);
@@ -67,7 +68,7 @@ struct Picture {
   }
   bool is_background(const glm::dvec3& world) const { return at(world) == glm::vec3(0); }
 
-  // The share of the pixels between two opposite corners that are of a hue.
+  // The fraction of the pixels between two opposite corners with a hue.
   double share(Hue hue, const glm::dvec3& corner_a, const glm::dvec3& corner_b) const {
     const glm::ivec2 a = pixel(corner_a), b = pixel(corner_b), low = glm::min(a, b), high = glm::max(a, b);
     int count = 0;
@@ -84,7 +85,7 @@ struct Picture {
   }
 };
 
-// As the program shows it: the default lights where the scene has none.
+// As the program shows it: with the default lights if the scene has none.
 inline Picture picture_of(Scene scene, const Camera& camera, int width = 320, int height = 240) {
   Picture picture{make_view(camera, width, height), {}};
   if (scene.lights.empty()) {

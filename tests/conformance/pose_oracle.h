@@ -1,6 +1,6 @@
-// The pose of a glTF file at a time, a second time: from the file's JSON and bytes by the text of glTF 2.0
-// alone, in double, with other formulas than the loader's where there is a choice. Reads what the conformance
-// models need: accessors with a view, not sparse; buffers as files, data URIs or a GLB's chunk.
+// The pose of a glTF file at a time, computed independently: from the file's JSON and bytes by the text of
+// glTF 2.0 alone, in double, with different formulas from the loader's if possible. Supports what the
+// conformance models use: accessors with a view, not sparse; buffers as files, data URIs or a GLB's chunk.
 #pragma once
 
 #include <filesystem>
@@ -19,10 +19,10 @@ class PoseOracle {
   const nlohmann::json& root() const { return root_; }
   std::vector<Numbers> elements(int accessor) const;
 
-  // Of animation `animation`, or of all at -1; at rest where `seconds` is negative.
+  // Of animation `animation`, or of all at -1; at rest if `seconds` is negative.
   Affine world_of_node(int node, double seconds, int animation = -1) const;
 
-  // World positions and unit normals (empty where the file has none) of a skinned primitive's vertices.
+  // World positions and unit normals (empty if the file has none) of a skinned primitive's vertices.
   struct Vertices {
     std::vector<Numbers> positions, normals;
   };

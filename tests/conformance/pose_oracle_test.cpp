@@ -1,4 +1,4 @@
-// The oracle of poses, and cases worked out by hand that it must get right.
+// The oracle of poses, on cases computed by hand.
 #include "conformance/pose_oracle.h"
 
 #include <algorithm>

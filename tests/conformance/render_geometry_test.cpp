@@ -1,4 +1,4 @@
-// Where things stand, which side they show and which way they face, in pictures of the conformance models.
+// Positions, sides and directions of geometry, in pictures of the conformance models.
 #include "conformance/picture.h"
 
 namespace lightgrid {
@@ -13,7 +13,7 @@ TEST(RenderGeometry, OrientationTestPointsEachArrowAtItsTarget) {
     glm::dvec3 side, target;
     Hue hue;
   };
-  // Targets' centres stand in the file as they are; arrows are turned by their nodes.
+  // Targets' centres are stored in the file; arrows are turned by their nodes.
   const Pair pairs[] = {
       {{5.4, 0, 0}, {5.4, 2.95, -2.13}, Hue::red},   {{-5.4, 0, 0}, {-5.4, 3.52, 0.34}, Hue::cyan},
       {{0, 5.4, 0}, {3.34, 5.4, -1.34}, Hue::green}, {{0, -5.4, 0}, {-0.82, -5.4, 3.47}, Hue::magenta},
@@ -37,8 +37,8 @@ TEST(RenderGeometry, NegativeScaleTestShowsOnlyChecksAndLightsBothScalesAlike) {
     }
   }
   for (const double y : {-1.0, -2.25}) {
-    // As many pixels to the left and above as to the right and below, on spheres as far from the picture's
-    // middle.
+    // As many pixels to the left and above as to the right and below, for spheres at equal distance from the
+    // picture's centre.
     const auto sphere = [&](double x, double across, double up) {
       return p.at({x + across, y + up, 0.45}).b;
     };
@@ -69,11 +69,11 @@ TEST(RenderGeometry, CamerasOneIsPerspectiveAndTheOtherParallel) {
   NEEDS("Cameras");
   const Scene scene = load_model("Cameras/Cameras.gltf");
   const Picture perspective = picture_of(scene, "0"), parallel = picture_of(scene, "1");
-  // ymag 1: two metres are 240 pixels high, the square of one metre is 120 wide wherever it tilts.
+  // ymag 1: two metres are 240 pixels high, the square of one metre is 120 wide at any tilt.
   const int top = parallel.pixel({0.5, 0.6, 0}).y, bottom = parallel.pixel({0.5, 0.1, 0}).y;
   EXPECT_NEAR(width_of_row(parallel, top), 120, 1);
   EXPECT_NEAR(width_of_row(parallel, bottom), 120, 1);
-  // The square leans back: in perspective its upper edge is narrower.
+  // The square tilts away: in perspective its upper edge is narrower.
   EXPECT_GT(width_of_row(perspective, perspective.pixel({0.5, 0.1, 0}).y),
             width_of_row(perspective, perspective.pixel({0.5, 0.6, -0.6}).y) + 10);
 }

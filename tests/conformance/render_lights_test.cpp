@@ -1,4 +1,4 @@
-// Pictures lit by the lights that the models bring.
+// Pictures lit by the models' own lights.
 #include "conformance/picture.h"
 
 namespace lightgrid {
@@ -16,7 +16,7 @@ TEST(RenderLights, PlaycanvasLightsShineWhereTheirNodesPutThem) {
   const float beside = p.at({0.9, 1, -0.9}).b;
   EXPECT_GT(p.at({0.25, 1, -0.15}).b, beside + 0.08f);
   EXPECT_NEAR(p.at({-0.9, 1, -0.9}).b, beside, 0.01f * beside) << "beside both cones alike";
-  // A cyan sun upon the front, a red lamp to the right.
+  // A cyan sun on the front, a red lamp to the right.
   const glm::vec3 front = p.at({0, 0, 1}), right = p.at({1, 0, 0});
   EXPECT_EQ(hue_of(front), Hue::cyan);
   EXPECT_EQ(front.g, front.b);
@@ -49,7 +49,7 @@ TEST(RenderLights, LightOrientationShowsFourDiscsOnTheRedPlaneEachWider) {
   NEEDS("LightOrientation");
   const Scene scene = load_model("LightOrientation/LightOrientation.gltf");
   ASSERT_EQ(scene.lights.size(), 4u);
-  // Along each light's axis; from there its disc is a circle, as wide as the cone.
+  // Along each light's axis, from where its disc is a circle as wide as the cone.
   std::vector<int> widths;
   for (const double x : {-4.0, -2.0, 0.0, 2.0}) {
     const Light* light = nullptr;

@@ -1,5 +1,5 @@
-// Textures, alpha and colours: what the models' own descriptions say must be seen, read off pictures that
-// were looked at first.
+// Textures, alpha and colours: the properties in the models' own descriptions, measured in pictures that were
+// inspected first.
 #include "conformance/picture.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ TEST(RenderMaterials, AlphaBlendModeTestShowsChecksAndNoRedX) {
   const Picture p =
       picture_of(load_model("AlphaBlendModeTest/AlphaBlendModeTest.glb"), facing({0, 1}, 5), 640, 320);
   EXPECT_EQ(p.share(Hue::red), 0);
-  // The stripes' height in each box, as a share of the opaque one's.
+  // The stripes' height in each box, as a fraction of the opaque one's.
   const auto stripes = [&](double x) {
     return p.share(Hue::green, {x - 0.25, 0.15, 0}, {x + 0.45, 1.9, 0}) +
            p.share(Hue::yellow, {x - 0.25, 0.15, 0}, {x + 0.45, 1.9, 0});
@@ -122,7 +122,7 @@ TEST(RenderMaterials, MultiUvTestPutsItsLogoByTheSecondSet) {
   EXPECT_EQ(second, 1);
   EXPECT_FALSE(compare_images(p.image, picture_of(scene).image).bit_identical)
       << "the first set would do as well";
-  // A logo on each face that is seen, on paint of another colour.
+  // A logo on each visible face, on paint of another colour.
   const glm::vec3 right = p.at({1, 0.7, 0.7});
   EXPECT_GT(right.b, 1.3f * right.g);
   EXPECT_GT(right.g, right.r);
@@ -144,7 +144,7 @@ TEST(RenderMaterials, MetalRoughSpheresBlurTheirHighlightsFromSmoothToRough) {
     }
     return largest;
   };
-  // The roughest two are alike: the lobes of the two lights have run together.
+  // The roughest two look alike: the lobes of the two lights have merged.
   for (int i = 1; i < 5; ++i) EXPECT_GT(peak(0.001 * i, 0.006), 1.1f * peak(0.001 * (i + 1), 0.006)) << i;
 }
 

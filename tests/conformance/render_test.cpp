@@ -1,5 +1,5 @@
-// The conformance models as pictures: each was looked at against what its README says must be seen, and the places
-// that tell right from wrong were read off. The models are not ours to hand on, so these are spots, not golden images.
+// The conformance models as pictures: each was compared with its README, and the positions that distinguish
+// right from wrong were chosen. We may not redistribute the models, so these are samples, not golden images.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct Model {
   std::vector<Spot> spots;
 };
 
-// As `lightgrid render` shows a model: with the default lights where it brings none.
+// As `lightgrid render` shows a model: with the default lights if it has none.
 std::vector<uint8_t> picture_of(const std::string& file, const std::string& camera) {
   Scene scene = load_gltf(shared_folder() / "scenes/conformance" / file);
   const View view = make_view(camera.empty() ? camera_at_the_corner(scene) : choose_camera(scene, camera), width, height);
@@ -45,8 +45,8 @@ TEST_P(ConformanceModel, ShowsWhatItsReadmeSays) {
   const std::vector<uint8_t> bytes = picture_of(GetParam().file, GetParam().camera);
   for (const Spot& spot : GetParam().spots) {
     const uint8_t* pixel = &bytes[3 * (size_t(spot.v * height) * width + size_t(spot.u * width))];
-    // Steps that a renderer's filtering and rounding may take inside an even area; a wrong texture, colour, winding or
-    // transform is further off than this.
+    // Tolerance in steps for filtering and rounding inside an even area; a wrong texture, colour, winding or
+    // transform differs by more.
     constexpr int steps = 14;
     SCOPED_TRACE(fmt::format("at {}, {}: {} {} {}", spot.u, spot.v, pixel[0], pixel[1], pixel[2]));
     EXPECT_NEAR(pixel[0], spot.r, steps);
@@ -57,7 +57,7 @@ TEST_P(ConformanceModel, ShowsWhatItsReadmeSays) {
 
 const std::vector<Model> models = {
     {"02_node_hierarchy/02_node_hierarchy.gltf", "", {{.40f, .62f, 131, 131, 131}, {.66f, .30f, 159, 159, 159}}},
-    // Opaque: alpha ignored, black stays. Masks: cut out above the mark, the wall behind is seen.
+    // Opaque: alpha ignored, black stays. Masks: cut out above the mark, where the wall behind is visible.
     {"AlphaBlendModeTest/AlphaBlendModeTest.glb",
      "eye:0,1.2,6,target:0,1.2,0,fov:45",
      {{.0625f, .36f, 14, 14, 11}, {.5175f, .4067f, 192, 181, 162}, {.745f, .45f, 195, 187, 171}, {.93f, .50f, 200, 194, 183}}},
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Of, ConformanceModel, testing::ValuesIn(models), [](con
   return name;
 });
 
-// These two draw a green tick for what is right and a red cross for what is wrong.
+// These two draw a green tick for right and a red cross for wrong.
 class TickedModel : public testing::TestWithParam<std::pair<const char*, int>> {};
 
 TEST_P(TickedModel, HasTicksAndNoCross) {

@@ -10,7 +10,8 @@
 namespace lightgrid {
 namespace {
 
-// OpenCL leaves open which zero max(-0.0f, 0.0f) is: this one returns its first operand, as x86's instruction may.
+// OpenCL does not specify which zero max(-0.0f, 0.0f) is: this one returns its first operand, as x86's
+// instruction may.
 constexpr const char* first_operand_max = "#define max(x, y) ((x) < (y) ? (y) : (x))\n";
 
 constexpr const char* kernel_text = R"(
@@ -39,7 +40,7 @@ TEST(BinRanges, KeepLightsWhateverZeroTheBinBeginsAt) {
     EXPECT_EQ(kept(0.0f, 10.0f, before), 16u);
     EXPECT_EQ(kept(-0.0f, 10.0f, before), 16u);
     EXPECT_EQ(kept(-3.0f, 10.0f, before), 16u);
-    EXPECT_EQ(kept(7.0f, 10.0f, before), 0u);  // the test does drop lights
+    EXPECT_EQ(kept(7.0f, 10.0f, before), 0u);  // the test does reject lights
     EXPECT_EQ(kept(-0.0f, -0.0f, before), 0u);
     EXPECT_EQ(kept(-2.0f, 3.0f, before), 0u);
   }

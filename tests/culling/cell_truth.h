@@ -1,4 +1,4 @@
-// What a light grid must and may list, decided in double.
+// The lights that a light grid must and may list, computed in double.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace lightgrid {
 
 constexpr double ulp_of_one = 0x1p-23;
 
-// inset: pixels that the cell is smaller at its sides. 0: to the pixels' edges; 0.5: to their centres, which
-// is all that shading sees.
+// inset: pixels by which the cell is smaller at its sides. 0: to the pixels' edges; 0.5: to their centres,
+// the only shaded points.
 inline Cell true_cell(const View& view, const CulledGrid& grid, size_t index, glm::dvec2 interval,
                       double inset) {
   const CullParams& p = grid.params;
@@ -38,7 +38,7 @@ inline bool certainly_touches(const Cell& cell, const ViewLight& light) {
   return sphere_touches_cell(cell, light.position, light.radius_m);
 }
 
-// Sorted lists without repetition, in ranges that together are the index list.
+// Sorted lists without repetition, in ranges that together form the index list.
 inline void expect_well_formed(const CulledGrid& grid, size_t lights) {
   std::vector<glm::uvec2> ranges = grid.cells;
   std::sort(ranges.begin(), ranges.end(), [](glm::uvec2 a, glm::uvec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
@@ -58,8 +58,8 @@ inline void expect_well_formed(const CulledGrid& grid, size_t lights) {
   }
 }
 
-// Every light that certainly touches a cell is in its list, and an empty cell's list is empty. Returns how
-// many pairs certainly touch, so that a test can tell that it asked something.
+// Every light that certainly touches a cell is in its list, and an empty cell's list is empty. Returns the
+// number of pairs that certainly touch, so that a test can check that it compared something.
 inline uint64_t expect_none_lost(const View& view, const std::vector<ViewLight>& lights,
                                  const std::vector<glm::vec2>& intervals, const CulledGrid& grid,
                                  double inset) {
@@ -86,8 +86,8 @@ inline uint64_t expect_none_lost(const View& view, const std::vector<ViewLight>&
   return touching;
 }
 
-// Every light listed touches, but for rounding, the cell's half-spaces and its box, as CULL_PLANES_AABB
-// promises.
+// Every listed light touches, up to rounding, the cell's half-spaces and its box, as CULL_PLANES_AABB
+// requires.
 inline void expect_little_more(const View& view, const std::vector<ViewLight>& lights,
                                const std::vector<glm::vec2>& intervals, const CulledGrid& grid) {
   const double steepest =

@@ -1,4 +1,5 @@
-// What cull does where memory is short: it takes what is needed where it cannot have more, and says when that is too much.
+// cull with little memory: it allocates exactly what is needed if it cannot have more, and reports when that
+// is too much.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ class LimitedStorage : public ClGridStorage {
   size_t most_;
 };
 
-// Lights without end: each is in the list of each of 16 tiles.
+// Lights of infinite range: each is in the list of each of 16 tiles.
 std::vector<CullLight> endless_lights(size_t count) { return std::vector<CullLight>(count); }
 
 struct CullMemory : testing::TestWithParam<KernelShape> {
@@ -64,8 +65,8 @@ TEST_P(CullMemory, NeedsNoFirstGuess) {
 INSTANTIATE_TEST_SUITE_P(Shapes, CullMemory, testing::Values(KernelShape::lanes, KernelShape::group),
                          [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
 
-// 16 tiles x 64 slices x 2^22 lights are 2^32 indices of one block. Counting them takes a CPU half a minute and a GPU
-// well under a second, so that a CPU does it only where LIGHTGRID_LONG_TESTS is set.
+// 16 tiles x 64 slices x 2^22 lights are 2^32 indices of one block. Counting them takes half a minute on a
+// CPU and well under a second on a GPU, so a CPU does it only if LIGHTGRID_LONG_TESTS is set.
 TEST(CullMemoryLimits, IndicesOfABlockPastTwoToThe32AreRefusedWithTheirNumber) {
   if (test_device().info().cpu && !std::getenv("LIGHTGRID_LONG_TESTS")) GTEST_SKIP() << "LIGHTGRID_LONG_TESTS is not set";
   const View view = view_of(32, 32, 60);

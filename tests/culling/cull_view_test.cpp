@@ -1,4 +1,5 @@
-// What culling reads off a view's matrices, against the numbers that they were made from.
+// The properties that culling derives from a view's matrices, compared with the numbers that they were made
+// from.
 #include "culling/cull_view.h"
 
 #include <gmock/gmock.h>
@@ -66,7 +67,8 @@ TEST(CullViewOf, PixelsAndDepthsLeadBackToThePlaceTheyWereMadeFrom) {
       EXPECT_NEAR(pixel.y * v.slope_y_scale + v.slope_y_offset, place.y / tip, 1e-5);
       EXPECT_NEAR(place.x / tip * p.tile_x_scale + p.tile_x_offset, pixel.x / 16, 1e-5);
       EXPECT_NEAR(place.y / tip * p.tile_y_scale + p.tile_y_offset, pixel.y / 16, 1e-5);
-      // depth_b and what is left of depth_a are float: relative to d, and to the whole range in standard depth.
+      // depth_b and the second part of depth_a are float: relative to d, and to the whole range in standard
+      // depth.
       const double distance = made.orthographic ? (p.depth_b - depth) * p.depth_a
                                                 : p.depth_b / (depth + p.depth_a + p.depth_a_rest);
       EXPECT_NEAR(distance, d, 1e-5 * std::max(d, 10.0));
@@ -88,7 +90,7 @@ TEST(CullViewOf, TilesAndBinsCoverTheImage) {
   EXPECT_THAT(counts(1279, 721, 16), ElementsAre(80, 46, 10, 6, 1));
 }
 
-// d points away from the viewer: the third axis turned round.
+// d points away from the viewer: the reversed third axis.
 TEST(CullViewOf, AxesAreTheRowsOfTheRotation) {
   CullView view = view_through(projections()[0], 64, 64);
   view.view_from_world = glm::rotate(glm::dmat4(1), 0.6, glm::normalize(glm::dvec3(1, 2, 3)));

@@ -1,4 +1,4 @@
-// What LightCuller promises of its calls: their order, what they wait for, and what they refuse.
+// The contract of LightCuller's calls: their order, their waits, and their errors.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 
 
-// Message of the Error that `call` throws; fails where it throws none, or another kind.
+// Message of the Error that `call` throws; fails if it throws none, or another kind.
 template <typename Call>
 std::string refusal(ErrorKind kind, const Call& call) {
   try {
@@ -34,14 +34,14 @@ std::string refusal(ErrorKind kind, const Call& call) {
   return "";
 }
 
-// 64 x 48 pixels, 4 x 3 tiles; the near plane says what a depth means.
+// 64 x 48 pixels, 4 x 3 tiles; the near plane determines the meaning of depth.
 CullView view_with_near(double near_m) {
   return view_through(projection("", false, false, near_m, INFINITY), 64, 48);
 }
 
 const std::vector<float> same_depth(64 * 48, 0.01f);
 
-// Nothing that is enqueued after it starts before it opens.
+// Nothing enqueued after it starts before it opens.
 class Gate {
  public:
   explicit Gate(ClDevice& device) : opened_(device.context()) {
@@ -66,7 +66,7 @@ struct Pending : testing::TestWithParam<KernelShape> {
   cl::Buffer depth{device.context(), CL_MEM_COPY_HOST_PTR, same_depth.size() * sizeof(float),
                    const_cast<float*>(same_depth.data())};
 
-  // Bounds through a culler with nothing pending.
+  // Bounds from a culler with nothing pending.
   std::vector<float> expected(const CullView& view) {
     LightCuller culler(device, programs, {.shape = GetParam()});
     culler.set_view(view);
@@ -182,7 +182,7 @@ TEST(CullerCalls, RefuseMoreLightsThanKernelsCanCount) {
               HasSubstr("4294967296 lights"));
 }
 
-// A transfer that OpenCL refuses: the grid says more bytes than its storage has.
+// A transfer that OpenCL refuses: the grid claims more bytes than its storage has.
 TEST(CullerCalls, ThrowOpenClsErrorsAsOurs) {
   ClGridStorage storage(test_device());
   struct Small : ClGridStorage {
@@ -218,7 +218,7 @@ TEST(CullerCalls, CountInvalidDepthTilesOfTheLastDepthBounds) {
   }
 }
 
-// The work that masks are behind ends only after a while.
+// The work before the masks ends only after a while.
 struct SlowMasks : ClGridStorage {
   using ClGridStorage::ClGridStorage;
   cl::Buffer& masks(size_t bytes) override {

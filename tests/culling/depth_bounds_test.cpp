@@ -77,7 +77,7 @@ void expect_bounds(const View& view, const std::vector<float>& depth, const Cull
     const Exact exact = scan(view, depth, options.tile, int(i));
     const glm::dvec2 opaque(intervals.opaque[i].near, intervals.opaque[i].far);
     const glm::dvec2 blend(intervals.blend[i].near, intervals.blend[i].far);
-    // Orthographic depth loses its bits to the whole range, not to the distance.
+    // Orthographic depth has a precision relative to the whole range, not to the distance.
     const double range = view.orthographic ? 3 * view.far_m : 0;
     const bool past_the_farthest = exact.any && exact.farthest > 1e15;  // docs/hard_cases.md#the-domain
     if (past_the_farthest) {

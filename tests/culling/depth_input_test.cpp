@@ -1,4 +1,4 @@
-// Depth buffers as others bring them: part of a larger image, several samples, few bits, standard depth.
+// Depth buffers from other programs: part of a larger image, several samples, few bits, standard depth.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<float> random_depth(size_t count, uint64_t seed) {
   return depth;
 }
 
-// All about the part is nearer than what it holds: a value read from there would show.
+// The surroundings of the part are nearer than the part: a value read from there would be detected.
 TEST(DepthInput, ThatIsPartOfALargerImageGivesTheBoundsOfThatPart) {
   const glm::ivec2 image(100, 60), corner(41, 13), size(37, 21);
   const std::vector<float> part = random_depth(size.x * size.y, 1);
@@ -69,8 +69,8 @@ TEST(DepthInput, OfSeveralSamplesGivesBoundsOfAll) {
   }
 }
 
-// Surfaces at many distances, one a tile, whose depth a format of few bits has rounded. Returns in how many tiles the
-// bounds miss the true distance. What is rounded to the far end counts as sky.
+// Surfaces at many distances, one a tile, rounded to a depth format of few bits. Returns the number of tiles
+// whose bounds miss the true distance. Values rounded to the far end count as sky.
 int missed(const Projection& made, DepthFormat written, DepthFormat told, KernelShape shape) {
   const int tiles = 400, tile = 8;
   const double steps = written == DepthFormat::d16 ? 65535 : 16777215;
@@ -98,7 +98,7 @@ TEST(DepthInput, OfFewBitsGivesBoundsThatHoldTheTrueDistance) {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
       SCOPED_TRACE(made.name + (format == DepthFormat::d16 ? ", 16 bits" : ", 24 bits"));
       for (const KernelShape shape : kernel_shapes) EXPECT_EQ(missed(made, format, format, shape), 0);
-      // The format does matter.
+      // The format makes a difference.
       if (format == DepthFormat::d16) {
         EXPECT_GT(missed(made, format, DepthFormat::d32f, KernelShape::lanes), 100);
       }
@@ -106,7 +106,7 @@ TEST(DepthInput, OfFewBitsGivesBoundsThatHoldTheTrueDistance) {
   }
 }
 
-// Depths that both senses hold exactly: 1 less the other.
+// Depths that both orders represent exactly: 1 minus the other.
 TEST(DepthInput, InStandardDepthGivesTheGridOfReversedDepth) {
   const int width = 127, height = 73;
   Random random(5);

@@ -1,4 +1,5 @@
-// The culling library as others use it: installed, found by CMake, linked into the example of docs/examples, run.
+// The culling library as other programs use it: installed, found by CMake, linked into the example of
+// docs/examples, run.
 #include <gmock/gmock.h>
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ using testing::Not;
 
 bool has_tool(const std::string& name) { return run_command("command -v " + name).status == 0; }
 
-// Lights whose sphere holds the surface that the centre of some pixel of the tile shows.
+// Lights whose sphere contains the surface at the centre of one of the tile's pixels.
 std::set<uint32_t> lights_of_tile(const std::vector<CullLight>& lights, const std::vector<float>& depth, int tx,
                                   int ty) {
   std::set<uint32_t> found;
@@ -95,7 +96,7 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
   }
 }
 
-// As on a machine that has OpenCL, GLM and fmt and none of what the program needs.
+// As on a machine with OpenCL, GLM and fmt and without the program's other dependencies.
 TEST(Library, AloneIsConfiguredWithoutThePackagesOfTheProgram) {
   if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
   const TempFolder temp;

@@ -1,4 +1,4 @@
-// One culler from view to view: what was before must not show.
+// One culler from view to view: earlier views must not affect later ones.
 #include <gmock/gmock.h>
 
 #include "base/error.h"
@@ -153,7 +153,8 @@ TEST(LightCuller, FitsItsGroupsToTheDevice) {
   }
 }
 
-// So many tiles that 64 regions would be wider than the 128 tiles which a byte can tell apart (light_records.h).
+// So many tiles that 64 regions would be wider than the 128 tiles that a byte can distinguish
+// (light_records.h).
 TEST(LightCuller, FindsSmallLightsAmongTwoMillionTiles) {
   const View view = view_of(16400, 8300, 60);
   const int tile = 8, tiles_x = 2050, tiles_y = 1038;
@@ -176,7 +177,7 @@ TEST(LightCuller, FindsSmallLightsAmongTwoMillionTiles) {
   EXPECT_EQ(grid.indices.size(), lights.size());  // each in the middle of its tile
 }
 
-// Not as GCC 12.2 had it, which made the rests of y and z 0: docs/devices.md#known-faults.
+// Unlike GCC 12.2, which computed the second floats of y and z as 0: docs/devices.md#known-faults.
 TEST(LightCuller, KeepsWhatFloatLeavesOfTheEyesPlace) {
   LightCuller culler(test_device(), test_programs(), {});
   culler.set_lights(std::vector<CullLight>{{{0.1, -5.2345678901234, 9.385133093691941}, 1}});

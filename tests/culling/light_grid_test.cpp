@@ -1,4 +1,4 @@
-// The light grid between what certainly touches a cell and what possibly does.
+// The light grid, between the lights that certainly touch a cell and those that possibly do.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -136,7 +136,7 @@ TEST_P(LightGridOf, AnyNumberOfLights) {
   }
 }
 
-// Lights whose reach ends exactly on a cell's side, edge or corner, and one unit in the last place past it.
+// Lights whose range ends exactly on a cell's side, edge or corner, and one unit in the last place past it.
 TEST_P(LightGridOf, TangentLightsAreKept) {
   for (const NamedView& named : views(127, 73)) {
     SCOPED_TRACE(named.name);
@@ -254,7 +254,7 @@ TEST(LightGrid, OneCullerGivesTheSameFrameAfterFrame) {
   }
 }
 
-// More candidates and more indices than any first guess: the grid is still whole.
+// More candidates and more indices than any first estimate: the grid is still complete.
 TEST(LightGrid, GrowsToWhatTheCountsSay) {
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     const View view = view_of(321, 181, 60);
@@ -305,8 +305,8 @@ std::vector<float> depth_with_gaps(const View& view, uint64_t seed) {
   return depth;
 }
 
-// From a depth image to lists, against the lights that reach each pixel's centre. One test a cull test: two of them
-// that run at once build no kernel of the light lists twice.
+// From a depth image to lists, compared with the lights that reach each pixel's centre. One test a cull test,
+// so that two that run at once build different kernels.
 struct LightGridUnder : testing::TestWithParam<CullTest> {};
 
 TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
@@ -314,7 +314,7 @@ TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
     const std::vector<float> depth = depth_with_gaps(named.view, 17);
     const auto lights = scattered_lights(named.view, 400, true, 18);
     const LitBlocks lit = find_lit_blocks(named.view, depth, lights);
-    // Every kind of depth bounds. Tile sizes take turns; every sixth setting also runs the other shape.
+    // Every depth-bounds mode. Tile sizes alternate; every sixth setting also runs the other shape.
     for (int mode = 0; mode < int(std::size(depth_bounds_modes)); ++mode) {
       const int combination = int(std::size(depth_bounds_modes)) * int(GetParam()) + mode, tile = 8 << combination % 4;
       CullerOptions options = grid_options(GetParam(), KernelShape::lanes);

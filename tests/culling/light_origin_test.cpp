@@ -26,7 +26,7 @@ glm::dvec3 random_direction(Random& random) {
   return glm::normalize(d);
 }
 
-// Narrow spots and small lamps about the wall.
+// Narrow spots and small lamps around the wall.
 std::vector<ViewLight> lights_at_the_wall(size_t count, uint64_t seed) {
   Random random(seed);
   std::vector<ViewLight> lights;
@@ -81,7 +81,7 @@ TEST_P(Loss, NoneWhereLightsAreParkedToSwitchThemOff) {
   }
 }
 
-// A parked light of radius 1 costs the wall's tiles nothing.
+// A parked light of radius 1 does not affect the wall's tiles.
 TEST_P(Loss, AParkedLightIsListedNowhere) {
   for (const double place : {1e16, 1e19, 1e30, double(std::numeric_limits<float>::max())}) {
     const std::vector<ViewLight> lights = {point_light({place, 0, 0}, 1), point_light({0, 0, -place}, 1)};
@@ -89,7 +89,7 @@ TEST_P(Loss, AParkedLightIsListedNowhere) {
   }
 }
 
-// Past the domain: surfaces beyond 1e15 m, and lights there.
+// Outside the domain: surfaces beyond 1e15 m, and lights there.
 TEST_P(Loss, NoneBeyondTheFarthestSurface) {
   for (const double distance : {1e15, 3e15, 1e17, 1e19, 1e25}) {
     SCOPED_TRACE(distance);

@@ -1,4 +1,4 @@
-// Bitmasks say what the lists say.
+// Bitmasks contain the same lights as the lists.
 #include <gmock/gmock.h>
 
 #include "base/error.h"

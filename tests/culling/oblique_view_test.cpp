@@ -54,7 +54,7 @@ std::vector<Mirror> mirrors() {
           {"wide, standard", mirror_view(110, {0.1, 0.2, 1}, 2, true), true}};
 }
 
-// A surface at each pixel, with the depth that float has of it. Distances between once and 30 times the plane's.
+// A surface at each pixel, with its depth in float. Distances between 1 and 30 times the plane's.
 std::vector<float> random_surfaces(const Mirror& mirror, Random& random) {
   std::vector<float> depth;
   for (int y = 0; y < height; ++y) {
@@ -93,7 +93,7 @@ TEST(ObliqueView, TheTestsDepthsLieBetweenTheEnds) {
   }
 }
 
-// Lights that end within a hair of a pixel's own position, and some that light many.
+// Lights that barely reach a pixel's own position, and some that reach many.
 TEST(ObliqueView, NoPixelLosesALight) {
   for (const Mirror& mirror : mirrors()) {
     Random random(2);
@@ -164,7 +164,7 @@ std::string refusal_of(CullView view) {
   }
 }
 
-// Their edges are compared with stored depths, which here depend on the pixel's place.
+// Their edges are compared with stored depths, which here depend on the pixel's position.
 TEST(ObliqueView, RefusesSlicesAndZBins) {
   CullView view = culled(mirrors()[0].view);
   EXPECT_EQ(refusal_of(view), "");

@@ -1,4 +1,4 @@
-// Depth slices: which one a depth falls into, and what their cells must list.
+// Depth slices: the slice of a depth, and the required lists of its cells.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -37,7 +37,8 @@ TEST(SliceCells, ByHand) {
   EXPECT_THAT(slices, ElementsAre(0, 0, 1, 1, 2, 2, 3, 3, 3, 3));
 }
 
-// Against a scan of the edges, at each of them, a unit in the last place to either side, and outside all.
+// Compared with a scan of the edges, at each of them, a unit in the last place to either side, and outside
+// all.
 TEST(SliceCells, AreThoseOfAPlainScan) {
   for (const View& view : {view_of(8, 8, 60), view_of(8, 8, 60, 0.1, 50), orthographic_view_of(8, 8, 5, 0, 50),
                            orthographic_view_of(8, 8, 5, -20, 50)}) {
@@ -128,8 +129,8 @@ TEST(SliceCells, ListWhatCertainlyTouchesThemInBothShapes) {
   }
 }
 
-// A speck of light on the surface, whose distance rounded as shading rounds it, or by a division 2.5 units off: in the
-// slice of the pixel's depth. Depths on slice edges and a unit to either side.
+// A tiny light on the surface, whose distance is rounded as in shading, or by a division with an error of 2.5
+// units: it must be in the slice of the pixel's depth. Depths on slice edges and a unit to either side.
 TEST(SliceCells, TheSliceOfADepthListsWhatTouchesTheSurfaceThere) {
   for (const View& view : {view_of(127, 73, 60), view_of(127, 73, 60, 0.1, 50), orthographic_view_of(127, 73, 5, 0, 50)}) {
     const auto edges = slice_edges(SliceSpacing::exponential, 24, view.near_m, 40);

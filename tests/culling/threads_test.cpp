@@ -1,5 +1,5 @@
-// A device and what was made from it are for one thread at a time (docs/library.md): threads with a device
-// each do not disturb one another, and a culler may go from thread to thread.
+// A device and objects made from it are for one thread at a time (docs/library.md): threads with a device
+// each do not affect one another, and a culler may move from thread to thread.
 #include <gtest/gtest.h>
 
 #include <barrier>

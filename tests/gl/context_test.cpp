@@ -13,7 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// Newer distributions have no OSMesa: then its tests skip, and say so. EGL is required, so its tests fail.
+// Newer distributions have no OSMesa: its tests are then skipped with a message. EGL is required, so its
+// tests fail.
 bool osmesa_is_installed() {
   try {
     GlContext::create(GlBackend::osmesa);
@@ -29,7 +30,7 @@ struct GlContextOf : testing::TestWithParam<GlBackend> {
   }
 };
 
-// Only what the program itself sets: drivers add variables of their own.
+// Only the program's own: drivers add variables.
 std::vector<std::string> environment() {
   std::vector<std::string> values;
   for (const char* name : {"EGL_LOG_LEVEL"}) {

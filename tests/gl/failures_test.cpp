@@ -1,4 +1,4 @@
-// What OpenGL refuses, and what is left behind when it does.
+// Failures of OpenGL, and the state that they leave.
 #include <gmock/gmock.h>
 
 #include "base/error.h"
@@ -27,7 +27,7 @@ std::string refusal(const Call& call) {
   return "";
 }
 
-// An OpenGL without memory: storage fails, and glGetError says so once.
+// An OpenGL without memory: storage fails, and glGetError reports it once.
 struct NoMemory {
   NoMemory() {
     buffer = glNamedBufferStorage, texture = glTextureStorage2D, error = glGetError;
@@ -90,7 +90,7 @@ TEST_F(GlFailures, ResetStateIsThatOfANewContext) {
                               GL_PIXEL_PACK_BUFFER_BINDING, GL_VERTEX_ARRAY_BINDING, GL_SAMPLER_BINDING}) {
       glGetIntegerv(name, &values.emplace_back());
       const bool is_mask = name == GL_STENCIL_WRITEMASK || name == GL_STENCIL_BACK_WRITEMASK;
-      if (is_mask) values.back() &= 0xff;  // drivers differ in the bits that no stencil has
+      if (is_mask) values.back() &= 0xff;  // drivers differ in the bits that no stencil plane has
     }
     GLint mask[4];
     glGetIntegerv(GL_COLOR_WRITEMASK, mask);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int width = 320, height = 180;
 
-// What another vector width or Mesa may change: docs/testing.md has the measurements behind these.
+// Tolerances for another vector width or Mesa: docs/testing.md has the measurements.
 constexpr double allowed_mean = 0.05;        // steps of 255, over all channels
 constexpr int allowed_step = 2;              // steps of 255 in a channel
 constexpr double allowed_share_off = 0.002;  // of the pixels may be further off, at edges of triangles,
@@ -45,8 +45,8 @@ struct Difference {
   Bytes picture;  // each channel's difference, eight times as bright
 };
 
-// How far a channel is outside of what the expected image has within a pixel around. At an edge, rasterisers may
-// disagree about which of two surfaces a pixel shows; none may show a third.
+// How far a channel lies outside the range of the expected image's pixels within one pixel. At an edge,
+// rasterisers may disagree about which of two surfaces a pixel shows; none may show a third.
 int beyond_neighbours(const Bytes& actual, const Bytes& expected, int x, int y, int channel) {
   int low = 255, high = 0;
   for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v) {

@@ -1,5 +1,5 @@
-// Bytes made into culling inputs, of which nothing may crash, hang or read out of bounds. What libFuzzer and the
-// deterministic test of ctest both run.
+// Culling inputs from bytes; none may cause a crash, a hang or an out-of-bounds read. Used by libFuzzer and
+// by the deterministic test of ctest.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class Bytes {
   }
   int up_to(int most) { return take<uint8_t>() % (most + 1); }
 
-  // Mostly a sensible number, at times one of the strange ones, at times any bits at all.
+  // Usually a plausible number, sometimes a special one, sometimes any bits.
   double number(double low, double high) {
     constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double strange[] = {0, -0.0, nan, -nan, inf, -inf, 1e-45, -1e-45, 1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1, -1};
@@ -53,7 +53,7 @@ struct FuzzInput {
 // Sizes and settings in their range; every number may be anything.
 inline FuzzInput fuzz_input(Bytes bytes) {
   FuzzInput in;
-  // Few settings, as each builds kernels of its own: four kinds that differ in all.
+  // Few settings, because each builds its own kernels: four combinations.
   constexpr struct {
     CullTest test;
     DepthBoundsMode mode;
@@ -72,7 +72,7 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   o.samples = kind.samples, o.index_bits = kind.index_bits, o.lists = kind.lists;
   o.portable = kind.portable, o.blend = kind.blend;
   Lens lens;
-  // One strange number in a projection is mostly refused, and nothing else is then tried.
+  // One special number in a projection is usually refused, and nothing else is then tested.
   const bool strange_lens = bytes.up_to(3) == 0;
   const auto number = [&](double low, double high) {
     return strange_lens ? bytes.number(low, high) : low + (high - low) * (bytes.take<uint16_t>() / 65535.0);
@@ -107,7 +107,7 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   return in;
 }
 
-// Empty, or where a mask says something other than its list.
+// Empty, or the position where a mask differs from its list.
 inline std::string masks_differ(const HostGrid& grid) {
   if (grid.masks.empty()) return "";
   const size_t words = grid.masks.size() / grid.cells.size();
@@ -121,7 +121,8 @@ inline std::string masks_differ(const HostGrid& grid) {
   return "";
 }
 
-// Every grid that the input's settings have, in one kernel shape: over given bounds, from depth, of blended surfaces.
+// Every grid that the input's settings give, in one kernel shape: over given bounds, from depth, of blended
+// surfaces.
 inline std::vector<HostGrid> fuzz_grids(CullEngine& engine, const FuzzInput& in, KernelShape shape) {
   CullerOptions options = in.options;
   options.shape = shape;
@@ -131,7 +132,7 @@ inline std::vector<HostGrid> fuzz_grids(CullEngine& engine, const FuzzInput& in,
   return grids;
 }
 
-// Empty, or what is wrong. `refused` says whether the input was refused in a line, which is allowed.
+// Empty, or the fault. `refused`: the input was refused with one line, which is allowed.
 inline std::string fuzz_once(CullEngine& engine, const FuzzInput& in, bool* refused = nullptr) {
   try {
     const std::vector<HostGrid> lanes = fuzz_grids(engine, in, KernelShape::lanes);

@@ -31,8 +31,8 @@ TEST(CullFuzz, RandomInputsGiveWholeGridsThatBothShapesAgreeOn) {
   EXPECT_LT(refused, inputs / 2) << "most inputs are refused before a kernel runs";
 }
 
-// eye_1e26_m_off: all squares are infinite; one shape dropped what the other kept.
-// near_plane_at_3e-53_m: the cut of halfz-modified is where nothing is.
+// eye_1e26_m_off: all squares are infinite; one shape dropped a light that the other kept.
+// near_plane_at_3e-53_m: halfz-modified cuts where there is no surface.
 TEST(CullFuzz, InputsThatOnceFailed) {
   const auto engine = device_engine("");
   const std::filesystem::path folder = std::filesystem::path(source_folder) / "tests/hard_cases/fuzz_inputs";

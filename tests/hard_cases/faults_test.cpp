@@ -1,5 +1,5 @@
-// The hard cases tell right from wrong: a right culler passes all of them, and each fault that naive code has is caught
-// by the cases that are there for it.
+// The hard cases distinguish right from wrong: a correct culler passes all of them, and each fault of naive
+// code is caught by the cases for it.
 #include <gtest/gtest.h>
 
 #include "hard_cases/naive_culler.h"

@@ -1,5 +1,5 @@
-// The kernels against the float twin, where the catalogue's case (lists/float_twin) does not go: other uploads, depth
-// inputs and index widths, and numbers of lights that take the kernels' other ways.
+// Compares the kernels with the float twin outside the catalogue's case (lists/float_twin): other uploads,
+// depth inputs and index widths, and numbers of lights for which the kernels use other code paths.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(FloatTwin, WholePixels) {
   expect_the_twins_bytes(frame_of(sixty, 300, true), options);
 }
 
-// Past 256 candidates a bin, and past 16,384 lights, the lanes shape takes another way.
+// Past 256 candidates a bin, and past 16,384 lights, the lanes shape uses another code path.
 TEST(FloatTwin, ManyLights) {
   for (const size_t lights : {3000, 20'000}) expect_the_twins_bytes(frame_of(sixty, lights, false), {});
 }
@@ -71,7 +71,7 @@ TEST(FloatTwin, SamplesOfAViewportInStandardDepthOf16Bits) {
   expect_the_twins_bytes(frame, options);
 }
 
-// Values that no depth buffer should hold, in every mode.
+// Invalid depth values, in every mode.
 TEST(FloatTwin, StrangeDepths) {
   Frame frame = frame_of(field_of_view(60, 127, 73), 200, true);
   const float strange[] = {NAN, -NAN, INFINITY, -INFINITY, -0.0f, -0.5f, 1.5f, 1e-45f, 0.0f, 1.0f};
@@ -83,7 +83,7 @@ TEST(FloatTwin, StrangeDepths) {
   }
 }
 
-// One light taken out of one list, one bit of one bound: both are seen.
+// One light removed from one list, one bit of one bound changed: both are detected.
 TEST(FloatTwin, SeesASingleDifference) {
   const Frame frame = frame_of(field_of_view(60, 127, 73), 100, true);
   const auto engine = device_engine("");

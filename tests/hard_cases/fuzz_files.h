@@ -1,4 +1,5 @@
-// Fuzz inputs as files: every number by its bits, so that no edit of the code that makes inputs from bytes changes one.
+// Fuzz inputs as files: every number is stored by its bits, independent of the code that makes inputs from
+// bytes.
 //
 // Text, one word after another: options (cull test, depth bounds, depth format, tile, samples, index bits, lists, portable,
 // blend), width, height, clip_from_view, view_from_world, eye, then with a count before each: slice edges, z-bin edges,

@@ -1,5 +1,6 @@
-// Culls a small frame under every setting in both kernel shapes, holds each grid against the oracle and prints a digest
-// of all their bytes. oclgrind_test.cpp runs it under Oclgrind and with several numbers of threads.
+// Culls a small frame under every setting in both kernel shapes, compares each grid with the oracle and
+// prints a digest of all their bytes. oclgrind_test.cpp runs it under Oclgrind and with several numbers of
+// threads.
 #include <cstdio>
 
 #include "verify/check.h"
@@ -36,7 +37,7 @@ void digest_settings(Check& check, const CullView& view, size_t lights) {
   }
 }
 
-// What Oclgrind does in seconds: grids of one kernel shape alone.
+// A part that takes Oclgrind only seconds: grids of one kernel shape alone.
 void digest_of_shape(CullEngine& engine, KernelShape shape) {
   const CullView view = field_of_view(60, 37, 21);
   Random random(61);
@@ -52,7 +53,7 @@ void digest_of_shape(CullEngine& engine, KernelShape shape) {
   }
 }
 
-// With "lanes" or "group": that shape alone, small.
+// With "lanes" or "group": only that shape, small.
 int main(int argc, char** argv) {
   const auto engine = device_engine("");
   Check check(*engine, 0);

@@ -1,4 +1,4 @@
-// The standing hunt: it finds nothing in the library, and it finds, saves and shrinks what a culler without slack loses.
+// The hunt finds no loss in the library; it finds, saves and reduces the losses of a culler without slack.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// Takes the slack of docs/hard_cases.md#slack away from each light before the library adds it.
+// Subtracts the slack of docs/hard_cases.md#slack from each light before the library adds it.
 class WithoutSlack : public CullEngine {
  public:
   WithoutSlack() : library_(device_engine("")) {}

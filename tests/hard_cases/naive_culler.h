@@ -1,5 +1,5 @@
-// A culler in double with, when asked, one fault that naive code has. Without one it is right: the hard cases must pass
-// on it. With one, the cases made for that fault must fail; else they test nothing.
+// A culler in double with, optionally, one fault of naive code. Without one it is correct: the hard cases
+// must pass on it. With one, the cases for that fault must fail; otherwise they would test nothing.
 #pragma once
 
 #include <algorithm>
@@ -126,8 +126,8 @@ class NaiveCuller : public CullEngine {
     return {down(near), up(std::min(far, 1e18))};
   }
 
-  // By half a step of the format, which is what rounding to it may have moved the depth by; of D32F too, as what was
-  // rounded is the surface's own depth.
+  // By half a step of the format, the largest change by rounding to it; for D32F too, because the surface's
+  // own depth was rounded.
   void widen(const CullerOptions& o, const CullView& view, float value, double& near, double& far) const {
     double step = 0.5 * (std::nextafter(value, 2.0f) - value);
     if (o.depth_format == DepthFormat::d16) step = 0.5 / 65535;
@@ -192,8 +192,8 @@ class NaiveCuller : public CullEngine {
     return middle;
   }
 
-  // The distances that a slice's edge may stand for: shading compares depths with the edge's depth, which is rounded, and
-  // the surface's own depth was rounded to the format.
+  // The distances that a slice's edge may represent: shading compares depths with the edge's rounded depth,
+  // and the surface's own depth was rounded to the format.
   DepthInterval64 edge_range(const CullerOptions& o, const CullView& view, double edge) const {
     DepthInterval64 range{edge, edge};
     if (fault_ != Fault::edges_not_widened) widen(o, view, float(depth_at(view, edge)), range.near, range.far);
@@ -297,7 +297,7 @@ class NaiveCuller : public CullEngine {
 
   std::vector<uint32_t> z_bins(const CullerOptions& o, const CullView& view, const std::vector<OracleLight>& lights) const {
     const std::vector<float>& edges = view.z_bin_edges;
-    std::vector<double> nearest, farthest;  // of what each edge may stand for
+    std::vector<double> nearest, farthest;  // that each edge may represent
     for (const float edge : edges) {
       const DepthInterval64 range = edge_range(o, view, edge);
       nearest.push_back(range.near), farthest.push_back(range.far);
@@ -321,7 +321,7 @@ class NaiveCuller : public CullEngine {
     HostGrid grid;
     grid.cells_x = tiles_x(view, o.tile), grid.cells_y = int(bounds.size()) / grid.cells_x;
     grid.slices = int(view.slice_edges.size()) + 1;
-    if (lights.size() * bounds.size() * grid.slices >> 32) {  // wrapped: nothing is left
+    if (lights.size() * bounds.size() * grid.slices >> 32) {  // overflow: nothing remains
       grid.cells.resize(bounds.size() * grid.slices);
       return grid;
     }

@@ -21,7 +21,8 @@ TEST(GridDigest, IsTheSameWithAnyNumberOfThreads) {
         << threads << " threads";
 }
 
-// Without --uninitialized: Oclgrind 21.10 takes vectors made of compared lanes for uninitialized, and stops at `freeze`.
+// Without --uninitialized: Oclgrind 21.10 treats vectors of compared lanes as uninitialized, and stops at
+// `freeze`.
 struct ShapeDigest : testing::TestWithParam<const char*> {};
 
 TEST_P(ShapeDigest, IsThatOfOclgrindWhichFindsNoFault) {
@@ -29,7 +30,7 @@ TEST_P(ShapeDigest, IsThatOfOclgrindWhichFindsNoFault) {
   const CommandOutcome watched =
       digest("LIGHTGRID_CL_CACHE=off oclgrind --build-options -cl-opt-disable --data-races", GetParam());
   EXPECT_EQ(watched.status, 0);
-  // What it finds it prints before the program's line. A build that is only tried, for one kind of CPU, fails aloud.
+  // It prints its findings before the program's line. A trial build, for one kind of CPU, fails with output.
   std::string found;
   std::istringstream lines(watched.output);
   for (std::string line; std::getline(lines, line);)

@@ -1,4 +1,4 @@
-// `verify --replay`: lost pairs are counted by the oracle, whatever the float twin says.
+// `verify --replay`: lost pairs are counted by the oracle, independent of the float twin.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -60,7 +60,8 @@ TEST(Replay, CountsPairsOfPixelsAndLightsUnderEverySetting) {
   EXPECT_EQ(outcome.lost, 25 * pairs.lit);
 }
 
-// The library, on a frame as it comes, from the program. Without a kernel cache most of the time is for building kernels.
+// The library, on a captured frame, from the program. Without a kernel cache most of the time goes to
+// building kernels.
 TEST(ReplayCommand, LosesNothingAndSaysSo) {
   const TempFolder folder;
   write_frame(folder.path, small_frame());

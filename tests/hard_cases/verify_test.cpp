@@ -1,4 +1,5 @@
-// The catalogue of hard cases on the OpenCL device at hand, group by group, and the document that shows it.
+// The catalogue of hard cases on the test machine's OpenCL device, group by group, and the document with its
+// table.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -32,8 +33,8 @@ TEST_P(HardCasesOf, Hold) {
 INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf, testing::Values("depth", "camera", "lights", "lists", "agreement"),
                          [](const auto& info) { return std::string(info.param); });
 
-// Each has a name of its own and is in one of the groups that HardCasesOf.Hold runs. How many there are is the document's
-// affair: HardCases.AreThoseOfTheDocument.
+// Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
+// HardCases.AreThoseOfTheDocument checks their number.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
   const std::set<std::string> groups = {"depth", "camera", "lights", "lists", "agreement"};
   std::set<std::string> names, used;
@@ -44,7 +45,7 @@ TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
   EXPECT_EQ(used, groups);
 }
 
-// docs/hard_cases.md holds what `lightgrid verify --list` prints, row by row, and no other row of that kind.
+// docs/hard_cases.md contains the rows that `lightgrid verify --list` prints, and no other row of that kind.
 TEST(HardCases, AreThoseOfTheDocument) {
   std::ifstream file(std::string(source_folder) + "/docs/hard_cases.md");
   std::vector<std::string> rows;

@@ -1,5 +1,4 @@
-// What `inspect` says of a light: on a cell solved by hand, and that it always agrees with the lists and the
-// oracle.
+// Output of `inspect` for a light: on a cell solved by hand, and its agreement with the lists and the oracle.
 #include "inspect/inspect.h"
 
 #include <algorithm>
@@ -117,8 +116,8 @@ TEST(Inspect, OfACellWithoutASurfaceSaysSo) {
   EXPECT_EQ(json["cell"]["empty"], true);
 }
 
-// Of every setting: verdicts are the list's and the oracle's; the exact distance is never below another
-// test's; what touches is listed; and each drop is explained by a test in use.
+// For every setting: verdicts equal the list's and the oracle's; the exact distance is never below another
+// test's; a light that touches is listed; and each drop is explained by a test in use.
 TEST(Inspect, AgreesWithTheListsTheOracleAndItself) {
   const CapturedFrame frame = small_frame(61, 37);
   const std::vector<ViewLight> lights = local_lights(frame);

@@ -1,4 +1,4 @@
-// What the geometry buffer gives back of the surfaces that were put into it.
+// The surfaces read back from the geometry buffer.
 #include "passes/gbuffer.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace lightgrid {
 namespace {
 
-// A wall of small squares, each with a normal of its own: all directions evenly, also those that no
-// rasterised surface turns towards the eye. It fills a view of 90 degrees.
+// A wall of small squares, each with a normal of its own: all directions evenly, even those that no
+// rasterised surface shows to the eye. It fills a view of 90 degrees.
 Scene wall_of_all_normals(int columns) {
   Mesh mesh;
   const float step = 4.0f / float(columns);
@@ -62,7 +62,8 @@ double angle_deg(const glm::vec4& a, const glm::vec4& b) {
   return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
-// Cigolle et al. (2014) give 0.95 degrees for 16 bits in all and 0.0037 for 32. Float keeps normals as they are.
+// Cigolle et al. (2014) give 0.95 degrees for 16 bits in all and 0.0037 for 32. Float stores normals
+// directly.
 TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
   const Scene scene = wall_of_all_normals(200);
   for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, 0.0)}) {
@@ -92,8 +93,8 @@ TEST(FillGbuffer, KeepsNormalsAlongAxesAsTheyAre) {
   }
 }
 
-// Half a step of what is stored, in 8 bits of a square root, whose slope is at most 2; and float's rounding
-// of texture coordinates, times the texture's slope, where the two programs compute them otherwise.
+// Half a step of the stored value, in 8 bits of a square root, whose slope is at most 2; plus float's
+// rounding of texture coordinates, times the texture's slope, if the two programs compute them differently.
 TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
   SmallScene s = small_scene();
   for (const Effect& effect : effects()) {
@@ -113,7 +114,7 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
       ASSERT_LE(
           std::abs(surfaces.kept.normal_roughness.pixels[i].a - surfaces.drawn.normal_roughness.pixels[i].a),
           bound);
-      // Where nothing is, no light reaches: as if unlit.
+      // Background is not reached by lights: as if unlit.
       const bool nothing = glm::vec3(surfaces.drawn.normal_roughness.pixels[i]) == glm::vec3(0);
       const bool is_unlit = surfaces.drawn.emissive_occlusion.pixels[i].a < 0;
       ASSERT_EQ(surfaces.kept.emissive_occlusion.pixels[i].a < 0, nothing || is_unlit);
@@ -146,7 +147,7 @@ TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
   }
 }
 
-// What OpenCL reads: the stored integers, as the table of gbuffer.h explains them.
+// OpenCL's input: the stored integers, as described in gbuffer.h.
 TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
   const Scene scene = wall_of_all_normals(16);
   const View view = wide_view(32, 32);

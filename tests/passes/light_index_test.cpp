@@ -1,4 +1,4 @@
-// Light indices into channels and out again, and a machine whose blending does not keep them.
+// Light indices into channels and out again, and machines whose blending changes them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(LightIndexLayout, LeavesOpenIsTheLeastAndTheMost) {
   EXPECT_EQ(light_index_layout({.lidr_packing = LidrPacking::maxblend}, 256).name(), "maxblend, 4 overlaps of 65535 lights");
 }
 
-// OpenGL's blending as this machine might do it, a channel at a time.
+// OpenGL's blending with the arithmetic of a simulated machine, a channel at a time.
 using BlendOne = std::function<uint32_t(uint32_t source, uint32_t there)>;
 
 LightIndexBlender blender_of(const BlendOne& blend) {
@@ -77,7 +77,7 @@ LightIndexBlender blender_of(const BlendOne& blend) {
   };
 }
 
-// Each row by the blending that it asks for, exactly.
+// Each row with its own blending, exactly.
 BlendOne exact_blend(const LightIndexLayout& layout) {
   if (layout.packing == LidrPacking::maxblend) return [](uint32_t s, uint32_t d) { return std::max(s, d); };
   return [shift = layout.shift](uint32_t s, uint32_t d) { return s + (d >> shift); };
@@ -115,7 +115,7 @@ TEST(LightIndexProbe, TellsMachinesApart) {
 TEST(LightIndexProbe, NamesWhatBecomesOfWhichLights) {
   const LightIndexLayout layout = layout_of(LidrPacking::maxblend, 2, 255);
   const std::string why = why_blending_fails(layout, blender_of([](uint32_t s, uint32_t d) { return std::max(s, d) | 1; }));
-  // Index 2 is kept as 3; of 255 - 2 and 255 - 1 the greater becomes 255, of index 0.
+  // Index 2 becomes 3; of 255 - 2 and 255 - 1 the greater becomes 255, which is index 0.
   EXPECT_TRUE(why.starts_with("lights 0 1 become 2, and so ")) << why;
 }
 

@@ -1,4 +1,4 @@
-// Boxes and lights: what is told not to be reached gets nothing of the light.
+// Boxes and lights: a box reported as out of reach gets nothing from the light.
 #include "passes/light_volumes/light_reach.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(LightReach, KeepsEveryBoxWithAPointThatTheLightReaches) {
     const ViewBox box{point_in(random, glm::dvec3(-4), glm::dvec3(4)), point_in(random, glm::dvec3(0), glm::dvec3(1.5))};
     bool some = false;
     for (int i = 0; i < 40 && !some; ++i) {
-      // Half of the points on the box's faces, edges and corners, where it is first touched.
+      // Half of the points are on the box's faces, edges and corners, where it is touched first.
       glm::dvec3 p = point_in(random, glm::dvec3(-1), glm::dvec3(1));
       for (int axis = 0; i % 2 && axis < 3; ++axis) p[axis] = random.uniform() < 0.6f ? (p[axis] < 0 ? -1 : 1) : p[axis];
       some = reaches(light, box.center + p * box.half);

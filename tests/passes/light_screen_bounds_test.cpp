@@ -1,4 +1,4 @@
-// Rectangles and depth intervals of lights hold every pixel that the light reaches, and little more.
+// Rectangles and depth intervals of lights contain every pixel that the light reaches, and little more.
 #include "passes/light_volumes/screen_bounds.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ glm::dvec3 on_sphere(Random& random) {
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-// Light and bounds where nothing else than the ball binds.
+// Light and bounds where only the sphere limits.
 struct Trial {
   View view;
   ViewLight light;
@@ -51,7 +51,7 @@ Trial random_trial(Random& random) {
   return t;
 }
 
-// Pixel coordinates and depth; none before the near plane.
+// Pixel coordinates and depth; none in front of the near plane.
 std::optional<glm::dvec3> seen(const View& view, const glm::dvec3& p) {
   if (-p.z < view.near_m || -p.z > view.far_m) return {};
   const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);

@@ -1,4 +1,4 @@
-// Light volumes contain what their lights reach, whatever the light and the view.
+// Light volumes contain everything that their lights reach, for any light and view.
 #include "passes/light_volumes/light_volumes.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::vector<Plane> planes_of(const LightMesh& mesh, const glm::dmat4& matrix) {
   return planes;
 }
 
-// How far the light's ball, or its cone's part of it, reaches along a direction.
+// How far the light's sphere, or the part of it in the cone, extends along a direction.
 double reach(const ViewLight& light, const glm::dvec3& direction) {
   const double at = glm::dot(direction, light.position);
   if (light.type == LightType::point || light.cos_outer < 0) return at + light.radius_m;
@@ -80,8 +80,8 @@ ViewLight any_volume_light(Random& random) {
   return light;
 }
 
-// The least distance by which a volume's faces clear what its light reaches, in units of float rounding of the numbers
-// that shading has to do with. At least what culling's slack is derived from: docs/hard_cases.md#slack.
+// The least distance by which a volume's faces clear the light's reach, in units of float rounding of the
+// numbers in shading. At least what culling's slack is derived from: docs/hard_cases.md#slack.
 double clearance(const ViewLight& light, const LightVolume& volume) {
   const glm::dvec3 p = glm::abs(light.position);
   const double unit = 0x1p-24 * (p.x + p.y + p.z + light.radius_m);
@@ -92,7 +92,7 @@ double clearance(const ViewLight& light, const LightVolume& volume) {
   return least;
 }
 
-// Would depth across the volume round by more than a hundredth of what it is to contain?
+// True if depth across the volume would round by more than a hundredth of the volume's content.
 bool is_extreme(const View& view, const ViewLight& light) {
   const double farthest = glm::length(light.position) + 2 * light.radius_m;
   const bool cone = light.type == LightType::spot && light.cos_outer > 1e-6;

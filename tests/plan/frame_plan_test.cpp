@@ -57,7 +57,7 @@ TEST(FramePlan, EachEffectComesWithItsWitness) {
   }
 }
 
-// All effects added one after the other: no one of them takes away what another asked for.
+// All effects added one after the other: none removes what another requires.
 TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   SmallScene s = small_scene();
   std::vector<std::string> needed;
@@ -144,7 +144,7 @@ TEST(FramePlan, WithoutALightThatHasAPlaceThereIsNoGrid) {
 TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {
   SmallScene s = small_scene(false);
   s.scene.lights.resize(65536);
-  s.scene.lights.emplace_back().type = LightType::directional;  // stands in no list
+  s.scene.lights.emplace_back().type = LightType::directional;  // is in no list
   EXPECT_EQ(plan_of(s.scene).index_bits, 16);
   s.scene.lights.emplace_back();
   const FramePlan plan = plan_of(s.scene);

@@ -84,8 +84,7 @@ TEST(SphereTouchesCell, TangentTouches) {
   EXPECT_TRUE(sphere_touches_cell(pyramid, {0, 0, -1.5}, 0));
 }
 
-// Dykstra's alternating projections onto the cell's half-spaces: slow, and nothing in common with the closed
-// form.
+// Dykstra's alternating projections onto the cell's half-spaces: slow, and independent of the closed form.
 double distance_by_dykstra(const Cell& cell, const dvec3& point) {
   const double tip = cell.orthographic ? 0 : 1;
   struct Half {

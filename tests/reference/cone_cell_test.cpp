@@ -118,7 +118,7 @@ TEST(ConeTouchesCell, RadiusThatReachesNothing) {
   EXPECT_EQ(touch(pyramid, {0, 0, -3}, {0, 0, 1}, 1, 0), Touch::no);
 }
 
-// Branch and bound with bounding spheres: nothing in common with the closed form. Finite cells only.
+// Branch and bound with bounding spheres: independent of the closed form. Finite cells only.
 Touch by_subdivision(const Cell& cell, const dvec3& apex, const dvec3& axis, double half_angle, double radius,
                      int depth) {
   auto at = [&](double x, double y, double d) {
@@ -169,7 +169,7 @@ TEST(ConeTouchesCell, NeverContradictsSubdivision) {
     const double half_angle = i % 7 == 0 ? pi / 2 : pi * (0.5 + 0.5 * u(random)), radius = 2 + 2 * u(random);
     const Touch expected = by_subdivision(cell, apex, axis, half_angle, radius, 15);
     const Touch got = cone_touches_cell(cell, apex, axis, std::cos(half_angle), radius);
-    ASSERT_NE(got, Touch::unsure) << i;  // random input is nowhere near the tolerance
+    ASSERT_NE(got, Touch::unsure) << i;  // random input is far from the tolerance
     if (expected == Touch::unsure) continue;
     ++decided;
     yes += expected == Touch::yes;
@@ -180,8 +180,8 @@ TEST(ConeTouchesCell, NeverContradictsSubdivision) {
   EXPECT_LT(yes, trials * 9 / 10);
 }
 
-// Sector and cell share a point made to lie on the boundary of both, so they do touch, if only just. Cells
-// from slivers to wide angles, apexes from beside the cell to far away, narrow cones and all others.
+// Sector and cell share a point that lies on the boundary of both, so they barely touch. Cells from slivers
+// to wide angles, apexes from beside the cell to far away, narrow cones and all others.
 TEST(ConeTouchesCell, NeverDeniesATouchOnTheBoundary) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -213,7 +213,7 @@ TEST(ConeTouchesCell, NeverDeniesATouchOnTheBoundary) {
     const double wider = std::cos(std::min(half_angle + 1e-7, pi));
     ASSERT_EQ(cone_touches_cell(cell, apex, axis, wider, reach * (1 + 1e-8)), Touch::yes) << i;
   }
-  EXPECT_GT(unsure, trials / 100);  // some do only just touch
+  EXPECT_GT(unsure, trials / 100);  // some barely touch
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(ListAccuracy, OfATileIsListedOverLit) {
   const Wall wall;
   const std::vector<ViewLight> lights{point_light({0, 0, -10}, 100), point_light({0, 0, 100}, 1)};
   const LitBlocks blocks = find_lit_blocks(wall.view, wall.depth, lights);
-  //                         row 0: empty, right, in vain; row 1: empty but listed, lost, right
+  //                         row 0: empty, right, listed but unlit; row 1: empty but listed, lost, right
   const ListedLights lists{.first = {0, 0, 0, 0, 1, 0}, .count = {0, 1, 2, 2, 1, 1}, .indices = {0, 1}};
   const ListAccuracy got = measure_lists(blocks, 8, lists);
   EXPECT_EQ(got.lit, 4u * 64);

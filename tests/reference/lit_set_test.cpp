@@ -135,7 +135,7 @@ TEST_F(OnePixel, LightZeroAloneIsALight) {
   EXPECT_EQ(count_pairs(view, depth, lights, {{0}, {0}, {0}, {}}).lost, 1u);
 }
 
-// Random depths, lights, cells and lists, counted again one pair at a time.
+// Random depths, lights, cells and lists, counted independently one pair at a time.
 void expect_naive_counts(const View& view, int light_count, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-1, 1);

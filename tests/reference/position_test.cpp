@@ -46,7 +46,7 @@ TEST(Position, OrthographicByHand) {
   EXPECT_DOUBLE_EQ(p.z, 0);
 }
 
-// Projects and comes back, every pixel, within rounding of the distance.
+// Projects and unprojects every pixel, within rounding of the distance.
 void expect_round_trip(const View& view, double distance) {
   for (int py = 0; py < view.height; ++py) {
     for (int px = 0; px < view.width; ++px) {

@@ -1,10 +1,10 @@
 // A ray caster in double for tests, written from the texts of glTF 2.0 (appendix B) and KHR_lights_punctual
-// alone. It shares the plain structs that describe a scene with the renderer, and nothing else: no code of
-// src/shared or src/reference.
+// alone. It shares only the plain structs that describe a scene with the renderer: no code of src/shared or
+// src/reference.
 //
-// Where it follows one of two permitted forms: masking and shadowing are height-correlated (Heitz 2014),
-// which appendix B discusses as the more accurate one and Khronos' own viewer has. No floors: neither on
-// roughness nor on distance.
+// One of two permitted forms is used: masking and shadowing are height-correlated (Heitz 2014), which
+// appendix B describes as more accurate and Khronos' own viewer uses. No floors, neither on roughness nor on
+// distance.
 //
 // Surfaces: infinite planes, and the triangles of a scene's meshes with the vertices' normals interpolated.
 // Materials without textures. No shadows, no ambient light.
@@ -133,7 +133,7 @@ inline std::optional<Hit> hit_of(const Triangle& t, const Ray& ray, int material
              material};
 }
 
-// The meshes of a scene in world space, each with a ball around it.
+// The meshes of a scene in world space, each with a bounding sphere.
 class Meshes {
  public:
   explicit Meshes(const Scene& scene) {

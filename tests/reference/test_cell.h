@@ -1,4 +1,4 @@
-// The cell that tests of this folder know by heart.
+// A cell with simple numbers for the tests of this folder.
 #pragma once
 
 #include "reference/cell.h"

@@ -1,4 +1,4 @@
-// The page in a real browser: a script appended to a copy of it works the controls and writes what it saw.
+// The page in a real browser: a script appended to a copy of it operates the controls and records the result.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-// What the interactions saw in a window of that size, or null and a failure.
+// The results of the interactions in a window of that size, or null and a failure.
 json seen_in_browser(const fs::path& folder, const char* window_size) {
   auto page = file_bytes(folder / "index.html");
   insert_before(page, "<style>", fault_recorder);
@@ -133,7 +133,7 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
                               ", clustered, deferred_tiled, lidr)"));
 }
 
-// Where the dot of a time stands, from the two dots of the outermost times: axes are logarithmic.
+// The position of a time's dot, from the dots of the extreme times: axes are logarithmic.
 double expected_y(double ms, double low_ms, double low_y, double high_ms, double high_y) {
   return low_y + std::log(ms / low_ms) / std::log(high_ms / low_ms) * (high_y - low_y);
 }
@@ -218,7 +218,7 @@ TEST_F(ReportPage, OfSeveralViewsFitsAPhoneAndASheetOfPaper) {
 }
 
 TEST_F(ReportPage, FitsAPhone) {
-  const auto seen = seen_in_browser(folder.path, "500,900");  // headless windows are no narrower than this
+  const auto seen = seen_in_browser(folder.path, "500,900");  // headless windows cannot be narrower
   ASSERT_TRUE(seen.is_object());
   EXPECT_EQ(seen["overflow"], 0);
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());

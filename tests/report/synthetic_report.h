@@ -1,5 +1,5 @@
-// A comparison worked out without rendering: round lights on a flat wall, listed per tile. Figures are
-// plausible, not measured; every part of a report is there.
+// A synthetic comparison without rendering: round lights on a flat wall, listed per tile. Figures are
+// plausible, not measured; every part of a report exists.
 #pragma once
 
 #include <algorithm>

@@ -225,7 +225,7 @@ TEST(ChooseCamera, DefaultSeesTheWholeScene) {
   }
 }
 
-// A box's corners as triangles that meet in its middle: what is seen of it is not its box.
+// A box's corners as triangles that meet in its middle: the visible part differs from the box.
 Scene tripod(const glm::dmat4& matrix) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
@@ -261,7 +261,7 @@ TEST(ChooseCamera, DefaultFillsTheImage) {
   }
 }
 
-// A line towards the eye has no extent in the image: it is seen from some way off.
+// A line towards the eye has no extent in the image: it is viewed from some distance.
 TEST(ChooseCamera, DefaultKeepsItsDistanceFromALine) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();

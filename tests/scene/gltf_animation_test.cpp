@@ -1,4 +1,4 @@
-// Animations of a file: what is read, left out with a warning, and refused.
+// Animations of a file: which are read, omitted with a warning, and refused.
 #include "scene/rig.h"
 #include "support/animated_gltf.h"
 

@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression and EXT_meshopt_compression, with what the libraries' own encoders write.
+// KHR_draco_mesh_compression and EXT_meshopt_compression, written by the libraries' own encoders.
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 #include <meshoptimizer.h>
@@ -29,8 +29,8 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, int co
   return static_cast<int>(mesh.attribute(id)->unique_id());
 }
 
-// The sequential method keeps the order of vertices. `draco_normalized`: whether Draco's own flag is set,
-// which writers do not agree on.
+// The sequential method keeps the order of vertices. `draco_normalized`: whether Draco's own flag is set, on
+// which writers disagree.
 GltfBuilder draco_quad(bool draco_normalized = false, int method = draco::MESH_SEQUENTIAL_ENCODING) {
   draco::Mesh mesh;
   mesh.set_num_points(4);

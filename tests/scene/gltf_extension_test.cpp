@@ -1,4 +1,4 @@
-// Extensions and optional features: which are an error, which one line of warning.
+// Extensions and optional features: which are an error, and which one warning.
 #include "support/gltf_builder.h"
 
 #include <algorithm>

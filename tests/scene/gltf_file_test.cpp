@@ -1,4 +1,4 @@
-// Files, containers, URIs and what the loader refuses of them.
+// Files, containers, URIs and their errors.
 #include <sys/stat.h>
 
 #include "support/gltf_builder.h"

@@ -140,7 +140,7 @@ TEST(GltfMaterial, a_texture_transform_scales_then_turns_then_moves) {
   EXPECT_EQ(slot.uv_set, 1) << "the extension's texCoord replaces the other";
   EXPECT_TRUE(slot.transformed());
   const auto apply = [&](float u, float v) { return slot.uv_from_vertex * glm::vec3(u, v, 1); };
-  // A quarter turn against the clock where v points down: u to -v, v to u.
+  // A counter-clockwise quarter turn with v pointing down: u to -v, v to u.
   EXPECT_LT(glm::length(apply(0, 0) - glm::vec2(10, 20)), 1e-5f);
   EXPECT_LT(glm::length(apply(1, 0) - glm::vec2(10, 18)), 1e-5f);
   EXPECT_LT(glm::length(apply(0, 1) - glm::vec2(13, 20)), 1e-5f);
@@ -221,7 +221,7 @@ TEST(GltfImage, what_is_no_png_or_jpeg_is_refused) {
   EXPECT_THAT(with_image(cut).refusal(), HasSubstr("image 0 \"im\": cannot be decoded"));
 }
 
-// A header with nothing behind it: were it decoded first, the message would be another.
+// A header without data: if it were decoded first, the message would differ.
 Bytes png_header(uint32_t width, uint32_t height) {
   Bytes file = encode_png(1, 1, 3, {0, 0, 0});
   for (int i = 0; i < 4; ++i) {

@@ -1,5 +1,5 @@
 // The devices that tests draw with. They are opened once a process and never closed: at exit the drivers may
-// go first.
+// be unloaded first.
 #pragma once
 
 #include "base/error.h"
@@ -7,14 +7,14 @@
 
 namespace lightgrid {
 
-// As the program opens them: a graphics card where there is one.
+// As the program opens them: a graphics card if there is one.
 inline Renderer& test_devices() {
   static Renderer* const devices = new Renderer("", GlBackend::automatic);
   devices->gl->make_current();  // some tests open others
   return *devices;
 }
 
-// Mesa's software renderer, by OSMesa where it is there: the same picture with and without a graphics card.
+// Mesa's software renderer, with OSMesa if available: the same picture with and without a graphics card.
 inline Renderer& software_devices() {
   static Renderer* const devices = [] {
     try {

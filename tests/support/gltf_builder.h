@@ -159,7 +159,7 @@ inline std::string refusal_of(const std::filesystem::path& path) {
   return {};
 }
 
-// What `work` writes to stderr.
+// The text that `work` writes to stderr.
 template <typename Work>
 std::string warnings_of(const Work& work) {
   testing::internal::CaptureStderr();

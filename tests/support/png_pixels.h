@@ -1,4 +1,4 @@
-// A PNG's pixels, for tests that judge a picture which the program wrote.
+// A PNG's pixels, for tests of pictures that the program wrote.
 #pragma once
 
 #include <png.h>
@@ -15,7 +15,7 @@ struct PngPixels {
   uint8_t at(int x, int y, int channel) const { return rgb[(size_t(y) * width + x) * 3 + channel]; }
 };
 
-// Empty where the file cannot be read.
+// Empty if the file cannot be read.
 inline PngPixels read_png(const std::filesystem::path& path) {
   PngPixels pixels;
   png_image header{};

@@ -1,4 +1,4 @@
-// What tests read back.
+// Reading of files in tests.
 #pragma once
 
 #include <filesystem>

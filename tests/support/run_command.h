@@ -1,4 +1,4 @@
-// A command run by the shell, for tests that ask another program.
+// A shell command, for tests that run another program.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// The lightgrid program run as a user runs it, with what it printed and how it ended.
+// Runs the lightgrid program, and records its output and exit status.
 #pragma once
 
 #include <fcntl.h>
@@ -27,8 +27,8 @@ struct ProgramRun {
   std::string out, err;
 };
 
-// `environment`: NAME=VALUE each, beside the test's own. Lines of progress, which depend on the machine's speed, are off
-// unless it asks for them.
+// `environment`: NAME=VALUE each, in addition to the test's own. Lines of progress, which depend on the
+// machine's speed, are off unless it enables them.
 inline ProgramRun run_program(std::vector<std::string> arguments, std::vector<std::string> environment = {},
                               std::chrono::seconds limit = std::chrono::seconds(120)) {
   environment.emplace_back("LIGHTGRID_PROGRESS_S=86400");
@@ -44,7 +44,7 @@ inline ProgramRun run_program(std::vector<std::string> arguments, std::vector<st
   std::vector<char*> argv, envp;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  // The last of two of one name would not be found: ours stand first.
+  // Of two entries with one name the first is used: ours come first.
   for (std::string& variable : environment) envp.push_back(variable.data());
   for (char** variable = environ; *variable; ++variable) envp.push_back(*variable);
   envp.push_back(nullptr);

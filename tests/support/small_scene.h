@@ -1,4 +1,4 @@
-// A wall, a ball in front of it and six point lights, for tests that add one thing at a time. The camera is
+// A wall, a ball in front of it and six point lights, for tests that add one effect at a time. The camera is
 // at the origin and looks along -z.
 #pragma once
 
@@ -63,13 +63,13 @@ inline int add_speckles(Scene& scene, bool srgb) {
 
 struct Effect {
   std::string name;
-  std::string decision;  // as FramePlan::decisions names it; empty where it is the absence of all
-  std::string define;    // of shaders; empty where the effect is none of a material
-  std::string witness;   // how its reason begins
+  std::string decision;  // as in FramePlan::decisions; empty if the effect is the absence of all
+  std::string define;    // of shaders; empty if no material sets it
+  std::string witness;   // the start of its reason
   std::function<void(SmallScene&)> add;
 };
 
-// One effect each on the small scene. None but the first two brings another with it, textures apart.
+// One effect each on the small scene. Only the first two bring another with them, except for textures.
 inline const std::vector<Effect>& effects() {
   const auto map = [](TextureSlot Material::*slot, bool srgb) {
     return [=](SmallScene& s) {

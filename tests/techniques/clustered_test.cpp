@@ -1,4 +1,4 @@
-// clustered gives the bytes of the brute-force image, and shading finds the cells that the oracle takes.
+// clustered gives the bytes of the brute-force image, and shading finds the same cells as the oracle.
 #include <cmath>
 
 #include "passes/read_outs/cells.h"
@@ -27,7 +27,7 @@ TEST_P(BuiltinClustered, HasTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) 
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinClustered, testing::Values("hall", "spheres", "terrain", "street"),
                          [](const auto& info) { return std::string(info.param); });
 
-// Each test, bound, spacing and shape, in few combinations: every one is kernels to build.
+// Each test, bound, spacing and shape, in few combinations, because each needs kernel builds.
 const Settings some_of_each[] = {
     {.cull_test = CullTest::exact, .depth_bounds = DepthBoundsMode::halfz, .slices = 8, .slice_spacing = SliceSpacing::linear},
     {.cull_test = CullTest::sphere, .depth_bounds = DepthBoundsMode::halfz_modified, .tile = 64, .slices = 64,
@@ -71,8 +71,8 @@ TEST(Clustered, OneSliceIsForwardPlus) {
   EXPECT_TRUE(identical(one.image(), plus.image()));
 }
 
-// Bitmasks instead of lists, for opaque surfaces and for glass, by tiles and by clusters; at counts of lights about the
-// width of a word, a light far away before the others.
+// Bitmasks instead of lists, for opaque surfaces and for glass, by tiles and by clusters; with counts of
+// lights around the width of a word, and a distant light as the first one.
 TEST(GridMasks, HaveTheBytesOfEveryLightAtEveryPixel) {
   for (const int more : {0, 1, 25, 26, 27, 60}) {
     SCOPED_TRACE(more);
@@ -109,7 +109,7 @@ TEST(GridMasks, OfNoLightsAreNothingAndEverythingOnChangesNoByte) {
   }
 }
 
-// Slices part what a tile with a gap in depth cannot.
+// Slices separate what a tile with a gap in depth cannot.
 TEST(Clustered, ListsFewerLightsThanTilesWhereDepthHasGaps) {
   const Scene scene = find_builtin_scene("spheres")->make();
   const View view = default_view(scene, 160, 90);
@@ -145,7 +145,7 @@ TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
   }
 }
 
-// Opaque and blended surfaces at all depths stand in cells of one grid.
+// Opaque and blended surfaces at all depths use the cells of one grid.
 TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
   SmallScene s = small_scene();
   effect("blend").add(s);

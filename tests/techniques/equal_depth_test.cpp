@@ -1,4 +1,5 @@
-// Several surfaces with exactly the same depth at a pixel: every technique shows the one that forward shows, lit once.
+// Several surfaces with exactly the same depth at a pixel: every technique shows the same one as forward, lit
+// once.
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/small_scene.h"
@@ -29,7 +30,8 @@ void add_sheet(Mesh& mesh, glm::vec3 low, float size, int side, const glm::vec4&
 
 constexpr glm::vec4 colors[] = {{0.9f, 0.1f, 0.1f, 1}, {0.1f, 0.9f, 0.1f, 1}, {0.1f, 0.1f, 0.9f, 1}, {0.8f, 0.8f, 0.1f, 1}};
 
-// Nineteen lamps before the wall: three draws of forward_zprepass, and both parities of forward_multipass.
+// Nineteen lamps in front of the wall: three draws of forward_zprepass, and both parities of
+// forward_multipass.
 Scene lamps_alone(int lamps = 19) {
   Scene scene = small_scene(false).scene;
   scene.instances.clear(), scene.meshes.clear();
@@ -39,7 +41,7 @@ Scene lamps_alone(int lamps = 19) {
   return scene;
 }
 
-// `sheets` squares over each other. In one mesh, or in one each with a material of its own.
+// `sheets` coincident squares, in one mesh or in one mesh each with its own material.
 struct Stack {
   int sheets, side;
   bool one_mesh, masked;
@@ -51,7 +53,7 @@ Scene stacked(const Stack& stack, int lamps = 19) {
   Mesh mesh;
   for (int i = 0; i < stack.sheets; ++i) {
     glm::vec4 color = colors[i];
-    // Of masked sheets the later ones have the larger holes, so that each is seen somewhere.
+    // Of masked sheets the later ones have the larger holes, so that each is visible somewhere.
     if (stack.masked) color.a = 0.8f - 0.25f * float(i);
     add_sheet(mesh, {-1.2f, -1.1f, -4}, 2.3f, stack.side, color);
     if (stack.one_mesh && i + 1 < stack.sheets) continue;
@@ -71,7 +73,8 @@ bool in_one_sum(const std::string& technique) {
 void expect_each_as_forward(const Scene& scene, const View& view) {
   const Image forward = render(scene, view, "forward");
   for (const Technique* technique : techniques()) {
-    if (technique->name == std::string("lidr")) continue;  // holds fewer lights a pixel than there are here: below
+    if (technique->name == std::string("lidr")) continue;  // fewer lights a pixel than there are here: see
+                                                           // below
     SCOPED_TRACE(technique->name);
     const Image image = render(scene, view, technique->name);
     if (in_one_sum(technique->name)) {
@@ -83,7 +86,7 @@ void expect_each_as_forward(const Scene& scene, const View& view) {
   }
 }
 
-// Which sheet is seen is what a scene of that sheet alone shows.
+// The visible sheet is the one whose own scene gives the same pixel.
 double share_alike(const Image& a, const Image& b) {
   size_t alike = 0;
   for (size_t i = 0; i < a.pixels.size(); ++i) alike += glm::length(a.pixels[i] - b.pixels[i]) < 1e-6f;
@@ -120,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Stacks, EqualDepth,
                                               2 * s.side * s.side, s.masked ? "Masked" : "");
                          });
 
-// The rule itself, by scenes of one sheet: of opaque sheets in small meshes the last one is seen.
+// The rule itself, by scenes of one sheet: of opaque sheets in small meshes the last one is visible.
 TEST(EqualDepth, TheLastOneDrawnIsSeen) {
   const Stack three{3, 1, true, false};
   const View view = small_view(63, 37);
@@ -147,7 +150,7 @@ TEST(EqualDepth, WhereSurfacesCross) {
   expect_each_as_forward(scene, small_view(319, 181));
 }
 
-// Turned and mirrored, so that depths come from slanted planes and the winding is the other one.
+// Turned and mirrored, so that depths come from slanted planes and the winding is reversed.
 TEST(EqualDepth, TurnedAndMirrored) {
   glm::dmat4 matrix = glm::translate(glm::dmat4(1), {0, 0, -4});
   matrix = glm::rotate(matrix, 0.7, {0.3, 1, 0.2});

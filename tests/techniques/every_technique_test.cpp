@@ -1,4 +1,4 @@
-// Every technique that there is, a new one included, draws forward's picture: lists of techniques are the registry's.
+// Every technique in the registry, including new ones, draws forward's picture.
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
 #include "techniques/rendering.h"
@@ -16,7 +16,7 @@ void expect_forwards_picture(const Scene& scene, const View& view, const Techniq
 
 TEST_P(EveryTechnique, DrawsForwardsPictureOfABuiltinScene) {
   Scene scene = find_builtin_scene("hall")->make();
-  if (GetParam()->limited_lists) scene.lights.resize(12);  // no pixel has more than it has places for
+  if (GetParam()->limited_lists) scene.lights.resize(12);  // within the capacity of every pixel
   expect_forwards_picture(scene, default_view(scene, 79, 45), *GetParam());
 }
 
@@ -30,7 +30,8 @@ TEST_P(EveryTechnique, DrawsForwardsPictureWithEveryEffect) {
   }
 }
 
-// The image moved by parts of a pixel, as temporal antialiasing does: all passes must have the one matrix.
+// The image offset by a fraction of a pixel, as in temporal antialiasing: all passes must use the same
+// matrix.
 TEST_P(EveryTechnique, DrawsForwardsPictureThroughAJitteredMatrix) {
   const Scene scene = small_scene().scene;
   View view = small_view(47, 31);
@@ -40,7 +41,8 @@ TEST_P(EveryTechnique, DrawsForwardsPictureThroughAJitteredMatrix) {
   expect_forwards_picture(scene, view, *GetParam());
 }
 
-// 2,000 lights that each add a two-thousandth: a sum kept in half precision stalls, and one in 8 bits never begins.
+// 2,000 lights that each add a two-thousandth: a sum in half precision stalls, and one in 8 bits never
+// starts.
 TEST_P(EveryTechnique, SumsManyDimLightsAsOneOfTheirSum) {
   if (GetParam()->limited_lists) GTEST_SKIP() << "has places for few lights";
   constexpr int count = 2000;

@@ -39,7 +39,7 @@ TEST_P(BuiltinForwardPlus, HasTheBytesThroughEveryCamera) {
     const View view = make_view(camera, 95, 53);
     const Image forward = render(scene, view, "forward");
     expect_exact(scene, view, {}, forward);
-    // Without depth bounds nothing is taken for hidden.
+    // Without depth bounds nothing is treated as hidden.
     EXPECT_TRUE(identical(render(scene, view, "forward", {.depth_bounds = DepthBoundsMode::none}), forward));
   }
 }
@@ -130,7 +130,7 @@ TEST(ForwardPlus, ALightAtTheEyeAndLightsOnTheSurface) {
   expect_exact(s.scene, view, {}, forward);
 }
 
-// Light 0 is a light like any other.
+// Light 0 needs no special case.
 TEST(ForwardPlus, OneLightAlone) {
   SmallScene s = small_scene(false);
   const View view = small_view(127, 73);
@@ -141,8 +141,8 @@ TEST(ForwardPlus, OneLightAlone) {
   expect_exact(s.scene, view, {}, lit);
 }
 
-// n equal terms summed in float are off by n * 2^-24 of the sum at most, here 6e-5; and by what the surface's
-// own light adds to either.
+// n equal terms summed in float have an error of at most n * 2^-24 of the sum, here 6e-5; plus the rounding
+// of adding base lighting.
 TEST(ForwardPlus, AThousandLightsInOnePlaceAreOneOfAThousandfoldIntensity) {
   SmallScene s = small_scene(false);
   const View view = small_view(127, 73);
@@ -155,7 +155,7 @@ TEST(ForwardPlus, AThousandLightsInOnePlaceAreOneOfAThousandfoldIntensity) {
   expect_exact(s.scene, view, {}, forward);
 }
 
-// What a blended surface shows is lit by lights that reach no opaque one.
+// Blended surfaces are lit by lights that reach no opaque one.
 TEST(ForwardPlus, ALightBeforeEverythingOpaqueLightsTheGlass) {
   SmallScene s = small_scene(false);
   effect("blend").add(s);

@@ -18,7 +18,7 @@ const Row table[] = {{1, 15}, {1, 255}, {1, 65535}, {2, 15}, {2, 255}, {2, 65535
                      {8, 15}, {8, 255}, {8, 65535}, {16, 15}, {16, 255}};
 
 struct LidrTable : testing::TestWithParam<LidrPacking> {
-  // As many lights as the row tells apart, up to what the wall has room for.
+  // As many lights as the row distinguishes, up to the capacity of the wall.
   static Scene scene_of(const Row& row) { return clustered_lights(row.overlap, std::min({row.lights, 300, 196 * row.overlap})); }
 };
 
@@ -64,7 +64,8 @@ TEST_P(LidrTable, HasTheBytesInTheScenesOrder) {
   }
 }
 
-// A light listed for a pixel is one whose volume the pixel may be in: past the limit some are missing, none is mixed of two.
+// A light listed for a pixel is one whose volume may contain it: past the limit some are missing, no index is
+// a mixture.
 void expect_no_wrong_light(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("lidr"));
   run.run_frame();

@@ -1,4 +1,4 @@
-// Scenes for lidr, and what must hold of a pixel that has room for all of its lights.
+// Scenes for lidr, and the required result at a pixel with a free slot for each of its lights.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ inline Pairs pairs_of(const Scene& scene, const View& view, const Settings& sett
   return out;
 }
 
-// Sums are taken in another order than forward's; each has the rounding of a few lights.
+// Sums are in a different order from forward's; each has the rounding of a few lights.
 inline constexpr double other_order = 1e-5;
 
 inline void expect_within_limit(const Scene& scene, const View& view, const Settings& settings, uint32_t limit, const Image& forward) {
@@ -54,7 +54,8 @@ inline void expect_within_limit(const Scene& scene, const View& view, const Sett
   EXPECT_EQ(count_nan_pixels(p.image), 0u);
 }
 
-// Lights about everything, few enough: around the eye, past near and far, behind, grazing, tangent, over the whole screen.
+// Few enough lights everywhere: around the eye, past near and far, behind, grazing, tangent, over the whole
+// screen.
 inline Scene awkward_lights() {
   SmallScene s = small_scene();
   effect("blend").add(s);

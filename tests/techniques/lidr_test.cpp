@@ -1,4 +1,4 @@
-// lidr: any number of lights, each frame the same, in the memory that its page computes.
+// lidr: any number of lights, equal frames, and the memory computed on its page.
 #include "base/error.h"
 #include "passes/light_index/layout.h"
 #include "techniques/lidr_scenes.h"
@@ -28,7 +28,7 @@ TEST(Lidr, AnyNumberOfLights) {
   }
 }
 
-// The last index of 16 bits, and one more than there is.
+// The last 16-bit index, and one more than that.
 TEST(Lidr, SixtyFiveThousandLights) {
   SmallScene s = small_scene(false);
   s.scene.instances.resize(1);

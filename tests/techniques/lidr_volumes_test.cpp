@@ -50,13 +50,13 @@ TEST(Lidr, ImagesOfAnySize) {
   }
 }
 
-// Fifteen lights, all of which a pixel has room for.
+// Fifteen lights, within a pixel's capacity.
 Scene random_scene(Random& random) {
   SmallScene s = small_scene(false);
   for (int i = 0; i < 15; ++i) {
     const double radius = std::exp(random.uniform(-5, 5));
     const glm::dvec3 toward = glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
-    // Near the wall, at its distance from a point of it, or about the eye.
+    // Near the wall, at its distance from one of its points, or around the eye.
     const glm::dvec3 on_wall(random.uniform(-2, 2), random.uniform(-2, 2), -4);
     const double away = random.uniform() < 0.5 ? radius * (1 - std::exp(random.uniform(-14, 0))) : radius * random.uniform();
     const glm::dvec3 place = (random.uniform() < 0.2 ? glm::dvec3(0) : on_wall) + toward * away;
@@ -83,7 +83,8 @@ View random_view(Random& random) {
   return make_view(camera, int(random.uniform(8, 160)), int(random.uniform(8, 100)));
 }
 
-// Where a pixel has room left, nothing that reaches it is missing: on scenes whose volumes lie about surfaces in every way.
+// At a pixel with a free slot, no light that reaches it is missing: on scenes whose volumes lie around
+// surfaces in every way.
 TEST(Lidr, LosesNothingWhereThereIsRoom) {
   for (const char* name : {"hall", "spheres", "terrain", "street"}) {
     SCOPED_TRACE(name);
@@ -127,8 +128,8 @@ TEST(Lidr, LosesNothingOfRandomLightsInRandomViews) {
   EXPECT_GT(lit, uint64_t(trials) * 1000);
 }
 
-// Fifteen lights that reach a pixel's surface by a part in 10^5 to 10^7 of their radius, just where a face of their mesh touches
-// the ball.
+// Fifteen lights that reach a pixel's surface by 10^-5 to 10^-7 of their radius, exactly where a face of
+// their mesh touches the sphere.
 Scene lights_tangent_to_faces(Random& random, const View& view, const LightMesh& mesh, const std::vector<float>& depth) {
   SmallScene s = small_scene(false);
   const std::vector<uint32_t> pixels = covered_pixels(depth);
@@ -146,7 +147,8 @@ Scene lights_tangent_to_faces(Random& random, const View& view, const LightMesh&
   return s.scene;
 }
 
-// What lights, matrices, corners and depth round must stay within the volumes' slack: without it, some of these are lost.
+// The rounding of lights, matrices, corners and depth must stay within the volumes' slack: without it, some
+// are lost.
 TEST(Lidr, LosesNothingOfLightsTangentToTheirMeshes) {
   const int trials = trials_wished(30);
   for (int trial = 0; trial < trials; ++trial) {

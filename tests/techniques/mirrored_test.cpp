@@ -9,8 +9,8 @@
 namespace lightgrid {
 namespace {
 
-// A quad to the right and its mirror image to the left, lit from straight above the eye; its normal map, where there
-// is one, tilts every normal up and to the right.
+// A quad to the right and its mirror image to the left, lit from straight above the eye; its normal map, if
+// any, tilts every normal up and to the right.
 Scene two_quads(bool normal_map) {
   Scene scene;
   scene.materials.push_back({});

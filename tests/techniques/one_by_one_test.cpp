@@ -1,6 +1,6 @@
-// Techniques that draw lights one by one, or some at a time, and add them up in the image (forward_multipass,
-// forward_zprepass, and deferred in each way of culling), and those whose light loop is in OpenCL. They round elsewhere
-// than forward: within 1e-5 of the brightest channel.
+// Techniques that draw lights one by one, or a few at a time, and add them in the image (forward_multipass,
+// forward_zprepass, and deferred with each volume-culling), and those with their light loop in OpenCL. They
+// round differently from forward: within 1e-5 of the brightest channel.
 #include <cmath>
 
 #include "passes/object_lights.h"
@@ -126,7 +126,8 @@ TEST(OneByOne, InsideLightsAndBehindTheEyeAndPastTheFarPlane) {
   }
 }
 
-// A light that the wall is tangent to, one it is tangent to but for an ulp, and lights that graze it.
+// A light to which the wall is tangent, one to which it is tangent except for an ulp, and lights that graze
+// it.
 TEST(OneByOne, TangentAndGrazingLights) {
   SmallScene s = small_scene();
   for (const float radius : {1.0f, std::nextafter(1.0f, 2.0f), std::nextafter(1.0f, 0.0f), 1.0001f, 1.01f}) {
@@ -159,7 +160,7 @@ TEST(OneByOne, OrthographicViews) {
   }
 }
 
-// Two surfaces in one place: the later one is seen, and lit once.
+// Two coincident surfaces: the later one is visible, and lit once.
 TEST(OneByOne, SurfacesOfOneDepth) {
   SmallScene s = small_scene();
   const int paint = add_material(s.scene, "paint", {0.1f, 0.9f, 0.2f}, 0, 0.5f);
@@ -169,8 +170,8 @@ TEST(OneByOne, SurfacesOfOneDepth) {
   expect_all_close(s.scene, small_view(127, 73));
 }
 
-// What fixed point may cost: normals off by 0.95 degrees (8 bits) or 0.004 (16), which highlights as narrow
-// as these scenes' multiply by 20 or so; the rest in steps of 1/255 or 1/65535.
+// The cost of fixed point: normals deviate by 0.95 degrees (8 bits) or 0.004 (16), which highlights as narrow
+// as in these scenes multiply by about 20; the rest in steps of 1/255 or 1/65535.
 TEST(Deferred, LosesIn16And8BitsJustWhatTheGeometryBufferRounds) {
   for (const char* name : {"hall", "spheres"}) {
     SCOPED_TRACE(name);
@@ -189,7 +190,7 @@ TEST_P(OneByOneEffect, IsThereAsInForwardAndWithEverythingOn) {
   for (const Way& way : ways) {
     SCOPED_TRACE(way.name);
     for (const bool everything_on : {false, true}) {
-      // Every effect's code takes long to build; two ways have all the shaders there are.
+      // Every effect's code takes long to build; two settings cover all shaders.
       if (everything_on && way.name != std::string("zprepass") && way.name != std::string("back_faces"))
         continue;
       Settings settings = way.settings;
@@ -214,7 +215,8 @@ TEST(OneByOne, BlinnPhong) {
   }
 }
 
-// Of what the scene itself takes, nothing; of triangles in reverse order, only that they are an index buffer more.
+// Of the scene's own memory, nothing; of triangles in reverse order, only that they are one more index
+// buffer.
 size_t memory_of(const Scene& scene, const View& view, const char* technique, const Settings& settings = {}) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();

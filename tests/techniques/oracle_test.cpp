@@ -10,10 +10,10 @@ namespace {
 
 struct Shading : testing::TestWithParam<const char*> {};
 
-// Each light's term carries some 50 roundings of 2^-24, and a sum of n of them at most n more: with the 100
-// lights that share a pixel at most, 1e-5 of what is there. A highlight's peak multiplies the rounding of its
-// angles by up to 2 / alpha, 20 for the polished materials of these scenes: 2e-4 of the brightest channel.
-// Measured (llvmpipe): 2e-6 to 2e-5 at worst, 2e-7 root mean square.
+// Each light's term has about 50 roundings of 2^-24, and a sum of n of them at most n more: with at most 100
+// lights at a pixel, 1e-5 of the value. A highlight's peak multiplies the rounding of its angles by up to 2 /
+// alpha, 20 for the polished materials of these scenes: 2e-4 of the brightest channel. Measured (llvmpipe):
+// 2e-6 to 2e-5 at worst, 2e-7 root mean square.
 TEST_P(Shading, InFloatIsTheOraclesWithinItsRounding) {
   const Scene scene = find_builtin_scene(GetParam())->make();
   const View view = default_view(scene, 320, 180);
@@ -40,7 +40,7 @@ void expect_each_exact(const Scene& scene, const View& view, const Settings& set
   const SurfaceOracle oracle(forward.view(), depth);
   const std::vector<uint32_t> sample = sample_pixels(oracle.pixels(), 4000);
   for (const Technique* technique : techniques()) {
-    // lidr holds 16 lights a pixel at most and leaves others out: lidr_test.
+    // lidr stores at most 16 lights a pixel and omits others: lidr_test.
     if (technique->name == std::string("forward") || technique->name == std::string("lidr")) continue;
     SCOPED_TRACE(technique->name);
     const Image image = render(scene, view, technique->name, settings);

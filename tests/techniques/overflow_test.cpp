@@ -1,4 +1,4 @@
-// Light past float's range: pixels are infinite and counted, and none is NaN.
+// Radiance past float's range: pixels are infinite and counted, and none is NaN.
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -6,7 +6,7 @@ namespace lightgrid {
 namespace {
 
 // Lights of the largest float, one with black channels, whose ranges and cones end within the picture, one of
-// them at the wall itself, one behind it; and a light from far off, on a scene with a pane of glass.
+// them at the wall itself, one behind it; and a distant light, on a scene with a pane of glass.
 Scene blinding_scene() {
   SmallScene s = small_scene(false);
   effect("blend").add(s);

@@ -1,4 +1,4 @@
-// What the plan does not name is not built, allocated or launched; and what it leaves out changes no byte.
+// Effects that the plan does not name are not built, allocated or launched; omitting them changes no byte.
 #include <gmock/gmock.h>
 
 #include "support/small_scene.h"
@@ -32,7 +32,7 @@ TEST_P(EachEffect, ForwardPlusHasTheBytesOfForward) {
   expect_exact(s.scene, view, {}, render(s.scene, view, "forward"));
 }
 
-// What one frame makes and launches.
+// Objects created and launches made by one frame.
 struct Work {
   int buffers = 0, textures = 0, programs = 0, kernels = 0, cl_launches = 0, culls = 0;
   bool operator==(const Work&) const = default;
@@ -53,7 +53,7 @@ Work work_of(const Scene& scene, const Settings& settings = {.kernel_shape = Ker
     const ProgramCache::Counts& counts = devices.kernels->counts();
     return counts.built + counts.from_disk + counts.from_memory;
   };
-  // A staged bridge also copies; what a frame computes is the same.
+  // A staged bridge also copies; the computation of a frame is the same.
   const auto launched = [&] {
     return profiler.count() - profiler.count("hand_to_gl") - profiler.count("hand_to_cl");
   };
@@ -61,7 +61,7 @@ Work work_of(const Scene& scene, const Settings& settings = {.kernel_shape = Ker
   TechniqueRun run(devices, scene, small_view(127, 73), settings, find_technique("forward_plus"));
   run.run_frame();
   const auto made = [&](GlKind kind) { return gl_counts().made[int(kind)] - before.made[int(kind)]; };
-  // Its objects go while its context is current.
+  // Its objects are destroyed while its context is current.
   return {made(GlKind::buffer),      made(GlKind::texture),       made(GlKind::program),
           kernels_asked() - kernels, launched() - launches, profiler.count("cull_lights") - culls};
 }
@@ -71,7 +71,7 @@ constexpr Work operator+(Work a, const Work& b) {
           a.kernels + b.kernels, a.cl_launches + b.cl_launches, a.culls + b.culls};
 }
 
-// What each part of a frame makes and launches.
+// Objects and launches of each part of a frame.
 constexpr Work geometry{.buffers = 4};  // positions, normals, indices, a stand-in for absent streams
 constexpr Work vertex_array{.buffers = 1};
 constexpr Work materials{.buffers = 1};
@@ -81,7 +81,8 @@ constexpr Work material_map{.textures = 1};
 constexpr Work program{.programs = 1};
 constexpr Work depth_bounds{.kernels = 1, .cl_launches = 1};
 constexpr Work light_array{.buffers = 1, .textures = 1};  // positions, colours, cones or directions
-// Lights to view space, culled, gaps closed. The bridge's buffers of cells and indices are seen as textures.
+// Lights to view space, culled, lists written. The bridge's buffers of cells and indices are read as
+// textures.
 constexpr Work grid{.textures = 2, .cl_launches = 3, .culls = 1};
 constexpr Work grid_kernels{.kernels = 3};  // built once, however many grids there are
 
@@ -90,7 +91,7 @@ const Work dark_frame = geometry + materials + view_parameters + targets + progr
 const Work plain_frame = dark_frame + light_array + light_array + grid + grid_kernels;
 const Work mapped_material = program + vertex_array + material_map;  // texture coordinates
 
-// The first frame of a size runs once more where a first guess of memory was too small: here none is.
+// The first frame of a size runs once more if the first estimate of memory was too small: not here.
 TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
   const std::map<std::string, Work> added = {
       {"blend", program + grid},
@@ -139,7 +140,7 @@ TEST(PlannedWork, EverythingIsGivenBack) {
   EXPECT_EQ(live(), before);
 }
 
-// glTF: the alpha of an opaque material is ignored, whatever the code around it can do.
+// glTF: the alpha of an opaque material is ignored, even with code for alpha compiled in.
 TEST(PlannedWork, AnOpaqueMaterialIgnoresItsAlpha) {
   SmallScene s = small_scene();
   const View view = small_view(127, 73);

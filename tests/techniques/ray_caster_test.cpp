@@ -1,6 +1,6 @@
-// `forward` against the tests' own ray caster (reference/ray_caster.h), which shares no code with the
-// renderer or its oracle. Spheres are compared as the triangles that they are drawn as, with interpolated
-// normals; walls as planes.
+// `forward` compared with the tests' own ray caster (reference/ray_caster.h), which shares no code with the
+// renderer or its oracle. Spheres are cast as the same triangles that are drawn, with interpolated normals;
+// walls as planes.
 #include "reference/ray_caster.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int width = 192, height = 128;
 
-// What is drawn, and what the caster has in place of the meshes that are not spheres.
+// The drawn scene, and the caster's planes for the meshes that are not spheres.
 struct Room {
   Scene drawn, spheres;
   std::vector<ray_caster::Plane> planes;
@@ -153,7 +153,7 @@ TEST(RayCaster, ForwardHasItsRadianceNextToALight) {
   expect_the_casters_radiance(room, {point_light({0, -1.995, 0}, {1, 0.9f, 0.8f}, 1e-3f)}, 0.99, 1e-5);
 }
 
-// The same in a ten-thousandth of the size: no length is built in.
+// The same at a ten-thousandth of the size: no length is hard-coded.
 TEST(RayCaster, ForwardHasItsRadianceInAMillimetreOfTheWorld) {
   Room room;
   room.drawn.ambient = glm::vec3(0);

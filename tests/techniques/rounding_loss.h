@@ -1,4 +1,4 @@
-// What an image loses to the rounding of the geometry buffer, explained by the oracle.
+// The error of an image from rounding the geometry buffer, compared with the oracle's.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,11 @@ inline std::vector<glm::dvec3> shade_in_double(const RenderView& v, const Surfac
 
 struct RoundingLoss {
   double image = 0;        // of forward's brightest channel
-  double unexplained = 0;  // by what the geometry buffer rounds
+  double unexplained = 0;  // by the rounding of the geometry buffer
 };
 
-// For techniques and scenes whose own light (ambient, emission) is in the image before anything is rounded.
-// The rest of the loss must be what the oracle makes of the surfaces as they were stored.
+// For techniques and scenes whose base lighting (ambient, emission) is in the image before anything is
+// rounded. The rest of the error must equal that of the oracle's shading of the surfaces as stored.
 inline RoundingLoss rounding_loss(const char* technique, const Scene& scene, const View& view,
                                   const Image& forward, int bits) {
   TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique(technique));
@@ -56,7 +56,7 @@ inline RoundingLoss rounding_loss(const char* technique, const Scene& scene, con
   return loss;
 }
 
-// The loss at 32, 16 and 8 bits: each explained, the first none, and each more than the one before.
+// The loss at 32, 16 and 8 bits: each is explained, the first is zero, and each exceeds the previous one.
 inline void expect_rounding_explains_the_loss(const char* technique, const Scene& scene, const View& view) {
   constexpr double exact_enough = 1e-5;  // of the brightest channel
   const Image forward = render(scene, view, "forward");

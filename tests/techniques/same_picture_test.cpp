@@ -1,4 +1,4 @@
-// What must not change the picture, does not.
+// Changes that must not change the picture.
 #include <stdlib.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ TEST(SamePicture, WhicheverWayTheBuffersTravel) {
 // llvmpipe and softpipe have an rmse of 2.0e-4, llvmpipe with the filters of AVX and of SSE 2 one of 6.5e-4.
 constexpr double two_renderers = 2e-3;
 
-// One renderer behind two doors may not differ at all.
+// The same renderer with two backends must give equal pictures.
 TEST(SamePicture, ThroughOsmesaAndEgl) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 127, 73);
@@ -111,7 +111,7 @@ Image picture_of(Mesh mesh, const glm::dmat4& world_from_object, bool double_sid
   return render(s.scene, small_view(127, 73), "forward_plus");
 }
 
-// Triangles wound the other way are set up from other corners: depths differ in their last places.
+// Triangles of reversed winding are set up from other corners: depths differ in their last places.
 constexpr double other_corners = 1e-5;
 
 TEST(SamePicture, MirroredByItsMatrixOrByItsVertices) {
@@ -119,7 +119,7 @@ TEST(SamePicture, MirroredByItsMatrixOrByItsVertices) {
   const Image by_vertices = picture_of(flag(0, true, false), glm::dmat4(1), false);
   EXPECT_LE(compare_images(picture_of(flag(0, false, false), mirror, false), by_vertices).max_rel,
             other_corners);
-  // And it is another one than the unmirrored, lit all the same.
+  // It differs from the unmirrored one, and is lit all the same.
   EXPECT_GT(compare_images(picture_of(flag(0, false, false), glm::dmat4(1), false), by_vertices).max_rel,
             0.1);
 }
@@ -128,7 +128,7 @@ TEST(SamePicture, FromTheBackOfADoubleSidedSurface) {
   const Image front = picture_of(flag(0, false, false), glm::dmat4(1), false);
   EXPECT_LE(compare_images(picture_of(flag(0, false, true), glm::dmat4(1), true), front).max_rel,
             other_corners);
-  // Single-sided, its back is not there.
+  // Single-sided, its back is invisible.
   const Image back = picture_of(flag(0, false, true), glm::dmat4(1), false);
   for (const glm::vec4& pixel : back.pixels) ASSERT_EQ(glm::vec3(pixel), glm::vec3(0.1f, 0.2f, 0.3f));
 }

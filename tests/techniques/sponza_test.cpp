@@ -1,4 +1,4 @@
-// A scene that others made, with lights to match: the techniques with a light grid have the bytes of `forward`.
+// A third-party scene, with lights to match: the techniques with a light grid give the bytes of `forward`.
 #include "scene/lights_file.h"
 #include "scene/load_gltf.h"
 #include "support/shared_files.h"

@@ -1,5 +1,5 @@
-// glTF's six minification filters, told apart by a texture of two texels seen from half way between its two
-// levels.
+// glTF's six minification filters, distinguished by a texture of two texels seen from half way between its
+// two levels.
 #include <algorithm>
 
 #include "scene/builtin/compose.h"

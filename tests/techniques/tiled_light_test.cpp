@@ -29,7 +29,7 @@ TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
   }
 }
 
-// Narrow highlights in many pixels: what shortcuts in rounding show first.
+// Narrow highlights in many pixels, the most sensitive to rounding.
 TEST(TiledLight, IsForwardsInTheHighlightsOfALargeImage) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 1280, 720);
@@ -72,7 +72,7 @@ TEST(TiledLight, IsNoneWhereThereAreNoLights) {
   for (const char* technique : both) EXPECT_TRUE(identical(render(scene, view, technique), forward)) << technique;
 }
 
-// docs/techniques/deferred_tiled.md#what-it-costs, by hand: 1024 point lights, no spot.
+// docs/techniques/deferred_tiled.md#what-it-costs, computed by hand: 1024 point lights, no spot.
 TEST(TiledLight, TakesTheMemoryThatItsPageSays) {
   const Scene scene = find_builtin_scene("spheres")->make();
   const View view = default_view(scene, 64, 40);

@@ -1,4 +1,4 @@
-// z-bins: shading passes over lights of its list, and the image keeps the bytes of every light at every pixel.
+// z-bins: shading skips lights of its list, and the image keeps the bytes of every light at every pixel.
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -21,7 +21,8 @@ TEST_P(BuiltinZBins, HaveTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
 
 constexpr const char* in_opencl[] = {"deferred_tiled", "forward_plus_compute"};
 
-// The technique with z-bins against itself without, whose image is forward's but for rounding: tiled_light_test.cpp.
+// Compares the technique with z-bins with itself without, whose image is forward's up to rounding:
+// tiled_light_test.cpp.
 void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings settings, const char* technique,
                               Renderer& devices = test_devices()) {
   SCOPED_TRACE(testing::PrintToString(to_strings(settings)) + technique);
@@ -46,7 +47,7 @@ TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
   }
 }
 
-// Where OpenGL has a copy of its own, which light code in OpenCL never asks for.
+// OpenGL has its own copy, which light code in OpenCL never requests.
 TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
   setenv("LIGHTGRID_BRIDGE", "staged", 1);
   Renderer staged = Renderer("", GlBackend::automatic);
@@ -110,7 +111,7 @@ uint64_t listed(const Scene& scene, const View& view, const Settings& settings) 
   return count_listed_pairs(run, read_depth(run.view())).listed;
 }
 
-// Longer than the stretch of a list that the kernel looks at together.
+// Longer than the part of a list that the kernel processes at once.
 TEST(ZBins, LeaveLongListsTheirOrder) {
   Scene scene = find_builtin_scene("spheres")->make();
   for (Light& light : scene.lights) light.radius_m = 4;
@@ -124,7 +125,7 @@ TEST(ZBins, PassOverMoreTheFinerTheyAre) {
   const View view = default_view(scene, 160, 90);
   const uint64_t off = listed(scene, view, {}), coarse = listed(scene, view, {.z_bins = 16});
   const uint64_t fine = listed(scene, view, {.z_bins = 64}), finest = listed(scene, view, {.z_bins = 256});
-  EXPECT_LT(coarse, off / 2);  // tiles with a sphere before a far floor
+  EXPECT_LT(coarse, off / 2);  // tiles with a sphere in front of a far floor
   EXPECT_LT(fine, coarse);
   EXPECT_LT(finest, fine);
   EXPECT_EQ(listed(scene, view, {.z_bins = 64, .grid_lists = GridLists::masks}), fine);

@@ -1,4 +1,4 @@
-// A camera that flies, the pointer's gestures, and how large the picture is drawn while it moves.
+// A flying camera, the pointer's gestures, and the picture's size while it moves.
 #include "view/fly_camera.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ TEST(FlyCamera, StaysTheStartUntilItMoves) {
   EXPECT_FALSE(camera.move({}, 1));
   EXPECT_FALSE(camera.turn(0, 0, 180));
   EXPECT_EQ(camera.view(320, 180).clip_from_view, start_view().clip_from_view);
-  // Of another shape: the vertical field stays.
+  // Of another aspect ratio: the vertical field stays.
   const View square = camera.view(180, 180);
   EXPECT_EQ(square.clip_from_view[1][1], start_view().clip_from_view[1][1]);
   EXPECT_EQ(square.clip_from_view[0][0], square.clip_from_view[1][1]);
@@ -62,8 +62,8 @@ TEST(FlyCamera, FliesWhereItLooks) {
 TEST(FlyCamera, TurnsWithTheDragAndNeverPastTheVertical) {
   const Scene scene = ten_metres();
   FlyCamera camera(scene, start_view(), "");
-  // A drag over the picture's height turns by the vertical field, 60 degrees: to the right shows what is
-  // left.
+  // A drag over the picture's height turns by the vertical field, 60 degrees; dragging to the right shows
+  // what is left.
   EXPECT_TRUE(camera.turn(180, 0, 180));
   const glm::dvec3 left = -glm::transpose(glm::dmat3(camera.view(320, 180).view_from_world))[2];
   EXPECT_NEAR(left.x, -std::sqrt(0.75), 1e-5);

@@ -1,4 +1,4 @@
-// The words of a script, and what they do to controls and input.
+// The words of a script, and their effect on controls and input.
 #include "view/script.h"
 
 #include <gmock/gmock.h>

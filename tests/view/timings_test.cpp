@@ -1,4 +1,4 @@
-// Pass times of the last frames, and the command line that gives a view again.
+// Pass times of the last frames, and the command line that renders a view.
 #include "view/timings.h"
 
 #include <gmock/gmock.h>

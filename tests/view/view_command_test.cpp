@@ -1,4 +1,4 @@
-// The window as a script drives it, under Xvfb, judged by its screenshot; and without a display.
+// The window driven by a script under Xvfb, judged by its screenshot; and without a display.
 #include <gmock/gmock.h>
 
 #include <sys/wait.h>
@@ -17,11 +17,11 @@ namespace {
 using testing::HasSubstr;
 
 constexpr int width = 320, height = 180;
-constexpr int label_rows = 24;  // the sides' names lie over the picture
+constexpr int label_rows = 24;  // the sides' names are drawn over the picture
 
 bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
 
-// The program with its words in a display of its own.
+// Runs the program with its arguments in a display of its own.
 CommandOutcome run_in_display(const std::string& words) {
   return run_command("LIGHTGRID_PROGRESS_S=86400 xvfb-run -a -s '-screen 0 1280x1024x24' " +
                      std::string(lightgrid_program) + " " + words + " 2>&1");
@@ -85,7 +85,7 @@ TEST_F(ViewInDisplay, FliesSwitchesTechniquesOpensMapsAndShowsThePicture) {
   ASSERT_GT(shot.width, width);
   ASSERT_EQ(shot.height, height);
   const PngPixels picture = render(folder_, {"-t", "forward_plus", "--set", "tile=32", "--camera", "0"});
-  // A ring marks the pixel that was clicked: the columns right of it are the picture alone.
+  // A ring marks the clicked pixel: the columns right of it show the picture alone.
   EXPECT_LE(greatest_difference(shot, picture, 60, width / 2 - 2), 2);
   EXPECT_GT(mean_of(shot, 60, width / 2), 5);
   EXPECT_GT(greatest_difference(shot, picture, width / 2 + 2, width), 50);
