@@ -43,8 +43,8 @@ vec3 light_sum(ShadingPoint p) {
   return sum;
 }
 #else
-const uint places = LIDR_GROUPS * LIDR_SLOTS;
-uint lidr_found[places];  // 0: none
+const uint overlaps = LIDR_GROUPS * LIDR_SLOTS;
+uint lidr_found[overlaps];  // 0: none
 
 #if defined(LIDR_SHIFTED)
 // ceil and 254.5: floor or a product with 255 may miss the stored number.
@@ -91,11 +91,11 @@ void unpack_group(uint group) {
 vec3 light_sum(ShadingPoint p) {
   uint left = 0u;
   for (uint group = 0u; group < LIDR_GROUPS; ++group) unpack_group(group);
-  for (uint i = 0u; i < places; ++i) left |= uint(lidr_found[i] != 0u) << i;
+  for (uint i = 0u; i < overlaps; ++i) left |= uint(lidr_found[i] != 0u) << i;
   vec3 sum = vec3(0.0);
   for (; left != 0u; left &= left - 1u) {
-    uint place = uint(findLSB(left)), index = 0u;
-    for (uint i = 0u; i < places; ++i) index = i == place ? lidr_found[i] : index;
+    uint slot = uint(findLSB(left)), index = 0u;
+    for (uint i = 0u; i < overlaps; ++i) index = i == slot ? lidr_found[i] : index;
     sum += light_of(p, index);
   }
   return sum;

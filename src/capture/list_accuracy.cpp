@@ -13,7 +13,7 @@ nlohmann::json row_json(const AccuracyRow& row) {
   const ListAccuracy& a = row.accuracy;
   return {{"compared", row.compared},
           {"pairs", {{"listed", a.listed}, {"lit", a.lit}, {"lost", a.lost}, {"perfect", a.perfect}}},
-          {"tiles", {{"lit", a.tiles_lit}, {"in_vain", a.tiles_in_vain}, {"p99", a.p99}, {"worst", a.worst}}}};
+          {"tiles", {{"lit", a.tiles_lit}, {"in_vain", a.tiles_unlit}, {"p99", a.p99}, {"worst", a.worst}}}};
 }
 
 double over_lit(uint64_t pairs, const ListAccuracy& a) { return a.lit ? double(pairs) / double(a.lit) : 0; }

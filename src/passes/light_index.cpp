@@ -138,7 +138,7 @@ class Drawing {
     // next group.
     for (uint32_t group = counted ? layout_.groups : 1; group-- > 0;) {
       write_group(layout_, counted ? group : batch.group);
-      if (counted) ask_for_room(group); else ask_for_none();
+      if (counted) test_free_slot(group); else test_mark_only();
       if (inside_) write_marked(batch); else write_behind_front_faces(batch);
     }
   }
@@ -167,7 +167,7 @@ class Drawing {
 
   // Tests for a free slot in this group and, with stencil, for the mark. A marked surface behind a back face
   // is not inside and loses its mark.
-  void ask_for_room(uint32_t group) const {
+  void test_free_slot(uint32_t group) const {
     const GLuint step = inside_ ? 2 : 1;  // stencil steps a slot takes
     const GLuint of_group = layout_.groups > 1 ? step * layout_.slots : 0;
     glStencilMask(255);
@@ -175,7 +175,7 @@ class Drawing {
     glStencilOp(GL_KEEP, inside_ ? GL_INCR : GL_KEEP, GL_DECR);
   }
 
-  void ask_for_none() const {
+  void test_mark_only() const {
     inside_ ? glStencilFunc(GL_EQUAL, 0, not_inside) : glStencilFunc(GL_ALWAYS, 0, 0);
     inside_ ? glStencilOp(GL_KEEP, GL_INVERT, GL_INVERT) : glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   }

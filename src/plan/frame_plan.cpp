@@ -108,7 +108,7 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   plan.index_bits = plan.local.size() <= 65536 ? 16 : 32;
   const auto& local = plan.local;
   plan.decisions.push_back({"point and spot lights", plan.local_lights,
-                            plan.local_lights ? light_witness(scene, local[0]) : "no light has a position"});
+                            plan.local_lights ? light_witness(scene, local[0]) : "no light has a place"});
   plan.decisions.push_back({"spot cones", plan.spots, plan.spots ? light_witness(scene, first_spot) : "no light is a spot"});
   plan.decisions.push_back({"directional lights", plan.directional,
                             plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
@@ -193,7 +193,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.blend_grid = plan.light_grid && plan.blend && bounded;
   plan.decisions.push_back({"light grid", plan.light_grid,
                             !needs.light_grid      ? "the technique reads none"
-                            : !plan.local_lights ? "no light has a position"
+                            : !plan.local_lights ? "no light has a place"
                                                  : light_witness(scene, plan.local[0])});
   plan.decisions.push_back({"blended light grid", plan.blend_grid,
                             plan.blend_grid ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))

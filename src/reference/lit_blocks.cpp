@@ -53,7 +53,7 @@ double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, Li
   const uint64_t pairs = uint64_t(end - begin) * tile.covered;
   sum.listed += pairs, sum.lit += lit, sum.perfect += tile.lit_pixels.size() * tile.covered;
   if (lit) ++sum.tiles_lit;
-  if (!lit && pairs) ++sum.tiles_in_vain;
+  if (!lit && pairs) ++sum.tiles_unlit;
   return lit ? double(pairs) / double(lit) : 0;
 }
 

@@ -28,7 +28,7 @@ struct ListAccuracy {
   uint64_t lost = 0;            // lit but not listed
   uint64_t perfect = 0;         // listed, if each tile listed only the lights that light one of its pixels
   uint64_t tiles_lit = 0;       // tiles with a lit pair
-  uint64_t tiles_in_vain = 0;   // tiles that list lights, none of which lights a pixel
+  uint64_t tiles_unlit = 0;   // tiles that list lights, none of which lights a pixel
   double p99 = 0, worst = 0;    // listed / lit of a tile, over tiles_lit
 };
 

@@ -58,13 +58,13 @@ uint32_t length_of_list(const ListedLights& lists, uint32_t cell) {
 
 Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered, const std::vector<ViewLight>& lights,
                  const ListedLights& lists, LitPairs& out) {
-  std::vector<size_t> order(tile.places.size());
+  std::vector<size_t> order(tile.indices.size());
   std::iota(order.begin(), order.end(), size_t(0));
-  const auto cell_at = [&](size_t i) { return cell_of(lists, covered[tile.places[i]]); };
+  const auto cell_at = [&](size_t i) { return cell_of(lists, covered[tile.indices[i]]); };
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return cell_at(a) < cell_at(b); });
   std::vector<uint32_t> pixels;
   std::vector<glm::dvec3> positions;
-  for (const size_t i : order) pixels.push_back(covered[tile.places[i]]), positions.push_back(tile.positions[i]);
+  for (const size_t i : order) pixels.push_back(covered[tile.indices[i]]), positions.push_back(tile.positions[i]);
 
   Tally tally;
   Membership listed(lights.size());

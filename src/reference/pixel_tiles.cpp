@@ -74,7 +74,7 @@ void for_each_tile(int width, const std::vector<uint32_t>& pixels, const std::fu
     const std::vector<uint32_t> near = lights_within_reach(lights, positions);
     for (const std::vector<uint32_t>& of_tile : group_by_tile(width, pixels_here)) {
       TileOfPixels tile;
-      for (const uint32_t i : of_tile) tile.places.push_back(of_region[i]), tile.positions.push_back(positions[i]);
+      for (const uint32_t i : of_tile) tile.indices.push_back(of_region[i]), tile.positions.push_back(positions[i]);
       tile.lights = lights_within_reach(lights, near, tile.positions);
       body(tile);
     }

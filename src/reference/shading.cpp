@@ -109,9 +109,9 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
   for_each_tile(view.width, pixels, position_of, settings.window ? lights : none, [&](const TileOfPixels& tile) {
     std::vector<ViewLight> near;
     for (const uint32_t light : tile.lights) near.push_back(lights[light]);
-    for (size_t k = 0; k < tile.places.size(); ++k) {
-      const uint32_t place = tile.places[k];
-      radiance[place] = shade(surface_at(pixels[place]), tile.positions[k], view.orthographic, settings.window ? near : lights, settings);
+    for (size_t k = 0; k < tile.indices.size(); ++k) {
+      const uint32_t index = tile.indices[k];
+      radiance[index] = shade(surface_at(pixels[index]), tile.positions[k], view.orthographic, settings.window ? near : lights, settings);
     }
   });
   return radiance;

@@ -70,19 +70,19 @@ bool cone_possibly_touches(const Box& b, const OracleLight& light, double margin
 std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights) {
   glm::dvec3 middle(0);
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> places;
+    std::vector<double> coordinates;
     for (const CullLight& light : lights)
-      if (std::isfinite(light.position[axis])) places.push_back(light.position[axis]);
-    if (places.empty()) continue;
-    std::nth_element(places.begin(), places.begin() + places.size() / 2, places.end());
-    middle[axis] = places[places.size() / 2];
+      if (std::isfinite(light.position[axis])) coordinates.push_back(light.position[axis]);
+    if (coordinates.empty()) continue;
+    std::nth_element(coordinates.begin(), coordinates.begin() + coordinates.size() / 2, coordinates.end());
+    middle[axis] = coordinates[coordinates.size() / 2];
   }
   std::vector<OracleLight> all;
   for (const CullLight& light : lights) {
     OracleLight t{to_view(view, light.position), glm::dmat3(view.view_from_world) * light.direction, light.radius_m,
                 light.cos_outer, 0, 0, false};
-    const glm::dvec3 place = glm::abs(light.position - middle);
-    t.place_error = 2 * u * (place.x + place.y + place.z);
+    const glm::dvec3 offset = glm::abs(light.position - middle);
+    t.position_error = 2 * u * (offset.x + offset.y + offset.z);
     const double length = glm::length(t.axis);
     if (length > 0 && std::isfinite(length)) t.axis /= length;
     else t.cos_outer = -1;
@@ -92,7 +92,7 @@ std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const Cul
   }
   double cone_error = 0;
   for (const OracleLight& t : all) {
-    if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.place_error);
+    if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.position_error);
   }
   for (OracleLight& t : all) t.cone_error = cone_error;
   return all;
@@ -128,7 +128,7 @@ bool certainly_touches(const Cell& cell, const OracleLight& light) {
 bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light, CullTest test) {
   if (light.lists_nothing || !(cell.near <= cell.far)) return false;
   const glm::dvec3& p = light.position;
-  const double r = light.radius + light.place_error;
+  const double r = light.radius + light.position_error;
   if (r > far_away) return true;
   // 24 u of slack and 8 u of rounding; plus 32 u for the sides' slopes, and for the tangents and tile
   // coordinates.

@@ -14,7 +14,7 @@ struct OracleLight {
   glm::dvec3 position;
   glm::dvec3 axis;
   double radius, cos_outer;
-  double place_error;  // of its position in float, which the culler stores relative to the median of all
+  double position_error;  // of its position in float, which the culler stores relative to the median of all
                        // lights' positions
   double cone_error;   // the largest of these over all spots, added as slack to every cone
   bool lists_nothing;  // radius or position is NaN, or the radius is negative

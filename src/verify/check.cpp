@@ -24,11 +24,11 @@ bool lights_it(const OracleLight& light, const glm::dvec3& position) {
   return light.cos_outer <= -1 || glm::dot(way, light.axis) > light.cos_outer * distance * (1 + 1e-12);
 }
 
-// The nearest and farthest surface of a tile by a plain scan over all samples; near > far: none. `strange`:
+// The nearest and farthest surface of a tile by a plain scan over all samples; near > far: none. `invalid`:
 // it contains a value that is no valid depth.
 struct Scan {
   double near = no_end, far = -no_end;
-  bool strange = false;
+  bool invalid = false;
 };
 
 Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t index) {
@@ -40,7 +40,7 @@ Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t i
       for (int s = 0; s < depth.samples; ++s) {
         const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples + s;
         const float value = depth.values[at];
-        if (!(value >= 0 && value <= 1) || (value == 0 && std::signbit(value))) scan.strange = true;
+        if (!(value >= 0 && value <= 1) || (value == 0 && std::signbit(value))) scan.invalid = true;
         else if (value != depth_of_nothing(view)) {
           const double distance = distance_at(view, value);
           scan.near = std::min(scan.near, distance), scan.far = std::max(scan.far, distance);
@@ -212,7 +212,7 @@ std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage&
     for (size_t i = 0; i < found.size(); ++i) {
       const Scan scan = scan_tile(view, depth, options.tile, i);
       const DepthInterval b = found[i];
-      if (scan.strange || scan.far > farthest_surface) {  // the tile spans every distance
+      if (scan.invalid || scan.far > farthest_surface) {  // the tile spans every distance
         that((is_orthographic(view) ? b.near <= -1e17f : b.near <= 0) && b.far >= 1e17f,
              "{}: tile {} has an invalid depth, or a surface past 10^15 m, but is bounded to [{}, {}]", to_string(shaped), i, b.near, b.far);
       } else if (scan.near > scan.far) {

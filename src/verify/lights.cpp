@@ -80,16 +80,16 @@ void radius_1e20(Check& c) { radius_of(c, {1e20, 3e38, 1e300}, true); }
 void radius_infinite(Check& c) { radius_of(c, {inf}, true); }
 
 // They must not be listed, and must not affect the lights in the same vector of lanes.
-void lists_nothing(Check& c, const std::vector<CullLight>& strange) {
+void lists_nothing(Check& c, const std::vector<CullLight>& invalid) {
   std::vector<CullLight> lights;
-  for (const CullLight& light : strange) lights.push_back(point({0, 0, -5}, 3)), lights.push_back(light);
+  for (const CullLight& light : invalid) lights.push_back(point({0, 0, -5}, 3)), lights.push_back(light);
   lights.push_back(point({0, 0, -5}, 3));
   for (const DepthInterval b : {DepthInterval{4, 6}, every_distance}) {
     const HostGrid grid = c.grid(sixty(), lights, {b});
     for (const uint32_t light : grid.indices) c.that(light % 2 == 0, "the invalid light {} is listed", light);
     for (size_t i = 0; i < grid.cells.size(); ++i)
-      c.that(grid.cells[i].y == 0 || grid.cells[i].y == strange.size() + 1, "tile {} lists {} of {} equal lights", i,
-             grid.cells[i].y, strange.size() + 1);
+      c.that(grid.cells[i].y == 0 || grid.cells[i].y == invalid.size() + 1, "tile {} lists {} of {} equal lights", i,
+             grid.cells[i].y, invalid.size() + 1);
   }
 }
 

@@ -48,12 +48,12 @@ TEST(FrameCuller, LosesNothingOffCentre) {
 
 // Invalid depth values: a tile with one spans everything, and its other pixels lose nothing.
 TEST(FrameCuller, LosesNothingBesideDepthsThatAreNone) {
-  const float strange[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+  const float invalid[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                            -0.5f, 2.5f};
   for (const bool standard : {false, true}) {
     CapturedFrame frame = small_frame(133, 71);
     if (standard) frame = with_standard_depth(frame, 60);
-    for (size_t i = 0; i < frame.depth.size(); i += 97) frame.depth[i] = strange[i / 97 % 4];
+    for (size_t i = 0; i < frame.depth.size(); i += 97) frame.depth[i] = invalid[i / 97 % 4];
     FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, {});
     culler.run();
     EXPECT_GT(culler.invalid_depth_tiles(), 20u);

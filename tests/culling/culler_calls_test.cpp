@@ -200,12 +200,12 @@ TEST(CullerCalls, ThrowOpenClsErrorsAsOurs) {
 }
 
 TEST(CullerCalls, CountInvalidDepthTilesOfTheLastDepthBounds) {
-  std::vector<float> strange = same_depth;
-  strange[0] = NAN, strange[40] = 2;
+  std::vector<float> invalid = same_depth;
+  invalid[0] = NAN, invalid[40] = 2;
   for (const KernelShape shape : kernel_shapes) {
     LightCuller culler(test_device(), test_programs(), {.shape = shape});
     culler.set_view(view_with_near(0.1));
-    const cl::Buffer good = buffer_of(same_depth), bad = buffer_of(strange);
+    const cl::Buffer good = buffer_of(same_depth), bad = buffer_of(invalid);
     EXPECT_EQ(culler.invalid_depth_tiles(), 0u);
     for (int i = 0; i < 3; ++i) culler.depth_bounds({bad});
     EXPECT_EQ(culler.invalid_depth_tiles(), 2u);

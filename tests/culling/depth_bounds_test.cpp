@@ -143,11 +143,11 @@ TEST_P(DepthBoundsOf, WhatNoDepthBufferHoldsGivesEveryDistance) {
        {nan, -nan, infinity, -infinity, -1.0f, -0.0f, -1e-40f, std::nextafter(1.0f, 2.0f), 2.0f}) {
     SCOPED_TRACE(fmt::format("depth {}", value));
     std::vector<float> depth = whole;
-    const int x = 70, y = 41, strange = y / options.tile * tiles_x + x / options.tile;
+    const int x = 70, y = 41, invalid = y / options.tile * tiles_x + x / options.tile;
     depth[size_t(y) * view.width + x] = value;
     const Intervals after = depth_intervals(view, depth, options);
     for (int i = 0; i < int(after.opaque.size()); ++i) {
-      if (i == strange) {
+      if (i == invalid) {
         EXPECT_EQ(after.opaque[i], (DepthInterval{0, far_away}));
         EXPECT_EQ(after.blend[i].far, far_away);
       } else {

@@ -29,11 +29,11 @@ class Bytes {
   // Usually a plausible number, sometimes a special one, sometimes any bits.
   double number(double low, double high) {
     constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    constexpr double strange[] = {0, -0.0, nan, -nan, inf, -inf, 1e-45, -1e-45, 1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1, -1};
+    constexpr double special[] = {0, -0.0, nan, -nan, inf, -inf, 1e-45, -1e-45, 1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1, -1};
     const int kind = up_to(31);
     if (kind == 0) return take<double>();
     if (kind == 1) return take<float>();
-    if (kind <= 4) return strange[up_to(15)];
+    if (kind <= 4) return special[up_to(15)];
     return low + (high - low) * (take<uint16_t>() / 65535.0);
   }
 

@@ -10,7 +10,7 @@ enum class Fault {
   box_ends_swapped,           // the box from x0 * near and x1 * far, ignoring signs
   symmetric_frustum,          // slopes from the field of view alone
   sky_in_maximum,             // background counts as far
-  strange_depth_ignored,      // NaN, infinite, negative depth ignored
+  invalid_depth_ignored,      // NaN, infinite, negative depth ignored
   signed_minimum,             // the least depth by its bits as a signed integer
   last_pixel_forgotten,       // of each tile
   partial_tiles_dropped,
@@ -35,7 +35,7 @@ enum class Fault {
   world_direction,            // cone axes not turned into view space
   z_bin_of_centre,            // a light only in the z-bin of its centre
   last_z_bin_closed,
-  cones_without_place_error,  // positions as float relative to the lights' median; only the radius is grown
+  cones_without_position_error,  // positions as float relative to the lights' median; only the radius is grown
                               // for that
   dropped_by_the_median,      // lights farther than 10^18 m from the lights' median
   edges_not_widened,          // slices and z-bins end on their edges, not on the edges' rounded depths

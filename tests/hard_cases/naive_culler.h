@@ -100,13 +100,13 @@ class NaiveCuller : public CullEngine {
 
   DepthInterval scan(const CullerOptions& o, const CullView& view, const DepthImage& depth, size_t tile, bool blend) const {
     double near = no_end, far = -no_end, farthest = 0;
-    bool strange = false, sky = false;
+    bool invalid = false, sky = false;
     int32_t least = std::numeric_limits<int32_t>::max();
     for_each_value(o, view, depth, tile, [&](float value) {
       int32_t bits;
       std::memcpy(&bits, &value, 4);
       if (!(value >= 0 && value <= 1)) {
-        strange |= fault_ != Fault::strange_depth_ignored;
+        invalid |= fault_ != Fault::invalid_depth_ignored;
         if (fault_ == Fault::signed_minimum) least = std::min(least, bits);
       } else if (value == depth_of_nothing(view)) {
         sky = true;
@@ -118,7 +118,7 @@ class NaiveCuller : public CullEngine {
       }
     });
     if (fault_ == Fault::signed_minimum && least < 0) return {down(near), down(near)};
-    if (strange || farthest > 1e15) return {is_orthographic(view) ? -1e18f : 0.0f, 1e18f};
+    if (invalid || farthest > 1e15) return {is_orthographic(view) ? -1e18f : 0.0f, 1e18f};
     if (sky && fault_ == Fault::sky_in_maximum) far = 1e18, near = std::min(near, 1e18);
     if (blend) return {0, sky || near > far ? 1e18f : up(std::min(far, 1e18))};
     if (near > far) return {1e18f, -1e18f};
@@ -169,9 +169,9 @@ class NaiveCuller : public CullEngine {
       if (fault_ == Fault::radius_squared) light.radius = std::abs(light.radius), light.lists_nothing = false;
       if (fault_ == Fault::world_direction) light.axis = lights[i].direction;
       const glm::dvec3 from_middle = lights[i].position - middle;
-      if (fault_ == Fault::cones_without_place_error) {
+      if (fault_ == Fault::cones_without_position_error) {
         light.position = to_view(view, middle + glm::dvec3(glm::vec3(from_middle)));
-        light.radius += 2 * light.place_error;
+        light.radius += 2 * light.position_error;
       }
       const double far = glm::length(from_middle);
       if (fault_ == Fault::dropped_by_the_median && far > 1e18 && light.radius < far / 4) light.lists_nothing = true;
@@ -182,12 +182,12 @@ class NaiveCuller : public CullEngine {
   static glm::dvec3 median(std::span<const CullLight> lights) {
     glm::dvec3 middle(0);
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> places;
+      std::vector<double> coordinates;
       for (const CullLight& light : lights)
-        if (std::isfinite(light.position[axis])) places.push_back(light.position[axis]);
-      if (places.empty()) continue;
-      std::nth_element(places.begin(), places.begin() + places.size() / 2, places.end());
-      middle[axis] = places[places.size() / 2];
+        if (std::isfinite(light.position[axis])) coordinates.push_back(light.position[axis]);
+      if (coordinates.empty()) continue;
+      std::nth_element(coordinates.begin(), coordinates.begin() + coordinates.size() / 2, coordinates.end());
+      middle[axis] = coordinates[coordinates.size() / 2];
     }
     return middle;
   }

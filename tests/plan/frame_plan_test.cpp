@@ -138,7 +138,7 @@ TEST(FramePlan, WithoutALightThatHasAPlaceThereIsNoGrid) {
   const FramePlan plan = plan_of(s.scene);
   EXPECT_FALSE(plan.light_grid || plan.local_lights || plan.spots);
   EXPECT_TRUE(plan.directional);
-  EXPECT_EQ(decision(plan, "light grid").why, "no light has a position");
+  EXPECT_EQ(decision(plan, "light grid").why, "no light has a place");
 }
 
 TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {

@@ -57,7 +57,7 @@ TEST(ListAccuracy, OfATileIsListedOverLit) {
   EXPECT_EQ(got.lost, 64u);
   EXPECT_EQ(got.perfect, 4u * 64);
   EXPECT_EQ(got.tiles_lit, 4u);
-  EXPECT_EQ(got.tiles_in_vain, 0u);
+  EXPECT_EQ(got.tiles_unlit, 0u);
   EXPECT_EQ(got.worst, 2);
 }
 
@@ -76,7 +76,7 @@ TEST(ListAccuracy, CountsThePerfectListOverTheTilesPixels) {
   EXPECT_EQ(got.worst, 256);
   EXPECT_EQ(got.p99, 256);
   EXPECT_EQ(got.tiles_lit, 1u);
-  EXPECT_EQ(got.tiles_in_vain, 1u);
+  EXPECT_EQ(got.tiles_unlit, 1u);
 }
 
 }  // namespace

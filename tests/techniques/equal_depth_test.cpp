@@ -73,8 +73,7 @@ bool in_one_sum(const std::string& technique) {
 void expect_each_as_forward(const Scene& scene, const View& view) {
   const Image forward = render(scene, view, "forward");
   for (const Technique* technique : techniques()) {
-    if (technique->name == std::string("lidr")) continue;  // fewer lights a pixel than there are here: see
-                                                           // below
+    if (technique->name == std::string("lidr")) continue;  // holds fewer lights a pixel than there are here: below
     SCOPED_TRACE(technique->name);
     const Image image = render(scene, view, technique->name);
     if (in_one_sum(technique->name)) {

@@ -36,11 +36,10 @@ inline bool same_bytes(const Image& a, const Image& b) {
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec4)) == 0;
 }
 
-// Meshes of light volumes: corners of three floats, indices of 16 bits (docs/techniques/deferred.md counts
-// them).
+// Meshes that stand for lights: corners of three floats, indices of 16 bits (docs/techniques/deferred.md counts them).
 inline constexpr size_t light_mesh_bytes = 469 * 12 + 2667 * 2;
 
-// Reports the difference of two images that should be equal.
+// Says how far apart two images are where they should be one.
 inline testing::AssertionResult identical(const Image& a, const Image& b) {
   if (same_bytes(a, b)) return testing::AssertionSuccess();
   const ImageError error = compare_images(a, b);
@@ -49,7 +48,7 @@ inline testing::AssertionResult identical(const Image& a, const Image& b) {
              error.rmse, count_nan_pixels(a), count_nan_pixels(b));
 }
 
-// Compares a technique with light lists with forward, and its lists with the lights that reach each pixel.
+// A technique with light lists against forward, and its lists against the lights that reach each pixel.
 inline void expect_exact(const Scene& scene, const View& view, const Settings& settings,
                          const Image& forward, const char* technique = "forward_plus") {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
@@ -61,8 +60,8 @@ inline void expect_exact(const Scene& scene, const View& view, const Settings& s
   EXPECT_EQ(pairs.wrong, 0u);
 }
 
-// A technique that sums in another order or precision: its image within `bound` of forward's brightest
-// channel, its pairs as above.
+// A technique that sums in another order or precision: its image within `bound` of forward's brightest channel, its pairs
+// as above.
 inline void expect_close(const Scene& scene, const View& view, const Settings& settings, const Image& forward,
                          const char* technique, double bound = 1e-5) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));

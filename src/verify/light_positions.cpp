@@ -30,18 +30,18 @@ void spread_out(Check& c) {
 // Lights that are switched off by moving them far away.
 void parked(Check& c) {
   constexpr double most = 3.4028234663852886e38;
-  const glm::dvec3 places[] = {{1e19, 0, 0}, {0, -1e30, 0}, {most, 0, 0}, {0, 0, -1e19}, {most, most, most}};
+  const glm::dvec3 positions[] = {{1e19, 0, 0}, {0, -1e30, 0}, {most, 0, 0}, {0, 0, -1e19}, {most, most, most}};
   const DepthImage depth = wall(sixty_degrees(), 1);
-  for (const glm::dvec3& place : places) {
+  for (const glm::dvec3& position : positions) {
     for (const size_t count : {1, 2, 300}) {
       Random random(37);
       std::vector<CullLight> lights = grazing_lights(sixty_degrees(), depth, count == 300 ? 100 : 1, false, random);
       lights.push_back(point({0, 0, -2}, 4));
       const size_t near = lights.size();
-      lights.insert(lights.end(), count, point(place, 1));
+      lights.insert(lights.end(), count, point(position, 1));
       const HostGrid grid = c.pixels(sixty_degrees(), lights, depth, {CullerOptions{}});
       c.that(std::ranges::none_of(grid.indices, [&](uint32_t light) { return light >= near; }),
-             "{} lights parked at {} {} {} are listed", count, place.x, place.y, place.z);
+             "{} lights parked at {} {} {} are listed", count, position.x, position.y, position.z);
     }
   }
 }
