@@ -1,4 +1,4 @@
-# LIGHTGRID_COMMIT: what results say they were made with. Read again whenever HEAD moves.
+# LIGHTGRID_COMMIT: the commit named in results. Updated whenever HEAD moves.
 set(LIGHTGRID_COMMIT unknown)
 find_package(Git QUIET)
 if(GIT_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)

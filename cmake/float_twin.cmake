@@ -1,5 +1,5 @@
 # The float twin of the culling kernels (src/verify/float_twin.h) compiles the kernels' own headers as C++: once for
-# each setting that is a macro there. Its sources are left out of the folder's list and come back as objects.
+# each setting that is a macro there. Its sources are excluded from the folder's list and added as objects.
 set(float_twin_sources twin/cells.cpp twin/depth.cpp)
 
 function(lightgrid_twin_objects source name)

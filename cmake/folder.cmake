@@ -27,7 +27,7 @@ endfunction()
 
 # lightgrid_part(NAME OF folder SOURCES file... [USES folder...] [LIBRARIES lib...])
 #
-# Some files of a folder as a target of their own, for USES, so that the rest does without their libraries.
+# A separate target for some files of a folder, for USES, so that the rest does not need their libraries.
 function(lightgrid_part name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "OF" "SOURCES;USES;LIBRARIES")
   list(TRANSFORM arg_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/src/${arg_OF}/)

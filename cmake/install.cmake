@@ -1,4 +1,5 @@
-# The libraries for others: find_package(lightgrid) gives lightgrid::culling and lightgrid::raster. See docs/library.md.
+# The libraries for other programs: find_package(lightgrid) gives lightgrid::culling and lightgrid::raster. See
+# docs/library.md.
 #
 #   cmake --install build --component library --prefix DIR
 include(CMakePackageConfigHelpers)
@@ -13,7 +14,7 @@ endforeach()
 install(TARGETS ${library_targets} EXPORT lightgridTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 
-# The public headers and what they include, under the names by which they are included here.
+# The public headers and the headers that they include, under the same names as here.
 set(public_headers
   base/error.h
   shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h

@@ -1,4 +1,4 @@
-# The window of `lightgrid view`. LIGHTGRID_VIEW is switched off for this build where GLFW or Dear ImGui is missing.
+# The window of `lightgrid view`. LIGHTGRID_VIEW is switched off for this build if GLFW or Dear ImGui is missing.
 if(LIGHTGRID_VIEW)
   find_package(glfw3 QUIET)
   pkg_check_modules(imgui QUIET IMPORTED_TARGET imgui)

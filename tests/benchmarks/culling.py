@@ -72,7 +72,7 @@ def run(command, threads, folder=None):
 
 
 def known_values(program):
-    """Which values each setting of this program has."""
+    """The values of each setting of this program."""
     text = run([program, "techniques"], 1)
     return lambda key, value: re.search(rf"\b{re.escape(key)}\b.*(?<![\w+-]){re.escape(value)}(?![\w+-])", text)
 
@@ -117,7 +117,7 @@ machine = {}
 
 
 def jobs(args, comparisons):
-    """What a round does for one frame and one number of threads."""
+    """One round for one frame and one number of threads."""
     todo = [lambda *at, c=c: run_lightgrid(args, *at, c) for c in comparisons or [None]]
     if args.prototype:
         todo.insert(0, lambda *at: run_prototype(args, *at))
@@ -145,7 +145,7 @@ def default_settings(comparisons):
 
 
 class Found:
-    """The rows by what they are of."""
+    """The rows grouped by frame, threads and setting."""
 
     def __init__(self, rows, of):
         self.rows = rows

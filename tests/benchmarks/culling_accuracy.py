@@ -62,7 +62,7 @@ def run(command, threads=0):
 
 
 def captures():
-    """What `capture` is asked for, by frame."""
+    """Arguments of `capture`, by frame."""
     found = {f"{name}-scene": [name, "--lights", "1024"] for name in ("spheres", "hall")}
     if os.path.isfile(SPONZA) and os.path.isfile(SPONZA_LIGHTS):
         found["sponza"] = [SPONZA, "--lights-file", SPONZA_LIGHTS]
@@ -206,7 +206,7 @@ def winner_table(found):
 
 
 def choice_table(found):
-    """Cost over the default's: geometric mean over the frames, and the worst frame."""
+    """Cost relative to the default's: geometric mean over the frames, and the worst frame."""
     settings = [(test, bounds, tile) for tile in (16, 8) for bounds in ("minmax", "halfz-modified", "mask32")
                 for test in ("planes+aabb", "exact")]
     rows = []

@@ -17,7 +17,7 @@ SPONZA = os.environ.get("LIGHTGRID_SPONZA") or next(iter(glob.glob("../shared/sc
 SPONZA_LIGHTS = os.environ.get("LIGHTGRID_SPONZA_LIGHTS", "../shared/bench/sponza_lights.json")
 RESULTS = "docs/results/first_light"
 SIZE = "1280x720"
-# What stands between the prepass and shading: the reduction and the culling, and besides them the hand-overs.
+# The passes between the prepass and shading: the reduction and culling, then the hand-overs.
 GRID_PASSES = ["depth_bounds", "cull_lights", "cull_lights_for_blended"]
 HAND_OVERS = ["depth_to_cl", "tile_distances"]
 

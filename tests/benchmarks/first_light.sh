@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures what docs/results/first_light.md reports: writes the CSV beside it, puts the table into it and prints it.
+# Makes the measurements of docs/results/first_light.md: writes the CSV beside it, puts the table into it and prints it.
 #   tests/benchmarks/first_light.sh
-# Needs a built tree (build/, or LIGHTGRID_BUILD) and python3. Optional input, left out where it is absent:
+# Needs a built tree (build/, or LIGHTGRID_BUILD) and python3. Optional input, omitted if absent:
 #   LIGHTGRID_SPONZA         a glTF file of Sponza     (default ../shared/scenes/large/Sponza/…)
 #   LIGHTGRID_SPONZA_LIGHTS  1024 lights and a camera  (default ../shared/bench/sponza_lights.json)
 # LIGHTGRID_FRAMES: frames a measurement (default 5). Nothing else should run on the machine.

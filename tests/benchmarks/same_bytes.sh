@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# same_bytes.sh OLD NEW [SIZE [SCENE…]]: do two builds of the program make the same images and light grids? Renders every
-# technique on every scene with both, and captures the grids that forward_plus and clustered shade from. 1 where bytes differ.
+# same_bytes.sh OLD NEW [SIZE [SCENE…]]: compares the images and light grids of two builds of the program. Renders every
+# technique on every scene with both, and captures the grids of forward_plus and clustered. Status 1 if bytes differ.
 set -euo pipefail
 old=$1 new=$2 size=${3:-320x180}
 shift $(($# < 3 ? $# : 3))

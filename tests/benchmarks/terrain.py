@@ -29,7 +29,7 @@ def measured(o, more):
         with open(o.json) as file:
             return json.load(file)
     with tempfile.TemporaryDirectory() as folder:
-        # Status 1: some lights were lost, which is what LIDR past its overlaps does.
+        # Status 1: lights were lost, as expected of LIDR past its overlaps.
         run = subprocess.run([o.program, "compare", "terrain", "--size", "1024x768", "-t", ",".join(TECHNIQUES), "--frames",
                               str(o.frames), "--json", "-", "-o", folder, "--quiet", *more], stdout=subprocess.PIPE, text=True)
         if run.returncode not in (0, 1):

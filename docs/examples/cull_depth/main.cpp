@@ -1,7 +1,7 @@
 // Which lights can reach which part of a picture? From a plain array of depths and a list of lights, with OpenCL only.
 //
 // The picture is cut into tiles of 16 x 16 pixels. For each, lightgrid takes the nearest and the farthest surface from
-// the depth buffer, and lists the lights whose spheres reach what lies between. A renderer then shades a pixel with the
+// the depth buffer, and lists the lights whose spheres reach the space between. A renderer then shades a pixel with the
 // lights of its tile and with no others.
 #include <algorithm>
 #include <cstdio>
@@ -27,11 +27,11 @@ CullView make_view() {
   return view;
 }
 
-// A floor two metres below the eye, under a sky: row 0 is the lowest one, and 0 says that no surface is there.
+// A floor two metres below the eye, under a sky: row 0 is the lowest one, and 0 means no surface.
 std::vector<float> make_depth() {
   std::vector<float> depth;
   for (int y = 0; y < height; ++y) {
-    const double down = slope_y * (1 - (y + 0.5) * 2 / height);  // how far the ray through this row falls in a metre
+    const double down = slope_y * (1 - (y + 0.5) * 2 / height);  // descent of the ray through this row per metre
     depth.insert(depth.end(), width, down > 0 ? float(near_m * down / eye_height_m) : 0.0f);
   }
   return depth;
@@ -54,20 +54,20 @@ int main() try {
   const std::vector<float> depth = make_depth();
   const std::vector<CullLight> lights = make_lights(500);
 
-  ClDevice device;                // a GPU if there is one; ClDevice("pthread") takes the one with that in its name
+  ClDevice device;                // a GPU if there is one; ClDevice("pthread") selects by name
   ProgramCache programs(device);  // compiled kernels are kept in ~/.cache/lightgrid
   LightCuller culler(device, programs, {.tile = 16});
   ClGridStorage storage(device);
-  culler.set_lights(lights);     // again when they change
-  culler.set_view(make_view());  // again when the camera moves
+  culler.set_lights(lights);     // call again when they change
+  culler.set_view(make_view());  // call again when the camera moves
 
-  // A renderer with its depth in OpenCL already gives that buffer instead.
+  // A renderer that already has its depth in OpenCL passes that buffer instead.
   const cl::Buffer values(device.context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, depth.size() * sizeof(float),
                           const_cast<float*>(depth.data()));
   const DepthBounds bounds = culler.depth_bounds({values});
   const LightGrid grid = culler.cull(bounds.opaque, storage);
 
-  // storage now holds the grid on the device, for a kernel that shades. Here it is read back.
+  // storage now holds the grid on the device, for a shading kernel. Here it is read back.
   const HostGrid host = read_grid(device, grid, storage);
   size_t lit = 0, longest = 0;
   for (const glm::uvec2& cell : host.cells) lit += cell.y > 0, longest = std::max<size_t>(longest, cell.y);

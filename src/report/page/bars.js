@@ -11,7 +11,7 @@ function drawBar(bar, scale, width, colorOf, text) {
     const x = `${100 * start}%`;
     svg.append(make("rect", { x, width: `${100 * share}%`, height: "100%", fill: colorOf(part.name) },
       make("title", {}, `${part.name}${part.on ? ` (${part.on})` : ""}: ${text(part.value)}`)));
-    // About 7 px a character: the longest of name and value, value, or nothing that fits.
+    // About 7 px a character: name and value, value, or nothing, whichever is the longest that fits.
     const fitting = [`${part.name} ${text(part.value)}`, text(part.value)].find((t) => t.length * 7 + 12 < share * width);
     if (fitting) svg.append(make("text", { x, y: "50%", dx: 6, dy: "0.35em", "pointer-events": "none" }, fitting));
     start += share;
@@ -20,7 +20,7 @@ function drawBar(bar, scale, width, colorOf, text) {
 }
 
 // bars: [{ name, note, parts: [{ name, on, value }] }]. The part named `rest` is gray. ownScale: a checkbox, or null.
-// Returns what draws them anew.
+// Returns a function that redraws them.
 function showBars(container, legend, bars, rest, text, ownScale) {
   const names = [...new Set(bars.flatMap((bar) => bar.parts.map((part) => part.name)))].filter((name) => name !== rest);
   const colorOf = (name) => (name === rest ? REST_COLOR : colorNumber(names.indexOf(name)));
@@ -40,7 +40,7 @@ function showBars(container, legend, bars, rest, text, ownScale) {
   return draw;
 }
 
-// The passes in order, then what the frame's median holds beyond them.
+// The passes in order, then the rest of the frame's median.
 function timeBar(name, row) {
   const parts = row.passes.map((pass) => ({ name: pass.name, on: pass.on, value: pass.median_ms ?? 0 }));
   const rest = (row.frame_ms.median ?? 0) - parts.reduce((sum, part) => sum + part.value, 0);

@@ -1,9 +1,9 @@
-// Frame time as curves, on logarithmic axes, in inline SVG. All is computed beforehand; here it is drawn.
+// Frame time as curves, on logarithmic axes, in inline SVG. Everything is computed beforehand; this only draws.
 
 const CHART_HEIGHT = 340;
 const CHART_MARGIN = { left: 56, right: 16, top: 26, bottom: 44 };
 
-// One color a name, the same in every chart of the page.
+// One color per name, the same in every chart of the page.
 const curveNames = [];
 function curveColor(name) {
   if (!curveNames.includes(name)) curveNames.push(name);
@@ -32,7 +32,7 @@ function chartFrame(chart, width, x, y, steps) {
     frame.push(make("line", { class: "rule", x1: left, x2: width - right, y1: y(step), y2: y(step) }),
       make("text", { x: left - 6, y: y(step), dy: "0.32em", "text-anchor": "end" }, shortNumber(step).replace(/\.0+$|(\.\d)0$/, "$1")));
   }
-  let free = -Infinity;  // labels that would run into the one before are left out
+  let free = -Infinity;  // labels that would overlap the previous one are omitted
   for (const tick of chart.ticks) {
     const half = tick.label.length * 3.6;
     frame.push(make("line", { class: "rule", x1: x(tick.x), x2: x(tick.x), y1: top, y2: CHART_HEIGHT - bottom }));
@@ -80,7 +80,7 @@ function crossingTable(chart) {
     make("div", { class: "scrolls" }, make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...rows))));
 }
 
-// From the uppermost curve down, as they end on the right. A click on a name hides its curve, or shows it again.
+// In the order in which the curves end on the right, from the top. A click on a name hides or shows its curve.
 function chartLegend(chart, plot) {
   const lastMs = (curve) => curve.points[curve.points.length - 1].ms;
   const fromTheTop = [...chart.curves].sort((a, b) => lastMs(b) - lastMs(a));

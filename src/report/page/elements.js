@@ -1,4 +1,4 @@
-// Making elements and writing numbers: what the other scripts share.
+// Elements and number formats for the other scripts.
 
 const byId = (id) => document.getElementById(id);
 
@@ -11,13 +11,13 @@ function make(tag, attributes, ...children) {
   return element;
 }
 
-// A row's name, to be broken after a colon or comma and nowhere else.
+// A row's name, with line breaks only after colons and commas.
 function nameElement(name) {
   const parts = name.split(/(?<=[:,])/);
   return make("span", {}, ...parts.flatMap((part, i) => (i ? [make("wbr"), part] : [part])));
 }
 
-// Three digits that count: 2,420  214  11.3  0.59
+// Three significant digits: 2,420  214  11.3  0.59
 function shortNumber(value) {
   const digits = value >= 100 ? 0 : value >= 10 ? 1 : 2;
   return value.toLocaleString("en-US", { minimumFractionDigits: digits, maximumFractionDigits: digits });
@@ -25,7 +25,7 @@ function shortNumber(value) {
 
 const wholeNumber = (value) => value.toLocaleString("en-US");
 const lightsNumber = (value) => (value >= 100 ? shortNumber(value) : value.toFixed(1));
-// 3.69 M: pairs run into the hundreds of millions.
+// 3.69 M: there can be hundreds of millions of pairs.
 function shortCount(value) {
   if (value < 10000) return wholeNumber(value);
   const [divisor, unit] = value < 1e6 ? [1e3, "k"] : value < 1e9 ? [1e6, "M"] : [1e9, "G"];
@@ -43,20 +43,20 @@ function byteNumber(value) {
   return `${shortNumber(value)} GiB`;
 }
 
-// The error of one comparison in words; JSON holds null where a figure is not finite.
+// The error of one comparison in words; JSON has null for figures that are not finite.
 function errorInWords(error) {
   if (error.bit_identical) return "bit-identical";
   if (error.max_rel === null) return "not finite: a NaN, or a black reference";
   return `at most ${errorNumber(error.max_abs)}, which is ${errorNumber(error.max_rel)} of the brightest channel; RMSE ${errorNumber(error.rmse)}`;
 }
 
-// Both images against the oracle in double, at the same pixels.
+// Both images compared with the oracle, at the same pixels.
 function oracleInWords(oracle, reference) {
   if (!oracle || oracle.max_rel === null || oracle.of_reference_max_rel === null) return "";
   return `; off the oracle by ${errorNumber(oracle.max_rel)} of the brightest channel, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
 }
 
-// Twenty colors that keep apart on light and dark paper; the first ten more than the rest.
+// Twenty colors that are distinguishable on light and dark paper; the first ten best.
 const COLORS = ["#3b6fb6", "#d9822b", "#3f9b58", "#b5475d", "#7d5bb0", "#2a9aa0", "#a5762c", "#c25aa0", "#6b8e23", "#4e5fa8",
   "#8c564b", "#17a2d4", "#c7a008", "#e2664f", "#5aa17f", "#9467bd", "#7f8f2e", "#d66fa8", "#5b7f95", "#b07d62"];
 const colorNumber = (number) => COLORS[number % COLORS.length];

@@ -1,4 +1,4 @@
-// Techniques by views: the time of each, what is wrong with it, and who wins where.
+// Techniques by views: times, faults, and the fastest technique of each view.
 
 const VIEWS_ACROSS = 6;  // in one table, so that it fits a sheet of paper
 

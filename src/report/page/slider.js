@@ -1,4 +1,4 @@
-// The before/after slider: any two pictures, cut where the range input says.
+// The before/after slider: any two pictures, cut at the position of the range input.
 
 let sliderChoices = [];
 

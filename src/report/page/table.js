@@ -1,4 +1,4 @@
-// The table of figures, sorted by the heading clicked.
+// The table of figures, sorted by the clicked heading.
 
 // columns: [{ title, value(row) -> number, string or null, text(value), best: "low" or "high", gate }];
 // a gate's value must be 0.
@@ -23,7 +23,7 @@ function showTable(table, columns, rows, tagOf) {
     return { row, line };
   });
 
-  // Absent figures come last in both directions.
+  // Missing figures come last in both directions.
   const compare = (a, b, sign) => {
     if (a === null || b === null) return (a === null) - (b === null);
     return sign * (typeof a === "string" ? a.localeCompare(b) : a - b);

@@ -68,7 +68,7 @@ function showErrors(view) {
   }
 }
 
-// Marks stand at even steps; the first and last are pulled in to the ends.
+// Marks are evenly spaced; the first and last are aligned with the ends.
 function legend(pictureNumber, marks) {
   const placed = marks.map((mark, i) => {
     const share = (100 * i) / (marks.length - 1);
@@ -120,7 +120,7 @@ function techniqueCard(view, row) {
     ...(settings.length > 0 ? [make("details", {}, make("summary", {}, "Settings"), ...settings)] : []));
 }
 
-// One line per refusal, and one per effect and reason with the techniques it holds for.
+// One line per refusal, and one per effect and reason with its techniques.
 function showSkipped(view) {
   const users = new Map();
   for (const row of ranRows(view)) {
@@ -137,7 +137,7 @@ function showSkipped(view) {
   byId("skipped").replaceChildren(...(all.length > 0 ? all : [make("li", {}, "Nothing was left out.")]));
 }
 
-// Returns what draws anew where the width matters.
+// Returns the functions that redraw when the width changes.
 function showView(view) {
   byId("view-title").textContent = view.page.title;
   byId("verdict").textContent = view.page.verdict;
