@@ -1,8 +1,9 @@
-// Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS for its
-// masks, LIGHTS_LIDR for light index images, LIGHTS_OBJECT for some of those that reach the object, else every light.
+// Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS
+// for its masks, LIGHTS_LIDR for light index images, LIGHTS_OBJECT for lights of the object, else every
+// light.
 // BLEND: output is multiplied by coverage, for blending over the image.
-// FIRST_OF_DRAWS, ADDED: of an object's draws, the first, and a further one that only adds light. What alpha is for:
-// src/passes/shade_objects.cpp.
+// FIRST_OF_DRAWS, ADDED: the first of an object's draws, and a further one that only adds light. For the use
+// of alpha see src/passes/shade_objects.cpp.
 
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
@@ -57,7 +58,7 @@ void main() {
   }
 #endif
 #ifdef BLEND
-  if (s.alpha == 0.0) discard;  // shows nothing; infinite radiance times 0 would be NaN
+  if (s.alpha == 0.0) discard;  // invisible; infinite radiance times 0 would be NaN
   radiance = vec4(color * s.alpha, s.alpha);
 #elif defined(ADDED)
   radiance = vec4(color, 1.0);

@@ -1,5 +1,5 @@
-// A surface into the geometry buffer, and what it shows without point and spot lights into the image: light passes
-// only add to it.
+// Writes a surface into the geometry buffer, and base lighting into the image, to which light passes only
+// add.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
 //   BASE_LIGHTING: there is an image to write
 #include "shaders/common/surface.glsl"

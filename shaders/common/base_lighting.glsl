@@ -1,11 +1,12 @@
-// What a surface shows without any point or spot light: the same bits in every technique. After shared/brdf.h.
+// Base lighting: what a surface shows without point and spot lights, the same bits in every technique. After
+// shared/brdf.h.
 #ifdef DIRECTIONAL
 #include "shaders/lights/directional.glsl"
 #endif
 
 vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
-  // Precise: a compiler that fuses multiplications with additions would round by what else the program holds.
+  // Precise: otherwise fused multiply-adds could make the rounding depend on the rest of the program.
   precise vec3 own = s.emissive + ambient * (p.diffuse * (SHADING_PI / (1.0 - DIELECTRIC_F0)) + p.f0) * s.occlusion;
   vec3 color = own;
 #ifdef DIRECTIONAL

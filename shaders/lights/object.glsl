@@ -1,4 +1,4 @@
-// Some of the lights that reach the object, in the order of their indices.
+// Lights that reach the object, in the order of their indices: the range of one draw.
 
 layout(binding = 12) uniform usamplerBuffer object_lights;
 uniform ivec2 lights_of_draw;  // first, count

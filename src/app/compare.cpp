@@ -23,7 +23,7 @@ namespace lightgrid {
 namespace {
 
 struct CompareCommand {
-  SceneChoice scene;  // what all views share
+  SceneChoice scene;  // shared by all views
   std::vector<std::string> scenes = {"hall"}, sizes = {"1280x720"}, lights;
   DeviceOptions devices;
   TimingOptions timing;

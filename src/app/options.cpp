@@ -41,7 +41,7 @@ void add_device_options(Subcommand& command, DeviceOptions& o) {
 
 void add_timing_options(Subcommand& command, TimingOptions& o) {
   command.option("--frames", o.frames, "frames to time", 1, 10000);
-  command.option("--warmup", o.warmup, "frames before those", 0, 10000);
+  command.option("--warmup", o.warmup, "untimed frames before those", 0, 10000);
 }
 
 void check_output_file(const std::string& option, const std::filesystem::path& path) {

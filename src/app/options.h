@@ -21,7 +21,7 @@ struct TimingOptions {
 };
 
 void add_scene_options(Subcommand& command, SceneChoice& choice);
-void add_view_options(Subcommand& command, SceneChoice& choice);  // of those, all but scene, size and lights
+void add_view_options(Subcommand& command, SceneChoice& choice);  // all but scene, size and lights
 void add_path_option(Subcommand& command, SceneChoice& choice);
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);

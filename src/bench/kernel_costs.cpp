@@ -46,7 +46,7 @@ const std::map<std::string, Formula>& formulas() {
        }},
       {"write_lists",
        [](const KernelWork& w) { return KernelCost{2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0.0}; }},
-      // For GPUs.
+      // GPU kernels.
       {"cull_lights",
        [](const KernelWork& w) {
          return KernelCost{interval_bytes * w.tiles + w.lights / 8.0 + (view_bytes(w) + 2 * id_bytes) * least_candidates(w) +

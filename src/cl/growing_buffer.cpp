@@ -14,7 +14,7 @@ cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
   }
 }
 
-// The old buffer goes first, so that both need not fit at once.
+// Frees the old buffer first, so that both need not fit at once.
 cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
   if (bytes <= bytes_ && buffer_()) return buffer_;
   buffer_ = cl::Buffer(), bytes_ = 0;

@@ -5,10 +5,10 @@
 
 namespace lightgrid {
 
-// 64 bytes at least. Throws Error(machine) where the device has not the memory.
+// At least 64 bytes. Throws Error(machine) if the device lacks the memory.
 cl::Buffer device_buffer(ClDevice& device, size_t bytes);
 
-// A buffer that is made anew where it is too small; what it held is then lost.
+// A buffer that is replaced when too small; its contents are then lost.
 class GrowingBuffer {
  public:
   cl::Buffer& at_least(ClDevice& device, size_t bytes);

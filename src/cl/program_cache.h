@@ -19,8 +19,9 @@ class ProgramCache {
   // disk cache; "driver" does the same but keeps the driver's own cache. PoCL compiles each kernel a second
   // time to return its binary: without our cache a first build took less than half as long, and each later
   // start 35 ms a kernel more (measured with `verify --filter depth/all_sky$`, empty and warm caches).
-  // With LIGHTGRID_CL_QUICK_BUILD in the environment a CPU gets the kernels of kernels/gpu unoptimised: continuous integration
-  // runs them there for their bytes, and optimising them is most of what building them takes.
+  // With LIGHTGRID_CL_QUICK_BUILD set, a CPU compiles the kernels of kernels/gpu without optimisation:
+  // continuous integration runs them there only to compare bytes, and optimisation is most of their build
+  // time.
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
   // The kernel of the embedded file "kernels/<file>.cl" (e.g. "cpu/depth_bounds") with its includes, built with the
@@ -42,7 +43,7 @@ class ProgramCache {
   static std::filesystem::path default_folder();
 
  private:
-  // `key` is that of programs_; `source` makes the text where it is not in memory.
+  // `key` is a key of programs_; `source` returns the text if it is not in memory.
   cl::Kernel kernel_of(const std::string& key, const std::string& file, const std::string& defines,
                        const std::function<std::string()>& source);
   cl::Program load_or_build(const std::string& file, const std::string& options, const std::string& source);

@@ -38,7 +38,8 @@ void attempt(Entry& entry, const Work& work, bool ends_run = true) {
   if (entry.refusal && ends_run) entry.run.reset();
 }
 
-// All draw into the same images in turn, but the reference, whose depth and surfaces are read after other runs' frames.
+// All runs draw into the same images in turn, except the reference: its depth and surfaces are read after
+// other runs' frames.
 std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& view,
                                 const std::vector<Contestant>& contestants, const std::string& reference) {
   std::vector<Entry> entries;
@@ -145,7 +146,7 @@ Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
   return picked;
 }
 
-// All or nothing: the lists of lights may be more than memory holds. The run's images may hold another run's frame: it draws
+// All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more before its lists are read.
 void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference, const std::vector<float>& depth) {
   RunResult row = run.result();

@@ -10,10 +10,11 @@ namespace lightgrid {
 // interleaved; they share the scene's memory if they are given the same GpuScene.
 class TechniqueRun {
  public:
-  // pool: images to draw into that other runs share (RenderView); after their frames, draw_frame() before targets are read.
+  // pool: images that runs share (RenderView); call draw_frame() before reading targets after other runs'
+  // frames.
   TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const Technique& technique,
                std::shared_ptr<TargetPool> pool = nullptr);
-  // With a GPU scene of its own.
+  // With its own GPU scene.
   TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings, const Technique& technique);
 
   // Another camera or size, for the frames that follow.

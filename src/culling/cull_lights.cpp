@@ -121,7 +121,7 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
     } else if (total > params_.index_capacity) {
       grow(total, index_bytes, "light indices", &Room::index_capacity);
     } else if (counters[3]) {  // the need exceeded 2^32
-      throw machine_error("light culling: candidates and lists need more memory than {} can be asked for; {}",
+      throw machine_error("light culling: candidates and lists need more memory than {} can allocate; {}",
                           device_.info().name, advice);
     } else {
       grid.index_count = total, grid.index_bytes = total * index_bytes;

@@ -39,8 +39,9 @@ class CullPipeline {
   // Creates or enlarges its buffers for the job. params gives the capacity for candidates and staged lists
   // (or marks).
   virtual void prepare(const CullParams& params) = 0;
-  // Enqueues all and waits for nothing. counters afterwards: [0] batches of 16 candidates and [1] units of 16 staged words
-  // that the job needs, [3] whether a bin had no room, [4] and [5] low and high word of the number of indices.
+  // Enqueues all kernels without waiting. Afterwards counters hold: [0] batches of 16 candidates and [1]
+  // units of 16 staged words needed, [3] whether a bin overflowed, [4] and [5] low and high word of the
+  // number of indices.
   virtual void enqueue(const CullJob& job) = 0;
   virtual size_t candidate_bytes() const = 0;  // of one candidate
   virtual size_t memory_bytes() const = 0;

@@ -1,4 +1,4 @@
-// Where a grid is kept, and its way back to the host.
+// Storage of a grid in OpenCL, and reading a grid back to the host.
 #include "cl/growing_buffer.h"
 #include "cl/transfer.h"
 #include "culling/light_culler.h"
@@ -7,7 +7,7 @@ namespace lightgrid {
 
 cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
   if (bytes <= size && buffer()) return buffer;
-  buffer = cl::Buffer(), size = 0;  // the old one goes first, so that both need not fit at once
+  buffer = cl::Buffer(), size = 0;  // freed first, so that both need not fit at once
   buffer = device_buffer(device_, bytes), size = bytes;
   return buffer;
 }

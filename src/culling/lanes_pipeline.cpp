@@ -1,4 +1,4 @@
-// project_lights -> cull_lights -> write_lists, a work-item a bin, for CPUs.
+// project_lights -> cull_lights -> write_lists, one work-item a bin, for CPUs.
 #include <fmt/format.h>
 
 #include <algorithm>

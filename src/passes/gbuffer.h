@@ -46,28 +46,28 @@ inline constexpr GBufferLayout gbuffer_layouts[] = {
      {{{"gbuffer_normal_32", GL_RGBA32F, GL_FLOAT, 16}, {"gbuffer_color_32", GL_RGBA32F, GL_FLOAT, 16}}}},
 };
 
-// Where light that is no point or spot light's is added: ambient, emissive, directional, unlit color. in_image: by the
-// geometry pass; light passes add to the image. in_light_pass: by it, which is only for plain ambient light
-// (FramePlan::base_lighting); the image is not written.
+// Where base lighting (ambient, emissive, directional, unlit color) is added. in_image: by the geometry pass;
+// light passes add to the image. in_light_pass: by the light pass, possible only for plain ambient light
+// (FramePlan::base_lighting); the geometry pass then writes no image.
 enum class BaseLighting { in_image, in_light_pass };
 
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
-  GLuint framebuffer = 0;  // the layout's images and, for own light, the image; over depth
+  GLuint framebuffer = 0;  // the layout's images and, for base lighting, the image; over depth
   std::array<GLuint, 2> textures{};
   GLuint depth = 0;
   DepthImage depth_image;
-  ShadedImage image;  // holds what surfaces show without point and spot lights, for light passes to add to
+  ShadedImage image;  // contains base lighting, for light passes to add to
 };
 
-// The view's geometry buffer as the setting buffer-bits lays it out, drawn or not.
+// The view's geometry buffer in the layout of buffer-bits, drawn or not.
 GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
 
 // Opaque surfaces with their depth, in one pass over the geometry.
 GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
 
-// These surfaces alone, at the depth that a prepass left.
+// Only these surfaces, at the prepass' depth.
 GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_lighting = BaseLighting::in_image);
 
 // The defines of shaders that read the geometry buffer (shaders/common/read_gbuffer.glsl), whose textures

@@ -51,8 +51,8 @@ class BlendedObjectLights : public ObjectLights {
 const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces);
 const ObjectLights& find_blended_object_lights(RenderView& v);
 
-// Each object at the depth that the prepass left: its own light over what is there, then its lights in the
-// order of their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
+// Shades each object at the prepass' depth: base lighting replaces the image, then its lights are added in
+// the order of their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
 ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart);
 
 // Blended objects over the image, back to front, each in one draw with all of its lights: a second draw would

@@ -8,7 +8,7 @@
 namespace lightgrid {
 namespace {
 
-// A read-only buffer that is written again in place while its size stays.
+// A read-only buffer that is rewritten in place while its size stays the same.
 class Uploaded {
  public:
   template <typename T>
@@ -20,7 +20,7 @@ class Uploaded {
  private:
   void put(ClDevice& device, const void* data, size_t bytes) {
     if (!buffer_() || bytes != bytes_) {
-      const size_t size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
+      const size_t size = std::max<size_t>(bytes, 16);  // OpenCL allows no empty buffer
       buffer_ = cl::Buffer();
       try {
         buffer_ = cl::Buffer(device.context(), CL_MEM_READ_ONLY, size);
@@ -36,7 +36,7 @@ class Uploaded {
   size_t bytes_ = 0;
 };
 
-// Whether the image holds what surfaces show of themselves before the light pass.
+// Whether the image already contains base lighting before the light pass.
 bool holds_base_lighting(const GBuffer& gbuffer) { return gbuffer.base_lighting == BaseLighting::in_image; }
 
 // The geometry buffer and the image as OpenCL reads them, the lights, and the kernels.
@@ -50,7 +50,7 @@ class TileShading : public PassState {
     upload(v);
   }
 
-  // Another camera at the same size, or lights that moved; kernels are built anew only where the plan changed.
+  // Another camera at the same size, or moved lights; kernels are rebuilt only if the plan changed.
   bool follow(RenderView& v) override {
     std::string defines = view_defines(v);
     if (defines != defines_) {

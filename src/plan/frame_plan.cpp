@@ -48,10 +48,10 @@ bool shows_base_lighting(const Scene& scene, int instance) {
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
   const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(), [&](int i) { return shows_base_lighting(scene, i); });
   plan.base_lighting = plan.directional || first != plan.opaque.end();
-  plan.decisions.push_back({"light of surfaces' own", plan.base_lighting,
+  plan.decisions.push_back({"base lighting", plan.base_lighting,
                             plan.directional ? light_witness(scene, plan.directional_lights[0])
                             : plan.base_lighting ? instance_witness(scene, *first)
-                                             : "nothing opaque glows, is unlit or has an occlusion map, and no light is directional"});
+                                             : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});
 }
 
 // Collects what the instances in view need, each need with its first witness.

@@ -63,8 +63,8 @@ struct FramePlan {
   bool spots = false;          // compile cone code
   bool directional = false;
   bool blend = false;          // the blended pass
-  bool blend_grid = false;     // and a grid of its own
-  bool base_lighting = false;      // some opaque surface shows more than point, spot and plain ambient light
+  bool blend_grid = false;     // a light grid for blended surfaces
+  bool base_lighting = false;      // an opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
   bool stencil = false;        // 8 bits beside depth
   bool reversed_triangles = false;

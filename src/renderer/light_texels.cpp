@@ -17,7 +17,7 @@ LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& 
     const double inverse_radius_squared = std::clamp(1.0 / (light.radius_m * light.radius_m), 2e-38, 3e38);
     const glm::dvec3 position = glm::clamp(light.position, -max_float, max_float);
     texels.positions.emplace_back(glm::vec3(position), float(inverse_radius_squared));
-    // A light without extent lights nothing, also not the point it is at.
+    // A light of radius 0 lights nothing, not even its own position.
     texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), 0);
     if (!plan.spots) continue;
     // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product

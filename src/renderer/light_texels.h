@@ -7,8 +7,8 @@
 
 namespace lightgrid {
 
-// View space. Point and spot lights in the order of plan.local as shared/punctual_light.h has them; `cones` only where the
-// plan has spots. Directional lights two each: direction to the light, and illuminance.
+// View space. Point and spot lights in the order of plan.local, laid out as in shared/punctual_light.h;
+// `cones` only if the plan has spots. Two per directional light: direction to the light, and illuminance.
 struct LightTexels {
   std::vector<glm::vec4> positions, colors, cones, directional;
 };

@@ -32,8 +32,9 @@ class PassState {
 };
 
 struct RenderView {
-  // All outlive it; the GPU scene may get reversed triangles. Views that are given one pool draw into the same images in turn;
-  // without it the view has its own. Throws Error(input) where the settings do not fit the view.
+  // All outlive it; it may add reversed triangles to the GPU scene. Views with the same pool draw into the
+  // same images in turn; without a pool the view has its own. Throws Error(input) if the settings do not fit
+  // the view.
   RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const TechniqueNeeds& needs,
              std::shared_ptr<TargetPool> pool = nullptr);
   RenderView(const RenderView&) = delete;
@@ -94,7 +95,7 @@ struct RenderView {
 
   Settings settings_;
   TechniqueNeeds needs_;
-  std::shared_ptr<TargetPool> shared_pool_;  // null: images of its own
+  std::shared_ptr<TargetPool> shared_pool_;  // null: own images
   std::map<std::string, ScenePrograms> programs_;
   std::optional<SharedBuffer> depth_copy_;
   std::optional<LightCuller> culler_;

@@ -15,8 +15,8 @@ namespace lightgrid {
 // The category under which an image's memory is counted.
 enum class TargetUse { image, gbuffer, light_index };
 
-// Images and framebuffers in OpenGL's memory, by name, format and size. Views that share a pool draw into the same images: what
-// one drew is lost when the next one draws. All of one context; they live as long as the pool.
+// Images and framebuffers in OpenGL's memory, by name, format and size. Views that share a pool draw into the
+// same images: each overwrites the others' contents. All belong to one context and live as long as the pool.
 class TargetPool {
  public:
   struct Image {
@@ -40,18 +40,18 @@ class TargetPool {
 // One view's images in a pool.
 class Targets {
  public:
-  // stencil: the depth image has 8 bits of it.
+  // stencil: the depth image has 8 stencil bits.
   Targets(std::shared_ptr<TargetPool> pool, int width, int height, bool stencil)
       : pool_(std::move(pool)), width_(width), height_(height), stencil_(stencil) {}
 
-  // The image of this name, in the format and for the use of its first call.
+  // The image of this name. The first call fixes format and use.
   GLuint texture(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
   GLuint depth();  // reversed 32-bit float
 
-  // Over images of this frame; depth 0: none.
+  // A framebuffer over these images; depth 0: none.
   GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) { return pool_->framebuffer(colors, depth); }
 
-  // Of the images that this view uses, whether or not it shares them.
+  // Bytes of the images that this view uses, shared or not.
   size_t bytes() const;
   size_t bytes(TargetUse use) const;
 

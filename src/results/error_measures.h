@@ -10,7 +10,7 @@
 
 namespace lightgrid {
 
-// What measures are computed from. Linear light.
+// The input of the measures. Linear light.
 struct ImageDifference {
   ImageDifference(const Image& image, const Image& reference);
 
@@ -25,7 +25,7 @@ struct ErrorMeasure {
   const char* key;    // of results.json and results.csv
   const char* title;  // of the page's column; empty: no column
   double ImageError::* value;
-  double (*of)(const ImageDifference& difference);  // of images of at least one pixel; infinite where there is no number
+  double (*of)(const ImageDifference& difference);  // for images of at least one pixel; infinite if undefined
 };
 
 std::span<const ErrorMeasure> error_measures();

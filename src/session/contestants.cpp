@@ -38,8 +38,8 @@ void apply_own_setting(Contestant& contestant, const std::string& assignment) {
   }
 }
 
-// Items of a list of techniques, as split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". What has
-// a "=" but no name before a colon is one more setting of the name before it.
+// Items of a list of techniques, split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". An
+// item with "=" and without a name before a colon is another setting of the name before it.
 std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common) {
   std::vector<Contestant> contestants;
   for (const std::string& item : items) {
@@ -55,7 +55,7 @@ std::vector<Contestant> named_contestants(const std::vector<std::string>& items,
   return contestants;
 }
 
-// Each contestant with each of the values of the settings that it reads.
+// Each contestant with each value of the settings that it reads.
 std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
   std::vector<Contestant> all;
   for (const Contestant& contestant : contestants) {
@@ -79,7 +79,8 @@ void check_comparisons(const std::vector<Contestant>& contestants, const std::ve
   }
 }
 
-// All are held against one image of every light: of another BRDF, what differs would be taken for a technique's error.
+// All are compared with one image of every light; with another BRDF, the difference would count as a
+// technique's error.
 void check_brdf(const std::vector<Contestant>& contestants) {
   const Contestant& first = contestants.front();
   const auto brdf_of = [](const Contestant& c) { return to_strings(c.settings).at("brdf"); };
@@ -115,7 +116,7 @@ std::vector<BenchContestant> culling_contestants(const Settings& base, const std
 
 std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techniques, const Settings& common,
                                            const std::vector<std::string>& comparisons) {
-  contestants_of(common, comparisons, 64);  // what is wrong with a comparison that no technique reads
+  contestants_of(common, comparisons, 64);  // reports an invalid comparison, even if no technique reads it
   const std::vector<Contestant> named = named_contestants(techniques, common);
   check_comparisons(named, comparisons);
   const std::vector<Contestant> all = swept(named, comparisons);

@@ -1,4 +1,4 @@
-// Techniques and settings that run beside each other, chosen by text. Error(input) names the field and its value.
+// Combinations of techniques and settings, chosen by text. Error(input) names the field and its value.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ std::vector<BenchContestant> contestants_of(const Settings& base, const std::vec
 std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
                                                  size_t most);
 
-// techniques: a list split at its commas, as "forward", "forward_plus:tile=32", "cull-test=aabb"; an item with "=" but no name
-// before a colon is one more setting of the name before it. comparisons: "KEY=A,B", applied to each technique that reads KEY.
-// Throws Error(input) for a setting that a technique does not read, a KEY that none reads, and for BRDFs that differ, since one
-// reference image cannot serve both.
+// techniques: a list split at its commas, such as "forward", "forward_plus:tile=32", "cull-test=aabb"; an
+// item with "=" and without a name before a colon is another setting of the name before it. comparisons:
+// "KEY=A,B", applied to each technique that reads KEY. Throws Error(input) for a setting that a technique
+// does not read, a KEY that none reads, and for different BRDFs, since one reference image cannot serve both.
 std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techniques, const Settings& common,
                                            const std::vector<std::string>& comparisons);
 

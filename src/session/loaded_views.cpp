@@ -7,7 +7,7 @@ namespace lightgrid {
 std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices) {
   std::vector<LoadedView> views;
   std::string loaded;
-  Scene own;  // the lights that the scene comes with
+  Scene own;  // the scene's own lights
   std::shared_ptr<Scene> scene;
   for (const SceneChoice& choice : choices) {
     if (!scene || choice.scene != loaded) {

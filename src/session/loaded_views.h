@@ -1,4 +1,4 @@
-// Several views loaded before the first is run.
+// Loads several views before the first is run.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// A view and its lights, over a scene that several views share.
+// A view and its lights; several views may share the scene.
 struct LoadedView {
   std::shared_ptr<Scene> scene;
   View view;
@@ -23,7 +23,8 @@ struct LoadedView {
   }
 };
 
-// Neighbouring choices of one scene share it. Errors in any of them are thrown before the first view is run.
+// Neighbouring choices with the same scene share it. An error in any of them is thrown before the first view
+// is run.
 std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices);
 
 }  // namespace lightgrid

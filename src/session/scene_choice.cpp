@@ -31,7 +31,7 @@ bool parse_pair(const std::string& text, char separator, T& a, T& b) {
 
 void check_light_radius(const SceneChoice& choice) {
   if (!choice.light_radius.empty() && (choice.lights < 0 || !choice.lights_file.empty())) {
-    throw input_error("light-radius {}: only lights that \"lights\" scatters take it", choice.light_radius);
+    throw input_error("light-radius {}: applies only to lights that \"lights\" scatters", choice.light_radius);
   }
 }
 
@@ -50,7 +50,7 @@ void load_lights(Scene& scene, const SceneChoice& choice) {
   scene.lights = load_lights_file(choice.lights_file);
   if (choice.lights < 0) return;
   if (size_t(choice.lights) > scene.lights.size()) {
-    throw input_error("lights {}: {} holds only {}", choice.lights, choice.lights_file, scene.lights.size());
+    throw input_error("lights {}: {} has only {}", choice.lights, choice.lights_file, scene.lights.size());
   }
   scene.lights.resize(choice.lights);
 }
@@ -68,7 +68,7 @@ double parse_time(const std::string& text) {
 
 Scene load_scene(const std::string& name) {
   if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
-  std::error_code unreadable;  // a name too long, or a folder closed to us, is no file either
+  std::error_code unreadable;  // a name too long, or an unreadable folder, is no file either
   if (!std::filesystem::exists(name, unreadable)) {
     std::string names;
     for (const BuiltinScene& s : builtin_scenes()) names += (names.empty() ? "" : ", ") + std::string(s.name);
@@ -99,7 +99,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
   }
   const View view = make_view(choose_camera(scene, camera, double(size.width) / size.height), size.width, size.height);
   if (scene.lights.empty() && choice.lights < 0 && choice.lights_file.empty()) {
-    log_info("{}: no lights; adding a key and a fill light from beside the camera (lights 0: none)", choice.scene);
+    log_info("{}: no lights; adding a key and a fill light fixed to the camera (lights 0: none)", choice.scene);
     DefaultLights added = default_lights(view);
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;
@@ -129,7 +129,7 @@ std::vector<View> chosen_path(const Scene& scene, const View& start, const Scene
 }
 
 ChosenScene load_chosen_scene(const SceneChoice& choice) {
-  parse_size(choice.size);  // what is wrong with these is told before the scene is loaded
+  parse_size(choice.size);  // reports faults in these before the scene is loaded
   check_light_radius(choice);
   ChosenScene chosen{load_scene(choice.scene), {}};
   chosen.view = choose_view(chosen.scene, choice);

@@ -1,5 +1,5 @@
-// The scene, lights, camera and settings of a run, chosen by text: what the command line, the window and other front ends share.
-// Error(input) names the field and its value.
+// The scene, lights, camera and settings of a run, chosen by text, for the command line, the window and other
+// front ends. Error(input) names the field and its value.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace lightgrid {
 
-// Fields as docs/command_line.md explains them.
+// Fields as in docs/command_line.md.
 struct SceneChoice {
   std::string scene = "hall";
   std::string size = "1280x720";
@@ -20,11 +20,11 @@ struct SceneChoice {
   std::string camera_path;  // empty: a camera at rest
   std::string time;         // seconds; empty: at rest
   std::string light_motion = "none";
-  int lights = -1;  // -1: as the scene has them
+  int lights = -1;  // -1: the scene's own
   std::string lights_file;
   std::string light_radius;
   uint64_t seed = 1;
-  std::string brdf;  // empty: ggx, or as --set has it
+  std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;
 };
 
@@ -35,11 +35,12 @@ struct ImageSize {
 };
 ImageSize parse_size(const std::string& text);
 Scene load_scene(const std::string& name);
-// The view of a loaded scene, whose lights become those that the choice names.
+// The view of a loaded scene; replaces its lights by those of the choice.
 View choose_view(Scene& scene, const SceneChoice& choice);
-// The scene's motion along a path, 30 frames a second from the chosen time on; empty where nothing moves. The scene outlives it.
+// The scene's motion along a path, 30 frames a second from the chosen time; empty if nothing moves. The scene
+// outlives it.
 SceneMotion chosen_motion(Scene& scene, const SceneChoice& choice);
-// The views of the camera path, or none.
+// The views of the camera path; empty without one.
 std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneChoice& choice);
 struct ChosenScene {
   Scene scene;

@@ -38,7 +38,7 @@ typedef struct CullParams {
   uint slices;                  // cells a tile
   uint light_count, light_stride;
   uint depth_row, depth_first;  // depth input: floats from row to row, index of the view's lower left sample
-  uint pool_batches, staging_units;  // room, in blocks of 16 candidates and in units of 16 indices
+  uint pool_batches, staging_units;  // capacity, in batches of 16 candidates and in units of 16 indices
   uint index_capacity;
 } CullParams;
 

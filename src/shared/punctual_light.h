@@ -32,7 +32,7 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   Real3 to_light = real3(light.position.x - position.x, light.position.y - position.y, light.position.z - position.z);
   real distance_squared = dot3(to_light, to_light);
   real ratio = distance_squared * light.position.w;
-  // At the light itself there is no direction, and nothing is reflected.
+  // At the light's own position there is no direction, and nothing is reflected.
   real inverse_distance = inverse_sqrt_real(max_real(distance_squared, REAL(1.2e-38f)));
   Arrival arrival;
   arrival.to_light = scale3(to_light, inverse_distance);

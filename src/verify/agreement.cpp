@@ -218,7 +218,7 @@ void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLig
       };
       const double more = step(near) + step(far) + 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * exact[i].position_error;
       c.that(!exact[i].lists_nothing && d + r >= near - more && d - r <= far + more,
-             "bin {} from {} to {} holds a light from {} to {}", bin, near, far, d - r, d + r);
+             "bin {} from {} to {} includes a light from {} to {}", bin, near, far, d - r, d + r);
     }
   }
 }

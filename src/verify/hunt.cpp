@@ -28,9 +28,9 @@ std::vector<HuntClass> chosen_classes(const std::string& filter) {
       if (std::regex_search(name_of(HuntClass(i)), pattern)) chosen.push_back(HuntClass(i));
     }
   } catch (const std::regex_error&) {
-    throw input_error("filter: \"{}\" is no regular expression", filter);
+    throw input_error("filter: \"{}\" is not a regular expression", filter);
   }
-  if (chosen.empty()) throw input_error("filter: no class of the hunt holds \"{}\"; names are like wide or off_centre", filter);
+  if (chosen.empty()) throw input_error("filter: no class of the hunt matches \"{}\"; names are like wide or off_centre", filter);
   return chosen;
 }
 

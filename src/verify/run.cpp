@@ -27,9 +27,9 @@ std::vector<const HardCase*> chosen_cases(const std::string& filter) {
     for (const HardCase& hard_case : hard_cases())
       if (std::regex_search(full_name(hard_case), pattern)) chosen.push_back(&hard_case);
   } catch (const std::regex_error&) {
-    throw input_error("filter: \"{}\" is no regular expression", filter);
+    throw input_error("filter: \"{}\" is not a regular expression", filter);
   }
-  if (chosen.empty()) throw input_error("filter: no case's name holds \"{}\"; names are like depth/all_sky", filter);
+  if (chosen.empty()) throw input_error("filter: no case's name matches \"{}\"; names are like depth/all_sky", filter);
   return chosen;
 }
 

@@ -1,4 +1,5 @@
-// What each of Khronos' and others' sample models is there to show. The numbers are read off the files' JSON.
+// The feature that each of Khronos' and others' sample models demonstrates. The numbers are from the files'
+// JSON.
 #include <algorithm>
 
 #include <glm/gtc/constants.hpp>

@@ -102,7 +102,7 @@ inline Picture picture_of(const Scene& scene, const std::string& camera = "") {
   return picture_of(scene, camera.empty() ? camera_at_the_corner(scene) : choose_camera(scene, camera));
 }
 
-// Along -z at a plane z = 0, `height_m` of which fill the picture.
+// Along -z at the plane z = 0; the picture is `height_m` high.
 inline Camera facing(const glm::dvec2& center, double height_m) {
   const double distance = height_m / 2 / std::tan(Camera().fov_y_rad / 2);
   return look_at({center.x, center.y, distance}, {center.x, center.y, 0});

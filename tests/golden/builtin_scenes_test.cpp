@@ -1,4 +1,4 @@
-// The built-in scenes against images kept in assets/golden (docs/testing.md). UPDATE_GOLDEN=1 writes them anew.
+// The built-in scenes against images in assets/golden (docs/testing.md). UPDATE_GOLDEN=1 rewrites them.
 #include <gtest/gtest.h>
 #include <png.h>
 

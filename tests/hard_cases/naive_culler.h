@@ -240,7 +240,7 @@ class NaiveCuller : public CullEngine {
     return bx * bx + by * by + bz * bz <= r * r;
   }
 
-  // Planes and box in float, as kernels have them but for the slack.
+  // Planes and box in float, as in the kernels but without slack.
   static bool float_test(const Cell& c, const OracleLight& l, bool cross_products) {
     const float x = float(l.position.x), y = float(l.position.y), d = float(-l.position.z), r = float(l.radius);
     const float x0 = float(c.x0), x1 = float(c.x1), y0 = float(c.y0), y1 = float(c.y1);

@@ -62,7 +62,7 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   SmallScene s = small_scene();
   std::vector<std::string> needed;
   for (const Effect& effect : effects()) {
-    if (effect.name == "unlit") continue;  // an unlit ball gives up its vertex colours for none
+    if (effect.name == "unlit") continue;  // an unlit ball no longer uses its vertex colours
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
     needed.push_back(effect.decision);

@@ -1,4 +1,4 @@
-// Skins and morph targets at a time: vertices worked out by hand.
+// Skins and morph targets at a time: vertices computed by hand.
 #include <algorithm>
 #include <cmath>
 

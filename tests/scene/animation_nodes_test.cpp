@@ -1,4 +1,4 @@
-// Nodes at a time: matrices worked out by hand.
+// Nodes at a time: matrices computed by hand.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
-// lidr within its overlap limit is the brute-force image, in every packing and row of the table; past it, lights are missing
-// and none is another.
+// lidr within its overlap limit gives the brute-force image, in every packing and row of the table; past it,
+// lights are missing but none is replaced by another.
 #include <algorithm>
 
 #include "base/error.h"

@@ -1,4 +1,5 @@
-// The volumes that lidr draws hold every pixel that their lights reach, from any place and through any camera.
+// The volumes that lidr draws contain every pixel that their lights reach, from any position and with any
+// camera.
 #include <algorithm>
 #include <cstdlib>
 

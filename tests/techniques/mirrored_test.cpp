@@ -1,4 +1,4 @@
-// A mirrored instance is the mirror image of one that is not.
+// A mirrored instance is the mirror image of an unmirrored one.
 #include <algorithm>
 
 #include <glm/gtc/matrix_transform.hpp>
