@@ -34,7 +34,7 @@ std::vector<uint8_t> srgb_bytes(const Image& image);
 // The same without the tone map: for images of numbers (difference_image, heat_map), whose legends need it.
 std::vector<uint8_t> srgb_bytes_as_is(const Image& image);
 
-// Eight bits, 1 to 4 channels, row 0 at the bottom, at least 1x1. RGB with at most 256 colours is written
+// Eight bits, 1 to 4 channels, row 0 at the top, at least 1x1. RGB with at most 256 colours is written
 // with a palette.
 std::vector<uint8_t> encode_png(int width, int height, int channels, const std::vector<uint8_t>& bytes);
 void save_png(const std::filesystem::path& path, const Image& image);

@@ -115,7 +115,7 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
       set_room(more);
     };
     if (counters[0] > params_.pool_batches) {
-      grow(counters[0], 16 * pipeline(bounds.mode).candidate_bytes(), "blocks of 16 candidate lights", &Room::pool_batches);
+      grow(counters[0], 16 * pipeline(bounds.mode).candidate_bytes(), "batches of 16 candidate lights", &Room::pool_batches);
     } else if (counters[1] > params_.staging_units) {
       grow(counters[1], 64, "units of 16 list entries", &Room::staging_units);
     } else if (total > params_.index_capacity) {
