@@ -7,9 +7,6 @@
 
 #include "kernels/common/cell.h"
 
-// Relative error of a distance computed from depth. It allows for a shader's division that is 2.5 units off:
-// docs/hard_cases.md#slack.
-#define WIDEN 4.8e-7f
 #define ONE_BITS 0x3f800000u
 // Lights farther than 1e16 m are scaled towards the eye (docs/hard_cases.md#far-lights), so a tile with a surface past
 // this distance, metres, spans every distance.

@@ -4,7 +4,6 @@
 
 #include "kernels/common/light_arrays.h"
 
-#define BLOCK_TILES 4u
 #define BLOCK_SIZE 16u
 #define BIN_BLOCKS (BIN_SIZE / BLOCK_SIZE)
 #define BLOCKS_X(p) ((p)->bins_x * (BIN_TILES / BLOCK_TILES))
@@ -39,7 +38,6 @@ static inline TileRect record_rect(global const float4* record) {
 }
 
 // Lights that a work-group of gpu/project_lights.cl takes, and the words that it marks for each column and row of blocks.
-#define PROJECT_GROUP 128  // as group_pipeline.cpp
 #define PROJECT_WORDS (PROJECT_GROUP / 32)
 
 // Words from one column's or row's marks to the next one's.

@@ -2,7 +2,7 @@
 // through builtins of the compiler; without it, plain OpenCL C.
 #pragma once
 
-#include "kernels/common/lanes.h"
+#include "shared/lanes.h"
 
 #if LANES == 16
 #ifdef AVX512

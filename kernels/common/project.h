@@ -2,15 +2,13 @@
 #pragma once
 
 #include "kernels/common/pack.h"
+#include "shared/cull_constants.h"
 #include "shared/cull_params.h"
 #include "shared/cull_settings.h"
 
 #ifndef CULL_TEST
 #define CULL_TEST CULL_PLANES_AABB
 #endif
-
-// Stands for infinity: its square is finite in float, so no test meets inf - inf or 0 * inf.
-#define FAR_AWAY 1e18f
 
 // Radii grow by this part of |x| + |y| + |d| + radius before any test. That covers every rounding from the light's world
 // position to the comparison, except the rounding of tile sides, which the view gives: docs/hard_cases.md#slack.

@@ -3,7 +3,7 @@
 // same record: docs/raster.md.
 #pragma once
 
-#include "kernels/common/lanes.h"
+#include "shared/lanes.h"
 #include "shared/raster_instance.h"
 #include "shared/raster_params.h"
 

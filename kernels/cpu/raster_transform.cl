@@ -4,7 +4,7 @@
 // runs       uint2: an instance and the first of RASTER_VERTEX_RUN of its mesh's vertices
 // clip       float4 (x, y, z, w) a vertex of each instance; an instance's vertices begin at a multiple of 16
 #define LANES 16
-#include "kernels/common/lanes.h"
+#include "shared/lanes.h"
 #include "shared/raster_instance.h"
 #include "shared/raster_params.h"
 

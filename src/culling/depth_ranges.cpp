@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "culling/light_arrays.h"
+#include "shared/cull_constants.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr float widen = 4.8e-7f;  // as kernels/common/depth_interval.h
+constexpr float widen = WIDEN;
 
 float rounded_down(double value) { return std::nextafter(float(value), -std::numeric_limits<float>::infinity()); }
 

@@ -4,11 +4,14 @@
 #include "cl/launch.h"
 #include "culling/cull_pipeline.h"
 #include "shared/light_grid.h"
+#include "shared/cull_constants.h"
+#include "shared/light_grid.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr size_t project_items = 128, bin_blocks = 4, block_tiles = 4;  // kernels/common/group_grid.h
+constexpr size_t project_items = PROJECT_GROUP, block_tiles = BLOCK_TILES;
+constexpr size_t bin_blocks = BIN_TILES / block_tiles * (BIN_TILES / block_tiles);
 constexpr size_t usual_items = 256;  // of kernels whose work-groups may have any size
 
 // Empty if `items` is the kernel's own default.

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "culling/light_culler.h"
+#include "shared/cull_constants.h"
 
 namespace lightgrid {
 
 constexpr int world_arrays = 8;
-constexpr float far_away = 1e18f;  // as kernels/common/project.h
+constexpr float far_away = FAR_AWAY;
 constexpr double half_ulp = 0x1p-24;
 
 // A light farther than this from the origin (metres) is uploaded scaled towards the origin:

@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "scene/brdf.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {
-
-enum class Brdf { ggx, blinn };  // the specular lobe: shared/brdf.h
 
 // How deferred light volumes skip pixels out of a light's reach (passes/shade_light_volumes.cpp).
 enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };

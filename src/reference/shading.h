@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "plan/settings.h"
+#include "scene/brdf.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {

@@ -1,11 +1,11 @@
 // The number type of shading code that GLSL, OpenCL C and C++ all compile: `real` is one float in GLSL and C++, and LANES
-// of them, a pixel each, in OpenCL C (kernels/common/lanes.h).
+// of them, a pixel each, in OpenCL C (shared/lanes.h).
 #pragma once
 
 #include "shared/language.h"
 
 #if defined(__OPENCL_VERSION__)
-#include "kernels/common/lanes.h"
+#include "shared/lanes.h"
 #define SHARED_STRUCT(name) typedef struct name name; struct name
 #define EXACTLY
 #define REAL(x) ((real)(x))
