@@ -1,6 +1,7 @@
 // lightgrid capture SCENE -o DIR: depth, lights, view and light grid as files.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "app/commands.h"
@@ -19,22 +20,44 @@ struct CaptureOptions {
   std::string technique = "forward_plus", output = "out/capture", json;
 };
 
-int capture(const CaptureOptions& o) {
-  const Settings settings = chosen_settings(o.scene);
-  const TechniqueNeeds needs = grid_needs(o.technique, settings);
-  const GlBackend backend = parse_gl_backend(o.devices.gl);
-  if (!o.json.empty()) check_output_file("--json", o.json);
-  const ChosenScene chosen = load_chosen_scene(o.scene);
-  make_folder(o.output);
-  Renderer devices(o.devices.device, backend);
-  const CapturedFrame frame = capture_frame(devices, chosen.scene, chosen.view, settings);
-  FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, needs);
+// Writes one frame into `folder` and returns its summary as JSON.
+std::string capture_into(const std::string& folder, Renderer& devices, const Scene& scene, const View& view, const Settings& settings,
+                         const CaptureOptions& o) {
+  make_folder(folder);
+  const CapturedFrame frame = capture_frame(devices, scene, view, settings);
+  FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, grid_needs(o.technique, settings));
   culler.run();
   const FrameGrid grid = culler.grid();
-  write_frame(o.output, frame);
-  write_frame_grid(o.output, grid);
-  if (!o.json.empty()) write_json(o.json, summary_json(frame, grid, devices.cl->info().name));
-  if (o.json != "-") fmt::print("{}: {}\n", o.output, summary_line(frame, grid));
+  write_frame(folder, frame);
+  write_frame_grid(folder, grid);
+  if (o.json != "-") fmt::print("{}: {}\n", folder, summary_line(frame, grid));
+  return summary_json(frame, grid, devices.cl->info().name);
+}
+
+// A folder for each view of the camera path, numbered: frames for `bench --replay`.
+std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene& scene, const Settings& settings, const CaptureOptions& o) {
+  const SceneMotion advance = chosen_motion(scene, o.scene);
+  std::string summaries;
+  for (size_t i = 0; i < path.size(); ++i) {
+    if (advance) advance(i);
+    const std::string folder = (std::filesystem::path(o.output) / fmt::format("{:04}", i)).string();
+    summaries += (i ? ",\n" : "") + capture_into(folder, devices, scene, path[i], settings, o);
+  }
+  return "[" + summaries + "]";
+}
+
+int capture(const CaptureOptions& o) {
+  const Settings settings = chosen_settings(o.scene);
+  grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
+  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  ChosenScene chosen = load_chosen_scene(o.scene);
+  const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
+  make_folder(o.output);
+  Renderer devices(o.devices.device, backend);
+  const std::string summary = path.empty() ? capture_into(o.output, devices, chosen.scene, chosen.view, settings, o)
+                                           : capture_path(path, devices, chosen.scene, settings, o);
+  if (!o.json.empty()) write_json(o.json, summary);
   return 0;
 }
 
@@ -45,6 +68,7 @@ void add_capture(CommandLine& line) {
   Subcommand command =
       line.add("capture", "depth, lights, view and light grid as files", [o] { return capture(*o); });
   add_scene_options(command, o->scene);
+  add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   command.option("-t,--technique", o->technique, "whose light grid is written (clustered's has slices)");
   command.option("-o,--output", o->output, "folder of the frame");

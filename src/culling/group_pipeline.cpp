@@ -3,7 +3,6 @@
 
 #include "cl/launch.h"
 #include "culling/cull_pipeline.h"
-#include "shared/light_grid.h"
 #include "shared/cull_constants.h"
 #include "shared/light_grid.h"
 

@@ -86,6 +86,18 @@ TEST_F(Frames, CaptureWritesAFrameAndCullMakesItsGridAgain) {
   EXPECT_GT(std::filesystem::file_size(culled / "indices.u32"), 0u);
 }
 
+TEST_F(Frames, CaptureAlongAPathGivesAFolderAFrame) {
+  const auto path = folder_.path / "path", still = folder_.path / "still";
+  const ProgramRun moving = run_program({"capture", "spheres", "--size", "64x48", "--camera-path", "turn:3", "-o", path, "--json", "-"});
+  ASSERT_EQ(moving.status, 0) << moving.err;
+  ASSERT_EQ(run_program({"capture", "spheres", "--size", "64x48", "-o", still}).status, 0);
+  EXPECT_THAT(names_in(path), ElementsAre("0000", "0001", "0002"));
+  EXPECT_EQ(nlohmann::json::parse(moving.out).size(), 3u);
+  EXPECT_TRUE(file_bytes(path / "0000" / "depth.f32") == file_bytes(still / "depth.f32")) << "a path starts at the camera";
+  EXPECT_FALSE(file_bytes(path / "0001" / "depth.f32") == file_bytes(still / "depth.f32"));
+  EXPECT_EQ(run_program({"bench", "--replay", path / "0001", "--frames", "1", "--warmup", "0"}).status, 0);
+}
+
 TEST_F(Frames, OfClusteredHaveItsSlicesAndItsMasks) {
   const auto frame = folder_.path / "sliced", culled = folder_.path / "culled";
   const std::vector<std::string> options = {"-t", "clustered", "--set", "slices=8", "--set", "z-bins=16", "--set", "grid-lists=masks"};
