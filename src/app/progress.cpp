@@ -60,7 +60,7 @@ std::function<void(double, const std::string&)> progress_bar() {
 }
 
 ProgressLines::ProgressLines(const std::string& command) {
-  if (isatty(STDERR_FILENO)) return;
+  if (isatty(STDERR_FILENO) || command == "view") return;  // a window shows what it does
   state().step = command;
   thread_ = std::thread([this] { run(std::chrono::duration<double>(interval_s())); });
 }
