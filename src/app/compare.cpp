@@ -31,6 +31,7 @@ struct CompareCommand {
   std::vector<std::string> techniques = {"forward", "forward_plus"}, compare;
   std::string reference = "auto";
   int page_mb = 30;
+  bool flip = false;
 };
 
 int parse_lights(const std::string& text) {
@@ -83,7 +84,7 @@ void run_views(Renderer& devices, const std::vector<LoadedView>& views, const st
   for (size_t i = 0; i < views.size(); ++i) {
     const LoadedView& view = views[i];
     CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup, .reference = parse_reference(o.reference),
-                           .seed = o.scene.seed, .all_may_refuse = views.size() > 1};
+                           .seed = o.scene.seed, .flip = o.flip, .all_may_refuse = views.size() > 1};
     const double cost = cost_of(view);
     const std::string which = views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
     options.progress = [&](double done, const std::string& step) { bar((before + done * cost) / total, which + step); };
@@ -169,6 +170,7 @@ void add_compare(CommandLine& line) {
   command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names(), ',');
   command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads KEY, with each value; may be repeated");
   command.option("--reference", o->reference, "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
+  command.flag("--flip", o->flip, "measure HDR-FLIP too, which takes seconds a row");
   command.option("-o,--output", o->output, "folder of the report");
   command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1, 1000);
   command.option("--json", o->json, "results.json also into a file, - for stdout");

@@ -5,6 +5,7 @@
 
 #include "base/version.h"
 #include "cl/error.h"
+#include "results/flip.h"
 #include "results/metrics.h"
 #include "compare/moving.h"
 #include "compare/oracle_sample.h"
@@ -148,13 +149,15 @@ Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
 
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more before its lists are read.
-void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference, const std::vector<float>& depth) {
+void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference, const std::vector<float>& depth,
+             const std::optional<FlipExposures>& exposures) {
   RunResult row = run.result();
   if (reference.sampled()) {
     const std::vector<uint32_t> pixels = pixels_of(reference.blocks, report.width, report.height);
     row.error = compare_images(at_pixels(run.image(), pixels), at_pixels(reference.image(), pixels));
   } else {
     row.error = compare_images(run.image(), reference.image());
+    if (exposures) row.error->flip_mean = mean_of(hdr_flip_map(run.image(), reference.image(), *exposures));
   }
   const bool is_reference = &run == reference.run;
   if (!is_reference) run.draw_frame();
@@ -237,11 +240,13 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   }
 
   const std::vector<float> depth = read_depth(reference.run->view());
+  std::optional<FlipExposures> exposures;
+  if (options.flip && !reference.sampled()) exposures = flip_exposures(reference.image());
   for (size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries[i];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
     // A refusal here keeps the run: it may be the reference.
-    if (entry.run) attempt(entry, [&] { add_row(report, *entry.run, reference, depth); }, false);
+    if (entry.run) attempt(entry, [&] { add_row(report, *entry.run, reference, depth, exposures); }, false);
     if (entry.refusal) {
       report.rows.push_back(refused_row(entry, reference.run->result()));
       report.images.emplace_back(), report.listed.emplace_back();

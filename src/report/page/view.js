@@ -40,6 +40,8 @@ const columnsOf = (view) => [
   { title: "Wrong pairs", value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (row) => row.nan_pixels, text: wholeNumber, gate: true },
   ...page.measures.map(({ key, title }) => ({ title, value: (row) => row.error?.[key] ?? null, text: errorNumber })),
+  ...(view.results.rows.some((row) => typeof row.error?.flip_mean === "number")
+    ? [{ title: "FLIP, mean", value: (row) => row.error?.flip_mean ?? null, text: errorNumber }] : []),
   { title: "Off the oracle", value: (row) => row.error?.oracle?.max_rel ?? null, text: errorNumber },
   { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
   { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },

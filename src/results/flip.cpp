@@ -1,0 +1,258 @@
+#include "results/flip.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace lightgrid {
+namespace {
+
+using std::numbers::pi;
+
+// Three channels a pixel.
+struct Planes {
+  int width, height;
+  std::vector<glm::dvec3> pixels;
+};
+
+// --- Colour spaces ---------------------------------------------------------------------------------------------------
+
+// Linear sRGB to CIE XYZ (D65), column by column: the rational numbers that follow from the primaries.
+const glm::dmat3 xyz_from_rgb(10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382,  //
+                              8788810.0 / 24577794, 8788810.0 / 12288897, 8788810.0 / 73733382,   //
+                              4435075.0 / 24577794, 887015.0 / 12288897, 70074185.0 / 73733382);
+const glm::dmat3 rgb_from_xyz = glm::inverse(xyz_from_rgb);
+const glm::dvec3 white = xyz_from_rgb * glm::dvec3(1);
+
+// Linearised CIELAB (Flohr et al. 1993), the space in which eyes filter.
+glm::dvec3 ycxcz_from_rgb(const glm::dvec3& rgb) {
+  const glm::dvec3 v = xyz_from_rgb * rgb / white;
+  return {116 * v.y - 16, 500 * (v.x - v.y), 200 * (v.y - v.z)};
+}
+
+glm::dvec3 rgb_from_ycxcz(const glm::dvec3& color) {
+  const double y = (color.x + 16) / 116;
+  return rgb_from_xyz * (glm::dvec3(y + color.y / 500, y, y - color.z / 200) * white);
+}
+
+double lab_curve(double t) {
+  constexpr double delta = 6.0 / 29;
+  return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0 / 29;
+}
+
+// CIELAB with a and b scaled by lightness, after Hunt: colours look less colourful in the dark.
+glm::dvec3 hunt_lab_from_rgb(const glm::dvec3& rgb) {
+  const glm::dvec3 v = xyz_from_rgb * rgb / white;
+  const double x = lab_curve(v.x), y = lab_curve(v.y), z = lab_curve(v.z), lightness = 116 * y - 16;
+  return {lightness, 0.01 * lightness * 500 * (x - y), 0.01 * lightness * 200 * (y - z)};
+}
+
+// Abasi et al. 2020: a distance that holds for large differences too.
+double hyab(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
+
+// --- Filters ---------------------------------------------------------------------------------------------------------
+
+using Kernel = std::vector<double>;  // from -radius to radius
+
+Kernel sampled(int radius, const auto& function) {
+  Kernel kernel;
+  for (int i = -radius; i <= radius; ++i) kernel.push_back(function(double(i)));
+  return kernel;
+}
+
+// Positive weights then add up to 1, negative ones to -1.
+void normalize(Kernel& kernel) {
+  double positive = 0, negative = 0;
+  for (const double w : kernel) (w > 0 ? positive : negative) += w;
+  for (double& w : kernel) w /= w > 0 ? positive : -negative;
+}
+
+// Values of one channel, filtered by `across` along rows and `up` along columns. Beyond the image its edge goes on.
+std::vector<double> filtered(const std::vector<double>& in, int width, int height, const Kernel& across, const Kernel& up) {
+  const int radius_x = int(across.size() / 2), radius_y = int(up.size() / 2);
+  std::vector<double> rows(in.size()), out(in.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      double sum = 0;
+      for (int i = -radius_x; i <= radius_x; ++i) {
+        sum += across[i + radius_x] * in[size_t(y) * width + std::clamp(x + i, 0, width - 1)];
+      }
+      rows[size_t(y) * width + x] = sum;
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int i = -radius_y; i <= radius_y; ++i) {
+      const size_t from = size_t(std::clamp(y + i, 0, height - 1)) * width, to = size_t(y) * width;
+      for (int x = 0; x < width; ++x) out[to + x] += up[i + radius_y] * rows[from + x];
+    }
+  }
+  return out;
+}
+
+std::vector<double> channel_of(const Planes& image, int channel) {
+  std::vector<double> values;
+  values.reserve(image.pixels.size());
+  for (const glm::dvec3& pixel : image.pixels) values.push_back(pixel[channel]);
+  return values;
+}
+
+// One Gaussian of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees.
+struct Sensitivity {
+  double a, b;
+};
+
+Kernel root_of_gaussian(const Sensitivity& s, int radius, double pixels_per_degree) {
+  return sampled(radius, [&](double i) {
+    const double d = i / pixels_per_degree;
+    return std::sqrt(s.a * std::sqrt(pi / s.b)) * std::exp(-pi * pi * d * d / s.b);
+  });
+}
+
+// The image as an eye sees it: each opponent channel blurred by its contrast sensitivity (2020, section 4.1.1).
+Planes seen(const Planes& ycxcz, double pixels_per_degree) {
+  static const std::vector<Sensitivity> sensitivities[3] = {{{1, 0.0047}}, {{1, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}};
+  constexpr double widest = 0.04;
+  const int radius = int(std::ceil(3 * std::sqrt(widest / (2 * pi * pi)) * pixels_per_degree));
+  Planes out{ycxcz.width, ycxcz.height, std::vector<glm::dvec3>(ycxcz.pixels.size(), glm::dvec3(0))};
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::vector<double> in = channel_of(ycxcz, channel);
+    double weights = 0;
+    for (const Sensitivity& s : sensitivities[channel]) {
+      const Kernel kernel = root_of_gaussian(s, radius, pixels_per_degree);
+      const double sum = std::accumulate(kernel.begin(), kernel.end(), 0.0);
+      weights += sum * sum;
+      const std::vector<double> blurred = filtered(in, ycxcz.width, ycxcz.height, kernel, kernel);
+      for (size_t i = 0; i < blurred.size(); ++i) out.pixels[i][channel] += blurred[i];
+    }
+    for (glm::dvec3& pixel : out.pixels) pixel[channel] /= weights;
+  }
+  return out;
+}
+
+// Magnitudes of first and second derivatives of lightness: edges and points (2020, section 4.2).
+struct Features {
+  std::vector<double> edges, points;
+};
+
+Features features_of(const Planes& ycxcz, double pixels_per_degree) {
+  constexpr double feature_degrees = 0.082;
+  const double sigma = 0.5 * feature_degrees * pixels_per_degree;
+  const int radius = int(std::ceil(3 * sigma));
+  const auto gaussian = [&](double x) { return std::exp(-x * x / (2 * sigma * sigma)); };
+  Kernel smooth = sampled(radius, gaussian);
+  Kernel edge = sampled(radius, [&](double x) { return -x * gaussian(x); });
+  Kernel point = sampled(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); });
+  for (Kernel* kernel : {&smooth, &edge, &point}) normalize(*kernel);
+  std::vector<double> lightness = channel_of(ycxcz, 0);
+  for (double& value : lightness) value = (value + 16) / 116;
+  const auto magnitude = [&](const Kernel& derivative) {
+    std::vector<double> across = filtered(lightness, ycxcz.width, ycxcz.height, derivative, smooth);
+    const std::vector<double> up = filtered(lightness, ycxcz.width, ycxcz.height, smooth, derivative);
+    for (size_t i = 0; i < across.size(); ++i) across[i] = std::hypot(across[i], up[i]);
+    return across;
+  };
+  return {magnitude(edge), magnitude(point)};
+}
+
+// --- The difference --------------------------------------------------------------------------------------------------
+
+constexpr double color_exponent = 0.7, feature_exponent = 0.5;
+
+// The colour difference of two pixels, from 0 to 1: large differences are compressed, since they all look large.
+double color_difference(const glm::dvec3& test, const glm::dvec3& reference) {
+  constexpr double knee_in = 0.4, knee_out = 0.95;
+  static const double largest = std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), color_exponent);
+  const double error = std::pow(hyab(hunt_lab_from_rgb(test), hunt_lab_from_rgb(reference)), color_exponent);
+  const double knee = knee_in * largest;
+  return error < knee ? error * knee_out / knee : knee_out + (error - knee) / (largest - knee) * (1 - knee_out);
+}
+
+bool has_nan(const glm::vec4& pixel) { return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b); }
+
+Planes ycxcz_of(const Image& image) {
+  Planes planes{image.width, image.height, {}};
+  planes.pixels.reserve(image.pixels.size());
+  for (const glm::vec4& pixel : image.pixels) {
+    const glm::dvec3 rgb = has_nan(pixel) ? glm::dvec3(0) : glm::clamp(glm::dvec3(pixel), 0.0, 1.0);
+    planes.pixels.push_back(ycxcz_from_rgb(rgb));
+  }
+  return planes;
+}
+
+// --- Exposures -------------------------------------------------------------------------------------------------------
+
+// Narkowicz' fit of ACES with the factor 0.6 that the authors use: (a x^2 + b x) / (c x^2 + d x + e).
+constexpr double aces_a = 0.6 * 0.6 * 2.51, aces_b = 0.6 * 0.03, aces_c = 0.6 * 0.6 * 2.43, aces_d = 0.6 * 0.59, aces_e = 0.14;
+
+double aces(double x) { return (aces_a * x * x + aces_b * x) / (aces_c * x * x + aces_d * x + aces_e); }
+
+// What the tone map brings to `out`.
+double inverse_aces(double out) {
+  const double a = aces_a - out * aces_c, b = aces_b - out * aces_d, c = -out * aces_e;
+  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
+Image exposed(const Image& image, double stops) {
+  const double factor = std::exp2(stops);
+  Image out = image;
+  for (glm::vec4& pixel : out.pixels) {
+    for (int c = 0; c < 3; ++c) {
+      const double x = std::max(double(pixel[c]), 0.0) * factor;
+      if (!std::isnan(pixel[c])) pixel[c] = std::isinf(x) ? 1.0f : float(aces(x));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<float> flip_map(const Image& test, const Image& reference, double pixels_per_degree) {
+  assert(test.width == reference.width && test.height == reference.height);
+  const Planes of_test = ycxcz_of(test), of_reference = ycxcz_of(reference);
+  const Planes seen_test = seen(of_test, pixels_per_degree), seen_reference = seen(of_reference, pixels_per_degree);
+  const Features f = features_of(of_test, pixels_per_degree), g = features_of(of_reference, pixels_per_degree);
+  std::vector<float> map(test.pixels.size());
+  for (size_t i = 0; i < map.size(); ++i) {
+    const auto rgb = [&](const Planes& p) { return glm::clamp(rgb_from_ycxcz(p.pixels[i]), 0.0, 1.0); };
+    const double color = color_difference(rgb(seen_test), rgb(seen_reference));
+    const double difference = std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
+    const double feature = std::pow(difference / std::numbers::sqrt2, feature_exponent);
+    map[i] = has_nan(test.pixels[i]) || has_nan(reference.pixels[i]) ? 1.0f : float(std::pow(color, 1 - feature));
+  }
+  return map;
+}
+
+std::optional<FlipExposures> flip_exposures(const Image& reference) {
+  if (reference.pixels.empty()) return {};
+  std::vector<double> luminances;
+  for (const glm::vec4& p : reference.pixels) luminances.push_back(0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b);
+  const auto middle = luminances.begin() + luminances.size() / 2;
+  std::ranges::nth_element(luminances, middle);
+  const double median = *middle, most = std::ranges::max(luminances), x = inverse_aces(0.85);
+  if (!(median > 0) || !(most < std::numeric_limits<double>::infinity())) return {};
+  FlipExposures e{std::log2(x / most), std::log2(x / median), 0};
+  e.count = std::max(2, int(std::ceil(e.stop - e.start)));
+  return e;
+}
+
+std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures, double pixels_per_degree) {
+  std::vector<float> worst(test.pixels.size(), 0.0f);
+  for (int i = 0; i < exposures.count; ++i) {
+    const double step = exposures.count > 1 ? (exposures.stop - exposures.start) / (exposures.count - 1) : 0;
+    const double stops = exposures.start + i * step;
+    const std::vector<float> map = flip_map(exposed(test, stops), exposed(reference, stops), pixels_per_degree);
+    for (size_t k = 0; k < map.size(); ++k) worst[k] = std::max(worst[k], map[k]);
+  }
+  return worst;
+}
+
+double mean_of(const std::vector<float>& map) {
+  return map.empty() ? 0 : std::accumulate(map.begin(), map.end(), 0.0) / double(map.size());
+}
+
+}  // namespace lightgrid

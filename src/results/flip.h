@@ -1,0 +1,37 @@
+// FLIP, the difference that a viewer sees who alternates between two images: Andersson et al., "FLIP: A Difference Evaluator
+// for Alternating Images" (HPG 2020), and "Visualizing Errors in Rendered High Dynamic Range Images" (Eurographics Short Papers
+// 2021). Written from the papers; held to the authors' program (v1.6) by tests.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/image.h"
+
+namespace lightgrid {
+
+// Of a display 0.7 m away, 0.7 m and 3840 pixels wide: the authors' default.
+inline constexpr double default_pixels_per_degree = 67;
+
+// Per pixel, row 0 at the bottom, 0 (no visible difference) to 1. Both images have one size and are linear RGB from 0 to 1, of
+// which values outside are clamped. NaN in either image counts as 1 at that pixel, and as black in its neighbourhood.
+std::vector<float> flip_map(const Image& test, const Image& reference, double pixels_per_degree = default_pixels_per_degree);
+
+// Exposures of HDR-FLIP, in stops: `count` of them, evenly spaced.
+struct FlipExposures {
+  double start = 0, stop = 0;
+  int count = 0;
+};
+
+// From the darkest exposure at which the reference's brightest pixel is no longer white to the one that brings its median
+// luminance there; the tone map is ACES (Narkowicz 2015). Empty if no exposure follows from the reference: its median or its
+// maximum is not a positive number.
+std::optional<FlipExposures> flip_exposures(const Image& reference);
+
+// HDR-FLIP: per pixel the largest FLIP over the exposures. Linear, scene-referred images.
+std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures,
+                                double pixels_per_degree = default_pixels_per_degree);
+
+double mean_of(const std::vector<float>& map);
+
+}  // namespace lightgrid
