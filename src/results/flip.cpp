@@ -9,6 +9,8 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "results/metrics.h"
+
 namespace lightgrid {
 namespace {
 
@@ -171,8 +173,6 @@ double color_difference(const glm::dvec3& test, const glm::dvec3& reference) {
   const double knee = knee_in * largest;
   return error < knee ? error * knee_out / knee : knee_out + (error - knee) / (largest - knee) * (1 - knee_out);
 }
-
-bool has_nan(const glm::vec4& pixel) { return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b); }
 
 Planes ycxcz_of(const Image& image) {
   Planes planes{image.width, image.height, {}};

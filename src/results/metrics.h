@@ -10,6 +10,7 @@ namespace lightgrid {
 // counts as an infinite error; so does, for max_rel, any difference from a reference that is entirely black.
 ImageError compare_images(const Image& image, const Image& reference);
 
+bool has_nan(const glm::vec4& pixel);  // in a colour channel
 uint64_t count_nan_pixels(const Image& image);
 
 // Pixels with an infinite colour channel and no NaN: radiance past the largest float.
