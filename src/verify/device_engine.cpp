@@ -57,6 +57,30 @@ class DeviceEngine : public CullEngine {
     return KernelRun{culler.read_inputs(bounds), std::move(grid)};
   }
 
+  std::optional<RasterImage> rasterize(const RasterOptions& options, const RasterInput& input) override {
+    Rasterizer& rasterizer = rasterizer_of(options);
+    std::vector<RasterMesh> meshes;
+    for (const RasterInputMesh& mesh : input.meshes) meshes.push_back({mesh.positions, mesh.indices});
+    rasterizer.set_meshes(meshes);
+    rasterizer.set_instances(input.instances);
+    rasterizer.set_view(input.view);
+    const Visibility visibility = rasterizer.draw();
+    RasterImage image;
+    image.triangles.resize(size_t(visibility.width) * visibility.height);
+    image.depths.resize(image.triangles.size());
+    read_buffer(device_, "triangles", visibility.triangle, image.triangles.data(), image.triangles.size() * sizeof(uint32_t));
+    read_buffer(device_, "depths", visibility.depth, image.depths.data(), image.depths.size() * sizeof(float));
+    std::vector<RasterInstanceRecord> records(input.instances.size());
+    read_buffer(device_, "instances", rasterizer.buffers().instances, records.data(), records.size() * sizeof records[0]);
+    for (const RasterInstanceRecord& record : records) {
+      std::vector<glm::vec4>& clip = image.clip.emplace_back(record.vertex_count);
+      read_buffer(device_, "positions in clip space", rasterizer.buffers().clip, clip.data(), clip.size() * sizeof clip[0],
+                  record.first_clip_vertex * sizeof clip[0]);
+    }
+    image.invalid_triangles = rasterizer.counts().invalid_triangles;
+    return image;
+  }
+
  private:
   using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int, GridLists>;
   static constexpr size_t most_cullers = 64;  // each has its own buffers
@@ -70,6 +94,12 @@ class DeviceEngine : public CullEngine {
     if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
     culler->set_view(view);
     return *culler;
+  }
+
+  Rasterizer& rasterizer_of(const RasterOptions& o) {
+    auto& rasterizer = rasterizers_[{o.shape, o.portable, o.cluster_cones, o.wide_atomics}];
+    if (!rasterizer) rasterizer = std::make_unique<Rasterizer>(device_, programs_, o);
+    return *rasterizer;
   }
 
   TileBounds bounds_from(LightCuller& culler, const DepthImage& depth, bool blend) {
@@ -86,6 +116,7 @@ class DeviceEngine : public CullEngine {
   ClGridStorage storage_;
   std::string name_;
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
+  std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Rasterizer>> rasterizers_;
 };
 
 }  // namespace

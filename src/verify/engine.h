@@ -1,4 +1,4 @@
-// The engine that hard cases run on: it makes depth bounds and light grids. The library on an OpenCL device,
+// The engine that hard cases run on: it makes depth bounds, light grids and visibility. The library on an OpenCL device,
 // or, in the tests of the cases themselves, a culler with a planted fault.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "culling/light_culler.h"
+#include "verify/raster_input.h"
 
 namespace lightgrid::verify {
 
@@ -54,6 +55,9 @@ class CullEngine {
                                               const DepthImage&, bool /*blend*/) {
     return {};
   }
+
+  // Nothing from an engine that only culls.
+  virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }
 };
 
 // The library on the OpenCL device whose "platform name" contains `substring`. Keeps its cullers: cases of

@@ -12,7 +12,7 @@ namespace lightgrid::verify {
 class Check;
 
 struct HardCase {
-  const char* group;      // depth, camera, lights, lists, agreement
+  const char* group;      // depth, camera, lights, lists, agreement, raster
   const char* name;
   const char* input;
   const char* breaks;     // the fault of naive code
@@ -32,6 +32,7 @@ std::vector<HardCase> light_cases();
 std::vector<HardCase> light_place_cases();
 std::vector<HardCase> list_cases();
 std::vector<HardCase> agreement_cases();
+std::vector<HardCase> raster_cases();
 
 enum class Verdict { pass, fail, skip };
 

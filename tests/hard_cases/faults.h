@@ -46,6 +46,14 @@ enum class Fault {
   squares_underflow,          // the box test in float: slack, but no absolute term
   projections_unchecked,      // any matrix with positive scales is accepted
   totals_of_32_bits,          // of list entries
+  edges_of_both,              // a pixel's centre on an edge belongs to both triangles
+  edges_of_none,
+  edges_in_float,
+  no_near_cut,                // corners behind the eye are projected as they are
+  last_of_equal_depths,
+  mirrors_ignored,            // front faces are counter-clockwise whatever the instance's matrix
+  capacity_of_4096,           // triangles
+  invalid_is_zero,            // NaN and infinite positions become 0
 };
 
 }  // namespace lightgrid::verify

@@ -69,6 +69,14 @@ std::vector<Caught> faults() {
       {"squares_underflow", Fault::squares_underflow, {"lights/outside_of_the_domain"}},
       {"projections_unchecked", Fault::projections_unchecked, {"camera/other_projections"}},
       {"totals_of_32_bits", Fault::totals_of_32_bits, {"lists/past_32_bits"}},
+      {"edges_of_both", Fault::edges_of_both, {"raster/on_pixel_centres"}},
+      {"edges_of_none", Fault::edges_of_none, {"raster/on_pixel_centres", "raster/fan_of_slivers"}},
+      {"edges_in_float", Fault::edges_in_float, {"raster/huge_and_tiny"}},
+      {"no_near_cut", Fault::no_near_cut, {"raster/behind_the_eye", "raster/at_w_zero"}},
+      {"last_of_equal_depths", Fault::last_of_equal_depths, {"raster/equal_depths"}},
+      {"mirrors_ignored", Fault::mirrors_ignored, {"raster/mirrored_and_two_sided"}},
+      {"capacity_of_4096", Fault::capacity_of_4096, {"raster/more_than_expected"}},
+      {"invalid_is_zero", Fault::invalid_is_zero, {"raster/not_finite"}},
   };
 }
 

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "culling/cull_view.h"
 #include "hard_cases/faults.h"
+#include "hard_cases/naive_rasterizer.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
 #include "verify/cell_oracle.h"
@@ -50,6 +51,10 @@ class NaiveCuller : public CullEngine {
       for (size_t tile = 0; tile < bounds.size(); ++tile) masks.push_back(mask_of(o, view, depth, tile));
     }
     return cull_masked(o, view, lights, bounds, masks);
+  }
+
+  std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput& input) override {
+    return naive_image(input, fault_);
   }
 
  private:

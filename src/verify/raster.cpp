@@ -1,0 +1,327 @@
+// Hard cases of rasterising. Each image is compared with the coverage oracle pixel by pixel, in both kernel
+// shapes.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/coverage.h"
+#include "scene/random.h"
+#include "verify/check.h"
+
+namespace lightgrid::verify {
+namespace {
+
+// A view from the origin whose clip space is (x, y, 0.1, -z): x = y = -z is the image's upper right corner.
+RasterInput raster_scene(int width, int height) {
+  RasterInput input;
+  input.view = {.width = width, .height = height, .clip_from_view = glm::dmat4(0)};
+  glm::dmat4& m = input.view.clip_from_view;
+  m[0][0] = m[1][1] = 1, m[2][3] = -1, m[3][2] = 0.1;
+  input.meshes.resize(1);
+  input.instances.resize(1);
+  return input;
+}
+
+// Where the view shows pixel (x, y) at distance d.
+glm::vec3 raster_position(const RasterInput& input, double x, double y, double d) {
+  return {float((2 * x / input.view.width - 1) * d), float((2 * y / input.view.height - 1) * d), float(-d)};
+}
+
+void add_raster_triangle(RasterInput& input, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  RasterInputMesh& mesh = input.meshes[0];
+  for (const glm::vec3& p : {a, b, c}) {
+    mesh.indices.push_back(uint32_t(mesh.positions.size()));
+    mesh.positions.push_back(p);
+  }
+}
+
+CoverageOracle raster_oracle(const RasterInput& input, const RasterImage& image) {
+  CoverageOracle oracle(input.view.width, input.view.height);
+  for (size_t i = 0; i < input.instances.size(); ++i) {
+    const RasterInstance& instance = input.instances[i];
+    const std::vector<uint32_t>& indices = input.meshes[instance.mesh].indices;
+    const std::vector<glm::vec4>& clip = image.clip[i];
+    const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+    for (size_t k = 0; k < indices.size(); k += 3) {
+      oracle.add(
+          {{clip[indices[k]], clip[indices[k + 1]], clip[indices[k + 2]]}, instance.two_sided, mirrored});
+    }
+  }
+  return oracle;
+}
+
+// One trial and one contact a pixel; a hole is a lost pixel.
+void compare_raster(Check& c, const RasterInput& input, const RasterImage& image) {
+  const CoverageOracle oracle = raster_oracle(input, image);
+  for (int y = 0; y < input.view.height; ++y) {
+    for (int x = 0; x < input.view.width; ++x) {
+      const size_t i = size_t(y) * input.view.width + x;
+      const std::string why = wrong_at(oracle.at(x, y), image.triangles[i], image.depths[i]);
+      c.trials(1);
+      c.contacts(!oracle.at(x, y).empty());
+      if (why.empty()) continue;
+      if (image.triangles[i] == no_triangle)
+        c.lost("pixel {} {}: {}", x, y, why);
+      else
+        c.fail(fmt::format("pixel {} {}: {}", x, y, why));
+    }
+  }
+  c.that(image.invalid_triangles == oracle.invalid_triangles(), "{} triangles are called invalid, {} are",
+         image.invalid_triangles, oracle.invalid_triangles());
+}
+
+// Against the oracle, and the same bytes in every shape. Returns the first image, or nothing where the engine
+// culls only.
+std::optional<RasterImage> raster(Check& c, const RasterInput& input, bool cluster_cones = true) {
+  std::optional<RasterImage> first;
+  for (const RasterOptions& options :
+       {RasterOptions{.shape = KernelShape::lanes, .cluster_cones = cluster_cones},
+        RasterOptions{.shape = KernelShape::group, .cluster_cones = cluster_cones},
+        RasterOptions{.shape = KernelShape::group, .cluster_cones = cluster_cones, .wide_atomics = false}}) {
+    std::optional<RasterImage> image = c.engine.rasterize(options, input);
+    if (!image) {
+      c.skip("the engine does not rasterise");
+      return {};
+    }
+    if (!first) {
+      compare_raster(c, input, *image);
+      first = std::move(image);
+    } else {
+      c.that(image->triangles == first->triangles && image->depths == first->depths,
+             "the kernel shapes' images differ");
+    }
+    if (!c.engine.is_the_library()) break;
+  }
+  return first;
+}
+
+// Triangles over the whole image, vertices a little off a lattice, or on pixels' centres.
+RasterInput raster_sheet(int cells, bool on_centres) {
+  RasterInput input = raster_scene(150, 140);
+  Random random(11);
+  RasterInputMesh& mesh = input.meshes[0];
+  for (int y = 0; y <= cells; ++y) {
+    for (int x = 0; x <= cells; ++x) {
+      double px = (double(x) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * input.view.width;
+      double py = (double(y) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * input.view.height;
+      if (on_centres) px = std::floor(px) + 0.5, py = std::floor(py) + 0.5;
+      mesh.positions.push_back(
+          raster_position(input, px, py, on_centres ? 1.0 : double(random.uniform(1, 1.1f))));
+    }
+  }
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      const uint32_t a = uint32_t(y * (cells + 1) + x), b = a + 1, d = a + uint32_t(cells) + 1, e = d + 1;
+      for (const uint32_t i : {a, b, e, a, e, d}) mesh.indices.push_back(i);
+    }
+  }
+  return input;
+}
+
+// Each pixel is covered, and of 11 parts of the mesh, in which no two triangles touch, one covers it.
+void covers_once(Check& c, const RasterInput& input) {
+  const std::optional<RasterImage> whole = raster(c, input);
+  if (!whole) return;
+  c.that(std::ranges::count(whole->triangles, no_triangle) == 0, "a hole");
+  constexpr size_t parts = 11;
+  std::vector<int> claims(whole->triangles.size(), 0);
+  for (size_t part = 0; part < parts; ++part) {
+    RasterInput some = input;
+    std::vector<uint32_t>& indices = some.meshes[0].indices;
+    indices.clear();
+    for (size_t i = 3 * part; i < input.meshes[0].indices.size(); i += 3 * parts) {
+      indices.insert(indices.end(), &input.meshes[0].indices[i], &input.meshes[0].indices[i] + 3);
+    }
+    const RasterImage image = *c.engine.rasterize({}, some);
+    for (size_t i = 0; i < claims.size(); ++i) claims[i] += image.triangles[i] != no_triangle;
+  }
+  c.that(std::ranges::count(claims, 1) == std::ptrdiff_t(claims.size()),
+         "a pixel belongs to no triangle or to two");
+}
+
+void shared_edges(Check& c) { covers_once(c, raster_sheet(23, false)); }
+void on_pixel_centres(Check& c) { covers_once(c, raster_sheet(23, true)); }
+
+// A thousand triangles around a pixel's centre, their other corners `radius` pixels off.
+void fan(Check& c, double radius) {
+  RasterInput input = raster_scene(131, 127);
+  RasterInputMesh& mesh = input.meshes[0];
+  constexpr int count = 1000;
+  mesh.positions.push_back(raster_position(input, 65.5, 60.5, 2));
+  for (int i = 0; i < count; ++i) {
+    const double angle = i * 6.283185307179586 / count;
+    mesh.positions.push_back(
+        raster_position(input, 65.5 + radius * std::cos(angle), 60.5 + radius * std::sin(angle), 3));
+    for (const int k : {0, 1 + i, 1 + (i + 1) % count}) mesh.indices.push_back(uint32_t(k));
+  }
+  const std::optional<RasterImage> image = raster(c, input);
+  if (image) c.that(std::ranges::count(image->triangles, no_triangle) == 0, "a hole");
+}
+
+void fan_of_slivers(Check& c) { fan(c, 300); }
+
+// Random triangles within `reach` metres of the eye, on all sides.
+void around_the_eye(Check& c, int count, float reach, bool whole_numbers) {
+  RasterInput input = raster_scene(90, 70);
+  input.instances[0].two_sided = true;
+  Random random(17);
+  const auto number = [&] {
+    return whole_numbers ? std::floor(random.uniform(-1, 2)) : random.uniform(-reach, reach);
+  };
+  const auto corner = [&] {
+    const float x = number(), y = number(), z = number();
+    return glm::vec3(x, y, z);
+  };
+  for (int i = 0; i < count; ++i) {
+    const glm::vec3 a = corner(), b = corner(), d = corner();
+    add_raster_triangle(input, a, b, d);
+  }
+  raster(c, input);
+}
+
+void behind_the_eye(Check& c) { around_the_eye(c, 200, 5, false); }
+void at_w_zero(Check& c) { around_the_eye(c, 200, 1, true); }
+
+void huge_and_tiny(Check& c) {
+  RasterInput input = raster_scene(100, 80);
+  input.instances[0].two_sided = true;
+  Random random(19);
+  for (int i = 0; i < 300; ++i) {
+    const double reach = std::exp2(random.uniform(-10, 24)), x = random.uniform(0, 100),
+                 y = random.uniform(0, 80);
+    const auto corner = [&] {
+      const double px = x + reach * random.uniform(-1, 1), py = y + reach * random.uniform(-1, 1);
+      return raster_position(input, px, py, std::exp2(random.uniform(-3, 10)));
+    };
+    const glm::vec3 a = corner(), b = corner(), d = corner();
+    add_raster_triangle(input, a, b, d);
+  }
+  raster(c, input);
+  for (const double radius : {1e4, 1e6}) fan(c, radius);
+}
+
+void not_finite(Check& c) {
+  constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float most = std::numeric_limits<float>::max();
+  RasterInput input = raster_scene(50, 40);
+  input.instances[0].two_sided = true;
+  for (const float strange : {inf, -inf, nan, most, -most, 1e-40f}) {
+    for (int i = 0; i < 9; ++i) {
+      glm::vec3 corners[3] = {raster_position(input, 5, 4, 3), raster_position(input, 45, 8, 4),
+                              raster_position(input, 20, 35, 5)};
+      corners[i / 3][i % 3] = strange;
+      add_raster_triangle(input, corners[0], corners[1], corners[2]);
+    }
+  }
+  raster(c, input);
+}
+
+// One mesh three times in one place, and between them others in the order of distance: the first is shown.
+void equal_depths(Check& c) {
+  RasterInput input = raster_scene(150, 80);
+  Random random(23);
+  for (int i = 0; i < 40; ++i) {
+    const auto corner = [&] {
+      const float x = random.uniform(-20, 170), y = random.uniform(-20, 100), d = random.uniform(1, 4);
+      return raster_position(input, x, y, d);
+    };
+    const glm::vec3 a = corner(), b = corner(), d = corner();
+    add_raster_triangle(input, a, b, d);
+  }
+  const std::optional<RasterImage> once = raster(c, input);
+  input.instances.resize(3);
+  const std::optional<RasterImage> thrice = raster(c, input);
+  if (once)
+    c.that(once->triangles == thrice->triangles && once->depths == thrice->depths,
+           "a later one of equal depth is shown");
+}
+
+void mirrored_and_two_sided(Check& c) {
+  RasterInput input = raster_scene(120, 90);
+  Random random(29);
+  for (int i = 0; i < 60; ++i) {
+    const auto corner = [&] {
+      const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+      return glm::vec3(x, y, z);
+    };
+    const glm::vec3 a = corner(), b = corner(), d = corner();
+    add_raster_triangle(input, a, b, d);
+  }
+  input.instances.clear();
+  for (int i = 0; i < 8; ++i) {
+    RasterInstance instance{.two_sided = i % 4 == 3};
+    for (int axis = 0; axis < 3; ++axis) instance.world_from_object[axis][axis] = i >> axis & 1 ? -0.7 : 1.3;
+    instance.world_from_object[3] = glm::dvec4(i % 3 - 1, i % 2 - 0.5, -2.5 - i * 0.3, 1);
+    input.instances.push_back(instance);
+  }
+  raster(c, input);
+}
+
+void of_a_size(Check& c, int width, int height, int count) {
+  RasterInput input = raster_scene(width, height);
+  input.instances[0].two_sided = true;
+  Random random(31);
+  for (int i = 0; i < count; ++i) {
+    const auto corner = [&] {
+      const float x = random.uniform(-0.5f, 1.5f), y = random.uniform(-0.5f, 1.5f), d = random.uniform(1, 3);
+      return raster_position(input, x * width, y * height, d);
+    };
+    const glm::vec3 a = corner(), b = corner(), d = corner();
+    add_raster_triangle(input, a, b, d);
+  }
+  raster(c, input);
+}
+
+void awkward_sizes(Check& c) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {17, 9}, {1, 200}, {65, 63}})
+    of_a_size(c, width, height, 100);
+  of_a_size(c, 1279, 721, 12);
+}
+
+// Far more triangles than any first guess of room holds, after a frame of few.
+void more_than_expected(Check& c) {
+  of_a_size(c, 300, 200, 3);
+  RasterInput input = raster_scene(300, 200);
+  Random random(37);
+  for (int i = 0; i < 20000; ++i) {
+    const float x = random.uniform(0, 300), y = random.uniform(0, 200), d = random.uniform(1, 3);
+    add_raster_triangle(input, raster_position(input, x, y, d), raster_position(input, x + 4, y, d),
+                        raster_position(input, x, y + 5, d));
+  }
+  raster(c, input);
+}
+
+}  // namespace
+
+std::vector<HardCase> raster_cases() {
+  constexpr const char* g = "raster";
+  return {
+      {g, "shared_edges", "a sheet of 1058 triangles over the whole image",
+       "edges that belong to both sides or to none",
+       "no hole; each pixel belongs to one triangle, the oracle's", shared_edges},
+      {g, "on_pixel_centres", "the same with every vertex on a pixel's centre",
+       "ties: ≥ doubles them, > drops them", "no hole; each pixel belongs to one triangle, the oracle's",
+       on_pixel_centres},
+      {g, "fan_of_slivers", "a thousand slivers around a pixel's centre",
+       "edges in float, boxes rounded inwards", "no hole; every pixel as the oracle", fan_of_slivers},
+      {g, "behind_the_eye", "200 triangles around the eye, most of them across the near plane",
+       "division by a negative w", "every pixel as the oracle", behind_the_eye},
+      {g, "at_w_zero", "vertices on the eye and on its plane", "division by 0", "every pixel as the oracle",
+       at_w_zero},
+      {g, "huge_and_tiny", "triangles of 10⁻³ to 10⁷ pixels; fans of slivers of 10⁴ and 10⁶",
+       "edges overflow in 32 bits, or are rounded in float", "every pixel as the oracle", huge_and_tiny},
+      {g, "not_finite", "corners at NaN, ±∞ and the largest floats",
+       "NaN passes or fails each comparison by its form", "left out and counted, others unharmed",
+       not_finite},
+      {g, "equal_depths", "the same triangles three times", "the winner depends on threads or on sorting",
+       "the first one drawn is shown", equal_depths},
+      {g, "mirrored_and_two_sided", "instances scaled by negative numbers", "front and back change places",
+       "every pixel as the oracle", mirrored_and_two_sided},
+      {g, "awkward_sizes", "1 × 1, 17 × 9, 1 × 200, 65 × 63, 1279 × 721 pixels",
+       "the last tile is cut or read past", "every pixel as the oracle", awkward_sizes},
+      {g, "more_than_expected", "20,000 triangles after 3", "a fixed capacity drops some",
+       "every pixel as the oracle", more_than_expected},
+  };
+}
+
+}  // namespace lightgrid::verify
