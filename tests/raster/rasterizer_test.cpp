@@ -180,6 +180,27 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
   EXPECT_EQ(depths, expected.depths);
 }
 
+TEST(Rasterizer, TheSameBytesOnEveryDevice) {
+  const std::vector<ClDeviceInfo> devices = list_cl_devices();
+  if (devices.size() < 2) GTEST_SKIP() << "there is one device";
+  const RasterScene scene = many_triangles(5000, 501, 299, 8);
+  const Drawn expected = drawn(scene);
+  for (size_t i = 0; i < devices.size(); ++i) {
+    if (!why_not_the_same_bytes(devices[i]).empty()) continue;
+    ClDevice device("#" + std::to_string(i));
+    ProgramCache programs(device);
+    Rasterizer rasterizer(device, programs);
+    set_scene(rasterizer, scene);
+    const Visibility visibility = rasterizer.draw();
+    std::vector<uint32_t> triangles(expected.triangles.size());
+    std::vector<float> depths(triangles.size());
+    read_buffer(device, "test", visibility.triangle, triangles.data(), triangles.size() * 4);
+    read_buffer(device, "test", visibility.depth, depths.data(), depths.size() * 4);
+    EXPECT_EQ(triangles, expected.triangles) << devices[i].name;
+    EXPECT_EQ(depths, expected.depths) << devices[i].name;
+  }
+}
+
 TEST(Rasterizer, TheSameBytesInEveryShape) {
   for (const RasterScene& scene :
        {many_triangles(5000, 501, 299, 8), many_triangles(300, 130, 70, 9), many_triangles(400, 1, 1, 10)}) {
