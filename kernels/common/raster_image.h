@@ -19,12 +19,15 @@
 
 #define LEAST_DEPTH FLT_MIN  // less is not drawn
 
+#include "kernels/common/raster_masks.h"
+
 typedef struct Image {
   global volatile ulong*
       keys;  // a pixel: depth's bits << 32 | ~number; 0: none. Depths of one sign are ordered as their bits
   global volatile uint* triangles;
   global volatile uint* depths;
   uint width;
+  MaskSource masks;
 } Image;
 
 static inline void put_pixel(const Image* image, uint x, uint y, float depth, uint triangle) {
@@ -53,6 +56,13 @@ static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, in
     for (int x = first_x; x <= x1 - x0; x += step_x) {
       if (((a.c + a.a * x + a.b * y) | (b.c + b.a * x + b.b * y) | (c.c + c.a * x + c.b * y)) < 0) continue;
       const float dx = (float)((x0 + x) * 256 + 128 - r->x[0]) * (1.0f / 256), depth = fma(r->zx, dx, row);
+#ifdef ALPHA_MASKS
+      const int px = x0 + x, py = y0 + y;
+      if (r->alpha_material >= 0 && !shown_by_mask(&image->masks, r->triangle, r->instance, (uint)r->alpha_material, (float)(px & ~3),
+                                                   (float)(py & ~3), (float)(px & 3), (float)(py & 3))) {
+        continue;
+      }
+#endif
       put_pixel(image, (uint)(x0 + x), (uint)(y0 + y), max(min(depth, r->z_max), r->z_min), r->triangle);
     }
   }

@@ -13,6 +13,7 @@ kernel void raster_clusters(global const uint2* pairs, global const RasterCluste
   const uint end = (uint)(p->pairs * (item + 1) / items);
   for (uint i = (uint)(p->pairs * item / items); i < end; ++i) {
     const RasterCluster cluster = clusters[pairs[i].y];
-    buckets[i] = bucket_of(&cluster, frame + pairs[i].x, p->cones != 0);
+    const uchar bucket = bucket_of(&cluster, frame + pairs[i].x, p->cones != 0);
+    buckets[i] = p->drawing_order && bucket != RASTER_HIDDEN ? 0 : bucket;
   }
 }

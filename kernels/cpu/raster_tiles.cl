@@ -4,10 +4,12 @@
 // Visibility" (1993) for the least depth a block.
 //
 // records, tile_begin, lists, counters  as cpu/raster_setup.cl and cpu/raster_fill.cl write them
+// MASK_ARGUMENTS  kernels/common/raster_masks.h
 // triangles  uint a pixel: the nearest triangle, of several equally near ones the lowest number; RASTER_NONE
 // depths     float a pixel, reversed: 0 where no triangle is
 #define LANES 16
 #include "kernels/common/pack.h"
+#include "kernels/common/raster_masks.h"
 #include "kernels/common/raster_tiles.h"
 
 #define FEW_BLOCKS 9         // up to which blocks are gone through one by one
@@ -25,8 +27,15 @@ typedef struct TileRecord {
   int16 in_block[3];  // what each edge gains from a block's first pixel to each
   int dx, dy;         // of the tile's first pixel's centre from corner 0, 1/256 pixel
   float z0, zx, zy, z_min, z_max;
-  uint triangle;
+  uint triangle, instance;
+  int alpha_material;
 } TileRecord;
+
+// The tile's first pixel, and what its masks are looked up in.
+typedef struct Place {
+  int pixel_x, pixel_y;
+  MaskSource masks;
+} Place;
 
 static inline uint block_place(int x, int y) {
   return (uint)(((y >> 2) * 4 + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3));
@@ -62,11 +71,12 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
   for (int k = 0; k < 3; ++k) t.in_block[k] = t.edges[k].a * LANE_X + t.edges[k].b * LANE_Y;
   t.dx = pixel_x * 256 + 128 - r->x[0], t.dy = pixel_y * 256 + 128 - r->y[0];
   t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
-  t.triangle = r->triangle;
+  t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
   return t;
 }
 
-static inline __attribute__((always_inline)) void draw_block(const TileRecord* r, int block_x, int block_y, Tile* tile) {
+static inline __attribute__((always_inline)) void draw_block(const TileRecord* r, int block_x, int block_y,
+                                                             const Place* place, Tile* tile) {
   const uint at = block_place(block_x, block_y);
   float* least = (float*)tile->least + at;
   if (r->z_max < *least) return;
@@ -80,6 +90,12 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
   int16 shown = (sides >= 0) & (depth >= before);
   if (mask_bits(shown) == 0) return;
   shown &= (depth > before) | ((uint16)(r->triangle) < tile->triangle[at]);
+#ifdef ALPHA_MASKS
+  if (r->alpha_material >= 0 && mask_bits(shown) != 0) {
+    shown &= shown_by_mask(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,
+                           (float)(place->pixel_x + x), (float)(place->pixel_y + y), BLOCK_DX, BLOCK_DY);
+  }
+#endif
   const float16 now = shown ? depth : before;
   tile->depth[at] = now;
   tile->triangle[at] = shown ? (uint16)(r->triangle) : tile->triangle[at];
@@ -113,18 +129,20 @@ static inline bool few_are_hidden(float z_max, int x0, int y0, int x1, int y1, c
   return hidden;
 }
 
-static inline void draw_few(const TileRecord* r, int x0, int y0, int x1, int y1, Tile* tile) {
+static inline void draw_few(const TileRecord* r, int x0, int y0, int x1, int y1, const Place* place,
+                            Tile* tile) {
   for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) draw_block(r, x, y, tile);
+    for (int x = x0; x <= x1; ++x) draw_block(r, x, y, place, tile);
   }
 }
 
-static inline void draw_many(const TileRecord* r, int x0, int y0, int x1, int y1, Tile* tile) {
+static inline void draw_many(const TileRecord* r, int x0, int y0, int x1, int y1, const Place* place,
+                            Tile* tile) {
   for (int square_y = y0 >> 2; square_y <= y1 >> 2; ++square_y) {
     for (int square_x = x0 >> 2; square_x <= x1 >> 2; ++square_x) {
       for (uint bits = blocks_to_draw(r, square_x, square_y, tile); bits != 0; bits &= bits - 1) {
         const int block = (int)lowest_bit(bits);
-        draw_block(r, square_x * 4 + (block & 3), square_y * 4 + (block >> 2), tile);
+        draw_block(r, square_x * 4 + (block & 3), square_y * 4 + (block >> 2), place, tile);
       }
     }
   }
@@ -179,8 +197,8 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
 }
 
 kernel void raster_tiles(global const RasterRecord* records, global const uint* tile_begin,
-                         global const uint* lists, global uint* triangles, global float* depths,
-                         global const uint* counters, constant RasterParams* p) {
+                         global const uint* lists, MASK_ARGUMENTS, global uint* triangles,
+                         global float* depths, global const uint* counters, constant RasterParams* p) {
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;
@@ -188,6 +206,7 @@ kernel void raster_tiles(global const RasterRecord* records, global const uint* 
   const uint number = get_global_id(0);
   const int pixel_x = (int)(number % p->tiles_x) * RASTER_TILE,
             pixel_y = (int)(number / p->tiles_x) * RASTER_TILE;
+  const Place place = {pixel_x, pixel_y, MASK_SOURCE(p)};
   Tile tile;
   for (uint i = 0; i < 256; ++i) tile.depth[i] = LEAST_DEPTH, tile.triangle[i] = RASTER_NONE;
   for (uint i = 0; i < 16; ++i) tile.least[i] = LEAST_DEPTH;
@@ -203,9 +222,9 @@ kernel void raster_tiles(global const RasterRecord* records, global const uint* 
     if (few && few_are_hidden(record->z_max, x0, y0, x1, y1, &tile)) continue;
     const TileRecord here = in_tile(record, pixel_x, pixel_y);
     if (few) {
-      draw_few(&here, x0, y0, x1, y1, &tile);
+      draw_few(&here, x0, y0, x1, y1, &place, &tile);
     } else {
-      draw_many(&here, x0, y0, x1, y1, &tile);
+      draw_many(&here, x0, y0, x1, y1, &place, &tile);
     }
   }
   store_tile(&tile, pixel_x, pixel_y, triangles, depths, p);

@@ -1,11 +1,12 @@
 // Large triangles to the image, for GPUs: a work-group of 64 takes entries in turn, a tile of a record each.
 //
 // records, entries, counters  as gpu/raster_small.cl writes them
+// MASK_ARGUMENTS              kernels/common/raster_masks.h
 // keys, triangles, depths     the image: kernels/common/raster_image.h, with -DATOMICS and -DPASS
 #include "kernels/common/raster_image.h"
 #include "kernels/common/raster_tiles.h"
 
-kernel void raster_large(global const RasterRecord* records, global const uint2* entries,
+kernel void raster_large(global const RasterRecord* records, global const uint2* entries, MASK_ARGUMENTS,
                          global volatile ulong* keys, global volatile uint* triangles,
                          global volatile uint* depths, global const uint* counters,
                          constant RasterParams* p) {
@@ -13,7 +14,7 @@ kernel void raster_large(global const RasterRecord* records, global const uint2*
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;
   }
-  const Image image = {keys, triangles, depths, p->width};
+  const Image image = {keys, triangles, depths, p->width, MASK_SOURCE(p)};
   const int item = (int)get_local_id(0);
   for (uint i = get_group_id(0); i < counters[RASTER_ENTRIES]; i += get_num_groups(0)) {
     const RasterRecord record = records[entries[i].x];

@@ -3,6 +3,7 @@
 //
 // visible, counters  as gpu/raster_clusters.cl writes them
 // pairs, clusters, instances, indices, numbers, clip  as cpu/raster_setup.cl has them
+// MASK_ARGUMENTS  kernels/common/raster_masks.h
 // records   the large ones
 // entries   uint2: a large record and one of the tiles that it may cover some of, x | y << 16
 // keys, triangles, depths  the image: kernels/common/raster_image.h, with -DATOMICS and -DPASS
@@ -86,11 +87,11 @@ static inline uint draw_triangle(const float4* clip, RecordLanes* lanes, uint fl
 kernel void raster_small(global const uint* visible, global const uint2* pairs,
                          global const RasterCluster* clusters, global const RasterInstanceRecord* instances,
                          global const uint* indices, global const uint* numbers, global const float4* clip,
-                         global RasterRecord* records, global uint2* entries, global volatile ulong* keys,
+                         MASK_ARGUMENTS, global RasterRecord* records, global uint2* entries, global volatile ulong* keys,
                          global volatile uint* triangles, global volatile uint* depths,
                          global volatile uint* counters, constant RasterParams* p) {
   const uint in_view = counters[RASTER_VISIBLE], item = get_local_id(0);
-  const Image image = {keys, triangles, depths, p->width};
+  const Image image = {keys, triangles, depths, p->width, MASK_SOURCE(p)};
   const LargeList large = {records, entries, counters};
   uint made = 0;
   for (uint i = get_group_id(0); i < in_view; i += get_num_groups(0)) {

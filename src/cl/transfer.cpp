@@ -25,9 +25,9 @@ void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, voi
   checked(what, [&] { device.queue().enqueueReadBuffer(from, CL_TRUE, offset, bytes, to); });
 }
 
-void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
+void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes, size_t offset) {
   if (bytes == 0) return;
-  checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, 0, bytes, from); });
+  checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from); });
 }
 
 // A fill copies its pattern when enqueued; a write that does not wait reads the host's memory at some later

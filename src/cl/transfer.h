@@ -8,7 +8,7 @@ namespace lightgrid {
 
 // Both wait for the queue.
 void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, void* to, size_t bytes, size_t offset = 0);
-void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes);
+void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes, size_t offset = 0);
 
 // Enqueues and does not wait; `from` may be freed or changed as soon as this returns. For a few hundred
 // bytes: each 128 bytes are a separate command. Multiples of 4 bytes.

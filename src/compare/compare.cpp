@@ -161,14 +161,14 @@ void add_row(CompareReport& report, TechniqueRun& run, const Reference& referenc
   }
   const bool is_reference = &run == reference.run;
   if (!is_reference) run.draw_frame();
-  LitPairs pairs = count_listed_pairs(run, depth);
+  LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
   Image image = is_reference ? run.image() : run.take_image();
   report.rows.push_back(std::move(row));
   report.images.push_back(std::move(image));
   report.listed.push_back(std::move(pairs.listed_of_pixel));
-  report.lit = std::move(pairs.lit_of_pixel);
+  if (!run.frame().depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
 }
 
 // Compares each image and the reference's with the oracle: at a sample of pixels, and where the images differ

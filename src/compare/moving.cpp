@@ -70,7 +70,7 @@ void add_errors(Path& p, const Image& reference) {
 }
 
 void add_pairs(Path& p) {
-  const LitPairs pairs = count_listed_pairs(*p.run, read_depth(p.run->view()));
+  const LitPairs pairs = count_listed_pairs(*p.run, read_depth(*p.run));
   p.result.pairs.listed += pairs.listed;
   p.result.pairs.lit += pairs.lit;
   p.result.pairs.lost += pairs.lost;

@@ -1,5 +1,6 @@
 #include "compare/oracle.h"
 
+#include "cl/transfer.h"
 #include "reference/position.h"
 #include "shared/light_grid.h"
 #include "results/metrics.h"
@@ -17,7 +18,7 @@ std::vector<ViewLight> local_lights(const RenderView& v) {
 }
 
 template <typename T>
-std::vector<T> read_buffer(GLuint buffer, size_t count) {
+std::vector<T> read_gl_buffer(GLuint buffer, size_t count) {
   std::vector<T> values(count);
   if (count) glGetNamedBufferSubData(buffer, 0, GLsizeiptr(count * sizeof(T)), values.data());
   return values;
@@ -27,15 +28,15 @@ void add_lists(SharedGridStorage& storage, const LightGrid& grid, ListedLights& 
   const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   storage.cells_.buffer->hand_to_gl(grid.cell_bytes);  // light code in OpenCL did not need them in OpenGL
   storage.indices_.buffer->hand_to_gl(grid.index_bytes);
-  for (const glm::uvec2& cell : read_buffer<glm::uvec2>(storage.cells_.buffer->gl_buffer(), count)) {
+  for (const glm::uvec2& cell : read_gl_buffer<glm::uvec2>(storage.cells_.buffer->gl_buffer(), count)) {
     lists.first.push_back(cell.x), lists.count.push_back(cell.y);
   }
   const GLuint indices = storage.indices_.buffer->gl_buffer();
   if (grid.index_bits == 16) {
-    const auto narrow = read_buffer<uint16_t>(indices, grid.index_count);
+    const auto narrow = read_gl_buffer<uint16_t>(indices, grid.index_count);
     lists.indices.assign(narrow.begin(), narrow.end());
   } else {
-    lists.indices = read_buffer<uint32_t>(indices, grid.index_count);
+    lists.indices = read_gl_buffer<uint32_t>(indices, grid.index_count);
   }
 }
 
@@ -84,6 +85,14 @@ std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<fl
   return bins;
 }
 
+std::vector<float> read_depth(TechniqueRun& run) {
+  RenderView& v = run.view();
+  if (!run.frame().depth) return read_depth(v);
+  std::vector<float> depth(v.pixels());
+  read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(), depth.size() * sizeof(float));
+  return depth;
+}
+
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   RenderView& v = run.view();
   if (run.technique().listed) return run.technique().listed(v);
@@ -94,14 +103,14 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   if (v.plan.settings.grid_lists == GridLists::masks) {
     const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
     const GLuint masks = v.opaque_grid().masks_.buffer->gl_buffer();
-    add_masks(read_buffer<uint32_t>(masks, cells * grid.mask_words), cells, lists);
+    add_masks(read_gl_buffer<uint32_t>(masks, cells * grid.mask_words), cells, lists);
   } else {
     add_lists(v.opaque_grid(), grid, lists);
   }
   if (grid.z_bin_bytes == 0) return lists;
   SharedBuffer& bins = *v.opaque_grid().z_bins_.buffer;
   bins.hand_to_gl(grid.z_bin_bytes);  // as in add_lists
-  return in_z_bins(lists, z_bins_of_pixels(v, depth), read_buffer<uint32_t>(bins.gl_buffer(), grid.z_bin_bytes / 4));
+  return in_z_bins(lists, z_bins_of_pixels(v, depth), read_gl_buffer<uint32_t>(bins.gl_buffer(), grid.z_bin_bytes / 4));
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {

@@ -19,6 +19,10 @@ std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<flo
 // The pixel's z-bin: 0 without z-bins.
 std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth);
 
+// The depth of the surfaces that the last frame of a run shaded: the technique's own where it rasterised in OpenCL, else the
+// depth image.
+std::vector<float> read_depth(TechniqueRun& run);
+
 // The lights that the last frame of a run used on opaque surfaces: from the technique's own list, from the
 // light grid, or every point and spot light at every pixel. A pixel's slice and z-bin follow from its depth;
 // lights that its z-bin skips are not listed.

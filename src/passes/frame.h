@@ -46,6 +46,7 @@ struct Frame {
   std::optional<LightGrid> grid;        // of opaque surfaces, in RenderView::opaque_grid()
   std::optional<LightGrid> blend_grid;  // of blended ones, in RenderView::blend_grid()
   size_t light_index_bytes = 0;         // of LightIndexImages
+  std::optional<DepthBuffer> depth;     // of techniques that rasterise in OpenCL; else the depth image has it
 
   size_t light_grid_bytes() const;  // of all these, in use
 };

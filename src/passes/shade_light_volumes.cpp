@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/image.h"
 #include "passes/light_passes.h"
 #include "passes/light_source.h"
 #include "passes/light_volumes/light_volumes.h"

@@ -140,8 +140,12 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
                             : plan.light_grid ? "z-bins=off" : "no light grid"});
 }
 
+bool reads_light_grid(const TechniqueNeeds& needs, const Settings& settings) {
+  return needs.light_grid && !(needs.chosen_lights && settings.lights == ShadedLights::all);
+}
+
 void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
-  plan.light_grid = plan.blend_grid = needs.light_grid;
+  plan.light_grid = plan.blend_grid = reads_light_grid(needs, plan.settings);
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
   plan.index_bits = 32;
   plan.features = feature_all;
@@ -188,11 +192,12 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_surfaces(scene, view, plan);
   plan_lights(scene, view, plan);
   plan_base_lighting(scene, plan);
-  plan.light_grid = needs.light_grid && plan.local_lights;
+  plan.light_grid = reads_light_grid(needs, settings) && plan.local_lights;
   const bool bounded = settings.depth_bounds != DepthBoundsMode::none;
   plan.blend_grid = plan.light_grid && plan.blend && bounded;
   plan.decisions.push_back({"light grid", plan.light_grid,
-                            !needs.light_grid      ? "the technique reads none"
+                            !needs.light_grid                        ? "the technique reads none"
+                            : !reads_light_grid(needs, settings) ? "lights=all"
                             : !plan.local_lights ? "no light has a place"
                                                  : light_witness(scene, plan.local[0])});
   plan.decisions.push_back({"blended light grid", plan.blend_grid,

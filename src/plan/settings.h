@@ -21,6 +21,10 @@ enum class LidrVolumes { stencil, front_faces };
 enum class LidrUnpack { integers, floats };
 enum class LidrOrder { priority, scene };
 
+// How the resolve pass of visibility keeps a material's maps (renderer/surface_texels.h), and which lights it adds up.
+enum class TexelLayout { packed, separate };
+enum class ShadedLights { grid, all };
+
 enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a light's ball: docs/light_volumes.md
 
 struct Settings {
@@ -44,6 +48,8 @@ struct Settings {
   LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrOrder lidr_order = LidrOrder::priority;
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
+  TexelLayout texels = TexelLayout::packed;
+  ShadedLights lights = ShadedLights::grid;
   bool portable = false;       // kernels without the builtins of one kind of CPU
   int group_size = 0;          // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against

@@ -1,5 +1,7 @@
 // transform, clusters -> small -> large -> keys: for GPUs. With 32-bit atomics small and large run twice.
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "cl/launch.h"
 #include "cl/transfer.h"
@@ -22,15 +24,10 @@ cl::NDRange items_for(size_t count) {
 class RasterGroupPipeline : public RasterPipeline {
  public:
   RasterGroupPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
-      : device_(device), wide_(wide_atomics && has_64_bit_atomics(device)) {
+      : device_(device), programs_(programs), wide_(wide_atomics && has_64_bit_atomics(device)) {
     transform_ = programs.kernel("gpu/raster_transform", "");
     clusters_ = programs.kernel("gpu/raster_clusters", "");
     if (wide_) keys_kernel_ = programs.kernel("gpu/raster_keys", "");
-    const char* const passes[] = {wide_ ? "-DATOMICS=64" : "-DATOMICS=32 -DPASS=1", "-DATOMICS=32 -DPASS=2"};
-    for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      small_[pass] = programs.kernel("gpu/raster_small", passes[pass]);
-      large_[pass] = programs.kernel("gpu/raster_large", passes[pass]);
-    }
   }
 
   uint32_t chunks(const RasterParams&) const override { return 1; }
@@ -58,13 +55,17 @@ class RasterGroupPipeline : public RasterPipeline {
            group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
     launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters,
            job.frame, visible_.get(), job.counters, job.params_buffer);
+    const bool masks = job.masks.alphas() != nullptr;
     // The second pass needs the depths of all triangles.
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      launch(device_, "raster_small", small_[pass], all, group, visible_.get(), job.pairs, job.clusters,
-             job.instances, job.cluster_indices, job.cluster_triangles, job.clip, records_.get(),
-             entries_.get(), keys_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
-      launch(device_, "raster_large", large_[pass], all, group, records_.get(), entries_.get(), keys_.get(),
-             job.triangles, job.depths, job.counters, job.params_buffer);
+      launch(device_, "raster_small", kernel("gpu/raster_small", pass, masks), all, group, visible_.get(),
+             job.pairs, job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip,
+             job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
+             records_.get(), entries_.get(), keys_.get(), job.triangles, job.depths, job.counters,
+             job.params_buffer);
+      launch(device_, "raster_large", kernel("gpu/raster_large", pass, masks), all, group, records_.get(),
+             entries_.get(), job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials,
+             job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
     }
     if (wide_) {
       launch(device_, "raster_keys", keys_kernel_, items_for(pixels), group, keys_.get(), job.triangles,
@@ -72,14 +73,28 @@ class RasterGroupPipeline : public RasterPipeline {
     }
   }
 
+  // Its records are in no order.
+  RasterLists lists(const RasterParams&) const override { return {}; }
+
   size_t memory_bytes() const override {
     return visible_.bytes() + records_.bytes() + entries_.bytes() + keys_.bytes();
   }
 
  private:
+  // Built at first use.
+  cl::Kernel& kernel(const char* name, int pass, bool masks) {
+    cl::Kernel& kernel = kernels_[{name, pass, masks}];
+    if (kernel()) return kernel;
+    std::string defines = wide_ ? "-DATOMICS=64" : pass == 0 ? "-DATOMICS=32 -DPASS=1" : "-DATOMICS=32 -DPASS=2";
+    if (masks) defines += " -DALPHA_MASKS";
+    return kernel = programs_.kernel(name, defines);
+  }
+
   ClDevice& device_;
+  ProgramCache& programs_;
   const bool wide_;
-  cl::Kernel transform_, clusters_, small_[2], large_[2], keys_kernel_;
+  cl::Kernel transform_, clusters_, keys_kernel_;
+  std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;
   GrowingBuffer visible_, records_, entries_, keys_;
 };
 

@@ -15,15 +15,16 @@ constexpr uint32_t clusters_an_item = 256;
 
 class RasterLanesPipeline : public RasterPipeline {
  public:
-  RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable) : device_(device) {
-    const std::string defines = !portable && builds_avx512(device, programs) ? "-DAVX512" : "";
+  RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable)
+      : device_(device),
+        programs_(programs),
+        defines_(!portable && builds_avx512(device, programs) ? "-DAVX512" : "") {
     transform_ = programs.kernel("cpu/raster_transform", "");
     clusters_ = programs.kernel("cpu/raster_clusters", "");
     order_ = programs.kernel("cpu/raster_order", "");
-    setup_ = programs.kernel("cpu/raster_setup", defines);
+    setup_ = programs.kernel("cpu/raster_setup", defines_);
     scan_ = programs.kernel("cpu/raster_scan", "");
     fill_ = programs.kernel("cpu/raster_fill", "");
-    tiles_ = programs.kernel("cpu/raster_tiles", defines);
   }
 
   uint32_t chunks(const RasterParams& p) const override {
@@ -68,8 +69,15 @@ class RasterLanesPipeline : public RasterPipeline {
            job.params_buffer);
     launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(),
            chunks_.get(), tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);
-    launch(device_, "raster_tiles", tiles_, cl::NDRange(tiles), one, records_.get(), tile_begin_.get(),
-           lists_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
+    if (!job.triangles()) return;
+    launch(device_, "raster_tiles", tiles_kernel(job.masks.alphas() != nullptr), cl::NDRange(tiles), one,
+           records_.get(), tile_begin_.get(), lists_.get(), job.instances, job.indices, job.clip,
+           job.masks.vertices, job.masks.materials, job.masks.alphas, job.triangles, job.depths, job.counters,
+           job.params_buffer);
+  }
+
+  RasterLists lists(const RasterParams& p) const override {
+    return {records_.get(), tile_begin_.get(), lists_.get(), p.tiles_x, p.tiles_y};
   }
 
   size_t memory_bytes() const override {
@@ -78,8 +86,19 @@ class RasterLanesPipeline : public RasterPipeline {
   }
 
  private:
+  // Built at first use.
+  cl::Kernel& tiles_kernel(bool masks) {
+    cl::Kernel& kernel = tiles_[masks];
+    if (!kernel()) {
+      kernel = programs_.kernel("cpu/raster_tiles", defines_ + (masks ? " -DALPHA_MASKS" : ""));
+    }
+    return kernel;
+  }
+
   ClDevice& device_;
-  cl::Kernel transform_, clusters_, order_, setup_, scan_, fill_, tiles_;
+  ProgramCache& programs_;
+  const std::string defines_;
+  cl::Kernel transform_, clusters_, order_, setup_, scan_, fill_, tiles_[2];
   GrowingBuffer buckets_, visible_, records_, next_block_, chunks_, tile_counts_, tile_begin_, lists_;
 };
 

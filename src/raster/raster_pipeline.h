@@ -5,6 +5,7 @@
 
 #include "cl/growing_buffer.h"
 #include "cl/program_cache.h"
+#include "raster/rasterizer.h"
 #include "shared/raster_params.h"
 
 namespace lightgrid {
@@ -13,9 +14,10 @@ struct RasterJob {
   const RasterParams& params;
   cl::Buffer params_buffer;
   // The scene, as raster_scene.h has it.
-  cl::Buffer positions, cluster_indices, cluster_triangles, clusters, instances, vertex_runs, pairs;
+  cl::Buffer positions, indices, cluster_indices, cluster_triangles, clusters, instances, vertex_runs, pairs;
   cl::Buffer frame;  // RasterFrameInstance an instance
-  cl::Buffer clip, triangles, depths, counters;
+  cl::Buffer clip, triangles, depths, counters;  // triangles and depths null: no image is drawn
+  const RasterMasks& masks;
 };
 
 class RasterPipeline {
@@ -28,6 +30,8 @@ class RasterPipeline {
   // Enqueues all, waits for nothing. Counters (raster_params.h) are cleared first. Where they show that room
   // was short, the image was not written.
   virtual void enqueue(const RasterJob& job) = 0;
+  // What enqueue listed.
+  virtual RasterLists lists(const RasterParams& params) const = 0;
   virtual size_t memory_bytes() const = 0;
 };
 

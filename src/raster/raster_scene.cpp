@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "raster/cluster_order.h"
@@ -67,8 +68,14 @@ RasterCluster cluster_of(const std::vector<Corners>& triangles) {
   return cluster;
 }
 
-void append_clusters(const RasterMesh& mesh, RasterMeshes& all) {
-  const std::vector<uint32_t> order = cluster_order(mesh);
+std::vector<uint32_t> mesh_order(const RasterMesh& mesh) {
+  std::vector<uint32_t> order(mesh.indices.size() / 3);
+  std::iota(order.begin(), order.end(), 0u);
+  return order;
+}
+
+void append_clusters(const RasterMesh& mesh, bool drawing_order, RasterMeshes& all) {
+  const std::vector<uint32_t> order = drawing_order ? mesh_order(mesh) : cluster_order(mesh);
   std::vector<Corners> triangles;
   for (size_t first = 0; first < order.size(); first += RASTER_CLUSTER) {
     const size_t end = std::min(order.size(), first + RASTER_CLUSTER), place = all.cluster_triangles.size();
@@ -96,7 +103,7 @@ void append_positions(std::span<const glm::vec3> positions, std::vector<float>& 
 
 }  // namespace
 
-RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
+RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_order) {
   RasterMeshes all;
   size_t indices = 0, vertices = 0;
   for (size_t m = 0; m < meshes.size(); ++m) {
@@ -122,7 +129,7 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
     all.places.push_back(place);
     all.indices.insert(all.indices.end(), mesh.indices.begin(), mesh.indices.end());
     append_positions(mesh.positions, all.positions);
-    append_clusters(mesh, all);
+    append_clusters(mesh, drawing_order, all);
   }
   return all;
 }

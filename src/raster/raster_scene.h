@@ -26,8 +26,9 @@ struct RasterMeshes {
   std::vector<RasterCluster> clusters;
 };
 
-// Throws Error(input) that names the mesh.
-RasterMeshes raster_meshes(std::span<const RasterMesh> meshes);
+// Clusters of triangles that lie together; with `drawing_order` those that follow one another in the mesh. Throws
+// Error(input) that names the mesh.
+RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_order = false);
 
 struct RasterInstances {
   std::vector<RasterInstanceRecord> records;

@@ -37,7 +37,8 @@ struct Rasterizer::State {
       : device(device), options(options) {
     const bool lanes =
         options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
-    pipeline = lanes ? make_raster_lanes_pipeline(device, programs, options.portable)
+    // Only the lanes' lists are in an order.
+    pipeline = lanes || options.drawing_order ? make_raster_lanes_pipeline(device, programs, options.portable)
                      : make_raster_group_pipeline(device, programs, options.wide_atomics);
     params_buffer = device_buffer(device, sizeof(RasterParams));
     counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
@@ -63,6 +64,8 @@ struct Rasterizer::State {
   GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, records, triangle_instance,
       runs, pair_list, frame, clip, image_triangles, image_depths;
   cl::Buffer params_buffer, counters;
+  RasterMasks masks;
+  bool image = true;  // what the last run was for
 };
 
 Rasterizer::Rasterizer(ClDevice& device, ProgramCache& programs, const RasterOptions& options)
@@ -72,7 +75,7 @@ Rasterizer::Rasterizer(Rasterizer&&) noexcept = default;
 
 void Rasterizer::set_meshes(std::span<const RasterMesh> meshes) {
   State& s = *state_;
-  RasterMeshes made = raster_meshes(meshes);
+  RasterMeshes made = raster_meshes(meshes, s.options.drawing_order);
   set_instances({});
   upload(s.device, s.indices, made.indices);
   upload(s.device, s.cluster_indices, made.cluster_indices, spare);
@@ -102,6 +105,8 @@ void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
   s.shown.clip = s.clip.get();
 }
 
+void Rasterizer::set_masks(const RasterMasks& masks) { state_->masks = masks; }
+
 void Rasterizer::set_view(const RasterView& view) {
   check_raster_view(view);
   state_->view = view;
@@ -118,9 +123,10 @@ void Rasterizer::State::upload_instances() {
 void Rasterizer::State::run(uint32_t (&counted)[RASTER_COUNTERS]) {
   write_buffer(device, "rasterizer: params", params_buffer, &params, sizeof params);
   pipeline->prepare(params);
-  pipeline->enqueue({params, params_buffer, positions.get(), cluster_indices.get(), cluster_triangles.get(),
-                     clusters.get(), records.get(), runs.get(), pair_list.get(), frame.get(), clip.get(),
-                     image_triangles.get(), image_depths.get(), counters});
+  pipeline->enqueue({params, params_buffer, positions.get(), indices.get(), cluster_indices.get(),
+                     cluster_triangles.get(), clusters.get(), records.get(), runs.get(), pair_list.get(),
+                     frame.get(), clip.get(), image ? image_triangles.get() : cl::Buffer(),
+                     image ? image_depths.get() : cl::Buffer(), counters, masks});
   read_buffer(device, "rasterizer: counters", counters, counted, sizeof counted);
 }
 
@@ -149,6 +155,16 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
 }
 
 Visibility Rasterizer::draw() {
+  run(true);
+  return {state_->image_triangles.get(), state_->image_depths.get(), state_->view->width, state_->view->height};
+}
+
+RasterLists Rasterizer::list() {
+  run(false);
+  return state_->pipeline->lists(state_->params);
+}
+
+void Rasterizer::run(bool image) {
   State& s = *state_;
   if (!s.view) throw input_error("rasterizer: set_view has to come before draw");
   const RasterView& view = *s.view;
@@ -156,13 +172,17 @@ Visibility Rasterizer::draw() {
   s.params = raster_params(view);
   s.params.pairs = s.pairs, s.params.vertex_runs = s.vertex_runs;
   s.params.cones = s.options.cluster_cones;
+  s.params.drawing_order = s.options.drawing_order;
   s.params.chunks = s.pipeline->chunks(s.params);
   // What the last frame had, or a guess.
   s.params.record_blocks = std::max(blocks, s.params.chunks);
   s.params.entry_capacity = std::max(entries, s.params.tiles_x * s.params.tiles_y * first_entries_a_tile);
-  const size_t pixels = size_t(view.width) * view.height;
-  s.image_triangles.at_least(s.device, pixels * sizeof(cl_uint));
-  s.image_depths.at_least(s.device, pixels * sizeof(cl_float));
+  s.image = image;
+  if (image) {
+    const size_t pixels = size_t(view.width) * view.height;
+    s.image_triangles.at_least(s.device, pixels * sizeof(cl_uint));
+    s.image_depths.at_least(s.device, pixels * sizeof(cl_float));
+  }
   s.upload_instances();
 
   s.counts = {};
@@ -172,7 +192,6 @@ Visibility Rasterizer::draw() {
   s.counts.clusters = counted[RASTER_VISIBLE], s.counts.records = counted[RASTER_RECORDS];
   s.counts.tile_entries = counted[RASTER_ENTRIES];
   s.counts.invalid_triangles = counted[RASTER_INVALID];
-  return {s.image_triangles.get(), s.image_depths.get(), view.width, view.height};
 }
 
 const RasterBuffers& Rasterizer::buffers() const { return state_->shown; }

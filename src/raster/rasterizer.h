@@ -92,11 +92,27 @@ struct RasterBuffers {
   cl::Buffer clip;               // float4 (x, y, z, w) a vertex of each instance
 };
 
+// What decides which pixels triangles of instances with an alpha material cover (shared/surface_records.h).
+struct RasterMasks {
+  cl::Buffer vertices;   // SurfaceVertex each, of all meshes one after the other
+  cl::Buffer materials;  // SurfaceMaterial each, by alpha_material
+  cl::Buffer alphas;     // chains of alphas, four a texel
+};
+
 struct RasterOptions {
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bytes
   bool portable = false;                       // no builtins of one kind of CPU; the same bytes
   bool cluster_cones = true;                   // leaves out clusters that face away
   bool wide_atomics = true;  // group shape: false uses 32-bit atomics, in two passes; the same bytes
+  bool drawing_order = false;  // for list(): triangles in drawing order; by the lanes shape on any device
+};
+
+// The triangles of each tile of RASTER_TILE x RASTER_TILE pixels (shared/raster_params.h), for passes that draw
+// them otherwise: tile t, x fastest from the lower left, has records[lists[i]] for i from tile_begin[t] to below
+// tile_begin[t + 1]. The rasteriser's own buffers, written again by the next draw() or list().
+struct RasterLists {
+  cl::Buffer records, tile_begin, lists;
+  uint32_t tiles_x = 0, tiles_y = 0;
 };
 
 // Of the last draw().
@@ -125,6 +141,8 @@ class Rasterizer {
   // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 1 triangles
   // or vertices or more.
   void set_instances(std::span<const RasterInstance> instances);
+  // Null buffers: masked triangles are drawn whole.
+  void set_masks(const RasterMasks& masks);
   // Throws input: a size out of range, a matrix or an eye that is not finite, a projection that is not of the
   // kinds above.
   void set_view(const RasterView& view);
@@ -132,11 +150,17 @@ class Rasterizer {
   // Throws input where set_view is missing. Waits for the queue.
   Visibility draw();
 
+  // The same without an image, with RasterOptions::drawing_order: blended surfaces are laid over one another
+  // from these lists. Parts of a triangle that clipping left follow up to 15 triangles of its mesh that come
+  // after it.
+  RasterLists list();
+
   const RasterBuffers& buffers() const;
   const RasterCounts& counts() const;
   size_t memory_bytes() const;  // on the device
 
  private:
+  void run(bool image);
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -169,6 +169,17 @@ void GpuScene::upload_meshes(const std::vector<bool>& used) {
 
 void GpuScene::update(const SceneChanges& changes) {
   for (const int mesh : changes.meshes) update_mesh(mesh);
+  for (const auto& [layout, scene] : in_cl_) scene->update(changes);
+  shape_version_ += changes.meshes.empty() ? 0 : 1;
+}
+
+const ClScene& GpuScene::in_cl(TexelLayout layout) {
+  std::unique_ptr<ClScene>& made = in_cl_[layout];
+  if (!made) {
+    made = std::make_unique<ClScene>(*renderer_.cl, scene_, layout);
+    renderer_.note_scene_bytes(made->memory_bytes());
+  }
+  return *made;
 }
 
 void GpuScene::update_mesh(int index) {

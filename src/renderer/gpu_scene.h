@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <vector>
 
+#include "renderer/cl_scene.h"
 #include "renderer/renderer.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
@@ -52,6 +54,11 @@ class GpuScene {
   void add_reversed_triangles();
   uint32_t index_count() const { return index_count_; }
 
+  // The same scene in OpenCL's memory: made at first use, then kept up to date.
+  const ClScene& in_cl(TexelLayout layout);
+  // Counts the updates that moved vertices, for whoever holds positions of its own.
+  int shape_version() const { return shape_version_; }
+
   size_t geometry_bytes() const { return geometry_bytes_; }  // without reversed triangles
   size_t reversed_triangle_bytes() const { return reversed_triangle_bytes_; }
   size_t texture_bytes() const { return texture_bytes_; }
@@ -79,6 +86,8 @@ class GpuScene {
   std::vector<GlTexture> textures_;
   std::vector<GlSampler> samplers_;
   uint32_t index_count_ = 0;
+  std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
+  int shape_version_ = 0;
   size_t geometry_bytes_ = 0, reversed_triangle_bytes_ = 0, texture_bytes_ = 0;
 };
 

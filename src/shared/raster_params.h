@@ -36,6 +36,7 @@ typedef struct RasterParams {
   uint chunks;                         // of the clusters in view: each is set up by one work-item
   uint record_blocks, entry_capacity;  // room
   uint cones;                          // 1: clusters that face away are left out
+  uint drawing_order;                  // 1: clusters stay in the order of their instances, not nearest first
 } RasterParams;
 
 // An instance in this frame.

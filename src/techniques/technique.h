@@ -22,6 +22,9 @@ struct Technique {
   ListedLights (*listed)(RenderView& v) = nullptr;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
+  // Rasterises and filters by its own code: at silhouettes, where surfaces share a depth and in minified textures its image
+  // differs from one that OpenGL draws.
+  bool own_surfaces = false;
 };
 
 // The frame of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended

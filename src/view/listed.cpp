@@ -15,7 +15,7 @@ ListedFrame read_listed_frame(TechniqueRun& run) {
   RenderView& v = run.view();
   ListedFrame frame;
   frame.view = v.view;
-  frame.depth = read_depth(v);
+  frame.depth = read_depth(run);
   frame.lists = listed_lights(run, frame.depth);
   const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
   for (const int light : v.plan.local) {

@@ -56,6 +56,7 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
     EXPECT_EQ(row.moving->cl_programs, 0) << row.technique;
     EXPECT_EQ(row.moving->scene_bytes, 0u) << row.technique;
     EXPECT_EQ(row.moving->pairs.lost, 0u) << row.technique;
+    if (find_technique(row.technique).own_surfaces) continue;  // another image than forward's
     // Sums in another order round to within 1e-5 (techniques/lidr_scenes.h); two frames may differ in opposite directions.
     EXPECT_LT(row.moving->max_rel, 1e-5) << row.technique;
     EXPECT_LT(row.moving->temporal_max_rel, 2e-5) << row.technique;
@@ -70,7 +71,7 @@ TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
   for (int mesh = 0; mesh < int(scene.meshes.size()); ++mesh) rig->meshes.push_back({.mesh = mesh});
   scene.rig = rig;
   const View view = make_view(choose_camera(scene, ""), 96, 54);
-  for (const char* technique : {"forward", "forward_plus", "deferred_tiled", "deferred", "forward_multipass"}) {
+  for (const char* technique : {"forward", "forward_plus", "deferred_tiled", "deferred", "forward_multipass", "visibility"}) {
     Scene moving = scene;
     GpuScene gpu(software_devices(), moving);
     TechniqueRun run(software_devices(), gpu, view, {}, find_technique(technique));
@@ -100,7 +101,7 @@ TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
     fresh.run_frame();
     // Clusters are cut by the shape at rest: if surfaces share a depth, a different one may be last.
     EXPECT_LT(compare_images(run.image(), fresh.image()).rmse, 1e-6) << technique;
-    const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
+    const LitPairs pairs = count_listed_pairs(run, read_depth(run));
     EXPECT_EQ(pairs.lost, 0u) << technique;
   }
 }

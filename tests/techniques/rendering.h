@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "scene/builtin.h"
@@ -55,9 +56,39 @@ inline void expect_exact(const Scene& scene, const View& view, const Settings& s
   run.run_frame();
   EXPECT_TRUE(identical(run.image(), forward));
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
+}
+
+// The median of pixels' largest differences, and the share of pixels that are further apart than 1/100, both of the reference's
+// brightest channel.
+struct ImageDistance {
+  double median = 0, share_apart = 0;
+};
+
+inline ImageDistance distance_of(const Image& image, const Image& reference) {
+  const double most = brightest_channel(reference), brightest = most > 0 ? most : 1;
+  std::vector<double> differences;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    double largest = 0;
+    for (int c = 0; c < 4; ++c) {
+      const double apart = std::abs(double(image.pixels[i][c]) - double(reference.pixels[i][c]));
+      if (!(apart <= largest)) largest = apart;
+    }
+    differences.push_back(largest / brightest);
+  }
+  std::sort(differences.begin(), differences.end());
+  const auto end = std::lower_bound(differences.begin(), differences.end(), 0.01);
+  return {differences[differences.size() / 2], double(differences.end() - end) / double(differences.size())};
+}
+
+// What another rasteriser and another texture filter may change: silhouettes, and little elsewhere. llvmpipe's levels of detail
+// are up to 0.09 of an octave off.
+inline void expect_near(const Image& image, const Image& forward) {
+  const ImageDistance distance = distance_of(image, forward);
+  EXPECT_LT(distance.median, 1e-3);
+  EXPECT_LT(distance.share_apart, 0.02);
 }
 
 // A technique that sums in another order or precision: its image within `bound` of forward's brightest channel, its pairs
@@ -66,9 +97,13 @@ inline void expect_close(const Scene& scene, const View& view, const Settings& s
                          const char* technique, double bound = 1e-5) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
-  EXPECT_LT(compare_images(run.image(), forward).max_rel, bound);
+  if (run.technique().own_surfaces) {
+    expect_near(run.image(), forward);
+  } else {
+    EXPECT_LT(compare_images(run.image(), forward).max_rel, bound);
+  }
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
   const Image first = run.image();

@@ -1,0 +1,38 @@
+// Blocks of 4 x 4 pixels of images, a lane each, row by row from the lower left.
+#pragma once
+
+#include "shared/real.h"
+
+// 4 x 4 values of an image from (x, y) on. Where the block ends outside, rows and columns stop at the image's
+// last.
+static inline uint16 load_block(global const uint* values, uint x, uint y, uint width, uint height) {
+  global const uint* at = values + (size_t)y * width + x;
+  if (x + 4 <= width && y + 4 <= height) {
+    return (uint16)(vload4(0, at), vload4(0, at + width), vload4(0, at + 2 * (size_t)width),
+                    vload4(0, at + 3 * (size_t)width));
+  }
+  uint block[16];
+  for (uint i = 0; i < 16; ++i)
+    block[i] = values[(size_t)min(y + i / 4, height - 1) * width + min(x + i % 4, width - 1)];
+  return vload16(0, block);
+}
+
+static inline void store_block(global float* image, Real3 c, uint x, uint y, uint width, uint height) {
+  const float16 rows[4] = {(float16)(c.x.s0, c.y.s0, c.z.s0, 1, c.x.s1, c.y.s1, c.z.s1, 1, c.x.s2, c.y.s2,
+                                     c.z.s2, 1, c.x.s3, c.y.s3, c.z.s3, 1),
+                           (float16)(c.x.s4, c.y.s4, c.z.s4, 1, c.x.s5, c.y.s5, c.z.s5, 1, c.x.s6, c.y.s6,
+                                     c.z.s6, 1, c.x.s7, c.y.s7, c.z.s7, 1),
+                           (float16)(c.x.s8, c.y.s8, c.z.s8, 1, c.x.s9, c.y.s9, c.z.s9, 1, c.x.sa, c.y.sa,
+                                     c.z.sa, 1, c.x.sb, c.y.sb, c.z.sb, 1),
+                           (float16)(c.x.sc, c.y.sc, c.z.sc, 1, c.x.sd, c.y.sd, c.z.sd, 1, c.x.se, c.y.se,
+                                     c.z.se, 1, c.x.sf, c.y.sf, c.z.sf, 1)};
+  global float* at = image + 4 * ((size_t)y * width + x);
+  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
+  if (columns == 4) {
+    for (uint row = 0; row < lines; ++row) vstore16(rows[row], 0, at + 4 * (size_t)width * row);
+    return;
+  }
+  for (uint row = 0; row < lines; ++row) {
+    for (uint i = 0; i < 4 * columns; ++i) at[4 * (size_t)width * row + i] = ((const float*)&rows[row])[i];
+  }
+}

@@ -1,0 +1,205 @@
+// From a visibility buffer to surfaces: attributes and materials of LANES pixels, one triangle and one
+// material at a time. Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading"
+// (JCGT 2013).
+//
+// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP  some surface of the scene has these; without, their code
+// is not there
+#pragma once
+
+#include "kernels/common/surface_attributes.h"
+#include "shared/raster_instance.h"
+#include "shared/real.h"
+
+typedef struct ResolveScene {
+  global const uint* triangle_instance;          // by triangle number
+  global const RasterInstanceRecord* instances;  // the rasteriser's, and ours in the same order
+  global const SurfaceInstance* surfaces;
+  global const uint* indices;
+  global const float4* clip;
+  global const SurfaceVertex* vertices;
+  global const SurfaceMaterial* materials;
+  global const ushort *texels_4, *texels_8;
+  float2 half_size;  // of the image, pixels
+} ResolveScene;
+
+// What LANES pixels have of their triangles.
+typedef struct Attributes {
+  Real3 normal;  // view space, not yet unit
+  whole material;
+  real side;  // -1 on the back of a double-sided surface
+#ifdef NORMAL_MAP
+  Real3 tangent;
+  real handedness;
+#endif
+#ifdef TEXTURED
+  TexturePlace uv0;
+#endif
+#ifdef UV1
+  TexturePlace uv1;
+#endif
+#ifdef VERTEX_COLOR
+  real red, green, blue, alpha;
+#endif
+} Attributes;
+
+static inline Real3 turned(global const float* m, real x, real y, real z) {
+  return real3(fma(REAL(m[0]), x, fma(REAL(m[1]), y, m[2] * z)),
+               fma(REAL(m[3]), x, fma(REAL(m[4]), y, m[5] * z)),
+               fma(REAL(m[6]), x, fma(REAL(m[7]), y, m[8] * z)));
+}
+
+#define KEEP(to, value) to = here ? (value) : to
+#define KEEP3(to, value)                                                       \
+  {                                                                            \
+    const Real3 new_value = value;                                             \
+    KEEP(to.x, new_value.x), KEEP(to.y, new_value.y), KEEP(to.z, new_value.z); \
+  }
+
+static inline void keep_place(TexturePlace* to, TexturePlace p, mask_t here) {
+  KEEP(to->u, p.u), KEEP(to->v, p.v);
+  KEEP(to->u_right, p.u_right), KEEP(to->v_right, p.v_right);
+  KEEP(to->u_up, p.u_up), KEEP(to->v_up, p.v_up);
+}
+
+// Into the lanes that are `here` the attributes of a triangle. (x, y): the block's first pixel.
+static inline void add_triangle(Attributes* a, const ResolveScene* s, uint triangle, mask_t here, float x,
+                                float y, real dx, real dy) {
+  const uint instance = s->triangle_instance[triangle];
+  global const RasterInstanceRecord* r = s->instances + instance;
+  global const SurfaceInstance* surface = s->surfaces + instance;
+  global const SurfaceMaterial* material = s->materials + surface->material;
+  global const uint* index = s->indices + r->first_index + 3 * (size_t)(triangle - r->first_triangle);
+  const uint i = index[0], j = index[1], k = index[2];
+  global const float4* clip = s->clip + r->first_clip_vertex;
+  const ScreenTriangle t = screen_triangle(clip[i], clip[j], clip[k], x, y, s->half_size);
+  const Weights w = weights_at(&t, dx, dy);
+  const CornerAttributes c = corner_attributes(s->vertices + r->first_vertex, i, j, k);
+  KEEP(a->material, (whole)((int)surface->material));
+  KEEP3(a->normal, turned(surface->normal, ATTRIBUTE(c, w, s0), ATTRIBUTE(c, w, s1), ATTRIBUTE(c, w, s2)));
+  if (material->flags & SURFACE_DOUBLE_SIDED) {
+    const float front = surface->flags & INSTANCE_MIRRORED ? -1.0f : 1.0f;
+    KEEP(a->side, w.sum < REAL(0.0f) ? REAL(-front) : REAL(front));
+  } else {
+    KEEP(a->side, REAL(1.0f));
+  }
+#ifdef TEXTURED
+  keep_place(&a->uv0, TEXTURE_PLACE(c, w, &t, s8, s9), here);
+#endif
+#ifdef UV1
+  keep_place(&a->uv1, TEXTURE_PLACE(c, w, &t, sa, sb), here);
+#endif
+#ifdef NORMAL_MAP
+  // A tangent transforms as a direction does. A mirroring matrix turns the cross product that makes the
+  // bitangent.
+  const float mirror = surface->flags & INSTANCE_MIRRORED ? -1.0f : 1.0f;
+  KEEP3(a->tangent,
+        turned(surface->direction, ATTRIBUTE(c, w, s4), ATTRIBUTE(c, w, s5), ATTRIBUTE(c, w, s6)));
+  KEEP(a->handedness, ATTRIBUTE(c, w, s3) * mirror);
+#endif
+#ifdef VERTEX_COLOR
+  KEEP(a->red, ATTRIBUTE(c, w, sc));
+  KEEP(a->green, ATTRIBUTE(c, w, sd));
+  KEEP(a->blue, ATTRIBUTE(c, w, se));
+  KEEP(a->alpha, ATTRIBUTE(c, w, sf));
+#endif
+}
+
+// The material at LANES pixels.
+typedef struct Surface {
+  Real3 base_color, emissive;
+  real alpha, metallic, roughness, occlusion;
+  mask_t unlit;
+#ifdef NORMAL_MAP
+  Real3 mapped;  // in tangent space, scaled
+  mask_t has_map;
+#endif
+} Surface;
+
+#ifdef TEXTURED
+// Channels of a material's maps; 1 where it has no map. One copy of the filter serves all maps, since each of
+// 16 unrolled lanes takes its time to compile.
+typedef struct MapTexels {
+  Texels4 of[SURFACE_MAPS];
+} MapTexels;
+
+static inline void sample_maps(MapTexels* t, const Attributes* a, const ResolveScene* s,
+                               global const SurfaceMaterial* m) {
+  for (uint i = 0; i < SURFACE_MAPS; ++i) {
+    for (uint c = 0; c < 4; ++c) t->of[i].c[c] = 1.0f;
+  }
+#ifdef UV1
+#define PLACE_IN(map) ((map)->flags & MAP_UV1 ? &a->uv1 : &a->uv0)
+#else
+#define PLACE_IN(map) (&a->uv0)
+#endif
+  uint maps = m->flags & ((1u << SURFACE_MAPS) - 1u);
+  if (m->flags & SURFACE_PACKED) {
+    const Texels8 p = filtered_8(s->texels_8, m->maps, *PLACE_IN(m->maps));
+    for (uint c = 0; c < 3; ++c)
+      t->of[SURFACE_BASE_COLOR].c[c] = p.c[c], t->of[SURFACE_NORMAL].c[c] = p.c[3 + c];
+    t->of[SURFACE_METALLIC_ROUGHNESS].c[1] = p.c[6], t->of[SURFACE_METALLIC_ROUGHNESS].c[2] = p.c[7];
+    maps &= 1u << SURFACE_OCCLUSION | 1u << SURFACE_EMISSIVE;
+  }
+#pragma unroll 1
+  for (; maps != 0; maps &= maps - 1) {
+    const uint i = lowest_bit(maps);
+    global const SurfaceMap* map = m->maps + i;
+    t->of[i] = filtered_4(s->texels_4, map, *PLACE_IN(map));
+  }
+}
+#endif
+
+// Into the lanes that are `here` what a material is there.
+static inline void add_material(Surface* surface, const Attributes* a, const ResolveScene* s, uint material,
+                                mask_t here) {
+  global const SurfaceMaterial* m = s->materials + material;
+  Real3 color = real3(REAL(m->base_color[0]), REAL(m->base_color[1]), REAL(m->base_color[2]));
+  Real3 emissive = real3(REAL(m->emissive[0]), REAL(m->emissive[1]), REAL(m->emissive[2]));
+  real alpha = m->base_color[3], metallic = m->metallic, roughness = m->roughness, occlusion = 1.0f;
+#ifdef TEXTURED
+  MapTexels t;
+  sample_maps(&t, a, s, m);
+  const Texels4 base = t.of[SURFACE_BASE_COLOR], glow = t.of[SURFACE_EMISSIVE];
+  color = real3(color.x * base.c[0], color.y * base.c[1], color.z * base.c[2]);
+  emissive = real3(emissive.x * glow.c[0], emissive.y * glow.c[1], emissive.z * glow.c[2]);
+  alpha *= base.c[3];
+  roughness *= t.of[SURFACE_METALLIC_ROUGHNESS].c[1], metallic *= t.of[SURFACE_METALLIC_ROUGHNESS].c[2];
+  occlusion = 1.0f + m->occlusion_strength * (t.of[SURFACE_OCCLUSION].c[0] - 1.0f);
+#ifdef NORMAL_MAP
+  const Texels4 n = t.of[SURFACE_NORMAL];
+  const real scale = m->normal_scale;
+  KEEP3(surface->mapped,
+        real3((n.c[0] * 2.0f - 1.0f) * scale, (n.c[1] * 2.0f - 1.0f) * scale, n.c[2] * 2.0f - 1.0f));
+  KEEP(surface->has_map, (mask_t)(m->flags & 1u << SURFACE_NORMAL ? -1 : 0));
+#endif
+#endif
+#ifdef VERTEX_COLOR
+  color = real3(color.x * a->red, color.y * a->green, color.z * a->blue);
+  alpha *= a->alpha;
+#endif
+  KEEP3(surface->base_color, color);
+  KEEP3(surface->emissive, emissive);
+  KEEP(surface->alpha, alpha);
+  KEEP(surface->metallic, metallic);
+  KEEP(surface->roughness, roughness);
+  KEEP(surface->occlusion, occlusion);
+  KEEP(surface->unlit, (mask_t)(m->flags & SURFACE_UNLIT ? -1 : 0));
+}
+
+// As shading_normal of shaders/common/surface.glsl.
+static inline Real3 shading_normal(const Attributes* a, const Surface* s) {
+  Real3 n = scale3(a->normal, inverse_sqrt_real(dot3(a->normal, a->normal)));
+#ifdef NORMAL_MAP
+  const real along = dot3(n, a->tangent);
+  Real3 t = real3(a->tangent.x - n.x * along, a->tangent.y - n.y * along, a->tangent.z - n.z * along);
+  const real length_squared = dot3(t, t);
+  t = scale3(t, inverse_sqrt_real(max_real(length_squared, REAL(1e-12f))));
+  const Real3 b = scale3(cross3(n, t), a->handedness);
+  const Real3 bent = add3(add3(scale3(t, s->mapped.x), scale3(b, s->mapped.y)), scale3(n, s->mapped.z));
+  const real inverse = inverse_sqrt_real(dot3(bent, bent));
+  const mask_t here =
+      s->has_map & (length_squared > REAL(1e-12f));  // without a tangent the geometric normal stands
+  KEEP3(n, scale3(bent, inverse));
+#endif
+  return scale3(n, a->side);
+}

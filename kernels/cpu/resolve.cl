@@ -1,0 +1,54 @@
+// Radiance of every pixel of a visibility buffer, for CPUs: a work-item takes a tile, block after block of 4
+// x 4 pixels. Of each block its distinct triangles give the attributes, then its distinct materials the
+// textures, then the tile's lights the radiance. Burns, Hunt, "The Visibility Buffer" (JCGT 2013).
+//
+// triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
+// RESOLVE_ARGUMENTS  kernels/common/resolve_light.h
+// background  of pixels without a surface
+// image       out: RGBA a pixel, linear, row 0 at the bottom
+// -DTILE      pixels a side, a multiple of 8 (default 16)
+// -DORTHOGRAPHIC, and what kernels/common/resolve.h and resolve_light.h name
+#define LANES 16
+#include "kernels/common/image_blocks.h"
+#include "kernels/common/resolve_light.h"
+
+#ifndef TILE
+#define TILE 16
+#endif
+
+kernel void resolve(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
+                    float4 background, global float* image) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const ResolveScene scene = RESOLVE_SCENE;
+  ResolveLights lights = RESOLVE_LIGHTS;
+  take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x);
+  const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
+  for (uint y = tile_y * TILE; y < y_end; y += 4) {
+    for (uint x = tile_x * TILE; x < x_end; x += 4) {
+      const uint16 triangle = load_block(triangles, x, y, width, height);
+      const mask_t covered = triangle != (uint16)(SURFACE_NONE);
+      Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
+      if (any_lane(covered)) {
+        Attributes a = {0};
+        for (uint left = mask_bits(covered); left != 0;) {
+          const uint one = ((const uint*)&triangle)[lowest_bit(left)];
+          const mask_t here = triangle == (uint16)(one);
+          left &= ~mask_bits(here);
+          add_triangle(&a, &scene, one, here, (float)x, (float)y, BLOCK_DX, BLOCK_DY);
+        }
+        Surface s = {0};
+        for (uint left = mask_bits(covered); left != 0;) {
+          const int one = ((const int*)&a.material)[lowest_bit(left)];
+          const mask_t here = covered & (a.material == (int16)(one));
+          left &= ~mask_bits(here);
+          add_material(&s, &a, &scene, (uint)one, here);
+        }
+        const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+        const Real3 shown = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
+                                     covered, &lights, bin_edges, view);
+        color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
+      }
+      store_block(image, color, x, y, width, height);
+    }
+  }
+}

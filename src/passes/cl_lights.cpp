@@ -1,0 +1,66 @@
+#include "passes/cl_lights.h"
+
+#include "cl/avx512.h"
+#include "cl/error.h"
+#include "cl/transfer.h"
+#include "renderer/light_texels.h"
+
+namespace lightgrid {
+
+void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, size_t bytes) {
+  if (!buffer_() || bytes != bytes_) {
+    const size_t size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
+    buffer_ = cl::Buffer();
+    try {
+      buffer_ = cl::Buffer(device.context(), CL_MEM_READ_ONLY, size);
+    } catch (const cl::Error& error) {
+      throw cl_machine_error(error, fmt::format("a buffer of {} bytes", size));
+    }
+    bytes_ = bytes;
+  }
+  write_buffer(device, what, buffer_, data, bytes);
+}
+
+void ClLights::upload(RenderView& v) {
+  const LightTexels texels = light_texels(v.scene, v.view, v.plan);
+  ClDevice& device = *v.renderer.cl;
+  constexpr const char* what = "uploading lights";
+  positions.put(device, what, texels.positions);
+  colors.put(device, what, texels.colors);
+  cones.put(device, what, texels.cones);
+  directional.put(device, what, texels.directional);
+  view.put(device, what, std::vector<ViewParams>{v.params});
+  std::vector<float> edges;
+  if (v.plan.z_bins > 1) {
+    const auto keys = z_bin_keys(cull_view(v.view, v.plan));
+    edges.assign(keys.begin(), keys.end());
+  }
+  bin_edges.put(device, what, edges);
+}
+
+size_t ClLights::memory_bytes() const {
+  size_t bytes = 0;
+  for (const UploadedBuffer* b : {&positions, &colors, &cones, &directional, &view, &bin_edges})
+    bytes += b->bytes();
+  return bytes;
+}
+
+std::string light_defines(const RenderView& v, bool lanes) {
+  std::string defines;
+  if (lanes) defines += fmt::format(" -DTILE={}", v.plan.settings.tile);
+  if (lanes && !v.plan.settings.portable && builds_avx512(*v.renderer.cl, *v.renderer.kernels))
+    defines += " -DAVX512";
+  if (v.plan.index_bits == 32) defines += " -DINDEX_32";
+  if (v.plan.z_bins > 1) defines += " -DZ_BINS";
+  if (v.plan.spots) defines += " -DSPOTS";
+  if (v.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
+  if (v.view.orthographic) defines += " -DORTHOGRAPHIC";
+  return defines;
+}
+
+bool shades_in_lanes(const RenderView& v) {
+  const KernelShape shape = v.plan.settings.kernel_shape;
+  return shape == KernelShape::lanes || (shape == KernelShape::automatic && v.renderer.cl->info().cpu);
+}
+
+}  // namespace lightgrid

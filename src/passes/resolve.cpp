@@ -1,0 +1,134 @@
+// From triangle numbers to radiance: the resolve pass, and blended surfaces by the same kernels' code.
+#include <tuple>
+
+#include "cl/launch.h"
+#include "passes/cl_lights.h"
+#include "passes/visibility.h"
+
+namespace lightgrid {
+namespace {
+
+// The image, the lights and the kernels.
+class Resolving : public PassState {
+ public:
+  explicit Resolving(RenderView& v)
+      : lanes(shades_in_lanes(v)),
+        image(*v.renderer.cl, v.renderer.bridge, v.pixels() * 16),
+        defines_(resolve_defines(v)) {
+    lights.upload(v);
+  }
+
+  bool follow(RenderView& v) override {
+    std::string defines = resolve_defines(v);
+    if (defines != defines_) {
+      defines_ = std::move(defines);
+      kernels_.clear();
+    }
+    lights.upload(v);
+    return true;
+  }
+
+  size_t memory_bytes() const override { return image.size() + lights.memory_bytes() + scene_bytes_; }
+
+  // "resolve" or "blend", built at first use.
+  cl::Kernel& kernel(RenderView& v, const char* stem, bool grid) {
+    cl::Kernel& kernel = kernels_[{stem, grid}];
+    if (!kernel())
+      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem),
+                                          defines_ + (grid ? "" : " -DALL_LIGHTS"));
+    return kernel;
+  }
+
+  const ClScene& scene(RenderView& v) {
+    const ClScene& scene = v.gpu.in_cl(v.plan.settings.texels);
+    scene_bytes_ = scene.memory_bytes();
+    return scene;
+  }
+
+  // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
+  auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces, const GridInCl& in) {
+    const ClScene& s = scene(v);
+    cl::Buffer cells, indices, light_bins;
+    if (in.grid) {
+      cells = in.storage->cells(in.grid->cell_bytes), indices = in.storage->indices(in.grid->index_bytes);
+      if (in.grid->z_bin_bytes) light_bins = in.storage->z_bins(in.grid->z_bin_bytes);
+    }
+    return std::tuple(raster.triangle_instance, raster.instances, raster.indices, raster.clip, surfaces,
+                      s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.positions.buffer(),
+                      lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), cells,
+                      indices, light_bins, lights.bin_edges.buffer(), lights.view.buffer());
+  }
+
+  const bool lanes;
+  SharedBuffer image;
+  ClLights lights;
+
+ private:
+  // Material code by what the scene has, not the view: a camera that turns compiles nothing.
+  std::string resolve_defines(RenderView& v) {
+    std::string defines = light_defines(v, lanes);
+    if (v.plan.directional) defines += " -DDIRECTIONAL";
+    const uint32_t features = v.plan.settings.everything_on ? feature_all : scene(v).features();
+    for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
+                                      {feature_uv1, " -DUV1"},
+                                      {feature_vertex_color, " -DVERTEX_COLOR"},
+                                      {feature_normal_map, " -DNORMAL_MAP"}}) {
+      if (features & bit) defines += define;
+    }
+    return defines;
+  }
+
+  std::string defines_;
+  std::map<std::pair<std::string, bool>, cl::Kernel> kernels_;  // by stem, and whether there is a grid
+  size_t scene_bytes_ = 0;
+};
+
+constexpr size_t group_side = 16;  // of the pixels that a group takes
+
+cl::NDRange whole_groups(const View& view) {
+  const auto whole = [](int pixels) { return (size_t(pixels) + group_side - 1) / group_side * group_side; };
+  return {whole(view.width), whole(view.height)};
+}
+
+size_t grid_bytes(const GridInCl& in) {
+  return in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0;
+}
+
+}  // namespace
+
+ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
+  Resolving& r = v.state<Resolving>();
+  cl::Kernel& kernel = r.kernel(v, "resolve", lights.grid);
+  const glm::vec3& background = v.scene.background;
+  auto pass = v.timer.pass("resolve", "cl");
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "resolve", kernel,
+               r.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y) : whole_groups(v.view),
+               r.lanes ? cl::NDRange(1, 1) : cl::NDRange(group_side, group_side), visible.image.triangle,
+               visible.image.depth, shared..., cl_float4{{background.r, background.g, background.b, 1}},
+               r.image.cl_buffer());
+      },
+      r.arguments(v, visible.raster, visible.surfaces, lights));
+  pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
+  return {0, &r.image};
+}
+
+void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
+                    const GridInCl& lights) {
+  Resolving& r = v.state<Resolving>();
+  cl::Kernel& kernel = r.kernel(v, "blend", lights.grid);
+  auto pass = v.timer.pass("blend_resolved", "cl");
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "blend_resolved", kernel,
+               r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
+               r.lanes ? cl::NDRange(1) : cl::NDRange(group_side, group_side), blended.lists.records,
+               blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
+               shared..., r.image.cl_buffer());
+      },
+      r.arguments(v, blended.raster, blended.surfaces, lights));
+  pass.moves(v.pixels() * 20 + grid_bytes(lights), v.pixels() * 16);
+}
+
+}  // namespace lightgrid

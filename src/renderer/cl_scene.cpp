@@ -1,0 +1,85 @@
+#include "renderer/cl_scene.h"
+
+#include "cl/error.h"
+#include "cl/transfer.h"
+#include "plan/frame_plan.h"
+#include "renderer/surface_texels.h"
+
+namespace lightgrid {
+namespace {
+
+SurfaceVertex surface_vertex(const Mesh& mesh, size_t i) {
+  SurfaceVertex v{};
+  v.normal_x = mesh.normals[i].x, v.normal_y = mesh.normals[i].y, v.normal_z = mesh.normals[i].z;
+  if (!mesh.tangents.empty()) {
+    const glm::vec4& t = mesh.tangents[i];
+    v.tangent_x = t.x, v.tangent_y = t.y, v.tangent_z = t.z, v.handedness = t.w;
+  }
+  if (!mesh.uv0.empty()) v.u0 = mesh.uv0[i].x, v.v0 = mesh.uv0[i].y;
+  if (!mesh.uv1.empty()) v.u1 = mesh.uv1[i].x, v.v1 = mesh.uv1[i].y;
+  const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1) : mesh.colors[i];
+  v.red = color.r, v.green = color.g, v.blue = color.b, v.alpha = color.a;
+  return v;
+}
+
+template <typename T>
+cl::Buffer filled_buffer(ClDevice& device, const char* what, const std::vector<T>& values) {
+  const size_t bytes = values.size() * sizeof(T),
+               size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
+  try {
+    cl::Buffer buffer(device.context(), CL_MEM_READ_ONLY, size);
+    write_buffer(device, what, buffer, values.data(), bytes);
+    return buffer;
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, fmt::format("{}: a buffer of {} bytes", what, size));
+  }
+}
+
+}  // namespace
+
+ClScene::ClScene(ClDevice& device, const Scene& scene, TexelLayout layout) : device_(device), scene_(scene) {
+  shown_.assign(scene.meshes.size(), false);
+  for (const Instance& instance : scene.instances)
+    shown_[instance.mesh] = !scene.meshes[instance.mesh].indices.empty();
+  std::vector<bool> used_materials(scene.materials.size(), false);
+  size_t vertices = 0;
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    first_vertex_.push_back(vertices);
+    if (!shown_[i]) continue;
+    vertices += scene.meshes[i].positions.size();
+    used_materials[scene.meshes[i].material] = true;
+    features_ |= material_features(scene, scene.meshes[i]);
+  }
+  first_vertex_.push_back(vertices);
+  std::vector<SurfaceVertex> attributes(vertices);
+  for (size_t i = 0; i < scene.meshes.size(); ++i)
+    write_attributes(int(i), attributes.data() + first_vertex_[i]);
+  vertices_ = filled_buffer(device, "uploading vertices", attributes);
+  vertex_bytes_ = vertices * sizeof(SurfaceVertex);
+
+  const SurfaceTexels texels = surface_texels(scene, used_materials, layout);
+  materials_ = filled_buffer(device, "uploading materials", texels.materials);
+  texels_4_ = filled_buffer(device, "uploading textures", texels.texels_4);
+  texels_8_ = filled_buffer(device, "uploading packed textures", texels.texels_8);
+  alphas_ = filled_buffer(device, "uploading alphas", texels.alphas);
+  material_bytes_ = texels.materials.size() * sizeof(SurfaceMaterial);
+  texture_bytes_ = (texels.texels_4.size() + texels.texels_8.size()) * 2 + texels.alphas.size() * 4;
+}
+
+void ClScene::write_attributes(int mesh, SurfaceVertex* to) const {
+  if (!shown_[mesh]) return;
+  for (size_t i = 0; i < scene_.meshes[mesh].positions.size(); ++i)
+    to[i] = surface_vertex(scene_.meshes[mesh], i);
+}
+
+void ClScene::update(const SceneChanges& changes) {
+  for (const int mesh : changes.meshes) {
+    if (!shown_[mesh]) continue;
+    std::vector<SurfaceVertex> attributes(scene_.meshes[mesh].positions.size());
+    write_attributes(mesh, attributes.data());
+    write_buffer(device_, "uploading vertices", vertices_, attributes.data(),
+                 attributes.size() * sizeof(SurfaceVertex), first_vertex_[mesh] * sizeof(SurfaceVertex));
+  }
+}
+
+}  // namespace lightgrid
