@@ -28,7 +28,7 @@ struct CompareCommand {
   DeviceOptions devices;
   TimingOptions timing;
   std::string output = "out/compare", json;
-  std::vector<std::string> techniques = {"forward", "forward_plus"}, compare;
+  std::vector<std::string> techniques = {"forward", "forward_plus", "visibility"}, compare;
   std::string reference = "auto";
   int page_mb = 30;
   bool flip = false;

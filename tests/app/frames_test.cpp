@@ -91,7 +91,8 @@ TEST_F(Frames, CaptureAlongAPathGivesAFolderAFrame) {
   const ProgramRun moving = run_program({"capture", "spheres", "--size", "64x48", "--camera-path", "turn:3", "-o", path, "--json", "-"});
   ASSERT_EQ(moving.status, 0) << moving.err;
   ASSERT_EQ(run_program({"capture", "spheres", "--size", "64x48", "-o", still}).status, 0);
-  EXPECT_THAT(names_in(path), ElementsAre("0000", "0001", "0002"));
+  for (const char* frame : {"0000", "0001", "0002"}) EXPECT_TRUE(std::filesystem::is_directory(path / frame)) << frame;
+  EXPECT_FALSE(std::filesystem::exists(path / "0003"));
   EXPECT_EQ(nlohmann::json::parse(moving.out).size(), 3u);
   EXPECT_TRUE(file_bytes(path / "0000" / "depth.f32") == file_bytes(still / "depth.f32")) << "a path starts at the camera";
   EXPECT_FALSE(file_bytes(path / "0001" / "depth.f32") == file_bytes(still / "depth.f32"));

@@ -100,6 +100,12 @@ TEST(Verdict, ToldApartAreTheFastestExactAndAFasterLossyTechnique) {
   EXPECT_THAT(telling_figures(with_faster_row(2e-3))[0], HasSubstr("forward_plus is 11.3 times"));
 }
 
+TEST(TellingFigures, EndWithAFasterTechniqueOfAnotherPicture) {
+  EXPECT_EQ(telling_figures(with_faster_row(2e-3)).back(),
+            "deferred draws 10 frames a second (100 ms); its image differs by at most 2.0e-03 of the brightest channel");
+  EXPECT_THAT(telling_figures(with_faster_row(9e-6)).back(), testing::StartsWith("lights per pixel"));
+}
+
 // Against the oracle, at pixels where forward is off by `of_reference`.
 bool exact_at(double max_rel, double of_oracle, double of_reference) {
   return is_exact(ImageError{max_rel, max_rel, max_rel, 0, {}, false, OracleError{of_oracle, of_oracle, of_reference}});
