@@ -102,7 +102,7 @@ TEST(Verdict, ToldApartAreTheFastestExactAndAFasterLossyTechnique) {
 
 TEST(TellingFigures, EndWithAFasterTechniqueOfAnotherPicture) {
   EXPECT_EQ(telling_figures(with_faster_row(2e-3)).back(),
-            "deferred draws 10 frames a second (100 ms); its image differs by at most 2.0e-03 of the brightest channel");
+            "deferred draws 10.0 frames a second (100 ms); its image differs by at most 2.0e-03 of the brightest channel");
   EXPECT_THAT(telling_figures(with_faster_row(9e-6)).back(), testing::StartsWith("lights per pixel"));
 }
 
