@@ -1,6 +1,8 @@
 // Runs a technique on a view and measures it.
 #pragma once
 
+#include <utility>
+
 #include "results/results.h"
 #include "techniques/technique.h"
 
@@ -33,7 +35,7 @@ class TechniqueRun {
   void run_profiled_frames();
 
   const Image& image() const { return image_; }
-  Image take_image() { return std::move(image_); }  // image() is empty until the next run_frame()
+  Image take_image() { return std::exchange(image_, {}); }  // image() is empty until the next run_frame()
   RenderView& view() { return view_; }
   const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }

@@ -5,8 +5,9 @@ namespace lightgrid {
 
 void read_back(RenderView& v, const ShadedImage& shaded, Image& image) {
   auto pass = v.timer.pass("read_back", "gl");
-  if (image.width != v.view.width || image.height != v.view.height)
+  if (image.width != v.view.width || image.height != v.view.height || image.pixels.size() != v.pixels()) {
     image = Image(v.view.width, v.view.height);
+  }
   if (shaded.in_cl) {
     read_buffer(*v.renderer.cl, "reading the image back", shaded.in_cl->cl_buffer(), image.pixels.data(), image.pixels.size() * 16);
   } else {

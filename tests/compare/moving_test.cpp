@@ -63,6 +63,19 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
   }
 }
 
+// The report has taken the runs' images by then: each frame of the path must bring new ones.
+TEST(Moving, ErrorsAreThoseOfThePathsFrames) {
+  const Scene scene = small_scene().scene;
+  const std::vector<Contestant> contestants = {{&find_technique("forward"), {}}, {&find_technique("deferred"), {.buffer_bits = 8}}};
+  CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+  options.path = camera_path(scene, small_view(48, 32), "dolly:3");
+  const CompareReport report = compare_techniques(software_devices(), scene, small_view(48, 32), contestants, options);
+  EXPECT_GT(report.rows[1].error->max_rel, 1e-4);
+  EXPECT_GT(report.rows[1].moving->max_rel, 1e-4);
+  EXPECT_GT(report.rows[1].moving->rmse_rel, 1e-5);
+  EXPECT_EQ(report.rows[0].moving->max_rel, 0);
+}
+
 // Deformed meshes, moved instances and lights: the picture equals that of a scene created in that state.
 TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
   Scene scene = find_builtin_scene("hall")->make();
