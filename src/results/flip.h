@@ -1,4 +1,4 @@
-// FLIP, the difference that a viewer sees who alternates between two images: Andersson et al., "FLIP: A Difference Evaluator
+// FLIP, an estimate of the difference seen when alternating between two images: Andersson et al., "FLIP: A Difference Evaluator
 // for Alternating Images" (HPG 2020), and "Visualizing Errors in Rendered High Dynamic Range Images" (Eurographics Short Papers
 // 2021). Written from the papers; held to the authors' program (v1.6) by tests.
 #pragma once
@@ -23,9 +23,8 @@ struct FlipExposures {
   int count = 0;
 };
 
-// From the darkest exposure at which the reference's brightest pixel is no longer white to the one that brings its median
-// luminance there; the tone map is ACES (Narkowicz 2015). Empty if no exposure follows from the reference: its median or its
-// maximum is not a positive number.
+// The first exposure brings the reference's brightest luminance to 0.85 after the tone map, the last its median luminance. The
+// tone map is ACES (Narkowicz 2015). Empty if the median luminance is not positive or the largest one is not finite.
 std::optional<FlipExposures> flip_exposures(const Image& reference);
 
 // HDR-FLIP: per pixel the largest FLIP over the exposures. Linear, scene-referred images.

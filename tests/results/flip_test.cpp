@@ -115,12 +115,12 @@ TEST(Flip, OfEqualImagesIsZero) {
   }
 }
 
-// White against black has the largest lightness difference; its feature difference is 0 in a flat image.
+// Flat images have no edges and no points. Green and blue are the pair that sets the scale of colour differences.
 TEST(Flip, OfFlatImagesIsTheColourDifferenceAlone) {
   Image black(40, 40), green(40, 40), blue(40, 40);
   for (glm::vec4& pixel : green.pixels) pixel = {0, 1, 0, 1};
   for (glm::vec4& pixel : blue.pixels) pixel = {0, 0, 1, 1};
-  const std::vector<float> map = flip_map(green, blue);  // the pair that the difference is scaled by
+  const std::vector<float> map = flip_map(green, blue);
   EXPECT_NEAR(std::ranges::min(map), 1, 1e-6);
   EXPECT_NEAR(std::ranges::max(map), 1, 1e-6);
   EXPECT_GT(mean_of(flip_map(green, black)), 0.5);
