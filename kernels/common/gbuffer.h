@@ -1,4 +1,4 @@
-// The surface of LANES pixels, read from the geometry buffer (src/passes/gbuffer.h).
+// The surface of LANES pixels, read from the geometry buffer (src/passes/common/gbuffer.h).
 //
 // -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
 #pragma once

@@ -1,6 +1,6 @@
 #include "capture/capture.h"
 
-#include "passes/passes.h"
+#include "passes/depth_prepass.h"
 #include "passes/read_outs/depth.h"
 
 namespace lightgrid {

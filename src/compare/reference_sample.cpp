@@ -3,6 +3,11 @@
 #include <algorithm>
 
 #include "base/timer.h"
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/read_back.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "scene/random.h"
 #include "compare/oracle.h"
 

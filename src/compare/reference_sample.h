@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/passes.h"
+#include "renderer/render_view.h"
 
 namespace lightgrid {
 

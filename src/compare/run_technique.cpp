@@ -2,6 +2,7 @@
 
 #include "gl/errors.h"
 #include "gl/state.h"
+#include "passes/read_back.h"
 #include "results/metrics.h"
 
 namespace lightgrid {

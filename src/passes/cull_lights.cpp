@@ -1,5 +1,5 @@
 // Culls lights against the cells of the light grid, in OpenCL; hands the grid to OpenGL as buffer textures.
-#include "passes/passes.h"
+#include "passes/cull_lights.h"
 
 namespace lightgrid {
 namespace {

@@ -1,5 +1,5 @@
 // Hands the depth image to OpenCL, which reduces it to an interval of distances a tile.
-#include "passes/passes.h"
+#include "passes/depth_bounds.h"
 
 namespace lightgrid {
 

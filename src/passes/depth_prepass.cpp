@@ -1,5 +1,6 @@
 // Depth first, so that each pixel is shaded once and culling has depth bounds for each tile.
-#include "passes/passes.h"
+#include "passes/depth_prepass.h"
+
 #include "renderer/draw.h"
 
 namespace lightgrid {

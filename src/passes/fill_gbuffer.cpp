@@ -1,18 +1,11 @@
 // Writes surfaces into the geometry buffer, once a pixel; light passes then need no materials.
-#include "passes/gbuffer.h"
+#include "passes/fill_gbuffer.h"
 
-#include <algorithm>
-
-#include "passes/light_source.h"
+#include "passes/common/light_source.h"
 #include "renderer/draw.h"
 
 namespace lightgrid {
 namespace {
-
-const GBufferLayout& layout_of(const Settings& settings) {
-  return *std::find_if(std::begin(gbuffer_layouts), std::end(gbuffer_layouts),
-                       [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
-}
 
 // Bytes a pixel, besides depth.
 size_t written_bytes(const GBuffer& gbuffer) {
@@ -41,23 +34,6 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
 
 }  // namespace
 
-GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
-  GBuffer g;
-  g.base_lighting = base_lighting;
-  g.layout = &layout_of(v.plan.settings);
-  for (int i = 0; i < 2; ++i) {
-    g.textures[i] =
-        v.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
-  }
-  g.depth = v.targets.depth();
-  const GLuint image = v.targets.texture("color", GL_RGBA32F);
-  g.framebuffer = base_lighting == BaseLighting::in_image ? v.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
-                                                  : v.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
-  g.depth_image = {v.depth_framebuffer()};
-  g.image = {v.color_framebuffer()};
-  return g;
-}
-
 GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting) {
   auto pass = v.timer.pass("fill_gbuffer", "gl");
   const GBuffer gbuffer = gbuffer_of(v, base_lighting);
@@ -79,17 +55,6 @@ GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_
   draw_surfaces(v, gbuffer, surfaces);
   pass.moves(v.gpu.geometry_bytes() + v.pixels() * 4, v.pixels() * written_bytes(gbuffer));
   return gbuffer;
-}
-
-std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
-  return gbuffer.layout->define ? std::vector<std::string>{gbuffer.layout->define}
-                                : std::vector<std::string>{};
-}
-
-void bind_gbuffer(const GBuffer& gbuffer) {
-  glBindTextureUnit(0, gbuffer.textures[0]);
-  glBindTextureUnit(1, gbuffer.textures[1]);
-  glBindTextureUnit(2, gbuffer.depth);
 }
 
 }  // namespace lightgrid

@@ -1,11 +1,12 @@
 // Object-light pairs on the CPU: tests boxes of instances, then of their clusters, against spheres and cones
 // of lights.
+#include "passes/find_object_lights.h"
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 
 #include "base/error.h"
-#include "passes/object_lights.h"
 
 namespace lightgrid {
 namespace {

@@ -1,5 +1,7 @@
 // Draws light volumes into images of light indices, from which shading reads its lights
 // (docs/techniques/lidr.md).
+#include "passes/light_index.h"
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -8,7 +10,6 @@
 #include "passes/light_index/blending_probe.h"
 #include "passes/light_index/gl_state.h"
 #include "passes/light_volumes/light_volumes.h"
-#include "passes/passes.h"
 
 namespace lightgrid {
 namespace {

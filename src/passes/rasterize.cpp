@@ -1,6 +1,7 @@
-#include "passes/cl_lights.h"
-#include "passes/surface_instances.h"
-#include "passes/visibility.h"
+#include "passes/rasterize.h"
+
+#include "cl/uploaded_buffer.h"
+#include "renderer/surface_instances.h"
 
 namespace lightgrid {
 namespace {

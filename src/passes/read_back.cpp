@@ -1,5 +1,6 @@
+#include "passes/read_back.h"
+
 #include "cl/transfer.h"
-#include "passes/passes.h"
 
 namespace lightgrid {
 

@@ -1,9 +1,10 @@
 // From triangle numbers to radiance: the resolve pass, and blended surfaces by the same kernels' code.
+#include "passes/resolve.h"
+
 #include <tuple>
 
 #include "cl/launch.h"
-#include "passes/cl_lights.h"
-#include "passes/visibility.h"
+#include "renderer/cl_lights.h"
 
 namespace lightgrid {
 namespace {

@@ -1,7 +1,8 @@
 // Blended surfaces, back to front, over opaque ones, with depth test. They have a light grid of their own, or
 // lights by object, since they may lie anywhere between the near plane and the opaque surface behind them.
-#include "passes/object_lights.h"
-#include "passes/passes.h"
+#include "passes/shade_blended.h"
+
+#include "passes/find_object_lights.h"
 #include "renderer/draw.h"
 
 namespace lightgrid {

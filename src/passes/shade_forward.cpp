@@ -1,6 +1,7 @@
 // Forward shading of the surfaces in the depth prepass: each pixel once, at equal depth.
-#include "passes/begin_shading.h"
-#include "passes/passes.h"
+#include "passes/shade_forward.h"
+
+#include "passes/common/begin_shading.h"
 #include "renderer/draw.h"
 
 namespace lightgrid {

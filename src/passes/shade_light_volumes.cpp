@@ -9,12 +9,13 @@
 //
 // stencil       Faces behind the surface are counted, back plus one, front minus one; nonzero means inside.
 //               Then the same back faces are drawn where it is nonzero, and reset it to 0.
+#include "passes/shade_light_volumes.h"
+
 #include <algorithm>
 #include <numeric>
 
 #include "base/image.h"
-#include "passes/light_passes.h"
-#include "passes/light_source.h"
+#include "passes/common/light_source.h"
 #include "passes/light_volumes/light_volumes.h"
 #include "passes/light_volumes/screen_bounds.h"
 

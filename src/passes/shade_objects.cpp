@@ -7,10 +7,11 @@
 // the image's alpha accepts only the first fragment of a pixel. Draws expect an alpha of 1 and 0 in turn. The
 // blend factor multiplies the added light by 1 if the alpha is as expected and by 0 otherwise; the draw
 // leaves the other value. The first draw writes the value that makes the last draw leave 1.
+#include "passes/shade_objects.h"
+
 #include <algorithm>
 
-#include "passes/begin_shading.h"
-#include "passes/object_lights.h"
+#include "passes/common/begin_shading.h"
 #include "passes/read_outs/cells.h"
 #include "renderer/draw.h"
 

@@ -1,7 +1,7 @@
 #include "passes/shade_tiles.h"
 
 #include "cl/launch.h"
-#include "passes/cl_lights.h"
+#include "renderer/cl_lights.h"
 
 namespace lightgrid {
 namespace {

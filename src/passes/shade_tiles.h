@@ -1,7 +1,7 @@
 // The light pass of tiled deferred shading, in OpenCL.
 #pragma once
 
-#include "passes/gbuffer.h"
+#include "passes/common/gbuffer.h"
 
 namespace lightgrid {
 

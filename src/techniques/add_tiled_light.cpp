@@ -1,5 +1,7 @@
 #include "techniques/add_tiled_light.h"
 
+#include "passes/cull_lights.h"
+#include "passes/shade_blended.h"
 #include "passes/shade_tiles.h"
 
 namespace lightgrid {

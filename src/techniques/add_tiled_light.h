@@ -1,7 +1,7 @@
 // The part that deferred_tiled and forward_plus_compute share; they fill the geometry buffer differently.
 #pragma once
 
-#include "passes/gbuffer.h"
+#include "passes/common/gbuffer.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

@@ -1,7 +1,9 @@
 // Surfaces into a geometry buffer, then the lights one after the other, each on the pixels that its volume
 // covers.
-#include "passes/light_passes.h"
-#include "passes/object_lights.h"
+#include "passes/fill_gbuffer.h"
+#include "passes/find_object_lights.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_light_volumes.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

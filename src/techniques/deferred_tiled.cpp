@@ -1,4 +1,6 @@
 // Tiled deferred shading: geometry once, then every pixel's lights from its tile's list, in OpenCL.
+#include "passes/depth_bounds.h"
+#include "passes/fill_gbuffer.h"
 #include "techniques/add_tiled_light.h"
 
 namespace lightgrid {

@@ -1,4 +1,8 @@
 // Every light at every pixel: the brute-force image that every other technique is compared with.
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

@@ -1,5 +1,8 @@
 // Each object once for base lighting, then once more for each light that reaches it, added up.
-#include "passes/object_lights.h"
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_objects.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

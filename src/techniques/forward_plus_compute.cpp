@@ -1,5 +1,8 @@
 // Forward+ with its light loop in OpenCL, 16 pixels at once on a CPU: a depth prepass, culling, then only the
 // visible surfaces go through memory to the loop.
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/fill_gbuffer.h"
 #include "techniques/add_tiled_light.h"
 
 namespace lightgrid {

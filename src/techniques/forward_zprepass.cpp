@@ -1,5 +1,8 @@
 // Each object with up to eight of its lights in a draw; the other lights in further draws, added up.
-#include "passes/object_lights.h"
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_objects.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

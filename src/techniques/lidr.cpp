@@ -1,6 +1,11 @@
 // Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of the lights
 // that a pixel's indices name (docs/techniques/lidr.md).
-#include "passes/object_lights.h"
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/find_object_lights.h"
+#include "passes/light_index.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

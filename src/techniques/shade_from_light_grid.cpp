@@ -1,4 +1,9 @@
 // The part that forward_plus and clustered share; the plan's slices make the difference.
+#include "passes/cull_lights.h"
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
+#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/passes.h"
+#include "passes/common/frame.h"
 #include "scene/listed_lights.h"
 
 namespace lightgrid {

@@ -1,6 +1,8 @@
 // Triangle numbers first, in OpenCL; then attributes, textures and light of each pixel in one pass, from its
 // tile's list.
-#include "passes/visibility.h"
+#include "passes/cull_lights.h"
+#include "passes/depth_bounds.h"
+#include "passes/resolve.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

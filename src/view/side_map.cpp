@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/passes.h"
+#include "passes/read_back.h"
 #include "results/metrics.h"
 
 namespace lightgrid {

@@ -1,12 +1,13 @@
 // The surfaces read back from the geometry buffer.
-#include "passes/gbuffer.h"
+#include "passes/fill_gbuffer.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "passes/passes.h"
+#include "passes/depth_bounds.h"
+#include "passes/depth_prepass.h"
 #include "passes/read_outs/surfaces.h"
 #include "support/devices.h"
 #include "support/small_scene.h"

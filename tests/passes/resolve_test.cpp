@@ -1,12 +1,14 @@
 // The resolve pass against the same surfaces in double: attributes, textures and light of every pixel that
 // has the triangle that the double rasteriser finds there.
-#include "passes/visibility.h"
+#include "passes/resolve.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cl/transfer.h"
-#include "passes/passes.h"
+#include "passes/cull_lights.h"
+#include "passes/depth_bounds.h"
+#include "passes/read_back.h"
 #include "results/metrics.h"
 #include "scene/builtin.h"
 #include "support/devices.h"

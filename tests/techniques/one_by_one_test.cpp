@@ -3,7 +3,7 @@
 // round differently from forward: within 1e-5 of the brightest channel.
 #include <cmath>
 
-#include "passes/object_lights.h"
+#include "passes/find_object_lights.h"
 #include "scene/lights_file.h"
 #include "scene/load_gltf.h"
 #include "scene/random.h"

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 

@@ -1,6 +1,6 @@
 #include "passes/read_outs/surfaces.h"
 
-#include "passes/gbuffer.h"
+#include "passes/common/gbuffer.h"
 #include "renderer/draw.h"
 
 namespace lightgrid {

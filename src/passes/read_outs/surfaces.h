@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 

@@ -1,4 +1,4 @@
-#include "passes/surface_instances.h"
+#include "renderer/surface_instances.h"
 
 namespace lightgrid {
 

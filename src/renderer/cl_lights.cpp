@@ -1,25 +1,11 @@
-#include "passes/cl_lights.h"
+#include "renderer/cl_lights.h"
+
+#include <fmt/format.h>
 
 #include "cl/avx512.h"
-#include "cl/error.h"
-#include "cl/transfer.h"
 #include "renderer/light_texels.h"
 
 namespace lightgrid {
-
-void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, size_t bytes) {
-  if (!buffer_() || bytes != bytes_) {
-    const size_t size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
-    buffer_ = cl::Buffer();
-    try {
-      buffer_ = cl::Buffer(device.context(), CL_MEM_READ_ONLY, size);
-    } catch (const cl::Error& error) {
-      throw cl_machine_error(error, fmt::format("a buffer of {} bytes", size));
-    }
-    bytes_ = bytes;
-  }
-  write_buffer(device, what, buffer_, data, bytes);
-}
 
 void ClLights::upload(RenderView& v) {
   const LightTexels texels = light_texels(v.scene, v.view, v.plan);

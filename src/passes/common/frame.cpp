@@ -1,4 +1,4 @@
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 

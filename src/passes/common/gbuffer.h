@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 
@@ -63,12 +63,6 @@ struct GBuffer {
 
 // The view's geometry buffer in the layout of buffer-bits, drawn or not.
 GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
-
-// Opaque surfaces with their depth, in one pass over the geometry.
-GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
-
-// Only these surfaces, at the prepass' depth.
-GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_lighting = BaseLighting::in_image);
 
 // The defines of shaders that read the geometry buffer (shaders/common/read_gbuffer.glsl), whose textures
 // bind_gbuffer binds.

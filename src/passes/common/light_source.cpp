@@ -1,6 +1,6 @@
-#include "passes/light_source.h"
+#include "passes/common/light_source.h"
 
-#include "passes/object_lights.h"
+#include "passes/find_object_lights.h"
 
 namespace lightgrid {
 namespace {

@@ -1,26 +1,10 @@
 // What light loops in OpenCL read of a view besides its grid: lights in view space, the view, z-bin edges.
 #pragma once
 
+#include "cl/uploaded_buffer.h"
 #include "renderer/render_view.h"
 
 namespace lightgrid {
-
-// A read-only buffer that is written again in place while its size stays.
-class UploadedBuffer {
- public:
-  template <typename T>
-  void put(ClDevice& device, const char* what, const std::vector<T>& values) {
-    put(device, what, values.data(), values.size() * sizeof(T));
-  }
-  const cl::Buffer& buffer() const { return buffer_; }
-  size_t bytes() const { return bytes_; }
-
- private:
-  void put(ClDevice& device, const char* what, const void* data, size_t bytes);
-
-  cl::Buffer buffer_;
-  size_t bytes_ = 0;
-};
 
 class ClLights {
  public:

@@ -2,9 +2,8 @@
 // grid.
 #pragma once
 
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 #include "passes/light_volumes/light_reach.h"
-#include "scene/listed_lights.h"
 
 namespace lightgrid {
 
@@ -50,16 +49,5 @@ class BlendedObjectLights : public ObjectLights {
 // The pass: object-light pairs of opaque or blended surfaces, found on the CPU.
 const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces);
 const ObjectLights& find_blended_object_lights(RenderView& v);
-
-// Shades each object at the prepass' depth: base lighting replaces the image, then its lights are added in
-// the order of their indices, `lights_a_draw` in each draw. own_apart: the first draw has none of them.
-ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart);
-
-// Blended objects over the image, back to front, each in one draw with all of its lights: a second draw would
-// blend the surface over itself.
-void shade_blended(RenderView& v, const ShadedImage& image, const ObjectLights& objects);
-
-// The lights that the last frame of shade_objects used at each pixel. For the oracle, not part of a frame.
-ListedLights listed_of_objects(RenderView& v);
 
 }  // namespace lightgrid

@@ -1,7 +1,7 @@
 // The start of forward shading of opaque surfaces, for every light source.
 #pragma once
 
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 

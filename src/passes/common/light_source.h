@@ -1,8 +1,7 @@
 // Where an OpenGL light loop finds a pixel's lights: its shader text and the buffers it reads.
 #pragma once
 
-#include "passes/frame.h"
-#include "scene/listed_lights.h"
+#include "passes/common/frame.h"
 
 namespace lightgrid {
 

@@ -1,7 +1,7 @@
 // Passes that add lights one by one to the image of a geometry buffer.
 #pragma once
 
-#include "passes/gbuffer.h"
+#include "passes/common/gbuffer.h"
 #include "scene/listed_lights.h"
 
 namespace lightgrid {

@@ -1,7 +1,7 @@
-// Triangles to pixels without OpenGL: a visibility buffer, radiance from it, and blended surfaces over that.
+// Triangles to pixels without OpenGL: a visibility buffer, and the blended triangles of each tile.
 #pragma once
 
-#include "passes/frame.h"
+#include "passes/common/frame.h"
 #include "raster/rasterizer.h"
 
 namespace lightgrid {
@@ -27,18 +27,5 @@ struct BlendedTriangles {
 };
 
 BlendedTriangles list_blended(RenderView& v);
-
-// A light grid and where it lies; null: every light is added.
-struct GridInCl {
-  const LightGrid* grid = nullptr;
-  SharedGridStorage* storage = nullptr;
-};
-
-// Attributes, textures and light of every pixel in one pass. The image stays in OpenCL's memory.
-ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights);
-
-// Lays blended surfaces over the image of resolve(), where they are in front of the opaque ones.
-void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
-                    const GridInCl& lights);
 
 }  // namespace lightgrid

@@ -1,0 +1,40 @@
+#include "passes/common/gbuffer.h"
+
+#include <algorithm>
+
+namespace lightgrid {
+
+static const GBufferLayout& layout_of(const Settings& settings) {
+  return *std::find_if(std::begin(gbuffer_layouts), std::end(gbuffer_layouts),
+                       [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
+}
+
+GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
+  GBuffer g;
+  g.base_lighting = base_lighting;
+  g.layout = &layout_of(v.plan.settings);
+  for (int i = 0; i < 2; ++i) {
+    g.textures[i] =
+        v.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
+  }
+  g.depth = v.targets.depth();
+  const GLuint image = v.targets.texture("color", GL_RGBA32F);
+  g.framebuffer = base_lighting == BaseLighting::in_image ? v.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
+                                                  : v.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
+  g.depth_image = {v.depth_framebuffer()};
+  g.image = {v.color_framebuffer()};
+  return g;
+}
+
+std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
+  return gbuffer.layout->define ? std::vector<std::string>{gbuffer.layout->define}
+                                : std::vector<std::string>{};
+}
+
+void bind_gbuffer(const GBuffer& gbuffer) {
+  glBindTextureUnit(0, gbuffer.textures[0]);
+  glBindTextureUnit(1, gbuffer.textures[1]);
+  glBindTextureUnit(2, gbuffer.depth);
+}
+
+}  // namespace lightgrid

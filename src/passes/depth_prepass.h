@@ -1,0 +1,10 @@
+// Depth of opaque and masked surfaces, before anything is shaded.
+#pragma once
+
+#include "passes/common/frame.h"
+
+namespace lightgrid {
+
+DepthImage depth_prepass(RenderView& v);
+
+}  // namespace lightgrid

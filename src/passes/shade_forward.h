@@ -1,0 +1,11 @@
+// Forward shading of opaque surfaces.
+#pragma once
+
+#include "passes/common/light_source.h"
+
+namespace lightgrid {
+
+// Shades opaque surfaces with each pixel's lights, at the prepass' depth.
+ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSource& lights);
+
+}  // namespace lightgrid
