@@ -116,36 +116,42 @@ typedef struct Surface {
 } Surface;
 
 #ifdef TEXTURED
-// Channels of a material's maps; 1 where it has no map. One copy of the filter serves all maps, since each of
-// 16 unrolled lanes takes its time to compile.
+// Channels of a material's maps; 1 where it has no map.
 typedef struct MapTexels {
-  Texels4 of[SURFACE_MAPS];
+  Real3 base_color, normal, emissive;
+  real alpha, roughness, metallic, occlusion;
 } MapTexels;
 
-static inline void sample_maps(MapTexels* t, const Attributes* a, const ResolveScene* s,
-                               global const SurfaceMaterial* m) {
-  for (uint i = 0; i < SURFACE_MAPS; ++i) {
-    for (uint c = 0; c < 4; ++c) t->of[i].c[c] = 1.0f;
-  }
+// One copy of the filter serves all maps that are not packed, since each of 16 unrolled lanes takes its time
+// to compile.
+static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s, global const SurfaceMaterial* m) {
+  const real one = 1.0f;
+  MapTexels t = {real3(one, one, one), real3(one, one, one), real3(one, one, one), one, one, one, one};
 #ifdef UV1
-#define PLACE_IN(map) ((map)->flags & MAP_UV1 ? &a->uv1 : &a->uv0)
+#define PLACE_IN(map) ((map)->flags & MAP_UV1 ? a->uv1 : a->uv0)
 #else
-#define PLACE_IN(map) (&a->uv0)
+#define PLACE_IN(map) (a->uv0)
 #endif
   uint maps = m->flags & ((1u << SURFACE_MAPS) - 1u);
   if (m->flags & SURFACE_PACKED) {
-    const Texels8 p = filtered_8(s->texels_8, m->maps, *PLACE_IN(m->maps));
-    for (uint c = 0; c < 3; ++c)
-      t->of[SURFACE_BASE_COLOR].c[c] = p.c[c], t->of[SURFACE_NORMAL].c[c] = p.c[3 + c];
-    t->of[SURFACE_METALLIC_ROUGHNESS].c[1] = p.c[6], t->of[SURFACE_METALLIC_ROUGHNESS].c[2] = p.c[7];
+    const Texels8 p = filtered_8(s->texels_8, m->maps, PLACE_IN(m->maps));
+    t.base_color = real3(p.c[0], p.c[1], p.c[2]), t.normal = real3(p.c[3], p.c[4], p.c[5]);
+    t.roughness = p.c[6], t.metallic = p.c[7];
     maps &= 1u << SURFACE_OCCLUSION | 1u << SURFACE_EMISSIVE;
   }
 #pragma unroll 1
   for (; maps != 0; maps &= maps - 1) {
     const uint i = lowest_bit(maps);
     global const SurfaceMap* map = m->maps + i;
-    t->of[i] = filtered_4(s->texels_4, map, *PLACE_IN(map));
+    const Texels4 p = filtered_4(s->texels_4, map, PLACE_IN(map));
+    const Real3 color = real3(p.c[0], p.c[1], p.c[2]);
+    if (i == SURFACE_BASE_COLOR) t.base_color = color, t.alpha = p.c[3];
+    if (i == SURFACE_METALLIC_ROUGHNESS) t.roughness = p.c[1], t.metallic = p.c[2];
+    if (i == SURFACE_NORMAL) t.normal = color;
+    if (i == SURFACE_OCCLUSION) t.occlusion = p.c[0];
+    if (i == SURFACE_EMISSIVE) t.emissive = color;
   }
+  return t;
 }
 #endif
 
@@ -157,19 +163,16 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   Real3 emissive = real3(REAL(m->emissive[0]), REAL(m->emissive[1]), REAL(m->emissive[2]));
   real alpha = m->base_color[3], metallic = m->metallic, roughness = m->roughness, occlusion = 1.0f;
 #ifdef TEXTURED
-  MapTexels t;
-  sample_maps(&t, a, s, m);
-  const Texels4 base = t.of[SURFACE_BASE_COLOR], glow = t.of[SURFACE_EMISSIVE];
-  color = real3(color.x * base.c[0], color.y * base.c[1], color.z * base.c[2]);
-  emissive = real3(emissive.x * glow.c[0], emissive.y * glow.c[1], emissive.z * glow.c[2]);
-  alpha *= base.c[3];
-  roughness *= t.of[SURFACE_METALLIC_ROUGHNESS].c[1], metallic *= t.of[SURFACE_METALLIC_ROUGHNESS].c[2];
-  occlusion = 1.0f + m->occlusion_strength * (t.of[SURFACE_OCCLUSION].c[0] - 1.0f);
+  const MapTexels t = sample_maps(a, s, m);
+  color = real3(color.x * t.base_color.x, color.y * t.base_color.y, color.z * t.base_color.z);
+  emissive = real3(emissive.x * t.emissive.x, emissive.y * t.emissive.y, emissive.z * t.emissive.z);
+  alpha *= t.alpha;
+  roughness *= t.roughness, metallic *= t.metallic;
+  occlusion = 1.0f + m->occlusion_strength * (t.occlusion - 1.0f);
 #ifdef NORMAL_MAP
-  const Texels4 n = t.of[SURFACE_NORMAL];
   const real scale = m->normal_scale;
-  KEEP3(surface->mapped,
-        real3((n.c[0] * 2.0f - 1.0f) * scale, (n.c[1] * 2.0f - 1.0f) * scale, n.c[2] * 2.0f - 1.0f));
+  KEEP3(surface->mapped, real3((t.normal.x * 2.0f - 1.0f) * scale, (t.normal.y * 2.0f - 1.0f) * scale,
+                               t.normal.z * 2.0f - 1.0f));
   KEEP(surface->has_map, (mask_t)(m->flags & 1u << SURFACE_NORMAL ? -1 : 0));
 #endif
 #endif

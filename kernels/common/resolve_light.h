@@ -68,9 +68,9 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
                                        s->base_color, s->metallic, s->roughness);
   Real3 sum = own_light(&p, s, l, view);
 #ifdef ALL_LIGHTS
-  for (uint i = 0; i < view->light_count; ++i) sum = with_light(sum, &p, i, &l->lights);
+  for (uint i = 0; i < view->light_count; ++i) sum = with_light(sum, &p, lit, i, &l->lights);
 #else
-  sum = sum_of_list(sum, &p, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);
+  sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);
 #endif
   return real3(s->unlit ? s->base_color.x : sum.x, s->unlit ? s->base_color.y : sum.y,
                s->unlit ? s->base_color.z : sum.z);

@@ -24,6 +24,11 @@ typedef struct Lights {
   global const uint* bins;
 } Lights;
 
+static inline mask_t in_range(Real3 position, PunctualLight light) {
+  const Real3 d = offset_to_light(position, light);
+  return dot3(d, d) * light.position.w < REAL(1.0f);
+}
+
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
   light.position = lights->positions[index];
@@ -60,17 +65,20 @@ static inline PixelBins bins_of_pixels(real depths, mask_t lit, constant float* 
   return bins;
 }
 
-// A light that reaches none of the pixels would add exact zeros.
-static inline Real3 with_light(Real3 sum, const ShadingPoint* p, uint index, const Lights* lights) {
+// A light that reaches none of the lit pixels, or that none of them faces, would add exact zeros. Few of a
+// list's lights reach a given block of pixels, so the cheaper test comes first.
+static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index, const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
+  if (!any_lane(lit & in_range(p->position, light))) return sum;
   const Arrival arrival = arrival_at(p->position, light);
-  return any_lane(arrival.attenuation > REAL(0.0f)) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
+  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(p->normal, arrival.to_light) > REAL(0.0f));
+  return any_lane(lit & reached) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
 }
 
 // In the order of the list: the sum of the GL loop.
 #if defined(Z_BINS) && LANES == 16
 #define STRETCH 64u
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count,
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
                                 PixelBins bins, const Lights* lights) {
   uint met[STRETCH];
   for (uint begin = 0; begin < count; begin += STRETCH) {
@@ -81,29 +89,29 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const i
       met[n] = list[i];
       n += bins_meet(lights->bins[list[i]], bins.first, bins.last) ? 1 : 0;
     }
-    for (uint i = 0; i < n; ++i) sum = with_light(sum, p, met[i], lights);
+    for (uint i = 0; i < n; ++i) sum = with_light(sum, p, lit, met[i], lights);
   }
   return sum;
 }
 #else
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, global const index_t* list, uint count,
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
                                 PixelBins bins, const Lights* lights) {
   for (uint i = 0; i < count; ++i) {
 #ifdef Z_BINS
     if (!bins_meet(lights->bins[list[i]], bins.first, bins.last)) continue;
 #endif
-    sum = with_light(sum, p, list[i], lights);
+    sum = with_light(sum, p, lit, list[i], lights);
   }
   return sum;
 }
 #endif
 
-static inline Real3 light_sum(const ShadingPoint* p, global const index_t* list, uint count, PixelBins bins,
+static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count, PixelBins bins,
                               const Lights* lights, constant ViewParams* view) {
 #ifdef BASE_LIGHTING
   const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
 #else
   const Real3 own = reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
 #endif
-  return sum_of_list(own, p, list, count, bins, lights);
+  return sum_of_list(own, p, lit, list, count, bins, lights);
 }

@@ -112,7 +112,7 @@ static inline TexturePlace place_in_map(global const SurfaceMap* map, TexturePla
   return q;
 }
 
-static inline Footprint footprint_of(global const SurfaceMap* map, TexturePlace place) {
+static inline __attribute__((always_inline)) Footprint footprint_of(global const SurfaceMap* map, TexturePlace place) {
   const TexturePlace p = place_in_map(map, place);
   const float width = (float)map->width, height = (float)map->height;
   const uint flags = map->flags;

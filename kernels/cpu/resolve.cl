@@ -8,6 +8,7 @@
 // image       out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE      pixels a side, a multiple of 8 (default 16)
 // -DORTHOGRAPHIC, and what kernels/common/resolve.h and resolve_light.h name
+#define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/common/image_blocks.h"
 #include "kernels/common/resolve_light.h"
@@ -37,9 +38,10 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
           add_triangle(&a, &scene, one, here, (float)x, (float)y, BLOCK_DX, BLOCK_DY);
         }
         Surface s = {0};
+        const whole material = a.material;
         for (uint left = mask_bits(covered); left != 0;) {
-          const int one = ((const int*)&a.material)[lowest_bit(left)];
-          const mask_t here = covered & (a.material == (int16)(one));
+          const int one = ((const int*)&material)[lowest_bit(left)];
+          const mask_t here = covered & (material == (int16)(one));
           left &= ~mask_bits(here);
           add_material(&s, &a, &scene, (uint)one, here);
         }

@@ -83,7 +83,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
       const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
       const PixelBins bins = bins_of_pixels(depths, lit, bin_edges);
-      const Real3 sum = light_sum(&p, indices + range.x, range.y, bins, &lights, view);
+      const Real3 sum = light_sum(&p, lit, indices + range.x, range.y, bins, &lights, view);
       const real r = lit ? sum.x : REAL(background.x), g = lit ? sum.y : REAL(background.y);
       const real b = lit ? sum.z : REAL(background.z);
       store_half(image + 4 * at, r.lo, g.lo, b.lo, x_end - x);

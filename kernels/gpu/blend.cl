@@ -1,5 +1,6 @@
 // Blended surfaces laid over an image in drawing order, for GPUs: a work-item a pixel, record after record of
 // its tile. As cpu/blend.cl, with the same arguments.
+#define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/common/raster_blocks.h"
 #include "kernels/common/resolve_light.h"

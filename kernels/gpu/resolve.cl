@@ -1,5 +1,6 @@
 // Radiance of every pixel of a visibility buffer, for GPUs: a work-item a pixel. As cpu/resolve.cl, with the
 // same arguments.
+#define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/common/resolve_light.h"
 #include "shared/light_grid.h"

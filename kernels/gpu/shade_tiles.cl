@@ -20,7 +20,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
     const Lights lights = {positions, colors, cones, light_bins};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
-    sum = light_sum(&p, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
+    sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
   }
 #ifdef BASE_LIGHTING
   const float4 under = vload4(at, image);

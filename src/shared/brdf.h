@@ -51,7 +51,7 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   Real3 across = cross3(p.normal, h);
   real specular = specular_lobe(p, n_dot_l, h_squared, max_real(dot3(p.normal, h), REAL(0.0f)), dot3(across, across));
   // v.h = |h| / 2 for unit vectors.
-  real grazing = max_real(1.0f - 0.5f * sqrt_real(h_squared), REAL(0.0f));
+  real grazing = max_real(mad_real(-0.5f, sqrt_real(h_squared), 1.0f), REAL(0.0f));
   real grazing2 = grazing * grazing;
   real grazing5 = grazing2 * grazing2 * grazing;
   // Schlick's Fresnel is linear in f0, so the mix of both specular parts is one term with the mixed f0: f0 +
@@ -59,8 +59,9 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   // 0.96 g) = 0.96 (1 - g); p.diffuse contains the 0.96. Both share the factor 1 - g.
   real facing = n_dot_l * (1.0f - grazing5);
   real rim = n_dot_l * grazing5 * specular;
-  return real3((p.diffuse.x + p.f0.x * specular) * facing + rim, (p.diffuse.y + p.f0.y * specular) * facing + rim,
-               (p.diffuse.z + p.f0.z * specular) * facing + rim);
+  return real3(mad_real(mad_real(p.f0.x, specular, p.diffuse.x), facing, rim),
+               mad_real(mad_real(p.f0.y, specular, p.diffuse.y), facing, rim),
+               mad_real(mad_real(p.f0.z, specular, p.diffuse.z), facing, rim));
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

@@ -28,8 +28,12 @@ SHARED_STRUCT(Arrival) {
   real attenuation;
 };
 
+SHARED_FUNCTION Real3 offset_to_light(Real3 position, PunctualLight light) {
+  return real3(light.position.x - position.x, light.position.y - position.y, light.position.z - position.z);
+}
+
 SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
-  Real3 to_light = real3(light.position.x - position.x, light.position.y - position.y, light.position.z - position.z);
+  Real3 to_light = offset_to_light(position, light);
   real distance_squared = dot3(to_light, to_light);
   real ratio = distance_squared * light.position.w;
   // At the light's own position there is no direction, and nothing is reflected.
@@ -38,7 +42,7 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   arrival.to_light = scale3(to_light, inverse_distance);
   // No branch on the range: beyond it, the result is multiplied by an exact zero. All factors are finite, so
   // it stays 0.
-  real window = max_real(1.0f - ratio * ratio, REAL(0.0f));
+  real window = max_real(mad_real(-ratio, ratio, 1.0f), REAL(0.0f));
   arrival.attenuation = window * min_real(inverse_distance * inverse_distance, REAL(LARGEST_ATTENUATION));
 #ifdef SPOTS
   real along = light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y + light.cone.z * arrival.to_light.z;

@@ -17,11 +17,18 @@ static inline Real3 real3(real x, real y, real z) {
   const Real3 v = {x, y, z};
   return v;
 }
+// a * b + c. With FUSED it is rounded once, and dot and cross products use it too.
+#ifdef FUSED
+#define mad_real(a, b, c) fma(REAL(a), REAL(b), REAL(c))
+static inline real dot3(Real3 a, Real3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+#else
+#define mad_real(a, b, c) ((a) * (b) + (c))
 static inline real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+#endif
 static inline Real3 add3(Real3 a, Real3 b) { return real3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Real3 scale3(Real3 v, real s) { return real3(v.x * s, v.y * s, v.z * s); }
 static inline Real3 cross3(Real3 a, Real3 b) {
-  return real3(a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y);
+  return real3(mad_real(a.y, b.z, -(b.y * a.z)), mad_real(a.z, b.x, -(b.z * a.x)), mad_real(a.x, b.y, -(b.x * a.y)));
 }
 #define max_real lane_max
 #define min_real lane_min
@@ -32,6 +39,7 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #else
 #define SHARED_STRUCT(name) struct name
 #define REAL(x) real(x)
+#define mad_real(a, b, c) ((a) * (b) + (c))
 #if defined(LIGHTGRID_GLSL)
 #define EXACTLY precise  // the compiler may not rearrange the computation of this value
 #define real float
