@@ -24,7 +24,7 @@ int write_to(const fs::path& path, const void* data, size_t size) {
   errno = 0;
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) return errno;
-  const bool written = std::fwrite(data, 1, size, file) == size && std::fflush(file) == 0;
+  const bool written = (size == 0 || std::fwrite(data, 1, size, file) == size) && std::fflush(file) == 0;
   const int failure = written ? 0 : (errno ? errno : EIO);
   const bool closed = std::fclose(file) == 0;
   return failure ? failure : closed ? 0 : (errno ? errno : EIO);

@@ -146,4 +146,8 @@ ClDevice::ClDevice(const cl::Device& device, const cl::Context& context, const c
   }
 }
 
+ClDevice::~ClDevice() {
+  if (queue_()) clFinish(queue_());  // a failure has no one left to tell
+}
+
 }  // namespace lightgrid

@@ -34,6 +34,11 @@ class ClDevice {
   // queue belongs to others or is out of order. Launches are timed only if the queue has profiling enabled.
   ClDevice(const cl::Device& device, const cl::Context& context, const cl::CommandQueue& queue);
 
+  // Waits for what is still in its queue: PoCL ends a program with an error if it leaves while a kernel compiles.
+  ~ClDevice();
+  ClDevice(const ClDevice&) = delete;
+  ClDevice& operator=(const ClDevice&) = delete;
+
   const ClDeviceInfo& info() const { return info_; }
   cl::Device& device() { return device_; }
   cl::Context& context() { return context_; }

@@ -12,6 +12,10 @@ Renderer::Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> c
       bridge(choose_bridge(*cl, *gl)),
       tuned(read_tuned_sizes(cl->info())) {}
 
+Renderer::~Renderer() {
+  if (gl && !programs_.empty()) gl->make_current();
+}
+
 const GlProgram& Renderer::program(const std::string& vertex, const std::string& fragment,
                                    const std::vector<std::string>& defines) {
   std::string key = vertex + " " + fragment;

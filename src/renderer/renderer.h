@@ -28,6 +28,8 @@ class Renderer {
   // With a current context, such as a window's.
   Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> context);
   Renderer(Renderer&&) = default;
+  // Makes its context current, since its programs are deleted there.
+  ~Renderer();
 
   std::unique_ptr<GlContext> gl;
   std::unique_ptr<ClDevice> cl;

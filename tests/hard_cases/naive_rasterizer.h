@@ -79,7 +79,8 @@ class NaiveRasterizer {
     for (int k = 0; k < 3; ++k) {
       p[k] = snapped(corners[k], width, height);
       z[k] = std::min(double(corners[k].z) / corners[k].w, 1.0);
-      if (std::abs(p[k].x) > 1 << 24 || std::abs(p[k].y) > 1 << 24) return;
+      const int64_t most = 1 << 24;
+      if (p[k].x < -most || p[k].x > most || p[k].y < -most || p[k].y > most) return;
     }
     const auto area = [](const SnappedPoint& a, const SnappedPoint& b, const SnappedPoint& c) {
       return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);

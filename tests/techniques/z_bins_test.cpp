@@ -49,12 +49,14 @@ TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
 
 // OpenGL has its own copy, which light code in OpenCL never requests.
 TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
-  setenv("LIGHTGRID_BRIDGE", "staged", 1);
-  Renderer staged = Renderer("", GlBackend::automatic);
-  unsetenv("LIGHTGRID_BRIDGE");
-  const Scene scene = find_builtin_scene("hall")->make();
-  const View view = default_view(scene, 95, 53);
-  for (const char* technique : in_opencl) expect_the_bytes_of_none(scene, view, {.z_bins = 64}, technique, staged);
+  {
+    setenv("LIGHTGRID_BRIDGE", "staged", 1);
+    Renderer staged = Renderer("", GlBackend::automatic);
+    unsetenv("LIGHTGRID_BRIDGE");
+    const Scene scene = find_builtin_scene("hall")->make();
+    const View view = default_view(scene, 95, 53);
+    for (const char* technique : in_opencl) expect_the_bytes_of_none(scene, view, {.z_bins = 64}, technique, staged);
+  }
   test_devices().gl->make_current();
 }
 
