@@ -2,8 +2,7 @@
 // lights, in the order of forward's shader (shaders/forward.frag).
 //
 // -DDIRECTIONAL  there are directional lights
-// -DALL_LIGHTS   every point and spot light, not the cell's list: the same sum, since a list leaves out only
-// zeros -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN  as kernels/common/shade_pixels.h says
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN  as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"
@@ -12,8 +11,9 @@
 // What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
-// directional ones two float4 each; the light grid (shared/light_grid.h), not read with -DALL_LIGHTS; with
-// -DZ_BINS alone z-bins of each light, and the depth keys between them.
+// directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
+// pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth
+// keys between them.
 #define RESOLVE_ARGUMENTS                                                                            \
   global const uint *triangle_instance, global const RasterInstanceRecord *instances,                \
       global const uint *indices, global const float4 *clip, global const SurfaceInstance *surfaces, \
@@ -33,16 +33,15 @@
 typedef struct ResolveLights {
   Lights lights;
   global const float4* directional;  // two each: direction to the light, and illuminance
-  global const index_t* list;
+  global const index_t* list;  // null: all of them
   uint count;
 } ResolveLights;
 
 // The list of a tile's cell.
 static inline void take_list(ResolveLights* l, global const index_t* light_indices, global const uint2* cells,
-                             uint cell) {
-#ifndef ALL_LIGHTS
-  l->list = light_indices + cells[cell].x, l->count = cells[cell].y;
-#endif
+                             uint cell, constant ViewParams* view) {
+  l->list = cells ? light_indices + cells[cell].x : 0;
+  l->count = cells ? cells[cell].y : view->light_count;
 }
 
 static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
@@ -67,11 +66,7 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
   const ShadingPoint p = shading_point(position, direction_to_viewer(position), shading_normal(a, s),
                                        s->base_color, s->metallic, s->roughness);
   Real3 sum = own_light(&p, s, l, view);
-#ifdef ALL_LIGHTS
-  for (uint i = 0; i < view->light_count; ++i) sum = with_light(sum, &p, lit, i, &l->lights);
-#else
   sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);
-#endif
   return real3(s->unlit ? s->base_color.x : sum.x, s->unlit ? s->base_color.y : sum.y,
                s->unlit ? s->base_color.z : sum.z);
 }

@@ -75,7 +75,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   return any_lane(lit & reached) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
 }
 
-// In the order of the list: the sum of the GL loop.
+// In the order of the list: the sum of the GL loop. A list that is null has the first `count` lights.
 #if defined(Z_BINS) && LANES == 16
 #define STRETCH 64u
 static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
@@ -86,8 +86,9 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
     uint n = 0;
     // A loop of its own, without a branch: a branch inside the sum would cost more than the lights that it skips.
     for (uint i = begin; i < end; ++i) {
-      met[n] = list[i];
-      n += bins_meet(lights->bins[list[i]], bins.first, bins.last) ? 1 : 0;
+      const uint index = list ? list[i] : i;
+      met[n] = index;
+      n += !list || bins_meet(lights->bins[index], bins.first, bins.last) ? 1 : 0;
     }
     for (uint i = 0; i < n; ++i) sum = with_light(sum, p, lit, met[i], lights);
   }
@@ -97,10 +98,11 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
 static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
                                 PixelBins bins, const Lights* lights) {
   for (uint i = 0; i < count; ++i) {
+    const uint index = list ? list[i] : i;
 #ifdef Z_BINS
-    if (!bins_meet(lights->bins[list[i]], bins.first, bins.last)) continue;
+    if (list && !bins_meet(lights->bins[index], bins.first, bins.last)) continue;
 #endif
-    sum = with_light(sum, p, lit, list[i], lights);
+    sum = with_light(sum, p, lit, index, lights);
   }
   return sum;
 }

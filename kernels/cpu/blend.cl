@@ -56,7 +56,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
         add_material(&s, &a, &scene, scene.surfaces[r.instance].material, shown);
         shown &= s.alpha != REAL(0.0f);  // shows nothing; infinite radiance times 0 would be NaN
         if (!any_lane(shown)) continue;
-        take_list(&lights, light_indices, cells, y / TILE * view->tiles_x + x / TILE);
+        take_list(&lights, light_indices, cells, y / TILE * view->tiles_x + x / TILE, view);
         const Real3 color = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
                                      shown, &lights, bin_edges, view);
         blend_block(image, color, s.alpha, shown, x, y, width);

@@ -22,7 +22,7 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
-  take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x);
+  take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
   const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
   for (uint y = tile_y * TILE; y < y_end; y += 4) {
     for (uint x = tile_x * TILE; x < x_end; x += 4) {

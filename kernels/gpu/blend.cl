@@ -17,7 +17,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
   const float opaque = depths[at];
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
-  take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x));
+  take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
   float4 under = vload4(at, image);
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
     const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);

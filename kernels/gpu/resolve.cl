@@ -15,7 +15,7 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
   if (triangle != SURFACE_NONE) {
     const ResolveScene scene = RESOLVE_SCENE;
     ResolveLights lights = RESOLVE_LIGHTS;
-    take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x));
+    take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
     Attributes a = {0};
     Surface s = {0};
     add_triangle(&a, &scene, triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)(x & 3u),

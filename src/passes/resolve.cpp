@@ -32,11 +32,9 @@ class Resolving : public PassState {
   size_t memory_bytes() const override { return image.size() + lights.memory_bytes() + scene_bytes_; }
 
   // "resolve" or "blend", built at first use.
-  cl::Kernel& kernel(RenderView& v, const char* stem, bool grid) {
-    cl::Kernel& kernel = kernels_[{stem, grid}];
-    if (!kernel())
-      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem),
-                                          defines_ + (grid ? "" : " -DALL_LIGHTS"));
+  cl::Kernel& kernel(RenderView& v, const char* stem) {
+    cl::Kernel& kernel = kernels_[stem];
+    if (!kernel()) kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_);
     return kernel;
   }
 
@@ -80,7 +78,7 @@ class Resolving : public PassState {
   }
 
   std::string defines_;
-  std::map<std::pair<std::string, bool>, cl::Kernel> kernels_;  // by stem, and whether there is a grid
+  std::map<std::string, cl::Kernel> kernels_;  // by stem
   size_t scene_bytes_ = 0;
 };
 
@@ -99,7 +97,7 @@ size_t grid_bytes(const GridInCl& in) {
 
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
-  cl::Kernel& kernel = r.kernel(v, "resolve", lights.grid);
+  cl::Kernel& kernel = r.kernel(v, "resolve");
   const glm::vec3& background = v.scene.background;
   auto pass = v.timer.pass("resolve", "cl");
   std::apply(
@@ -118,7 +116,7 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
                     const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
-  cl::Kernel& kernel = r.kernel(v, "blend", lights.grid);
+  cl::Kernel& kernel = r.kernel(v, "blend");
   auto pass = v.timer.pass("blend_resolved", "cl");
   std::apply(
       [&](const auto&... shared) {

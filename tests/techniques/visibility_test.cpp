@@ -22,8 +22,10 @@ TEST(VisibilityBuffer, ListsAndEveryLightHaveTheSameBytes) {
     const Scene scene = builtin.make();
     const View view = default_view(scene, 95, 53);
     const Image all = render(scene, view, "visibility", {.lights = ShadedLights::all});
-    for (const Settings& settings : {Settings{}, Settings{.tile = 8}, Settings{.z_bins = 64},
-                                     Settings{.depth_bounds = DepthBoundsMode::none}}) {
+    EXPECT_TRUE(identical(render(scene, view, "visibility"), all));
+    if (builtin.name != std::string("hall")) continue;  // with every effect; each setting is a kernel to compile
+    for (const Settings& settings :
+         {Settings{.tile = 8}, Settings{.z_bins = 64}, Settings{.depth_bounds = DepthBoundsMode::none}}) {
       EXPECT_TRUE(identical(render(scene, view, "visibility", settings), all));
     }
   }
