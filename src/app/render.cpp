@@ -26,6 +26,7 @@ std::filesystem::path numbered(const std::filesystem::path& path, size_t number)
 }
 
 int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const std::vector<View>& path, const SceneMotion& advance) {
+  run.prepare();
   for (size_t i = 0; i < path.size(); ++i) {
     const SceneChanges changes = advance ? advance(i) : SceneChanges();
     gpu.update(changes);

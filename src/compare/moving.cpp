@@ -99,6 +99,8 @@ void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& refere
     if (runs[i]) paths.push_back(Path{.run = runs[i], .row = &rows[i]});
   }
   const bool reference_runs = std::ranges::find(runs, &reference) == runs.end();
+  if (reference_runs) reference.prepare();
+  for (Path& p : paths) p.run->prepare();
   for (size_t frame = 0; frame < path.size(); ++frame) {
     if (progress) progress(double(frame) / double(path.size()));
     const SceneChanges changes = moving.advance ? moving.advance(frame) : SceneChanges();

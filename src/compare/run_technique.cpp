@@ -17,6 +17,11 @@ TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& v
       own_scene_(std::make_unique<GpuScene>(renderer, scene)),
       view_(renderer, *own_scene_, view, settings, technique.needs) {}
 
+void TechniqueRun::prepare() {
+  view_.prepare([&] { draw_frame(); });
+  frame_ = {};
+}
+
 void TechniqueRun::draw_frame() {
   reset_gl_state();
   frame_ = technique_.render(view_);

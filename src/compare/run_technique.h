@@ -19,6 +19,8 @@ class TechniqueRun {
   // With its own GPU scene.
   TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings, const Technique& technique);
 
+  // Builds what frames of other views of the scene need: before a camera moves (RenderView::prepare).
+  void prepare();
   // Another camera or size, for the frames that follow.
   void look(const View& view) { view_.look(view); }
   // The same after the scene changed; its GpuScene is already updated.

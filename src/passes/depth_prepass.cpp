@@ -5,6 +5,13 @@
 
 namespace lightgrid {
 
+// Alpha masks read more than positions.
+static uint32_t features_of_depth(uint32_t features) {
+  constexpr uint32_t read_by_masks = feature_textured | feature_uv1 | feature_uv_transform | feature_vertex_color |
+                                     feature_base_color_map | feature_mask;
+  return features & feature_mask ? features & read_by_masks : 0;
+}
+
 DepthImage depth_prepass(RenderView& v) {
   auto pass = v.timer.pass("depth_prepass", "gl");
   const GLuint framebuffer = v.depth_framebuffer();
@@ -20,11 +27,8 @@ DepthImage depth_prepass(RenderView& v) {
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &nothing);
 
-  // Alpha masks read more than positions.
-  constexpr uint32_t read_by_masks = feature_textured | feature_uv1 | feature_uv_transform | feature_vertex_color |
-                                     feature_base_color_map | feature_mask;
-  draw_list(v, v.opaque, DrawStreams::positions_where_possible, v.programs("shaders/depth.vert", "shaders/depth.frag", {}),
-            [](uint32_t features) { return features & feature_mask ? features & read_by_masks : 0; });
+  draw_list(v, v.opaque, DrawStreams::positions_where_possible,
+            v.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
   pass.moves(v.gpu.geometry_bytes(), v.pixels() * 4);
   return {framebuffer};
 }

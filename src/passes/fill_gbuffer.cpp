@@ -29,7 +29,7 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
   if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
   if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
   source.bind(v);
-  draw_list(v, surfaces, DrawStreams::all, v.programs("shaders/scene.vert", "shaders/gbuffer.frag", source.defines));
+  draw_list(v, surfaces, DrawStreams::all, v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));
 }
 
 }  // namespace

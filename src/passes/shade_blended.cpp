@@ -22,7 +22,7 @@ void blend(RenderView& v, const ShadedImage& image, const LightSource& lights, c
   lights.bind(v);
   std::vector<std::string> defines = lights.defines;
   defines.emplace_back("BLEND");
-  draw(v.programs("shaders/scene.vert", "shaders/forward.frag", std::move(defines)));
+  draw(v.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines), true}));
   glDisable(GL_BLEND);
   pass.moves(v.gpu.geometry_bytes() + v.pixels() * 20, v.pixels() * 16);
 }

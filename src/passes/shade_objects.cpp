@@ -27,7 +27,7 @@ struct ObjectPrograms {
   static ScenePrograms& of(RenderView& v, const LightSource& source, const char* define) {
     std::vector<std::string> defines = source.defines;
     defines.emplace_back(define);
-    return v.programs("shaders/scene.vert", "shaders/forward.frag", std::move(defines));
+    return v.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines)});
   }
   ObjectPrograms(RenderView& v, const LightSource& source)
       : base(of(v, base_lighting(v), "FIRST_OF_DRAWS")),
@@ -116,7 +116,7 @@ ListedLights listed_of_objects(RenderView& v) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     InstanceDrawer drawer(v, DrawStreams::all);
-    const SceneProgram& program = v.programs("shaders/scene.vert", "shaders/object.frag", {}).of(0);
+    const SceneProgram& program = v.programs({"shaders/scene.vert", "shaders/object.frag", {}}).of(0);
     for (size_t i = 0; i < objects.objects().size(); ++i) {
       const ObjectLights::Object& object = objects.objects()[i];
       drawer.bind(object.instance, program);

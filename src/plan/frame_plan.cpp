@@ -44,6 +44,11 @@ bool shows_base_lighting(const Scene& scene, int instance) {
   return material.unlit || material.emissive != glm::vec3(0) || material.occlusion_map.texture >= 0;
 }
 
+bool is_plain(const Scene& scene, int instance) {
+  const Material& material = scene.materials[scene.meshes[scene.instances[instance].mesh].material];
+  return material.alpha_mode == AlphaMode::opaque && !shows_base_lighting(scene, instance);
+}
+
 // After surfaces and lights.
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
   const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(), [&](int i) { return shows_base_lighting(scene, i); });
@@ -55,8 +60,12 @@ void plan_base_lighting(const Scene& scene, FramePlan& plan) {
 }
 
 // Collects what the instances in view need, each need with its first witness.
-void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
+void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
+  const auto planned = [&](int i, const glm::dmat4& to_view) {
+    if (instances == PlannedInstances::in_view) return may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds);
+    return instances == PlannedInstances::every || is_plain(scene, i);
+  };
   plan.features_of_instance.assign(scene.instances.size(), 0);
   int first_with[std::size(feature_names)];
   std::fill(std::begin(first_with), std::end(first_with), -1);
@@ -64,7 +73,7 @@ void plan_surfaces(const Scene& scene, const View& view, FramePlan& plan) {
   for (int i = 0; i < int(scene.instances.size()); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     const glm::dmat4 to_view = view_from_object(view, scene.instances[i].world_from_object);
-    if (mesh.indices.empty() || !may_see_box(frustum, to_view, mesh.bounds)) continue;
+    if (mesh.indices.empty() || !planned(i, to_view)) continue;
     const uint32_t features = material_features(scene, mesh);
     plan.features_of_instance[i] = features;
     plan.features |= features;
@@ -183,13 +192,14 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   return features;
 }
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs) {
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
+                     PlannedInstances instances) {
   FramePlan plan;
   plan.settings = settings;
   plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil || (needs.light_volumes && settings.volume_culling == VolumeCulling::stencil);
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
-  plan_surfaces(scene, view, plan);
+  plan_surfaces(scene, view, instances, plan);
   plan_lights(scene, view, plan);
   plan_base_lighting(scene, plan);
   plan.light_grid = reads_light_grid(needs, settings) && plan.local_lights;

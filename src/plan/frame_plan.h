@@ -82,7 +82,12 @@ struct FramePlan {
   std::vector<Decision> decisions;
 };
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs);
+// The instances that a plan is for. The last two serve to build in advance what other views of the scene need
+// (RenderView::prepare): all instances, and those alone that are opaque, unmasked and show no base lighting.
+enum class PlannedInstances { in_view, every, plain };
+
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
+                     PlannedInstances instances = PlannedInstances::in_view);
 
 // The plan as `lightgrid plan` prints it.
 std::string describe(const FramePlan& plan, const Scene& scene);

@@ -44,12 +44,10 @@ void InstanceDrawer::draw(const IndexRanges& ranges) {
   }
 }
 
-void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs,
-               const std::function<uint32_t(uint32_t features)>& features_read) {
+void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs) {
   InstanceDrawer drawer(v, streams);
   for (const DrawItem& item : list) {
-    const uint32_t features = v.plan.features_of_instance[item.instance];
-    drawer.bind(item.instance, programs.of(features_read ? features_read(features) : features));
+    drawer.bind(item.instance, programs.of(v.plan.features_of_instance[item.instance]));
     drawer.draw(item.ranges);
   }
 }

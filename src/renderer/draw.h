@@ -1,8 +1,6 @@
 // Drawing of draw lists.
 #pragma once
 
-#include <functional>
-
 #include "renderer/render_view.h"
 
 namespace lightgrid {
@@ -27,10 +25,8 @@ class InstanceDrawer {
   GLsizei unflushed_indices_ = 0;
 };
 
-// Draws a list with a program for each instance's features. `features_read`: the features that select
-// variants.
-void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs,
-               const std::function<uint32_t(uint32_t features)>& features_read = nullptr);
+// Draws a list with a program for each instance's features.
+void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs);
 
 // A triangle that covers the image (shaders/screen.vert).
 void draw_screen(const GlProgram& program);

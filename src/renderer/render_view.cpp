@@ -1,5 +1,7 @@
 #include "renderer/render_view.h"
 
+#include <fmt/format.h>
+
 #include "cl/transfer.h"
 #include "plan/settings.h"
 
@@ -17,8 +19,8 @@ PassTimer::Wait wait_for(Renderer& renderer) {
 }
 
 FramePlan tuned_plan(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
-                     const TunedSizes& tuned) {
-  FramePlan plan = plan_frame(scene, view, settings, needs);
+                     const TunedSizes& tuned, PlannedInstances instances = PlannedInstances::in_view) {
+  FramePlan plan = plan_frame(scene, view, settings, needs, instances);
   plan.settings = with_tuned(std::move(plan.settings), tuned);
   return plan;
 }
@@ -57,12 +59,14 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
   make_draw_lists();
 }
 
-void RenderView::look(const View& next) {
+void RenderView::look(const View& next) { look(next, PlannedInstances::in_view); }
+
+void RenderView::look(const View& next, PlannedInstances instances) {
   const bool resized = next.width != view.width || next.height != view.height;
   const FramePlan before = std::move(plan);
   if (next.orthographic != view.orthographic) programs_.clear();
   view = next;
-  plan = tuned_plan(scene, view, settings_, needs_, renderer.tuned);
+  plan = tuned_plan(scene, view, settings_, needs_, renderer.tuned, instances);
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
@@ -75,6 +79,25 @@ void RenderView::look(const View& next) {
   follow_plan(before);
 }
 
+void RenderView::prepare(const std::function<void()>& draw) {
+  const View here = view;
+  preparing_ = true;
+  try {
+    for (const PlannedInstances instances : {PlannedInstances::every, PlannedInstances::plain}) {
+      look(here, instances);
+      draw();
+    }
+  } catch (...) {
+    preparing_ = false;
+    throw;
+  }
+  preparing_ = false;
+  states_.clear();
+  culler_.reset();
+  for (auto& grid : grids_) grid.reset();
+  look(here);
+}
+
 void RenderView::lights_changed() {
   if (culler_ && plan.light_grid) culler_->set_lights(cull_lights_of(scene, plan.local));
 }
@@ -83,6 +106,10 @@ void RenderView::make_draw_lists() {
   transforms.resize(scene.instances.size());
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
+  }
+  if (preparing_) {
+    opaque.clear(), blended.clear();
+    return;
   }
   opaque = make_draw_list(gpu, view, plan.opaque, transforms, plan.slice_far_m, DrawOrder::front_to_back);
   blended = make_draw_list(gpu, view, plan.blended, transforms, plan.slice_far_m, DrawOrder::as_given);
@@ -105,12 +132,18 @@ std::vector<std::string> RenderView::view_defines(std::vector<std::string> defin
   return defines;
 }
 
-ScenePrograms& RenderView::programs(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
-  std::string key = vertex + " " + fragment;
-  for (const std::string& name : defines) key += " " + name;
-  const auto found = programs_.find(key);
-  if (found != programs_.end()) return found->second;
-  return programs_.try_emplace(key, renderer, vertex, fragment, view_defines(std::move(defines))).first->second;
+ScenePrograms& RenderView::programs(SurfaceShaders shaders) {
+  std::string key = fmt::format("{} {}", shaders.vertex, shaders.fragment);
+  for (const std::string& name : shaders.defines) key += " " + name;
+  auto found = programs_.find(key);
+  if (found == programs_.end()) {
+    shaders.defines = view_defines(std::move(shaders.defines));
+    found = programs_.try_emplace(key, renderer, shaders).first;
+  }
+  if (preparing_) {
+    for (const int i : shaders.blended ? plan.blended : plan.opaque) found->second.of(plan.features_of_instance[i]);
+  }
+  return found->second;
 }
 
 const GlProgram& RenderView::program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {

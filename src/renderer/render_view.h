@@ -3,6 +3,7 @@
 // uploaded again.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -42,6 +43,11 @@ struct RenderView {
   // Another camera, another size, or other instances and lights in the scene. Targets are kept unless the
   // size changes.
   void look(const View& view);
+  // Builds the programs and kernels that frames of any other view of this scene need, so that a camera that
+  // moves builds none. `draw` draws the technique's frame: it is called with plans for all of the scene's
+  // instances and for the plain ones, and without surfaces to draw. Buffers and states are then created anew.
+  // After an exception of `draw` the view draws nothing until the next look().
+  void prepare(const std::function<void()>& draw);
   // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
 
@@ -58,7 +64,7 @@ struct RenderView {
   DrawList opaque, blended;                   // nearest first; back to front
 
   // The programs of a pass over the scene's surfaces, by material features. All of them get `defines`.
-  ScenePrograms& programs(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
+  ScenePrograms& programs(SurfaceShaders shaders);
   // One program for draws without a material.
   const GlProgram& program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
 
@@ -89,12 +95,14 @@ struct RenderView {
   size_t memory_bytes() const;  // of this view's targets and buffers, and the scene's
 
  private:
+  void look(const View& view, PlannedInstances instances);
   void make_draw_lists();
   void follow_plan(const FramePlan& before);
   std::vector<std::string> view_defines(std::vector<std::string> defines) const;
 
   Settings settings_;
   TechniqueNeeds needs_;
+  bool preparing_ = false;
   std::shared_ptr<TargetPool> shared_pool_;  // null: own images
   std::map<std::string, ScenePrograms> programs_;
   std::optional<SharedBuffer> depth_copy_;

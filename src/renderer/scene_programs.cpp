@@ -13,16 +13,15 @@ SceneProgram::SceneProgram(const GlProgram& program)
       alpha(program.uniform("alpha")),
       object(program.uniform("object")) {}
 
-ScenePrograms::ScenePrograms(Renderer& renderer, std::string vertex, std::string fragment, std::vector<std::string> defines)
-    : renderer_(renderer), vertex_(std::move(vertex)), fragment_(std::move(fragment)), defines_(std::move(defines)) {}
-
 const SceneProgram& ScenePrograms::of(uint32_t features) {
+  if (shaders_.features_read) features = shaders_.features_read(features);
   for (const auto& [known, program] : variants_) {
     if (known == features) return *program;
   }
   std::vector<std::string> defines = defines_of(features);
-  defines.insert(defines.end(), defines_.begin(), defines_.end());
-  variants_.emplace_back(features, std::make_unique<SceneProgram>(renderer_.program(vertex_, fragment_, defines)));
+  defines.insert(defines.end(), shaders_.defines.begin(), shaders_.defines.end());
+  const GlProgram& program = renderer_.program(shaders_.vertex, shaders_.fragment, defines);
+  variants_.emplace_back(features, std::make_unique<SceneProgram>(program));
   return *variants_.back().second;
 }
 

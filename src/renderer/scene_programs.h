@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,18 +20,24 @@ struct SceneProgram {
   GLint lights_of_draw, alpha, object;  // shaders/lights/object.glsl, forward.frag, object.frag
 };
 
+// The shaders of a pass over a scene's surfaces.
+struct SurfaceShaders {
+  const char *vertex, *fragment;     // embedded files
+  std::vector<std::string> defines;  // of all variants, after those of the features
+  bool blended = false;              // the pass draws blended surfaces; else opaque and masked ones
+  uint32_t (*features_read)(uint32_t features) = nullptr;  // that select variants; null: all
+};
+
 class ScenePrograms {
  public:
-  // Embedded shader files. `defines` apply to all variants and follow those of the features.
-  ScenePrograms(Renderer& renderer, std::string vertex, std::string fragment, std::vector<std::string> defines);
+  ScenePrograms(Renderer& renderer, SurfaceShaders shaders) : renderer_(renderer), shaders_(std::move(shaders)) {}
 
-  // The program for these features, compiled at first use. The reference stays valid.
+  // The program for a surface with these features, compiled at first use. The reference stays valid.
   const SceneProgram& of(uint32_t features);
 
  private:
   Renderer& renderer_;
-  std::string vertex_, fragment_;
-  std::vector<std::string> defines_;
+  SurfaceShaders shaders_;
   std::vector<std::pair<uint32_t, std::unique_ptr<SceneProgram>>> variants_;
 };
 

@@ -14,8 +14,10 @@ bool Side::choose(const SideControls& wanted, const View& view) {
   problem_.clear();
   stale_ = true;
   try {
-    run_ = std::make_unique<TechniqueRun>(renderer_, gpu_, view, wanted.settings,
-                                          find_technique(wanted.technique));
+    auto run = std::make_unique<TechniqueRun>(renderer_, gpu_, view, wanted.settings,
+                                              find_technique(wanted.technique));
+    run->prepare();
+    run_ = std::move(run);
   } catch (const Error& error) {
     if (!run_) throw;
     problem_ = error.what();

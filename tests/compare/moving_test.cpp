@@ -1,6 +1,8 @@
 // Techniques along a camera path: same pictures as at rest, no work twice, and flicker is detected.
 #include "compare/moving.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "scene/builtin.h"
@@ -61,6 +63,34 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
     EXPECT_LT(row.moving->max_rel, 1e-5) << row.technique;
     EXPECT_LT(row.moving->temporal_max_rel, 2e-5) << row.technique;
   }
+}
+
+// Emissive, blended and masked surfaces enter and leave the view. What they need was built before the camera moved.
+TEST(Moving, BuildsNothingForWhatEntersTheView) {
+  Scene scene = find_builtin_scene("hall")->make();
+  scene.lights.resize(12);
+  const View start = make_view(choose_camera(scene, ""), 48, 27);
+  const auto effects_in = [&](const View& view) {
+    const FramePlan plan = plan_frame(scene, view, {}, find_technique("deferred_tiled").needs);
+    return plan.blend + plan.base_lighting + plan.mask;
+  };
+  const std::vector<View> around = camera_path(scene, start, "turn:12");
+  const auto [fewest, most] = std::ranges::minmax_element(around, {}, effects_in);
+  ASSERT_LT(effects_in(*fewest), effects_in(*most));
+  const std::vector<View> path = {*fewest, *fewest, *most};
+  {
+    Renderer devices("", GlBackend::automatic);  // with no program of another test
+    GpuScene gpu(devices, scene);
+    for (const Technique* technique : techniques()) {
+      TechniqueRun run(devices, gpu, start, {}, *technique);
+      std::vector<RunResult> rows(1);
+      run_along_path({&run}, run, {gpu, path, {}}, rows, nullptr);
+      EXPECT_EQ(rows[0].moving->gl_programs, 0) << technique->name;
+      EXPECT_EQ(rows[0].moving->cl_programs, 0) << technique->name;
+      EXPECT_EQ(rows[0].moving->scene_bytes, 0u) << technique->name;
+    }
+  }
+  software_devices().gl->make_current();  // for the tests that follow
 }
 
 // The report has taken the runs' images by then: each frame of the path must bring new ones.

@@ -57,6 +57,27 @@ TEST(FramePlan, EachEffectComesWithItsWitness) {
   }
 }
 
+// What other views of the scene need, whatever this one sees.
+TEST(FramePlan, OfEveryInstanceAndOfPlainOnes) {
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "mask", "emissive_map"}) {
+    for (const Effect& effect : effects()) {
+      if (effect.name == name) effect.add(s);
+    }
+  }
+  for (Instance& instance : s.scene.instances) instance.world_from_object = placed({0, 0, 30});
+  const auto plan = [&](PlannedInstances instances) {
+    return plan_frame(s.scene, small_view(320, 180), {}, with_grid, instances);
+  };
+  EXPECT_TRUE(plan(PlannedInstances::in_view).opaque.empty());
+  const FramePlan every = plan(PlannedInstances::every), some = plan(PlannedInstances::plain);
+  EXPECT_EQ(every.opaque, (std::vector<int>{0, 1}));
+  EXPECT_EQ(every.blended, std::vector<int>{2});
+  EXPECT_EQ(some.opaque, std::vector<int>{1});
+  EXPECT_TRUE(every.blend && every.blend_grid && every.mask && every.base_lighting);
+  EXPECT_FALSE(some.blend || some.blend_grid || some.mask || some.base_lighting);
+}
+
 // All effects added one after the other: none removes what another requires.
 TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   SmallScene s = small_scene();

@@ -33,8 +33,9 @@ std::vector<uint32_t> shaded_cells(RenderView& v) {
   return indices_drawn(v, [&] {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
-    draw_list(v, v.opaque, DrawStreams::all, v.programs("shaders/scene.vert", "shaders/cells.frag", slice_defines(v)),
-              [](uint32_t) { return 0u; });
+    const auto no_features = [](uint32_t) { return 0u; };
+    draw_list(v, v.opaque, DrawStreams::all,
+              v.programs({"shaders/scene.vert", "shaders/cells.frag", slice_defines(v), false, no_features}));
   });
 }
 

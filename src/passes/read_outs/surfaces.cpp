@@ -43,7 +43,7 @@ struct SurfaceTargets {
 SurfaceImages read_surfaces(RenderView& v) {
   SurfaceTargets targets(v);
   glEnable(GL_DEPTH_TEST);
-  ScenePrograms& programs = v.programs("shaders/scene.vert", "shaders/surfaces.frag", {});
+  ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", {}});
   glDepthFunc(GL_EQUAL);
   draw_list(v, v.opaque, DrawStreams::all, programs);
   SurfaceImages surfaces{targets.read(0), targets.read(1), targets.read(2), {}};
