@@ -1,6 +1,7 @@
 #include "passes/rasterize.h"
 
 #include "cl/uploaded_buffer.h"
+#include "renderer/shown_meshes.h"
 #include "renderer/surface_instances.h"
 
 namespace lightgrid {
@@ -45,9 +46,7 @@ class InstanceRasterizer {
 
  private:
   void set_meshes(RenderView& v) {
-    std::vector<bool> shown(v.scene.meshes.size(), false);
-    for (const Instance& instance : v.scene.instances)
-      shown[instance.mesh] = !v.scene.meshes[instance.mesh].indices.empty();
+    const std::vector<bool> shown = shown_meshes(v.scene);
     std::vector<RasterMesh> meshes;
     for (size_t i = 0; i < shown.size(); ++i) {
       const Mesh& mesh = v.scene.meshes[i];

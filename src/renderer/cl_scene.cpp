@@ -3,6 +3,7 @@
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "plan/frame_plan.h"
+#include "renderer/shown_meshes.h"
 #include "renderer/surface_texels.h"
 
 namespace lightgrid {
@@ -37,10 +38,8 @@ cl::Buffer filled_buffer(ClDevice& device, const char* what, const std::vector<T
 
 }  // namespace
 
-ClScene::ClScene(ClDevice& device, const Scene& scene, TexelLayout layout) : device_(device), scene_(scene) {
-  shown_.assign(scene.meshes.size(), false);
-  for (const Instance& instance : scene.instances)
-    shown_[instance.mesh] = !scene.meshes[instance.mesh].indices.empty();
+ClScene::ClScene(ClDevice& device, const Scene& scene, TexelLayout layout)
+    : device_(device), scene_(scene), shown_(shown_meshes(scene)) {
   std::vector<bool> used_materials(scene.materials.size(), false);
   size_t vertices = 0;
   for (size_t i = 0; i < scene.meshes.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "plan/frame_plan.h"
 #include "renderer/clusters.h"
+#include "renderer/shown_meshes.h"
 #include "scene/rig.h"
 
 namespace lightgrid {
@@ -93,8 +94,7 @@ void append_reversed_triangles(std::vector<uint32_t>& indices) {
 }  // namespace
 
 GpuScene::GpuScene(const Renderer& renderer, const Scene& scene) : renderer_(renderer), scene_(scene) {
-  std::vector<bool> used(scene.meshes.size(), false);
-  for (const Instance& instance : scene.instances) used[instance.mesh] = !scene.meshes[instance.mesh].indices.empty();
+  const std::vector<bool> used = shown_meshes(scene);
   upload_meshes(used);
   upload_materials(used);
   renderer.note_scene_bytes(geometry_bytes_ + texture_bytes_);
