@@ -21,10 +21,9 @@ struct CaptureOptions {
 };
 
 // Writes one frame into `folder` and returns its summary as JSON.
-std::string capture_into(const std::string& folder, Renderer& devices, const Scene& scene, const View& view, const Settings& settings,
+std::string capture_into(const std::string& folder, Renderer& devices, const CapturedFrame& frame, const Settings& settings,
                          const CaptureOptions& o) {
   make_folder(folder);
-  const CapturedFrame frame = capture_frame(devices, scene, view, settings);
   FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, grid_needs(o.technique, settings));
   culler.run();
   const FrameGrid grid = culler.grid();
@@ -37,11 +36,12 @@ std::string capture_into(const std::string& folder, Renderer& devices, const Sce
 // A folder for each view of the camera path, numbered: frames for `bench --replay`.
 std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene& scene, const Settings& settings, const CaptureOptions& o) {
   const SceneMotion advance = chosen_motion(scene, o.scene);
+  SceneCapture capture(devices, scene, path.front(), settings);
   std::string summaries;
   for (size_t i = 0; i < path.size(); ++i) {
-    if (advance) advance(i);
+    const SceneChanges changes = advance ? advance(i) : SceneChanges();
     const std::string folder = (std::filesystem::path(o.output) / fmt::format("{:04}", i)).string();
-    summaries += (i ? ",\n" : "") + capture_into(folder, devices, scene, path[i], settings, o);
+    summaries += (i ? ",\n" : "") + capture_into(folder, devices, capture.frame(path[i], changes), settings, o);
   }
   return "[" + summaries + "]";
 }
@@ -55,8 +55,9 @@ int capture(const CaptureOptions& o) {
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   make_folder(o.output);
   Renderer devices(o.devices.device, backend);
-  const std::string summary = path.empty() ? capture_into(o.output, devices, chosen.scene, chosen.view, settings, o)
-                                           : capture_path(path, devices, chosen.scene, settings, o);
+  const std::string summary =
+      path.empty() ? capture_into(o.output, devices, capture_frame(devices, chosen.scene, chosen.view, settings), settings, o)
+                   : capture_path(path, devices, chosen.scene, settings, o);
   if (!o.json.empty()) write_json(o.json, summary);
   return 0;
 }

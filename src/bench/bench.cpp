@@ -48,8 +48,8 @@ KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
 
 // Directional lights are in no list.
 CapturedFrame frame_of(const BenchCase& c) {
-  if (c.folder.empty()) return make_standard_frame(c.recipe);
-  CapturedFrame frame = read_frame(c.folder);
+  if (!c.captured) return make_standard_frame(c.recipe);
+  CapturedFrame frame = c.captured();
   frame.lights = local_world_lights(frame);
   return frame;
 }
@@ -63,7 +63,7 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   std::vector<BenchContestant> contestants = options.contestants;
   for (BenchContestant& contestant : contestants) {
     if (c.tile) contestant.settings.tile = c.tile;
-    if (!c.folder.empty() && options.own_tile) contestant.settings.tile = frame.tile;
+    if (c.captured && options.own_tile) contestant.settings.tile = frame.tile;
     runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, contestant.settings));
     in_turn.push_back(runs.back().get());
   }

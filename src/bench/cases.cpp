@@ -15,7 +15,7 @@ std::vector<BenchCase> standard_cases() {
     cases.push_back({fmt::format("lights-{}", lights), {.lights = lights, .mean_listed = lights < 1'000'000 ? 32.0 : 10.0}});
   }
   for (const int tile : {8, 16, 32, 64}) {
-    cases.push_back({fmt::format("tile-{}", tile), {.lights = 4096}, "", tile});
+    cases.push_back({fmt::format("tile-{}", tile), {.lights = 4096}, {}, tile});
   }
   constexpr int sizes[][2] = {{640, 360}, {1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {7680, 4320}};
   for (const auto& [width, height] : sizes) {

@@ -1,6 +1,7 @@
 // The default cases of `lightgrid bench`.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@ struct BenchCase {
   std::string name;  // "floor-4096", "lights-100", "tile-8", "size-3840x2160"; of a captured frame: its
                      // folder's name
   FrameRecipe recipe;
-  std::string folder;  // a captured frame instead of the recipe
-  int tile = 0;        // the case's own tile size; 0: from the settings
+  std::function<CapturedFrame()> captured{};  // called when the case runs; empty: the recipe
+  int tile = 0;                               // the case's own tile size; 0: from the settings
 };
 
 // The standard frames, then scaling in lights, tile size and resolution.

@@ -1,4 +1,4 @@
-// Captures a frame from a scene: the depth of the prepass, lights and view.
+// Captures frames from a scene: the depth of the prepass, lights and view.
 #pragma once
 
 #include "capture/frame_file.h"
@@ -6,7 +6,20 @@
 
 namespace lightgrid {
 
-// Draws the depth prepass. settings.tile becomes the frame's tile size.
+// Frames of one scene, which is uploaded once.
+class SceneCapture {
+ public:
+  // `view`: any view of the scene. settings.tile becomes the frames' tile size. The renderer and the scene outlive it.
+  SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings);
+  // Draws the depth prepass. `changes`: of the scene since the last frame.
+  CapturedFrame frame(const View& view, const SceneChanges& changes = {});
+
+ private:
+  GpuScene gpu_;
+  RenderView view_;
+};
+
+// A single one.
 CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings);
 
 }  // namespace lightgrid

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
+
+#include <fmt/format.h>
 
 #include "support/read_files.h"
 #include "support/run_program.h"
@@ -159,6 +162,41 @@ TEST(BenchCommand, ListsPerSliceWhatTheCullCommandLists) {
     more.insert(more.end(), set.begin(), set.end());
     EXPECT_EQ(rows_named(bench_of_small_frame(more), "pipeline").at(0)["params"]["indices"], listed) << set.back();
   }
+}
+
+// A case a frame, each the same frame that `capture` writes.
+TEST(BenchCommand, TimesTheFramesOfACameraPath) {
+  const TempFolder folder;
+  const std::vector<std::string> scene = {"spheres", "--camera-path", "dolly:3", "--size", "160x90", "--lights", "40"};
+  const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(words);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  run({"capture", "-o", folder.path / "frames"}, scene);
+  std::vector<std::string> bench = {"bench", "--filter", "/pipeline$", "--frames", "1", "--warmup", "0", "--json", "-"};
+  const auto rows = rows_named(nlohmann::json::parse(run(bench, scene)), "pipeline");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const char* number : {"0000", "0001", "0002"}) bench.insert(bench.end(), {"--replay", folder.path / "frames" / number});
+  const auto replayed = rows_named(nlohmann::json::parse(run(bench, {})), "pipeline");
+  ASSERT_EQ(replayed.size(), 3u);
+  std::set<nlohmann::json> indices;
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(rows[i]["params"]["case"], fmt::format("spheres-{:04}", i));
+    EXPECT_EQ(rows[i]["params"]["size"], nlohmann::json({160, 90}));
+    EXPECT_EQ(rows[i]["params"]["indices"], replayed[i]["params"]["indices"]) << i;
+    indices.insert(rows[i]["params"]["indices"]);
+  }
+  EXPECT_GT(indices.size(), 1u) << "the camera moved";
+}
+
+TEST(BenchCommand, RefusesASceneBesideFilesAndBesideTuning) {
+  const TempFolder folder;
+  const ProgramRun run = run_program({"bench", "hall", "--replay", write_small_frame(folder.path)});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("--replay"));
+  EXPECT_EQ(run_program({"bench", "hall", "--tune"}).status, 2);
 }
 
 TEST(BenchCommand, RefusesToCompareWhatCullingDoesNotRead) {
