@@ -42,6 +42,7 @@ struct Controls {
   bool draw_always = false;       // even if nothing changed
   bool measure_passes = true;
   std::optional<PicturePixel> pixel;  // the inspected pixel
+  std::string pixel_file;             // its lights are written there in this frame; empty: not
   bool screenshot = false;
   bool quit = false;
 };

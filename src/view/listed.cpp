@@ -5,6 +5,9 @@
 #include <set>
 #include <tuple>
 
+#include <fmt/format.h>
+
+#include "capture/frame_culler.h"
 #include "compare/oracle.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
@@ -45,7 +48,7 @@ PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel
     const int light = frame.scene_lights[i];
     result.lights.push_back({light, scene.lights[light].name,
                              glm::length(frame.lights[i].position - position), frame.lights[i].radius_m,
-                             listed.contains(i), lit.contains(i)});
+                             listed.contains(i), lit.contains(i), "", 0});
   }
   const auto rank = [](const PixelLight& l) { return std::tuple(!l.lit, l.listed, l.distance_m); };
   std::ranges::sort(result.lights,
@@ -56,6 +59,42 @@ PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel
     result.lost += light.lit && !light.listed;
   }
   return result;
+}
+
+std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth, PicturePixel pixel) {
+  RenderView& v = run.view();
+  if (!v.plan.light_grid) return {};
+  const Settings& settings = v.plan.settings;
+  const CapturedFrame frame{v.scene.name, v.view, settings.tile, v.plan.slice_far_m, v.scene.lights, depth};
+  FrameCuller culler(*v.renderer.cl, *v.renderer.kernels, frame, settings, run.technique().needs);
+  culler.run();
+  return inspect_pixel(frame, culler.grid(), culler.intervals(), settings, pixel.x, pixel.y);
+}
+
+void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene, int most_dropped) {
+  for (const LightVerdict& verdict : inspection.lights) {
+    const auto known = std::ranges::find(lights.lights, verdict.light, &PixelLight::light);
+    if (known != lights.lights.end()) {
+      known->test = verdict.test;
+      known->margin_m = verdict.margin_m;
+    } else if (most_dropped-- > 0) {
+      const Light& light = scene.lights[verdict.light];
+      lights.lights.push_back({verdict.light, light.name, verdict.distance_m, light.radius_m, false, false,
+                               verdict.test, verdict.margin_m});
+    }
+  }
+}
+
+std::array<std::string, 2> lines_of(const PixelLight& light) {
+  const std::string name = light.name.empty() ? fmt::format("light {}", light.light) : light.name;
+  const char* lost = light.lit && !light.listed ? " LOST" : "";
+  std::string decided;
+  if (light.test == "empty") {
+    decided = "dropped: no surface in its cell";
+  } else if (!light.test.empty()) {
+    decided = fmt::format("{} by {} {:+.3f} m", light.listed ? "kept" : "dropped", light.test, light.margin_m);
+  }
+  return {fmt::format("{} {:.2f} of {:.2f} m{}", name, light.distance_m, light.radius_m, lost), decided};
 }
 
 void ListedCount::start(ListedFrame frame, size_t picture) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/run_technique.h"
+#include "inspect/inspect.h"
 #include "reference/lit_set.h"
 #include "view/controls.h"
 
@@ -30,16 +31,29 @@ struct PixelLight {
   double distance_m = 0;  // from the surface
   double radius_m = 0;
   bool listed = false, lit = false;
+  std::string test;     // that kept or dropped it (inspect/inspect.h); empty: no light grid was culled
+  double margin_m = 0;  // of that test
 };
 
 struct PixelLights {
   bool covered = false;   // shows a surface
   double distance_m = 0;  // of the surface along the view axis
   int listed = 0, lit = 0, lost = 0;
-  std::vector<PixelLight>
-      lights;  // listed or lit ones: lost first, then lit, then the rest; each group by distance
+  // Listed or lit ones: lost first, then lit, then the rest; each group by distance. Then, with a light grid,
+  // the nearest to the cell of those that culling dropped.
+  std::vector<PixelLight> lights;
 };
 PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel pixel);
+
+// What culling decided about each light at the pixel: the frame's depth is culled once more, with the
+// run's settings. Empty if the technique's plan has no light grid.
+std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth, PicturePixel pixel);
+
+// Adds the deciding tests and their margins, and up to `most_dropped` dropped lights.
+void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene, int most_dropped);
+
+// "lamp 3 1.20 of 3.00 m" and "kept by aabb +0.430 m": the two lines of a light. The second may be empty.
+std::array<std::string, 2> lines_of(const PixelLight& light);
 
 // Counts every pixel's lights on other threads: takes about a second for a full picture and a thousand
 // lights.

@@ -20,7 +20,7 @@ void show_lights(const PixelLights& pixel) {
       fmt::format("{} listed, {} lit, {} lost", pixel.listed, pixel.lit, pixel.lost).c_str());
   ImGui::TextUnformatted(fmt::format("surface {:.3g} m away", pixel.distance_m).c_str());
   const float height =
-      ImGui::GetTextLineHeightWithSpacing() * float(std::clamp<size_t>(pixel.lights.size(), 1, 7));
+      ImGui::GetTextLineHeightWithSpacing() * float(std::clamp<size_t>(2 * pixel.lights.size(), 1, 14));
   ImGui::BeginChild("lights", {0, height});
   for (size_t i = 0; i < std::min(pixel.lights.size(), most_rows); ++i) {
     const PixelLight& light = pixel.lights[i];
@@ -28,12 +28,11 @@ void show_lights(const PixelLights& pixel) {
     const ImVec4 colour = lost        ? ImVec4(1, 0.3f, 0.3f, 1)
                           : light.lit ? ImVec4(1, 0.95f, 0.7f, 1)
                                       : ImVec4(0.55f, 0.55f, 0.55f, 1);
-    const std::string name = light.name.empty() ? fmt::format("light {}", light.light) : light.name;
+    const auto [where, decided] = lines_of(light);
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextUnformatted(
-        fmt::format("{} {:.2f} of {:.2f} m{}", name, light.distance_m, light.radius_m, lost ? " LOST" : "")
-            .c_str());
+    ImGui::TextUnformatted(where.c_str());
     ImGui::PopStyleColor();
+    if (!decided.empty()) ImGui::TextDisabled("  %s", decided.c_str());
   }
   ImGui::EndChild();
 }

@@ -111,6 +111,11 @@ Run click(Words words) {
   return [pixel](Controls& controls, Input&) { controls.pixel = pixel; };
 }
 
+Run pixel(Words words) {
+  expect_words(words, 1, "pixel FILE");
+  return [file = words[0]](Controls& controls, Input&) { controls.pixel_file = file; };
+}
+
 Run line(Words words) {
   expect_words(words, 1, "line FRACTION");
   return [at = number(words[0], 0.0, 1.0)](Controls& controls, Input&) { controls.line = at; };
@@ -149,6 +154,7 @@ const std::map<std::string, std::function<Run(Words)>>& actions() {
       {"set", set},
       {"map", map},
       {"click", click},
+      {"pixel", pixel},
       {"line", line},
       {"camera", camera},
       {"lights", lights},

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "base/write_file.h"
 #include "view/command_text.h"
 #include "view/interface.h"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double script_step_s = 1.0 / 60;
 constexpr double longest_step_s = 0.1;  // limits the camera's movement after a slow frame
 constexpr double idle_wait_s = 0.2;
+constexpr int dropped_shown = 10;  // lights that culling dropped at the clicked pixel
 
 }  // namespace
 
@@ -69,6 +71,7 @@ void Viewer::frame(int number) {
   draw_sides();
   follow_maps();
   follow_pixel();
+  if (!controls_.pixel_file.empty()) write_pixel(std::exchange(controls_.pixel_file, {}));
   show(shown());
   if (std::exchange(controls_.screenshot, false)) take_screenshot();
 }
@@ -151,9 +154,28 @@ void Viewer::follow_pixel() {
     if (current) continue;
     pixel_[i].reset();
     if (!resolution_.resting() || controls_.playing || !sides_[i].ready()) continue;
-    pixel_[i] = lights_at(read_listed_frame(sides_[i].run()), job_.scene, *controls_.pixel);
+    const ListedFrame frame = read_listed_frame(sides_[i].run());
+    pixel_[i] = lights_at(frame, job_.scene, *controls_.pixel);
+    if (const auto inspection = inspect_pixel(sides_[i].run(), frame.depth, *controls_.pixel)) {
+      add_margins(*pixel_[i], *inspection, job_.scene, dropped_shown);
+    }
     pixel_picture_[i] = sides_[i].pictures();
   }
+}
+
+// As the panel shows them.
+void Viewer::write_pixel(const std::string& file) const {
+  std::string text;
+  for (int i = 0; i < 2; ++i) {
+    text += fmt::format("{} {}\n", i == 0 ? "left" : "right", controls_.sides[i].technique);
+    if (!pixel_[i]) continue;
+    text += fmt::format("{} listed, {} lit, {} lost\n", pixel_[i]->listed, pixel_[i]->lit, pixel_[i]->lost);
+    for (const PixelLight& light : pixel_[i]->lights) {
+      const auto [where, decided] = lines_of(light);
+      text += fmt::format("{}\n  {}\n", where, decided);
+    }
+  }
+  write_file(file, text);
 }
 
 Shown Viewer::shown() {

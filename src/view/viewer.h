@@ -48,6 +48,7 @@ class Viewer {
   void draw_sides();
   void follow_maps();
   void follow_pixel();
+  void write_pixel(const std::string& file) const;
   void show(const Shown& shown);
   Shown shown();
   void take_screenshot();

@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "support/png_pixels.h"
 #include "support/run_command.h"
@@ -109,6 +113,41 @@ TEST_F(ViewInDisplay, DrawsLessWhileTheCameraMovesAndAllOfItAtRest) {
   ASSERT_EQ(run_in_display(view_words(folder_, "0 line 1\n2 key down w\n8 key up w\n", 24)).status, 0);
   EXPECT_EQ(greatest_difference(resting, read_png(folder_.path / "view.png"), 0, width - 2), 0);
   EXPECT_GT(greatest_difference(moving, resting, 0, width - 2), 10);
+}
+
+std::string lines_of_verdict(const nlohmann::json& light) {
+  const bool listed = light["listed"];
+  return fmt::format("{} {:.2f} of {:.2f} m{}\n  {} by {} {:+.3f} m\n", light["name"].get<std::string>(),
+                     light["distance"].get<double>(), light["radius"].get<double>(),
+                     !listed && light["lit"] ? " LOST" : "", listed ? "kept" : "dropped",
+                     light["test"].get<std::string>(), light["margin"].get<double>());
+}
+
+// The margins of both sides' settings are those that `inspect` computes for the same pixel.
+TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
+  const std::string file = folder_.path / "pixel.txt";
+  const std::string script =
+      "0 technique forward_plus\n0 technique right clustered\n0 set left cull-test=exact\n1 click 60 40\n2 pixel " + file + "\n";
+  const CommandOutcome run = run_in_display(view_words(folder_, script, 3));
+  ASSERT_EQ(run.status, 0) << run.output;
+  std::ifstream stream(file);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  const size_t right = text.find("right clustered\n");
+  ASSERT_EQ(text.find("left forward_plus\n"), 0u);
+  ASSERT_NE(right, std::string::npos);
+  const std::string sides[2] = {text.substr(0, right), text.substr(right)};
+  const std::vector<std::string> words[2] = {{"-t", "forward_plus", "--set", "cull-test=exact"}, {"-t", "clustered"}};
+  for (int i = 0; i < 2; ++i) {
+    std::vector<std::string> inspect = {"inspect", "spheres", "--size", "320x180", "--pixel", "60,40", "--json", "-"};
+    inspect.insert(inspect.end(), words[i].begin(), words[i].end());
+    const ProgramRun inspected = run_program(inspect);
+    ASSERT_EQ(inspected.status, 0) << inspected.err;
+    const auto report = nlohmann::json::parse(inspected.out);
+    ASSERT_GT(report["listed"], 0);
+    ASSERT_GT(report["lights"].size(), report["listed"].get<size_t>()) << "some are dropped";
+    for (const auto& light : report["lights"]) EXPECT_THAT(sides[i], HasSubstr(lines_of_verdict(light)));
+    EXPECT_EQ(size_t(std::count(sides[i].begin(), sides[i].end(), '\n')), 2 + 2 * report["lights"].size());
+  }
 }
 
 TEST_F(ViewInDisplay, EndsWithZeroWhenClosed) {
