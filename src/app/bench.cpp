@@ -63,7 +63,7 @@ class SceneFrames {
         path_(chosen_path(chosen_.scene, chosen_.view, choice_)),
         advance_(chosen_motion(chosen_.scene, choice_)),
         renderer_(devices.device, parse_gl_backend(devices.gl)),
-        capture_(renderer_, chosen_.scene, chosen_.view, settings_) {}
+        capture_(renderer_, chosen_.scene, chosen_.view, settings_, technique_or_default("", renderer_)) {}
 
   ClDevice& device() { return *renderer_.cl; }
 

@@ -17,14 +17,14 @@ namespace {
 struct CaptureOptions {
   SceneChoice scene;
   DeviceOptions devices;
-  std::string technique = "forward_plus", output = "out/capture", json;
+  std::string technique, output = "out/capture", json;
 };
 
 // Writes one frame into `folder` and returns its summary as JSON.
 std::string capture_into(const std::string& folder, Renderer& devices, const CapturedFrame& frame, const Settings& settings,
-                         const CaptureOptions& o) {
+                         const Technique& technique, const CaptureOptions& o) {
   make_folder(folder);
-  FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, grid_needs(o.technique, settings));
+  FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, grid_needs(technique.name, settings));
   culler.run();
   const FrameGrid grid = culler.grid();
   write_frame(folder, frame);
@@ -34,30 +34,35 @@ std::string capture_into(const std::string& folder, Renderer& devices, const Cap
 }
 
 // A folder for each view of the camera path, numbered: frames for `bench --replay`.
-std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene& scene, const Settings& settings, const CaptureOptions& o) {
+std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene& scene,
+                         const Settings& settings, const Technique& technique, const CaptureOptions& o) {
   const SceneMotion advance = chosen_motion(scene, o.scene);
-  SceneCapture capture(devices, scene, path.front(), settings);
+  SceneCapture capture(devices, scene, path.front(), settings, technique);
   std::string summaries;
   for (size_t i = 0; i < path.size(); ++i) {
     const SceneChanges changes = advance ? advance(i) : SceneChanges();
     const std::string folder = (std::filesystem::path(o.output) / fmt::format("{:04}", i)).string();
-    summaries += (i ? ",\n" : "") + capture_into(folder, devices, capture.frame(path[i], changes), settings, o);
+    summaries += (i ? ",\n" : "") + capture_into(folder, devices, capture.frame(path[i], changes), settings, technique, o);
   }
   return "[" + summaries + "]";
 }
 
 int capture(const CaptureOptions& o) {
   const Settings settings = chosen_settings(o.scene);
-  grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
-  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  if (!o.technique.empty())
+    grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
+  parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   make_folder(o.output);
-  Renderer devices(o.devices.device, backend);
+  Renderer devices = open_devices(o.devices, o.technique);
+  const Technique& technique = technique_or_default(o.technique, devices);
   const std::string summary =
-      path.empty() ? capture_into(o.output, devices, capture_frame(devices, chosen.scene, chosen.view, settings), settings, o)
-                   : capture_path(path, devices, chosen.scene, settings, o);
+      path.empty()
+          ? capture_into(o.output, devices, capture_frame(devices, chosen.scene, chosen.view, settings, technique),
+                         settings, technique, o)
+          : capture_path(path, devices, chosen.scene, settings, technique, o);
   if (!o.json.empty()) write_json(o.json, summary);
   return 0;
 }
@@ -71,7 +76,7 @@ void add_capture(CommandLine& line) {
   add_scene_options(command, o->scene);
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);
-  command.option("-t,--technique", o->technique, "whose light grid is written (clustered's has slices)");
+  add_technique_option(command, o->technique, "whose light grid is written; clustered's has slices");
   command.option("-o,--output", o->output, "folder of the frame");
   command.option("--json", o->json, "summary as JSON into a file, - for stdout");
 }

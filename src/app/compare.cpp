@@ -28,11 +28,15 @@ struct CompareCommand {
   DeviceOptions devices;
   TimingOptions timing;
   std::string output = "out/compare", json;
-  std::vector<std::string> techniques = {"forward", "forward_plus", "visibility"}, compare;
+  std::vector<std::string> techniques,
+      compare;  // techniques: empty: default_techniques, or those without OpenGL
   std::string reference = "auto";
   int page_mb = 30;
   bool flip = false;
 };
+
+const std::vector<std::string> default_techniques = {"forward", "forward_plus", "visibility"};
+const std::vector<std::string> techniques_without_opengl = {"visibility:lights=all", "visibility"};
 
 int parse_lights(const std::string& text) {
   int count = 0;
@@ -144,14 +148,32 @@ int compare_several(const CompareCommand& o, Renderer& devices, const std::vecto
   return failed ? 1 : 0;
 }
 
+// Those given or, if none is, those that this machine can run: what is left out is reported on stderr. Throws
+// Error(machine) if one that is given needs OpenGL and there is none.
+std::vector<Contestant> runnable(const CompareCommand& o, std::vector<Contestant> contestants,
+                                 const Renderer& devices) {
+  if (devices.gl) return contestants;
+  if (!o.techniques.empty()) {
+    if (std::ranges::any_of(contestants, [](const Contestant& c) { return c.technique->needs.opengl; }))
+      devices.require_gl();
+    return contestants;
+  }
+  log_warning(
+      "{}; left out, since they draw with it: forward, forward_plus. The reference is visibility:lights=all",
+      devices.why_no_gl);
+  return chosen_contestants(techniques_without_opengl, chosen_settings(o.scene), o.compare);
+}
+
 int compare(const CompareCommand& o) {
-  const std::vector<Contestant> contestants = chosen_contestants(o.techniques, chosen_settings(o.scene), o.compare);
+  const std::vector<Contestant> given = chosen_contestants(
+      o.techniques.empty() ? default_techniques : o.techniques, chosen_settings(o.scene), o.compare);
   parse_reference(o.reference);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   const std::vector<LoadedView> views = load_views(chosen_views(o));
   if (!o.json.empty()) check_output_file("--json", o.json);
   make_folder(o.output);
   Renderer devices(o.devices.device, backend);
+  const std::vector<Contestant> contestants = runnable(o, given, devices);
   return views.size() == 1 ? compare_one(o, devices, views, contestants) : compare_several(o, devices, views, contestants);
 }
 
@@ -167,7 +189,10 @@ void add_compare(CommandLine& line) {
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
-  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names(), ',');
+  command.list("-t,--techniques", o->techniques,
+               "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names() +
+                   fmt::format(" (default: {})", fmt::join(default_techniques, ",")),
+               ',');
   command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads KEY, with each value; may be repeated");
   command.option("--reference", o->reference, "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
   command.flag("--flip", o->flip, "measure HDR-FLIP too, which takes seconds a row");

@@ -43,6 +43,16 @@ GlFound try_gl(const char* name) {
   }
 }
 
+void choose_gl(Found& found, GlBackend wanted) {
+  try {
+    const auto context = GlContext::create(wanted);
+    for (size_t i = 0; i < found.gl.size(); ++i)
+      if (found.gl[i].backend == context->backend) found.chosen_gl = int(i);
+  } catch (const Error& error) {
+    found.problems.push_back(error.what());
+  }
+}
+
 Found find_devices(const DeviceOptions& o) {
   const GlBackend wanted = parse_gl_backend(o.gl);
   Found found;
@@ -54,13 +64,7 @@ Found find_devices(const DeviceOptions& o) {
   }
   if (found.chosen_cl >= 0) found.tuned = read_tuned_sizes(found.cl[found.chosen_cl]);
   for (const char* name : {"osmesa", "egl"}) found.gl.push_back(try_gl(name));
-  try {
-    const auto context = GlContext::create(wanted);
-    for (size_t i = 0; i < found.gl.size(); ++i)
-      if (found.gl[i].backend == context->backend) found.chosen_gl = int(i);
-  } catch (const Error& error) {
-    found.problems.push_back(error.what());
-  }
+  if (wanted != GlBackend::none) choose_gl(found, wanted);
   if (found.chosen_cl >= 0 && found.chosen_gl >= 0) {
     found.bridge = to_string(choose_bridge(ClDevice("#" + std::to_string(found.chosen_cl)), *found.gl[found.chosen_gl].context));
   }
@@ -94,7 +98,9 @@ void print(const Found& found) {
       fmt::print("  {:<6} not available: {}\n", g.backend, g.why);
     }
   }
-  fmt::print("Bridge\n  {}\n", found.bridge.empty() ? "none without both" : found.bridge);
+  fmt::print("Bridge\n  {}\n", found.bridge.empty()
+                                   ? "none without both: the technique visibility draws in OpenCL alone"
+                                   : found.bridge);
 }
 
 nlohmann::ordered_json to_json(const Found& found) {
@@ -145,8 +151,8 @@ int list_devices(const DevicesOptions& o) {
     write_json(o.json, to_json(found).dump(1));
   }
   for (const std::string& problem : found.problems) std::fprintf(stderr, "lightgrid: %s\n", problem.c_str());
-  const bool asked =
-      (!o.devices.device.empty() && found.chosen_cl < 0) || (o.devices.gl != "auto" && found.chosen_gl < 0);
+  const bool asked = (!o.devices.device.empty() && found.chosen_cl < 0) ||
+                     (o.devices.gl != "auto" && o.devices.gl != "none" && found.chosen_gl < 0);
   return asked ? int(ErrorKind::machine) : 0;
 }
 

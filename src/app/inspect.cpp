@@ -24,7 +24,7 @@ namespace {
 struct InspectOptions {
   SceneChoice scene;
   DeviceOptions devices;
-  std::string pixel, technique = "forward_plus", output, json;
+  std::string pixel, technique, output, json;
   std::vector<std::string> compare;
   int dropped = 10;
   bool all = false;
@@ -60,6 +60,7 @@ struct Subject {
   std::optional<ChosenScene> scene;
   CapturedFrame frame;
   Settings settings;
+  std::string technique;  // the chosen one
   TechniqueNeeds needs{};
   const View& view() const { return scene ? scene->view : frame.view; }
 };
@@ -91,13 +92,17 @@ struct OpenCl {
   std::unique_ptr<ProgramCache> kernels;
 };
 
-// Scenes are captured first, which needs OpenGL as well.
-OpenCl open_devices_for(Subject& subject, const std::string& cl, GlBackend backend) {
+// Scenes are captured first, on the devices that the technique needs. Sets subject.technique.
+OpenCl open_devices_for(Subject& subject, const InspectOptions& o) {
+  subject.technique = o.technique.empty() ? "forward_plus" : o.technique;
   if (subject.scene) {
-    Renderer renderer(cl, backend);
-    subject.frame = capture_frame(renderer, subject.scene->scene, subject.scene->view, subject.settings);
+    Renderer renderer = open_devices(o.devices, o.technique);
+    const Technique& chosen = technique_or_default(o.technique, renderer);
+    subject.frame =
+        capture_frame(renderer, subject.scene->scene, subject.scene->view, subject.settings, chosen);
+    subject.technique = chosen.name;
   }
-  OpenCl devices{std::make_unique<ClDevice>(cl), nullptr};
+  OpenCl devices{std::make_unique<ClDevice>(o.devices.device), nullptr};
   devices.kernels = std::make_unique<ProgramCache>(*devices.cl);
   return devices;
 }
@@ -138,7 +143,8 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
   std::vector<AccuracyRow> rows;
   uint64_t lost = 0;
   for (const BenchContestant& c : culling_contestants(subject.settings, o.compare, most_compared)) {
-    FrameCuller culler(*devices.cl, *devices.kernels, subject.frame, c.settings, grid_needs(o.technique, c.settings));
+    FrameCuller culler(*devices.cl, *devices.kernels, subject.frame, c.settings,
+                       grid_needs(subject.technique, c.settings));
     culler.run();
     const FrameGrid grid = culler.grid();
     if (grid.lists.slices != 1 || !grid.z_bin_edges.empty()) {
@@ -160,15 +166,15 @@ int inspect(const InspectOptions& o) {
   }
   if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
   const Settings given = chosen_settings(o.scene);  // reports a wrong setting before the scene is loaded
-  const TechniqueNeeds needs = grid_needs(o.technique, given);
+  if (!o.technique.empty()) grid_needs(o.technique, given);
   culling_contestants(given, o.compare, most_compared);
-  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   Subject subject = load_subject(o.scene);
-  subject.needs = needs;
   if (place) check_place(*place, subject.view());
   if (!o.output.empty()) make_folder(o.output);
-  OpenCl devices = open_devices_for(subject, o.devices.device, backend);
+  OpenCl devices = open_devices_for(subject, o);
+  subject.needs = grid_needs(subject.technique, given);
   if (!one_grid) return compare_settings(o, subject, devices);
   FrameCuller culler(*devices.cl, *devices.kernels, subject.frame, subject.settings, subject.needs);
   culler.run();
@@ -187,7 +193,7 @@ void add_inspect(CommandLine& line) {
                                 [o] { return inspect(*o); });
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
-  command.option("-t,--technique", o->technique, "whose light grid is inspected (clustered's has slices)");
+  add_technique_option(command, o->technique, "whose light grid is inspected; clustered's has slices");
   command.option("--pixel", o->pixel, "X,Y from the lower left");
   command.option("--dropped", o->dropped, "how many dropped lights to show, the nearest first", 0,
                  100'000'000);

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/log.h"
 
 namespace lightgrid {
 
@@ -36,12 +37,31 @@ void add_path_option(Subcommand& command, SceneChoice& o) {
 
 void add_device_options(Subcommand& command, DeviceOptions& o) {
   command.option("--device", o.device, "OpenCL device, by a part of its name");
-  command.option("--gl", o.gl, "osmesa, egl or auto");
+  command.option("--gl", o.gl, "osmesa, egl, auto, or none: OpenCL alone, for the technique visibility");
 }
 
 void add_timing_options(Subcommand& command, TimingOptions& o) {
   command.option("--frames", o.frames, "frames to time", 1, 10000);
   command.option("--warmup", o.warmup, "untimed frames before those", 0, 10000);
+}
+
+void add_technique_option(Subcommand& command, std::string& technique, const std::string& what) {
+  command.option("-t,--technique", technique, what + " (default: forward_plus; without OpenGL visibility)");
+}
+
+Renderer open_devices(const DeviceOptions& o, const std::string& technique) {
+  const bool opengl = technique.empty() || find_technique(technique).needs.opengl;
+  const GlBackend wanted = parse_gl_backend(o.gl);
+  Renderer renderer(o.device, !opengl && wanted == GlBackend::automatic ? GlBackend::none : wanted);
+  if (opengl && !technique.empty()) renderer.require_gl();
+  return renderer;
+}
+
+const Technique& technique_or_default(const std::string& technique, const Renderer& renderer) {
+  if (!technique.empty()) return find_technique(technique);
+  if (renderer.gl) return find_technique("forward_plus");
+  log_warning("{}; visibility takes the place of forward_plus", renderer.why_no_gl);
+  return find_technique("visibility");
 }
 
 void check_output_file(const std::string& option, const std::filesystem::path& path) {

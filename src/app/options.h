@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/command_line.h"
-#include "gl/context.h"
 #include "session/scene_choice.h"
+#include "techniques/technique.h"
 
 namespace lightgrid {
 
@@ -25,6 +25,16 @@ void add_view_options(Subcommand& command, SceneChoice& choice);  // all but sce
 void add_path_option(Subcommand& command, SceneChoice& choice);
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
+void add_technique_option(Subcommand& command, std::string& technique, const std::string& what);
+
+// The devices for a technique by its name; empty: whichever can be had. OpenGL is opened only if the
+// technique needs it or --gl names a backend. Throws Error(input) for an unknown name, Error(machine) without
+// what it needs.
+Renderer open_devices(const DeviceOptions& options, const std::string& technique);
+
+// The technique by its name; if that is empty, forward_plus or, without OpenGL, visibility, which is reported
+// on stderr.
+const Technique& technique_or_default(const std::string& technique, const Renderer& renderer);
 
 // Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not a folder
 // or not writable, or it is a folder itself. Call it before long work; "-" is always valid.

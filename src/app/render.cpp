@@ -16,7 +16,7 @@ struct RenderOptions {
   SceneChoice scene;
   DeviceOptions devices;
   TimingOptions timing{.frames = 1, .warmup = 0};
-  std::string technique = "forward_plus", output = "out.png", json;
+  std::string technique, output = "out.png", json;
 };
 
 // out.png becomes out_0000.png, out_0001.png and so on.
@@ -42,15 +42,17 @@ int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const 
 }
 
 int render(const RenderOptions& o) {
-  const Technique& technique = find_technique(o.technique);
+  if (!o.technique.empty())
+    find_technique(o.technique);  // reports an unknown name before the scene is loaded
   const Settings settings = chosen_settings(o.scene);
   check_image_path(o.output);
   check_output_file("-o", o.output);
   if (!o.json.empty()) check_output_file("--json", o.json);
-  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  parse_gl_backend(o.devices.gl);
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
-  Renderer renderer(o.devices.device, backend);
+  Renderer renderer = open_devices(o.devices, o.technique);
+  const Technique& technique = technique_or_default(o.technique, renderer);
   const SceneMotion advance = chosen_motion(chosen.scene, o.scene);
   if (path.empty() && o.scene.light_motion != "none") advance(0);
   GpuScene gpu(renderer, chosen.scene);
@@ -75,7 +77,7 @@ void add_render(CommandLine& line) {
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
-  command.option("-t,--technique", o->technique, technique_names());
+  add_technique_option(command, o->technique, technique_names());
   command.option("-o,--output", o->output, "image file, .png or .exr; with a camera path NAME_0000.png and so on");
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
 }

@@ -44,12 +44,18 @@ bool may_share_memory(const ClDeviceInfo& cl, bool gl_is_software) {
   return cl.cpu && gl_is_software && cl.platform == "Portable Computing Language";
 }
 
-const char* to_string(BridgeKind kind) { return kind == BridgeKind::mapped ? "mapped" : "staged"; }
+const char* to_string(BridgeKind kind) {
+  return kind == BridgeKind::mapped ? "mapped" : kind == BridgeKind::staged ? "staged" : "none";
+}
 
 SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
     : cl_(&cl), kind_(kind), bytes_(bytes) {
   const size_t allocated = std::max<size_t>(bytes, 16);  // neither API allows empty buffers
   try {
+    if (kind == BridgeKind::none) {
+      cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE, allocated);
+      return;
+    }
     gl_buffer_ = make_buffer(allocated, kind == BridgeKind::mapped ? mapping : 0);
     if (kind == BridgeKind::staged) staging_ = make_buffer(allocated, mapping);
     mapped_ = glMapNamedBufferRange(staging_ ? staging_ : gl_buffer_, 0, static_cast<GLsizeiptr>(allocated),
@@ -113,7 +119,7 @@ void SharedBuffer::wait_for_copy() {
 }
 
 void SharedBuffer::hand_to_gl(size_t bytes) {
-  assert(bytes <= bytes_);
+  assert(bytes <= bytes_ && kind_ != BridgeKind::none);
   if (kind_ == BridgeKind::mapped || bytes == 0) {
     finish_queue(*cl_, "handing a buffer to OpenGL");
     return;
@@ -129,7 +135,7 @@ void SharedBuffer::hand_to_gl(size_t bytes) {
 }
 
 void SharedBuffer::hand_to_cl(size_t bytes) {
-  assert(bytes <= bytes_);
+  assert(bytes <= bytes_ && kind_ != BridgeKind::none);
   if (kind_ == BridgeKind::staged && bytes > 0) {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glCopyNamedBufferSubData(gl_buffer_, staging_, 0, 0, static_cast<GLsizeiptr>(bytes));

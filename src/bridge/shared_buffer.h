@@ -12,6 +12,7 @@ namespace lightgrid {
 enum class BridgeKind {
   mapped,  // one memory: a persistently mapped GL buffer is the OpenCL buffer's host pointer
   staged,  // two memories: copied through the host at each hand-over
+  none,    // no OpenGL: OpenCL's memory alone, never handed over
 };
 
 // The kind for these two devices: mapped on PoCL's CPU with a software GL.
@@ -25,7 +26,8 @@ bool may_share_memory(const ClDeviceInfo& cl, bool gl_is_software);
 const char* to_string(BridgeKind kind);
 
 // Fixed size, created once and reused; the kind does not change the bytes. The GL context that was current at
-// its creation is current at every call, including destruction, and the device outlives it.
+// its creation is current at every call, including destruction, and the device outlives it. Kind none needs
+// no context.
 class SharedBuffer {
  public:
   // The contents are undefined. Throws Error(machine), naming the size, if memory does not suffice.
@@ -37,7 +39,7 @@ class SharedBuffer {
   size_t size() const { return bytes_; }
   BridgeKind kind() const { return kind_; }
   cl::Buffer& cl_buffer() { return cl_buffer_; }
-  GLuint gl_buffer() const { return gl_buffer_; }
+  GLuint gl_buffer() const { return gl_buffer_; }  // 0: kind none
 
   // After OpenCL wrote the first `bytes`: waits for the queue, and for GL's previous copy, and makes them
   // visible to GL.

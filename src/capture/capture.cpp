@@ -1,25 +1,38 @@
 #include "capture/capture.h"
 
+#include "cl/transfer.h"
 #include "gl/state.h"
 #include "passes/depth_prepass.h"
+#include "passes/rasterize.h"
 #include "passes/read_outs/depth.h"
 
 namespace lightgrid {
 
-SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings)
-    : gpu_(renderer, scene), view_(renderer, gpu_, view, settings, find_technique("forward_plus").needs) {}
+SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
+                           const Technique& technique)
+    : gpu_(renderer, scene),
+      opengl_(technique.needs.opengl),
+      view_(renderer, gpu_, view, settings, find_technique(opengl_ ? "forward_plus" : "visibility").needs) {}
 
 CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes) {
   gpu_.update(changes);
   view_.look(view);
-  reset_gl_state();
-  depth_prepass(view_);
+  std::vector<float> depth(view_.pixels());
+  if (opengl_) {
+    reset_gl_state();
+    depth_prepass(view_);
+    depth = read_depth(view_);
+  } else {
+    read_buffer(*view_.renderer.cl, "reading depth", rasterize(view_).depth().values, depth.data(),
+                depth.size() * sizeof(float));
+  }
   const Scene& scene = gpu_.scene();
-  return {scene.name, view, view_.plan.settings.tile, view_.plan.slice_far_m, scene.lights, read_depth(view_)};
+  return {scene.name, view, view_.plan.settings.tile, view_.plan.slice_far_m, scene.lights, std::move(depth)};
 }
 
-CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings) {
-  return SceneCapture(renderer, scene, view, settings).frame(view);
+CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view,
+                            const Settings& settings, const Technique& technique) {
+  return SceneCapture(renderer, scene, view, settings, technique).frame(view);
 }
 
 }  // namespace lightgrid

@@ -10,16 +10,20 @@ namespace lightgrid {
 class SceneCapture {
  public:
   // `view`: any view of the scene. settings.tile becomes the frames' tile size. The renderer and the scene outlive it.
-  SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings);
-  // Draws the depth prepass. `changes`: of the scene since the last frame.
+  SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
+               const Technique& technique);
+  // Draws the depth prepass, or what the technique rasterises without OpenGL. `changes`: of the scene since the last
+  // frame.
   CapturedFrame frame(const View& view, const SceneChanges& changes = {});
 
  private:
   GpuScene gpu_;
+  bool opengl_;
   RenderView view_;
 };
 
 // A single one.
-CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings);
+CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view,
+                            const Settings& settings, const Technique& technique);
 
 }  // namespace lightgrid

@@ -39,15 +39,32 @@ void attempt(Entry& entry, const Work& work, bool ends_run = true) {
   if (entry.refusal && ends_run) entry.run.reset();
 }
 
+// The technique that shades every light at every pixel, and its settings.
+struct BruteForce {
+  const Technique* technique;
+  bool chosen_lights;  // only with lights=all
+
+  bool is(const Technique& other, const Settings& settings) const {
+    return other.name == std::string(technique->name) &&
+           (!chosen_lights || settings.lights == ShadedLights::all);
+  }
+  std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
+};
+
+BruteForce brute_force(const Renderer& renderer) {
+  if (renderer.gl) return {&find_technique("forward"), false};
+  return {&find_technique("visibility"), true};
+}
+
 // All runs draw into the same images in turn, except the reference: its depth and surfaces are read after
 // other runs' frames.
 std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& view,
-                                const std::vector<Contestant>& contestants, const std::string& reference) {
+                                const std::vector<Contestant>& contestants, const BruteForce& reference) {
   std::vector<Entry> entries;
   const auto shared = std::make_shared<TargetPool>();
   for (const Contestant& c : contestants) {
     Entry& entry = entries.emplace_back(&c);
-    const auto pool = c.technique->name == reference ? nullptr : shared;
+    const auto pool = reference.is(*c.technique, c.settings) ? nullptr : shared;
     attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique, pool); });
   }
   return entries;
@@ -97,9 +114,12 @@ struct Reference {
 };
 
 std::unique_ptr<TechniqueRun> make_reference_run(Renderer& renderer, GpuScene& gpu, const View& view,
-                                                 const std::vector<Contestant>& contestants, const std::string& technique) {
-  const Settings common = contestants.empty() ? Settings{} : contestants.front().settings;  // the same BRDF above all
-  return std::make_unique<TechniqueRun>(renderer, gpu, view, common, find_technique(technique));
+                                                 const std::vector<Contestant>& contestants,
+                                                 const BruteForce& reference) {
+  Settings common =
+      contestants.empty() ? Settings{} : contestants.front().settings;  // the same BRDF above all
+  if (reference.chosen_lights) common.lights = ShadedLights::all;
+  return std::make_unique<TechniqueRun>(renderer, gpu, view, common, *reference.technique);
 }
 
 std::string time_in_words(double ms) {
@@ -108,12 +128,19 @@ std::string time_in_words(double ms) {
 
 // Chooses between all pixels and a sample. With a sample, contestants with the reference's technique are
 // refused.
-void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Renderer& renderer, GpuScene& gpu,
-                             const View& view, const std::vector<Contestant>& contestants, const CompareOptions& options,
-                             const std::string& technique) {
+void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Renderer& renderer,
+                             GpuScene& gpu, const View& view, const std::vector<Contestant>& contestants,
+                             const CompareOptions& options, const BruteForce& technique) {
   const bool automatic = options.reference == ReferencePixels::automatic;
+  if (!technique.technique->needs.opengl) {
+    if (options.reference == ReferencePixels::sampled)
+      throw machine_error("reference sampled: shades with OpenGL; {}", renderer.why_no_gl);
+    return;
+  }
   if (options.reference == ReferencePixels::full || (automatic && is_quick_for_forward(view, gpu.scene().lights.size(), options.most_reference_ms))) return;
-  const auto of_reference = [&](const Entry& entry) { return entry.run && entry.run->technique().name == technique; };
+  const auto of_reference = [&](const Entry& entry) {
+    return entry.run && technique.is(entry.run->technique(), entry.contestant->settings);
+  };
   const auto found = std::find_if(entries.begin(), entries.end(), of_reference);
   const bool is_contestant = found != entries.end();
   if (!is_contestant) reference.own = make_reference_run(renderer, gpu, view, contestants, technique);
@@ -129,8 +156,8 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
   const size_t pixels = pixels_of(blocks, view.width, view.height).size(), all = size_t(view.width) * size_t(view.height);
   const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame", time_in_words(frame_ms))
                                     : std::string("asked for");
-  const std::string what = fmt::format("{} at {} of {} pixels ({}; reference full shades all)", technique, with_commas(pixels),
-                                       with_commas(all), why);
+  const std::string what = fmt::format("{} at {} of {} pixels ({}; reference full shades all)",
+                                       technique.name(), with_commas(pixels), with_commas(all), why);
   if (options.notice) options.notice("the reference is " + what);
   for (Entry& entry : entries) {
     if (!of_reference(entry)) continue;
@@ -213,33 +240,36 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   report.scene = scene.name;
   report.width = view.width, report.height = view.height;
   report.cl_device = renderer.cl->info().name;
-  report.gl_device = renderer.gl->renderer;
+  report.gl_device = renderer.gl ? renderer.gl->renderer : "none";
   report.commit = commit_of_build();
-  report.reference = "forward";
+  const BruteForce every_light = brute_force(renderer);
+  report.reference = every_light.name();
   report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
 
   GpuScene gpu(renderer, scene);
-  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants, report.reference);
+  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants, every_light);
   Reference reference;
-  choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, report.reference);
+  choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, every_light);
   time_interleaved(entries, options);
   if (!options.all_may_refuse) require_one(entries);
 
   for (Entry& entry : entries) {
-    if (!reference.run && entry.run && entry.run->technique().name == report.reference) reference.run = entry.run.get();
+    if (reference.run || !entry.run || !every_light.is(entry.run->technique(), entry.contestant->settings))
+      continue;
+    reference.run = entry.run.get();
   }
   if (options.progress && (reference.sampled() || !reference.run)) options.progress(0.8, "reference: " + report.reference);
   if (reference.sampled()) {
     render_forward_at(reference.run->view(), reference.blocks, reference.sampled_image);
     report.reference_pixels = pixels_of(reference.blocks, view.width, view.height).size();
   } else if (!reference.run) {
-    if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, report.reference);
+    if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, every_light);
     reference.run = reference.own.get();
     reference.run->run_frame();
     report.reference_image = reference.run->image();
   }
 
-  const std::vector<float> depth = read_depth(reference.run->view());
+  const std::vector<float> depth = read_depth(*reference.run);
   std::optional<FlipExposures> exposures;
   if (options.flip && !reference.sampled()) exposures = flip_exposures(reference.image());
   for (size_t i = 0; i < entries.size(); ++i) {
@@ -253,7 +283,8 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
     }
   }
   if (options.progress) options.progress(0.9, "oracle: shading");
-  measure_against_oracle(report, reference, depth, options.shaded_samples);
+  // The oracle shades surfaces that OpenGL draws.
+  if (renderer.gl) measure_against_oracle(report, reference, depth, options.shaded_samples);
   run_path(report, gpu, entries, reference, options);
   if (options.progress) options.progress(1, "");
   return report;

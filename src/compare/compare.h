@@ -36,12 +36,13 @@ struct CompareOptions {
   std::function<void(const std::string& what)> notice;
 };
 
-// Runs the contestants interleaved, frame by frame. The reference is `forward`, run in addition if it is not
-// among them. Errors are against its image; pairs are counted on opaque surfaces, by reference/lit_set.h. A
-// contestant that throws Error, or runs out of memory, becomes a row with `refused`, even if only reading its
-// lists fails. If no contestant renders, the first reason is thrown, unless all_may_refuse. If the reference
-// is a sample, contestants with its technique are refused, because their frames would take too long; errors
-// are then over the sample's pixels. Exceptions of the reference itself are passed on.
+// Runs the contestants interleaved, frame by frame. The reference is `forward`, or without OpenGL
+// `visibility:lights=all`, run in addition if it is not among them. Errors are against its image; pairs are
+// counted on opaque surfaces, by reference/lit_set.h. A contestant that throws Error, or runs out of memory,
+// becomes a row with `refused`, even if only reading its lists fails. If no contestant renders, the first
+// reason is thrown, unless all_may_refuse. If the reference is a sample (which needs OpenGL), contestants
+// with its technique are refused, because their frames would take too long; errors are then over the sample's
+// pixels. Exceptions of the reference itself are passed on.
 CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
                                  const std::vector<Contestant>& contestants, const CompareOptions& options);
 

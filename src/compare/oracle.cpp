@@ -18,25 +18,25 @@ std::vector<ViewLight> local_lights(const RenderView& v) {
 }
 
 template <typename T>
-std::vector<T> read_gl_buffer(GLuint buffer, size_t count) {
+std::vector<T> read_shared(const RenderView& v, SharedTexture& shared, size_t count) {
   std::vector<T> values(count);
-  if (count) glGetNamedBufferSubData(buffer, 0, GLsizeiptr(count * sizeof(T)), values.data());
+  if (count)
+    read_buffer(*v.renderer.cl, "reading the light grid", shared.buffer->cl_buffer(), values.data(),
+                count * sizeof(T));
   return values;
 }
 
-void add_lists(SharedGridStorage& storage, const LightGrid& grid, ListedLights& lists) {
+void add_lists(RenderView& v, const LightGrid& grid, ListedLights& lists) {
+  SharedGridStorage& storage = v.opaque_grid();
   const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  storage.cells_.buffer->hand_to_gl(grid.cell_bytes);  // light code in OpenCL did not need them in OpenGL
-  storage.indices_.buffer->hand_to_gl(grid.index_bytes);
-  for (const glm::uvec2& cell : read_gl_buffer<glm::uvec2>(storage.cells_.buffer->gl_buffer(), count)) {
+  for (const glm::uvec2& cell : read_shared<glm::uvec2>(v, storage.cells_, count)) {
     lists.first.push_back(cell.x), lists.count.push_back(cell.y);
   }
-  const GLuint indices = storage.indices_.buffer->gl_buffer();
   if (grid.index_bits == 16) {
-    const auto narrow = read_gl_buffer<uint16_t>(indices, grid.index_count);
+    const auto narrow = read_shared<uint16_t>(v, storage.indices_, grid.index_count);
     lists.indices.assign(narrow.begin(), narrow.end());
   } else {
-    lists.indices = read_gl_buffer<uint32_t>(indices, grid.index_count);
+    lists.indices = read_shared<uint32_t>(v, storage.indices_, grid.index_count);
   }
 }
 
@@ -102,15 +102,13 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   lists.cell_of_pixel = cells_of_pixels(v, depth);
   if (v.plan.settings.grid_lists == GridLists::masks) {
     const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-    const GLuint masks = v.opaque_grid().masks_.buffer->gl_buffer();
-    add_masks(read_gl_buffer<uint32_t>(masks, cells * grid.mask_words), cells, lists);
+    add_masks(read_shared<uint32_t>(v, v.opaque_grid().masks_, cells * grid.mask_words), cells, lists);
   } else {
-    add_lists(v.opaque_grid(), grid, lists);
+    add_lists(v, grid, lists);
   }
   if (grid.z_bin_bytes == 0) return lists;
-  SharedBuffer& bins = *v.opaque_grid().z_bins_.buffer;
-  bins.hand_to_gl(grid.z_bin_bytes);  // as in add_lists
-  return in_z_bins(lists, z_bins_of_pixels(v, depth), read_gl_buffer<uint32_t>(bins.gl_buffer(), grid.z_bin_bytes / 4));
+  return in_z_bins(lists, z_bins_of_pixels(v, depth),
+                   read_shared<uint32_t>(v, v.opaque_grid().z_bins_, grid.z_bin_bytes / 4));
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {

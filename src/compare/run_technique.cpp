@@ -23,15 +23,16 @@ void TechniqueRun::prepare() {
 }
 
 void TechniqueRun::draw_frame() {
-  reset_gl_state();
+  const bool opengl = view_.renderer.gl != nullptr;
+  if (opengl) reset_gl_state();
   frame_ = technique_.render(view_);
-  check_gl(technique_.name);
+  if (opengl) check_gl(technique_.name);
 }
 
 void TechniqueRun::render() {
   draw_frame();
   read_back(view_, frame_.image, image_);
-  check_gl(technique_.name);
+  if (view_.renderer.gl) check_gl(technique_.name);
 }
 
 void TechniqueRun::run_frame(bool warmup) {

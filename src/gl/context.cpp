@@ -34,7 +34,8 @@ GlBackend parse_gl_backend(const std::string& name) {
   if (name == "auto") return GlBackend::automatic;
   if (name == "osmesa") return GlBackend::osmesa;
   if (name == "egl") return GlBackend::egl;
-  throw input_error("gl: \"{}\" is not one of auto, osmesa, egl", name);
+  if (name == "none") return GlBackend::none;
+  throw input_error("gl: \"{}\" is not one of auto, osmesa, egl, none", name);
 }
 
 void GlContext::describe() {
@@ -62,6 +63,8 @@ std::unique_ptr<GlContext> GlContext::create(GlBackend backend) {
   const Attempt egl_hardware = [] { return create_egl_context(true); };
   std::vector<std::pair<std::string, Attempt>> attempts;
   switch (backend) {
+    case GlBackend::none:
+      throw machine_error("gl none: OpenGL is left out");
     case GlBackend::osmesa:
       attempts = {{"osmesa", osmesa}};
       break;

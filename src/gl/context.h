@@ -1,4 +1,5 @@
 // A headless OpenGL 4.5 core context: OSMesa or surfaceless EGL (Mesa's or a vendor's), opened at run time.
+// Neither library need be installed.
 #pragma once
 
 #include <memory>
@@ -6,15 +7,17 @@
 
 namespace lightgrid {
 
-enum class GlBackend { automatic, osmesa, egl };
+// none: OpenCL alone.
+enum class GlBackend { automatic, osmesa, egl, none };
 
-// "auto", "osmesa" or "egl"; anything else is an input error.
+// "auto", "osmesa", "egl" or "none"; anything else is an input error.
 GlBackend parse_gl_backend(const std::string& name);
 
 class GlContext {
  public:
   // Creates a context and makes it current on this thread. automatic: EGL if it offers a hardware device,
-  // else OSMesa, else EGL. Throws Error(machine) that lists the attempts and the package that would help.
+  // else OSMesa, else EGL. Throws Error(machine) that lists the attempts and the package that would help;
+  // none is an attempt that fails.
   static std::unique_ptr<GlContext> create(GlBackend backend = GlBackend::automatic);
   virtual ~GlContext() = default;
   GlContext(const GlContext&) = delete;

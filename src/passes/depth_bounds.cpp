@@ -39,7 +39,7 @@ TileDistances tile_distances(RenderView& v, const DepthBounds& bounds) {
 }
 
 DrawList visible_surfaces(RenderView& v, const TileDistances& distances) {
-  return without_hidden(v.opaque, v.gpu, v.transforms, v.params, distances);
+  return without_hidden(v.opaque, v.gpu.in_gl(), v.transforms, v.params, distances);
 }
 
 }  // namespace lightgrid

@@ -29,7 +29,7 @@ DepthImage depth_prepass(RenderView& v) {
 
   draw_list(v, v.opaque, DrawStreams::positions_where_possible,
             v.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
-  pass.moves(v.gpu.geometry_bytes(), v.pixels() * 4);
+  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * 4);
   return {framebuffer};
 }
 

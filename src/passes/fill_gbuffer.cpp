@@ -43,7 +43,7 @@ GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting) {
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
   draw_surfaces(v, gbuffer, v.opaque);
-  pass.moves(v.gpu.geometry_bytes(), v.pixels() * (4 + written_bytes(gbuffer)));
+  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * (4 + written_bytes(gbuffer)));
   return gbuffer;
 }
 
@@ -53,7 +53,7 @@ GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   draw_surfaces(v, gbuffer, surfaces);
-  pass.moves(v.gpu.geometry_bytes() + v.pixels() * 4, v.pixels() * written_bytes(gbuffer));
+  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4, v.pixels() * written_bytes(gbuffer));
   return gbuffer;
 }
 

@@ -35,13 +35,14 @@ void ObjectLights::update(const RenderView& v, const DrawList& list) {
     add_item(v, item, lights_reaching(whole, reaches_, every_light));
   }
   for (Object& object : objects_) {
-    object.ranges = index_ranges(v.gpu.mesh(v.scene.instances[object.instance].mesh), object.clusters);
+    object.ranges =
+        index_ranges(v.gpu.in_gl().mesh(v.scene.instances[object.instance].mesh), object.clusters);
   }
   upload();
 }
 
 void ObjectLights::add_item(const RenderView& v, const DrawItem& item, const std::vector<uint32_t>& candidates) {
-  const GpuMesh& mesh = v.gpu.mesh(v.scene.instances[item.instance].mesh);
+  const GlMesh& mesh = v.gpu.in_gl().mesh(v.scene.instances[item.instance].mesh);
   const size_t first_object = objects_.size();
   for (const uint32_t cluster : item.clusters) {
     const ViewBox box = box_in_view(v.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);

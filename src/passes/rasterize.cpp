@@ -40,6 +40,7 @@ class InstanceRasterizer {
   }
 
   size_t memory_bytes() const { return rasterizer.memory_bytes() + surfaces.bytes(); }
+  size_t geometry_bytes() const { return geometry_bytes_; }  // positions and indices of the scene
 
   Rasterizer rasterizer;
   UploadedBuffer surfaces;
@@ -48,16 +49,19 @@ class InstanceRasterizer {
   void set_meshes(RenderView& v) {
     const std::vector<bool> shown = shown_meshes(v.scene);
     std::vector<RasterMesh> meshes;
+    geometry_bytes_ = 0;
     for (size_t i = 0; i < shown.size(); ++i) {
       const Mesh& mesh = v.scene.meshes[i];
       meshes.push_back(shown[i] ? RasterMesh{mesh.positions, mesh.indices}
                                 : RasterMesh{});  // as ClScene leaves them out
+      if (shown[i]) geometry_bytes_ += mesh.positions.size() * sizeof(glm::vec3) + mesh.indices.size() * 4;
     }
     rasterizer.set_meshes(meshes);
     shape_version_ = v.gpu.shape_version();
   }
 
   int shape_version_ = 0;
+  size_t geometry_bytes_ = 0;
 };
 
 struct OpaqueRasterizer : PassState {
@@ -80,7 +84,7 @@ VisibilityBuffer rasterize(RenderView& v) {
   auto pass = v.timer.pass("rasterize", "cl");
   InstanceRasterizer& r = v.state<OpaqueRasterizer>().of;
   const Visibility image = r.rasterizer.draw();
-  pass.moves(v.gpu.geometry_bytes(), v.pixels() * 8);
+  pass.moves(r.geometry_bytes(), v.pixels() * 8);
   return {image, r.rasterizer.buffers(), r.surfaces.buffer()};
 }
 
@@ -88,7 +92,7 @@ BlendedTriangles list_blended(RenderView& v) {
   auto pass = v.timer.pass("list_blended", "cl");
   InstanceRasterizer& r = v.state<BlendedRasterizer>().of;
   const RasterLists lists = r.rasterizer.list();
-  pass.moves(v.gpu.geometry_bytes(), r.rasterizer.counts().tile_entries * 4);
+  pass.moves(r.geometry_bytes(), r.rasterizer.counts().tile_entries * 4);
   return {lists, r.rasterizer.buffers(), r.surfaces.buffer()};
 }
 

@@ -5,7 +5,7 @@
 namespace lightgrid {
 
 void read_back(RenderView& v, const ShadedImage& shaded, Image& image) {
-  auto pass = v.timer.pass("read_back", "gl");
+  auto pass = v.timer.pass("read_back", shaded.in_cl ? "cl" : "gl");
   if (image.width != v.view.width || image.height != v.view.height || image.pixels.size() != v.pixels()) {
     image = Image(v.view.width, v.view.height);
   }

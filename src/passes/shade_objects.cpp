@@ -53,7 +53,7 @@ class ObjectDraws {
   // Adds the lights [first, first + count) of the object.
   void add(uint32_t first, uint32_t count) {
     bind(programs_.lights, first, count);
-    if (reversed_.counts.empty()) reversed_ = in_reverse(object_.ranges, v_.gpu);
+    if (reversed_.counts.empty()) reversed_ = in_reverse(object_.ranges, v_.gpu.in_gl());
     glEnable(GL_BLEND);
     glBlendFuncSeparate(alpha_ ? GL_DST_ALPHA : GL_ONE_MINUS_DST_ALPHA, GL_ONE, alpha_ ? GL_ZERO : GL_ONE, GL_ZERO);
     drawer_.draw(reversed_);
@@ -101,7 +101,7 @@ ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t l
     draw_object(v, programs, object, lights_a_draw, own_apart, drawer);
   }
   glDisable(GL_BLEND);
-  pass.moves(v.gpu.geometry_bytes() + v.pixels() * 4 + source.bytes, v.pixels() * 16);
+  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + source.bytes, v.pixels() * 16);
   return image;
 }
 

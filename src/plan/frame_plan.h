@@ -49,6 +49,7 @@ struct TechniqueNeeds {
   bool z_bins = false;   // shading skips lights by z-bins, if the setting z-bins says so
   bool light_volumes = false;  // lights are drawn one by one; with stencil if volume-culling uses it
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
+  bool opengl = true;               // draws with OpenGL; false: OpenCL alone
   bool chosen_lights = false;  // whose light grid is left out by the setting lights=all
 };
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/gpu_scene.h"
+#include "renderer/gl_scene.h"
 
 namespace lightgrid {
 

@@ -17,11 +17,11 @@ void InstanceDrawer::bind(int index, const SceneProgram& program) {
   const bool positions_only = streams_ == DrawStreams::positions_where_possible && !(features & feature_mask);
   if (&program != program_) {
     glUseProgram(program.name);
-    glBindVertexArray(positions_only ? v_.gpu.positions_only() : v_.gpu.all_streams());
+    glBindVertexArray(positions_only ? v_.gpu.in_gl().positions_only() : v_.gpu.in_gl().all_streams());
     material_ = -1;
   }
   if (material != material_ && !positions_only) {
-    v_.gpu.bind_material(material, features);
+    v_.gpu.in_gl().bind_material(material, features);
     material_ = material;
   }
   const InstanceTransform& t = v_.transforms[index];

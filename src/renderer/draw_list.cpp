@@ -66,11 +66,11 @@ int layer_of(const Aabb& box, const glm::dmat4& view_from_object, double far_m) 
 using Layers = std::array<std::vector<uint32_t>, distance_layers>;
 
 // The visible clusters of one instance, by layer; a cluster belongs to the layer of its centre.
-Layers visible_clusters(const GpuScene& gpu, const View& view, const Frustum& frustum, int instance,
+Layers visible_clusters(const GlScene& gpu, const View& view, const Frustum& frustum, int instance,
                         const glm::dmat4& view_from_object, double far_m) {
   const Scene& scene = gpu.scene();
   const int mesh_index = scene.instances[instance].mesh;
-  const GpuMesh& mesh = gpu.mesh(mesh_index);
+  const GlMesh& mesh = gpu.mesh(mesh_index);
   const bool one_sided = !scene.materials[scene.meshes[mesh_index].material].double_sided && !view.orthographic;
   const glm::dvec3 eye = one_sided ? glm::dvec3(glm::inverse(view_from_object)[3]) : glm::dvec3(0);
   Layers layers;
@@ -95,13 +95,13 @@ InstanceTransform instance_transform(const View& view, const Instance& instance)
   return t;
 }
 
-DrawList make_draw_list(const GpuScene& gpu, const View& view, const std::vector<int>& instances,
+DrawList make_draw_list(const GlScene& gpu, const View& view, const std::vector<int>& instances,
                         const std::vector<InstanceTransform>& transforms, double far_m, DrawOrder order) {
   const Frustum frustum = frustum_of(view);
   std::array<DrawList, distance_layers> items;
   for (int index : instances) {
     Layers layers = visible_clusters(gpu, view, frustum, index, transforms[index].view_from_object, far_m);
-    const GpuMesh& mesh = gpu.mesh(gpu.scene().instances[index].mesh);
+    const GlMesh& mesh = gpu.mesh(gpu.scene().instances[index].mesh);
     for (int layer = 0; layer < distance_layers; ++layer) {
       if (layers[layer].empty()) continue;
       IndexRanges ranges = index_ranges(mesh, layers[layer]);
@@ -114,12 +114,13 @@ DrawList make_draw_list(const GpuScene& gpu, const View& view, const std::vector
   return std::move(items[0]);
 }
 
-DrawList without_hidden(const DrawList& list, const GpuScene& gpu, const std::vector<InstanceTransform>& transforms,
-                        const ViewParams& view, const TileDistances& distances) {
+DrawList without_hidden(const DrawList& list, const GlScene& gpu,
+                        const std::vector<InstanceTransform>& transforms, const ViewParams& view,
+                        const TileDistances& distances) {
   if (distances.intervals.empty()) return list;
   DrawList seen;
   for (const DrawItem& item : list) {
-    const GpuMesh& mesh = gpu.mesh(gpu.scene().instances[item.instance].mesh);
+    const GlMesh& mesh = gpu.mesh(gpu.scene().instances[item.instance].mesh);
     const glm::dmat4& view_from_object = transforms[item.instance].view_from_object;
     DrawItem kept{item.instance, {}, {}};
     for (const uint32_t i : item.clusters) {
@@ -132,7 +133,7 @@ DrawList without_hidden(const DrawList& list, const GpuScene& gpu, const std::ve
   return seen;
 }
 
-IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters) {
+IndexRanges index_ranges(const GlMesh& mesh, std::span<const uint32_t> clusters) {
   IndexRanges ranges;
   uint32_t end = ~0u;
   for (const uint32_t i : clusters) {
@@ -149,7 +150,7 @@ IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters
   return ranges;
 }
 
-IndexRanges in_reverse(const IndexRanges& ranges, const GpuScene& gpu) {
+IndexRanges in_reverse(const IndexRanges& ranges, const GlScene& gpu) {
   IndexRanges reversed;
   for (size_t i = ranges.counts.size(); i-- > 0;) {
     const size_t end = size_t(ranges.offsets[i]) + size_t(ranges.counts[i]) * sizeof(uint32_t);

@@ -7,7 +7,7 @@
 #include "culling/light_culler.h"
 #include "plan/frame_plan.h"
 #include "plan/visibility.h"
-#include "renderer/gpu_scene.h"
+#include "renderer/gl_scene.h"
 #include "shared/view_params.h"
 
 namespace lightgrid {
@@ -29,10 +29,10 @@ struct IndexRanges {
   std::vector<GLint> base_vertices;
 };
 
-IndexRanges index_ranges(const GpuMesh& mesh, std::span<const uint32_t> clusters);
+IndexRanges index_ranges(const GlMesh& mesh, std::span<const uint32_t> clusters);
 
-// The same triangles, last to first. Requires reversed triangles (GpuScene).
-IndexRanges in_reverse(const IndexRanges& ranges, const GpuScene& gpu);
+// The same triangles, last to first. Requires reversed triangles (GlScene).
+IndexRanges in_reverse(const IndexRanges& ranges, const GlScene& gpu);
 
 // Clusters of one instance that are drawn together.
 struct DrawItem {
@@ -49,7 +49,7 @@ enum class DrawOrder { front_to_back, as_given };
 
 // The visible clusters of `instances`. transforms: one for each instance of the scene. far_m: the farthest
 // distance of anything in view; it determines the layers. Conservative: what is left out changes no pixel.
-DrawList make_draw_list(const GpuScene& gpu, const View& view, const std::vector<int>& instances,
+DrawList make_draw_list(const GlScene& gpu, const View& view, const std::vector<int>& instances,
                         const std::vector<InstanceTransform>& transforms, double far_m, DrawOrder order);
 
 // The depth prepass' result for each tile, on the host: nothing behind its greatest distance is visible.
@@ -58,7 +58,8 @@ struct TileDistances {
 };
 
 // The list without clusters that are behind every tile they may cover. Conservative.
-DrawList without_hidden(const DrawList& list, const GpuScene& gpu, const std::vector<InstanceTransform>& transforms,
-                        const ViewParams& view, const TileDistances& distances);
+DrawList without_hidden(const DrawList& list, const GlScene& gpu,
+                        const std::vector<InstanceTransform>& transforms, const ViewParams& view,
+                        const TileDistances& distances);
 
 }  // namespace lightgrid

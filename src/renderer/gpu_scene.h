@@ -1,94 +1,39 @@
-// A scene in OpenGL's memory: every mesh, material and texture, uploaded once, independent of its views.
+// A scene in the memory of the devices. What OpenGL and OpenCL hold of it is made where a view first needs
+// it.
 #pragma once
 
 #include <map>
 #include <memory>
-#include <vector>
 
 #include "renderer/cl_scene.h"
-#include "renderer/renderer.h"
-#include "scene/animation.h"
-#include "scene/scene.h"
-#include "shared/material_params.h"
+#include "renderer/gl_scene.h"
 
 namespace lightgrid {
 
-// A run of neighbouring triangles, small enough to be culled as a whole. Object space.
-struct TriangleCluster {
-  uint32_t first_index = 0, index_count = 0;  // in the scene's one index buffer
-  Aabb bounds;
-  // All its triangles face away from an eye e with dot(normalize(apex - e), axis) >= cutoff. A cutoff of 1 or
-  // more never culls.
-  glm::vec3 cone_apex{0}, cone_axis{0};
-  float cone_cutoff = 2;
-};
-
-struct GpuMesh {
-  int base_vertex = 0;
-  std::vector<TriangleCluster> clusters;  // in index order
-};
-
 class GpuScene {
  public:
-  // Both outlive it. Meshes that no instance shows are left out, and so are their textures. A software OpenGL
-  // gets colour textures as linear 16 bits, because it would decode sRGB at every texel of every sample.
-  GpuScene(const Renderer& renderer, const Scene& scene);
+  // Both outlive it.
+  GpuScene(const Renderer& renderer, const Scene& scene) : renderer_(renderer), scene_(scene) {}
 
   // After the scene changed: uploads the vertices of meshes that deformed, and nothing else. Views read
   // instances, lights and cameras from the scene.
   void update(const SceneChanges& changes);
 
   const Scene& scene() const { return scene_; }
-  const GpuMesh& mesh(int index) const { return meshes_[index]; }
 
-  // Vertex arrays over the scene's one vertex and index buffer: positions alone for the depth prepass, or all
-  // streams.
-  GLuint positions_only() const { return positions_only_.name(); }
-  GLuint all_streams() const { return all_streams_.name(); }
-
-  // Binds the material's uniform block and the textures of `features` (MaterialFeature).
-  void bind_material(int material, uint32_t features) const;
-
-  // Appends all triangles to the index buffer once more, last to first, each with its corners in the same
-  // order. The indices [a, b) are repeated at [2 index_count() - b, 2 index_count() - a).
-  void add_reversed_triangles();
-  uint32_t index_count() const { return index_count_; }
-
-  // The same scene in OpenCL's memory: made at first use, then kept up to date.
+  // Made at first use, then kept up to date. in_gl throws Error(machine) without OpenGL.
+  GlScene& in_gl();
   const ClScene& in_cl(TexelLayout layout);
+
   // Counts the updates that moved vertices, for whoever holds positions of its own.
   int shape_version() const { return shape_version_; }
 
-  size_t geometry_bytes() const { return geometry_bytes_; }  // without reversed triangles
-  size_t reversed_triangle_bytes() const { return reversed_triangle_bytes_; }
-  size_t texture_bytes() const { return texture_bytes_; }
-
  private:
-  void upload_meshes(const std::vector<bool>& used);
-  void update_mesh(int index);
-  void upload_indices(const std::vector<uint32_t>& indices);
-  void upload_materials(const std::vector<bool>& used_meshes);
-  void upload_texture(int texture);
-
   const Renderer& renderer_;
   const Scene& scene_;
-  std::vector<GpuMesh> meshes_;
-  std::vector<GlBuffer> streams_;
-  GLuint stream_of_[6] = {};  // by attribute location; 0: no material reads it
-  std::map<int, std::vector<uint32_t>> deforming_;  // meshes that deform: their indices, cluster by cluster
-  GlBuffer indices_, materials_, absent_;  // absent_: zeros, then -1s, for streams that no mesh has
-  GlVertexArray positions_only_, all_streams_;
-  size_t material_stride_ = 0;
-  struct Slots {
-    int texture[5];
-  };
-  std::vector<Slots> slots_;  // texture index per map, -1: none
-  std::vector<GlTexture> textures_;
-  std::vector<GlSampler> samplers_;
-  uint32_t index_count_ = 0;
+  std::unique_ptr<GlScene> in_gl_;
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
   int shape_version_ = 0;
-  size_t geometry_bytes_ = 0, reversed_triangle_bytes_ = 0, texture_bytes_ = 0;
 };
 
 }  // namespace lightgrid

@@ -5,19 +5,24 @@
 namespace lightgrid {
 namespace {
 
+void check_texture_size(size_t bytes, GLenum format) {
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
+  if (bytes / texel_bytes <= size_t(texels)) return;
+  throw machine_error(
+      "light grid: {} bytes are more than the {} texels that a buffer texture may have in this OpenGL; use "
+      "larger tiles, fewer slices or fewer lights",
+      bytes, texels);
+}
+
 cl::Buffer& grown(Renderer& renderer, SharedTexture& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
-    GLint texels = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-    const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
-    if (bytes / texel_bytes > size_t(texels)) {
-      throw machine_error("light grid: {} bytes are more than the {} texels that a buffer texture may have in this OpenGL; use "
-                          "larger tiles, fewer slices or fewer lights", bytes, texels);
-    }
+    if (renderer.gl) check_texture_size(bytes, format);
     shared.texture = GlTexture();
     shared.buffer.reset();  // freed first, so that both need not fit at once
     shared.buffer.emplace(*renderer.cl, renderer.bridge, bytes);
-    shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
+    if (renderer.gl) shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
   }
   return shared.buffer->cl_buffer();
 }

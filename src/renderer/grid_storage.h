@@ -1,4 +1,4 @@
-// Memory of a light grid that OpenCL writes and OpenGL reads.
+// Memory of a light grid that OpenCL writes and, where there is OpenGL, that reads.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// A buffer shared by OpenCL and OpenGL, with its texture for the shaders.
+// A buffer shared by OpenCL and OpenGL, with its texture for the shaders, which without OpenGL is none.
 struct SharedTexture {
   std::optional<SharedBuffer> buffer;
   GlTexture texture;

@@ -54,9 +54,8 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       settings_(settings),
       needs_(needs),
       shared_pool_(std::move(pool)) {
-  if (plan.reversed_triangles) gpu.add_reversed_triangles();
-  lights.update(scene, view, plan, params);
-  make_draw_lists();
+  if (needs_.opengl && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
+  follow_view();
 }
 
 void RenderView::look(const View& next) { look(next, PlannedInstances::in_view); }
@@ -74,8 +73,7 @@ void RenderView::look(const View& next, PlannedInstances instances) {
     depth_copy_.reset();
     states_.clear();
   }
-  lights.update(scene, view, plan, params);
-  make_draw_lists();
+  follow_view();
   follow_plan(before);
 }
 
@@ -102,17 +100,20 @@ void RenderView::lights_changed() {
   if (culler_ && plan.light_grid) culler_->set_lights(cull_lights_of(scene, plan.local));
 }
 
-void RenderView::make_draw_lists() {
+void RenderView::follow_view() {
   transforms.resize(scene.instances.size());
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
+  if (!needs_.opengl) return;
+  lights.update(scene, view, plan, params);
   if (preparing_) {
     opaque.clear(), blended.clear();
     return;
   }
-  opaque = make_draw_list(gpu, view, plan.opaque, transforms, plan.slice_far_m, DrawOrder::front_to_back);
-  blended = make_draw_list(gpu, view, plan.blended, transforms, plan.slice_far_m, DrawOrder::as_given);
+  const GlScene& in_gl = gpu.in_gl();
+  opaque = make_draw_list(in_gl, view, plan.opaque, transforms, plan.slice_far_m, DrawOrder::front_to_back);
+  blended = make_draw_list(in_gl, view, plan.blended, transforms, plan.slice_far_m, DrawOrder::as_given);
 }
 
 // Keeps resources that still fit; drops the others, to be created again at their next use.
@@ -179,8 +180,9 @@ SharedGridStorage& RenderView::blend_grid() {
 }
 
 size_t RenderView::memory_bytes() const {
-  size_t bytes = gpu.geometry_bytes() + gpu.texture_bytes() + targets.bytes() + lights.light_bytes();
-  if (plan.reversed_triangles) bytes += gpu.reversed_triangle_bytes();
+  size_t bytes = targets.bytes() + lights.light_bytes();
+  if (needs_.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
+  if (needs_.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& [type, state] : states_) bytes += state->memory_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (depth_copy_) bytes += depth_copy_->size();

@@ -33,9 +33,10 @@ class PassState {
 };
 
 struct RenderView {
-  // All outlive it; it may add reversed triangles to the GPU scene. Views with the same pool draw into the
-  // same images in turn; without a pool the view has its own. Throws Error(input) if the settings do not fit
-  // the view.
+  // All outlive it; it may add reversed triangles to the GPU scene. Without needs.opengl nothing of the scene
+  // is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool the
+  // view has its own. Throws Error(input) if the settings do not fit the view, Error(machine) if it needs an
+  // OpenGL that the renderer lacks.
   RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const TechniqueNeeds& needs,
              std::shared_ptr<TargetPool> pool = nullptr);
   RenderView(const RenderView&) = delete;
@@ -61,7 +62,7 @@ struct RenderView {
   Targets targets;
 
   std::vector<InstanceTransform> transforms;  // by instance; set for those in the plan
-  DrawList opaque, blended;                   // nearest first; back to front
+  DrawList opaque, blended;                   // nearest first; back to front. Empty without needs.opengl
 
   // The programs of a pass over the scene's surfaces, by material features. All of them get `defines`.
   ScenePrograms& programs(SurfaceShaders shaders);
@@ -96,7 +97,7 @@ struct RenderView {
 
  private:
   void look(const View& view, PlannedInstances instances);
-  void make_draw_lists();
+  void follow_view();
   void follow_plan(const FramePlan& before);
   std::vector<std::string> view_defines(std::vector<std::string> defines) const;
 

@@ -1,19 +1,38 @@
 #include "renderer/renderer.h"
 
+#include "base/error.h"
+
 namespace lightgrid {
 
+Renderer::OpenGl Renderer::open_gl(GlBackend backend) {
+  try {
+    return {GlContext::create(backend), ""};
+  } catch (const Error& error) {
+    if (backend != GlBackend::automatic && backend != GlBackend::none) throw;
+    return {nullptr, error.what()};
+  }
+}
+
 Renderer::Renderer(const std::string& cl_substring, GlBackend backend)
-    : Renderer(cl_substring, GlContext::create(backend)) {}
+    : Renderer(cl_substring, open_gl(backend)) {}
 
 Renderer::Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> context)
-    : gl(std::move(context)),
+    : Renderer(cl_substring, OpenGl{std::move(context), ""}) {}
+
+Renderer::Renderer(const std::string& cl_substring, OpenGl opened)
+    : gl(std::move(opened.context)),
+      why_no_gl(std::move(opened.why_not)),
       cl(std::make_unique<ClDevice>(cl_substring)),
       kernels(std::make_unique<ProgramCache>(*cl)),
-      bridge(choose_bridge(*cl, *gl)),
+      bridge(gl ? choose_bridge(*cl, *gl) : BridgeKind::none),
       tuned(read_tuned_sizes(cl->info())) {}
 
 Renderer::~Renderer() {
   if (gl && !programs_.empty()) gl->make_current();
+}
+
+void Renderer::require_gl() const {
+  if (!gl) throw machine_error("{}; only the technique visibility draws without OpenGL", why_no_gl);
 }
 
 const GlProgram& Renderer::program(const std::string& vertex, const std::string& fragment,

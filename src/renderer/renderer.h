@@ -23,7 +23,8 @@ struct RendererCounts {
 
 class Renderer {
  public:
-  // Opens both devices. Throws Error(machine) if one is missing.
+  // Opens both devices. Throws Error(machine) without an OpenCL device, or without the OpenGL backend that is
+  // named. Without any (automatic), and with none, `gl` is null.
   Renderer(const std::string& cl_substring, GlBackend backend);
   // With a current context, such as a window's.
   Renderer(const std::string& cl_substring, std::unique_ptr<GlContext> context);
@@ -31,10 +32,14 @@ class Renderer {
   // Makes its context current, since its programs are deleted there.
   ~Renderer();
 
-  std::unique_ptr<GlContext> gl;
+  // Throws Error(machine) without OpenGL: why, and what to install.
+  void require_gl() const;
+
+  std::unique_ptr<GlContext> gl;  // null: without OpenGL, for this reason:
+  std::string why_no_gl;
   std::unique_ptr<ClDevice> cl;
   std::unique_ptr<ProgramCache> kernels;
-  BridgeKind bridge = BridgeKind::staged;
+  BridgeKind bridge = BridgeKind::none;
   TunedSizes tuned{};  // of settings that are not given
 
   // A GLSL program, compiled at first use: embedded shader files, each after one "#define" per name.
@@ -44,6 +49,13 @@ class Renderer {
   void note_scene_bytes(size_t bytes) const { scene_bytes_ += bytes; }
 
  private:
+  struct OpenGl {
+    std::unique_ptr<GlContext> context;
+    std::string why_not;
+  };
+  static OpenGl open_gl(GlBackend backend);
+  Renderer(const std::string& cl_substring, OpenGl opened);
+
   std::map<std::string, GlProgram> programs_;
   mutable size_t scene_bytes_ = 0;
 };

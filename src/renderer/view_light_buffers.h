@@ -1,7 +1,7 @@
 // Uniform blocks of a view and its lights in view space, as OpenGL's shaders read them.
 #pragma once
 
-#include "renderer/gpu_scene.h"
+#include "gl/objects.h"
 #include "renderer/light_texels.h"
 #include "shared/view_params.h"
 

@@ -105,6 +105,8 @@ json view_data(PictureStore& store, const std::vector<ReportView>& views, size_t
                     {"difference", store.number_of(pictures.difference)},
                     {"listed", heat_entry(store, pictures.listed)}});
   }
+  const RunResult* reference = reference_row(view.report);
+  const bool reference_ran = reference && reference->refused.empty();
   return {{"title", view_in_words(view.report)},
           {"folder", view.folder},
           {"reduced", view.pictures.reduced},
@@ -112,6 +114,7 @@ json view_data(PictureStore& store, const std::vector<ReportView>& views, size_t
           {"figures", view.figures},
           {"rows", rows},
           {"reference", store.number_of(view.pictures.reference)},
+          {"reference_row", reference_ran ? json(reference - view.report.rows.data()) : json()},
           {"lit", heat_entry(store, view.pictures.lit)},
           {"heat_top", view.pictures.heat_top},
           {"charts", to_json(charts_over_settings(views, v))}};

@@ -38,12 +38,6 @@ const RunResult* fastest_of_all(const CompareReport& report) {
   return fastest(report, [](const RunResult&) { return true; });
 }
 
-const RunResult* reference_row(const CompareReport& report) {
-  const auto found = std::find_if(report.rows.begin(), report.rows.end(),
-                                  [&](const RunResult& row) { return row.technique == report.reference; });
-  return found == report.rows.end() ? nullptr : &*found;
-}
-
 size_t index_of(const CompareReport& report, const RunResult& row) { return &row - report.rows.data(); }
 
 std::string name_of(const CompareReport& report, const RunResult& row) {
@@ -65,8 +59,8 @@ std::string time_figure(const CompareReport& report, const RunResult& row, const
   if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
     return fmt::format("{} is {} times faster than {}: {} ms against {} ms a frame ({})",
                        name_of(report, row), short_number(reference->frame_ms.median / time.median),
-                       reference->technique, short_number(time.median),
-                       short_number(reference->frame_ms.median), runs);
+                       report.reference, short_number(time.median), short_number(reference->frame_ms.median),
+                       runs);
   }
   return fmt::format("{} takes {} ms a frame ({})", name_of(report, row), short_number(time.median), runs);
 }
@@ -112,12 +106,12 @@ std::string why_faster(const CompareReport& report, const RunResult& row, const 
   const double own = listed_per_pixel(report, row), other = listed_per_pixel(report, reference);
   if (own >= 0 && other > own * 1.05) {
     return fmt::format("because it goes through {} lights a pixel where {} goes through {}",
-                       lights_number(own), reference.technique, lights_number(other));
+                       lights_number(own), report.reference, lights_number(other));
   }
   const auto costliest = std::max_element(reference.passes.begin(), reference.passes.end(),
                                           [](auto& a, auto& b) { return a.median_ms < b.median_ms; });
   if (costliest == reference.passes.end()) return "";
-  return fmt::format("most of {}'s frame is {} ({} ms)", reference.technique, costliest->name,
+  return fmt::format("most of {}'s frame is {} ({} ms)", report.reference, costliest->name,
                      short_number(costliest->median_ms));
 }
 
@@ -140,7 +134,7 @@ std::string unbeaten_clause(const CompareReport& report, const RunResult& refere
   const auto* next =
       fastest(report, [&](const RunResult& row) { return &row != &reference && is_exact(row); });
   if (!next) return fastest_clause(report, reference);
-  return fmt::format("Nothing beats {}: {} ms a frame; {} comes next at {} ms", reference.technique,
+  return fmt::format("Nothing beats {}: {} ms a frame; {} comes next at {} ms", report.reference,
                      short_number(reference.frame_ms.median), name_of(report, *next),
                      short_number(next->frame_ms.median));
 }
@@ -159,7 +153,7 @@ std::string winner_clause(const CompareReport& report, const RunResult& row, con
   const auto why = why_faster(report, row, reference);
   const double ratio = reference.frame_ms.median / std::max(row.frame_ms.median, 1e-9);
   return fmt::format("{} wins: {} ms a frame, {} times faster than {}{}{}{}", name_of(report, row),
-                     short_number(row.frame_ms.median), short_number(ratio), reference.technique,
+                     short_number(row.frame_ms.median), short_number(ratio), report.reference,
                      why.empty() ? "" : ", ", why, image_clause(row));
 }
 

@@ -55,10 +55,9 @@ uint32_t heat_top(const CompareReport& report) {
 
 // The image that all are compared with, and whether it belongs to a row.
 const Image& reference_image(const CompareReport& report) {
-  for (size_t i = 0; i < report.rows.size(); ++i) {
-    if (report.rows[i].technique == report.reference && has_image(report, i)) return report.images[i];
-  }
-  return report.reference_image;
+  const RunResult* row = reference_row(report);
+  const size_t i = row ? size_t(row - report.rows.data()) : report.rows.size();
+  return row && has_image(report, i) ? report.images[i] : report.reference_image;
 }
 
 Png picture_png(const Image& image, int reduced) {
@@ -93,7 +92,7 @@ void write_pictures(const fs::path& folder, const CompareReport& report, const R
     write(stems[i] + ".difference.png", row.difference);
     if (row.listed) write(stems[i] + ".heat.png", row.listed->png);
   }
-  write(report.reference + ".png", pictures.reference);
+  write(file_stem(report.reference) + ".png", pictures.reference);
   if (pictures.lit) write("lit.heat.png", pictures.lit->png);
 }
 
@@ -104,7 +103,7 @@ void write_exr_files(const fs::path& folder, const CompareReport& report) {
   });
   const Image& reference = reference_image(report);
   if (&reference == &report.reference_image && !reference.pixels.empty()) {
-    save_exr(folder / (report.reference + ".exr"), reference);
+    save_exr(folder / (file_stem(report.reference) + ".exr"), reference);
   }
 }
 

@@ -121,6 +121,23 @@ json to_json(const RunResult& result) {
   return out;
 }
 
+const RunResult* reference_row(const CompareReport& report) {
+  const size_t colon = report.reference.find(':'), equals = report.reference.find('=');
+  const auto is_reference = [&](const RunResult& row) {
+    if (row.technique != report.reference.substr(0, colon)) return false;
+    if (colon == std::string::npos) return true;
+    const auto setting = row.settings.find(report.reference.substr(colon + 1, equals - colon - 1));
+    return setting != row.settings.end() && setting->second == report.reference.substr(equals + 1);
+  };
+  const RunResult* refused = nullptr;
+  for (const RunResult& row : report.rows) {
+    if (!is_reference(row)) continue;
+    if (row.refused.empty()) return &row;
+    if (!refused) refused = &row;
+  }
+  return refused;
+}
+
 json to_json(const CompareReport& report) {
   json rows = json::array(), reference_errors;
   for (const auto& row : report.rows) rows.push_back(to_json(row));

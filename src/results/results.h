@@ -100,7 +100,8 @@ struct CompareReport {
   std::string scene;
   int width = 0, height = 0;
   std::string cl_device, gl_device, commit;
-  std::string reference;  // the technique the images are compared with
+  std::string reference;  // the technique that the images are compared with: "forward", or with the setting
+                          // that makes it one, "visibility:lights=all"
   uint64_t reference_pixels = 0;  // number of pixels compared: all, or a sample if all would take too long
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear
@@ -109,6 +110,9 @@ struct CompareReport {
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
 };
+
+// The row that is the reference, possibly refused; null if there is none.
+const RunResult* reference_row(const CompareReport& report);
 
 nlohmann::json to_json(const CompareReport& report);
 std::string json_text(const CompareReport& report);  // the text of results.json for one view

@@ -9,5 +9,6 @@ extern const char* const test_output_folder;  // for images of failing tests; cr
 extern const char* const default_shared_folder;
 extern const char* const lightgrid_program;
 extern const char* const grid_digest_program;
+extern const char* const no_opengl_library;  // support/no_opengl.cpp
 
 }  // namespace lightgrid

@@ -220,7 +220,7 @@ TEST(OneByOne, BlinnPhong) {
 size_t memory_of(const Scene& scene, const View& view, const char* technique, const Settings& settings = {}) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
-  const GpuScene& gpu = run.view().gpu;
+  const GlScene& gpu = run.view().gpu.in_gl();
   const size_t reversed = run.view().plan.reversed_triangles ? 4 * size_t(gpu.index_count()) : 0;
   EXPECT_EQ(gpu.reversed_triangle_bytes(), reversed) << technique;
   return run.result().memory_total - gpu.geometry_bytes() - reversed - gpu.texture_bytes();

@@ -2,7 +2,8 @@
 
 const pictureUrl = (number) => page.pictures[number];
 const nameOf = (view, row) => view.page.rows[view.results.rows.indexOf(row)].name;
-const referenceOf = (view) => view.results.rows.find((row) => row.technique === view.results.reference.technique && !row.refused);
+const referenceOf = (view) =>
+    view.results.rows[view.page.reference_row];  // undefined if the reference is no row that ran
 const ranRows = (view) => view.results.rows.filter((row) => !row.refused);
 
 function speedUp(view, row) {
@@ -18,7 +19,7 @@ function showPictures(view) {
   const choicesOf = (pick, suffix, note) =>
     rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note }));
   const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view) }] : [];
-  const name = view.results.reference.technique;
+  const name = referenceOf(view) ? nameOf(view, referenceOf(view)) : view.results.reference.technique;
   const groups = [
     { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference) }]), ...choicesOf((row) => row.image, "")] },
     { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },

@@ -1,0 +1,271 @@
+#include "renderer/gl_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "base/image.h"
+#include "plan/frame_plan.h"
+#include "renderer/clusters.h"
+#include "renderer/shown_meshes.h"
+#include "scene/rig.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr uint32_t map_features[5] = {feature_base_color_map, feature_metallic_roughness_map,
+                                      feature_normal_map, feature_occlusion_map, feature_emissive_map};
+constexpr uint32_t map_flags[5] = {MATERIAL_BASE_COLOR_MAP, MATERIAL_METALLIC_ROUGHNESS_MAP,
+                                   MATERIAL_NORMAL_MAP, MATERIAL_OCCLUSION_MAP, MATERIAL_EMISSIVE_MAP};
+
+const TextureSlot* slot_of(const Material& m, int slot) {
+  const TextureSlot* slots[5] = {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map,
+                                 &m.occlusion_map, &m.emissive_map};
+  return slots[slot];
+}
+
+MaterialParams material_params(const Material& m) {
+  MaterialParams p{};
+  std::memcpy(p.base_color, &m.base_color, sizeof p.base_color);
+  std::memcpy(p.emissive, &m.emissive, sizeof m.emissive);
+  p.metallic = m.metallic, p.roughness = m.roughness;
+  p.normal_scale = m.normal_scale, p.occlusion_strength = m.occlusion_strength;
+  p.alpha_cutoff = m.alpha_cutoff;
+  if (m.alpha_mode == AlphaMode::mask) p.flags |= MATERIAL_MASK;
+  if (m.unlit) p.flags |= MATERIAL_UNLIT;
+  for (int i = 0; i < 5; ++i) {
+    const TextureSlot& slot = *slot_of(m, i);
+    if (slot.texture < 0) continue;
+    p.flags |= map_flags[i];
+    if (slot.uv_set == 1) p.flags |= MATERIAL_UV1_FIRST << i;
+    if (slot.transformed()) p.flags |= MATERIAL_UV_TRANSFORM_FIRST << i;
+    const glm::mat3x2& uv = slot.uv_from_vertex;
+    const float linear[4] = {uv[0].x, uv[0].y, uv[1].x, uv[1].y}, offset[4] = {uv[2].x, uv[2].y, 0, 0};
+    std::memcpy(p.uv_linear[i], linear, sizeof linear);
+    std::memcpy(p.uv_offset[i], offset, sizeof offset);
+  }
+  return p;
+}
+
+GLint wrap_of(Wrap wrap) {
+  return wrap == Wrap::clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
+}
+
+GLint min_filter_of(Filter filter) {
+  switch (filter) {
+    case Filter::nearest:
+      return GL_NEAREST;
+    case Filter::linear:
+      return GL_LINEAR;
+    case Filter::nearest_mipmap_nearest:
+      return GL_NEAREST_MIPMAP_NEAREST;
+    case Filter::linear_mipmap_nearest:
+      return GL_LINEAR_MIPMAP_NEAREST;
+    case Filter::nearest_mipmap_linear:
+      return GL_NEAREST_MIPMAP_LINEAR;
+    case Filter::linear_mipmap_linear:
+      return GL_LINEAR_MIPMAP_LINEAR;
+  }
+  return GL_LINEAR;
+}
+
+// Steps of 2^-16 are finer than those of the sRGB curve, 3e-4 at black.
+std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
+  static const auto table = [] {
+    std::array<uint16_t, 256> values;
+    for (int i = 0; i < 256; ++i) values[i] = uint16_t(std::lround(linear_from_srgb(i / 255.0f) * 65535.0f));
+    return values;
+  }();
+  std::vector<uint16_t> linear(rgba.size());
+  for (size_t i = 0; i < rgba.size(); ++i) linear[i] = i % 4 == 3 ? uint16_t(rgba[i] * 257) : table[rgba[i]];
+  return linear;
+}
+
+// The corners of a triangle keep their order: in another order its depths would round differently.
+void append_reversed_triangles(std::vector<uint32_t>& indices) {
+  const size_t count = indices.size();
+  indices.resize(2 * count);
+  for (size_t i = 0; i < count; i += 3) {
+    std::copy_n(indices.begin() + i, 3, indices.end() - i - 3);
+  }
+}
+
+}  // namespace
+
+GlScene::GlScene(const Renderer& renderer, const Scene& scene) : renderer_(renderer), scene_(scene) {
+  const std::vector<bool> used = shown_meshes(scene);
+  upload_meshes(used);
+  upload_materials(used);
+  renderer.note_scene_bytes(geometry_bytes_ + texture_bytes_);
+}
+
+void GlScene::upload_meshes(const std::vector<bool>& used) {
+  size_t vertices = 0;
+  std::vector<uint32_t> indices;
+  meshes_.resize(scene_.meshes.size());
+  if (scene_.rig) {
+    for (const DeformingMesh& deforming : scene_.rig->meshes) deforming_[deforming.mesh];
+  }
+  for (size_t i = 0; i < scene_.meshes.size(); ++i) {
+    if (!used[i]) continue;
+    const bool blended = scene_.materials[scene_.meshes[i].material].alpha_mode == AlphaMode::blend;
+    meshes_[i].base_vertex = int(vertices);
+    const size_t first = indices.size();
+    meshes_[i].clusters = append_clusters(scene_.meshes[i], blended, indices);
+    if (const auto found = deforming_.find(int(i)); found != deforming_.end()) {
+      found->second.assign(indices.begin() + std::ptrdiff_t(first), indices.end());
+    }
+    vertices += scene_.meshes[i].positions.size();
+  }
+  positions_only_ = make_vertex_array();
+  all_streams_ = make_vertex_array();
+
+  uint32_t features = 0;
+  for (size_t i = 0; i < scene_.meshes.size(); ++i) {
+    if (used[i]) features |= material_features(scene_, scene_.meshes[i]);
+  }
+
+  // One buffer a stream. If only some meshes have a stream, `absent` fills it for the others; if no material
+  // reads the stream, one value serves every vertex.
+  const auto stream = [&](GLuint location, auto Mesh::*member, auto absent, bool any) {
+    using Value = decltype(absent);
+    std::vector<Value> all;
+    if (any) all.reserve(vertices);
+    for (size_t i = 0; any && i < scene_.meshes.size(); ++i) {
+      if (!used[i]) continue;
+      const std::vector<Value>& values = scene_.meshes[i].*member;
+      all.insert(all.end(), values.begin(), values.end());
+      if (values.empty()) all.insert(all.end(), scene_.meshes[i].positions.size(), absent);
+    }
+    if (any) {
+      streams_.push_back(make_buffer(all.size() * sizeof(Value), all.data()));
+      geometry_bytes_ += all.size() * sizeof(Value);
+      stream_of_[location] = streams_.back().name();
+    } else if (!absent_) {
+      const glm::vec4 values[2] = {glm::vec4(0), glm::vec4(-1)};
+      absent_ = make_buffer(sizeof values, values);
+    }
+    const GLuint buffer = any ? streams_.back().name() : absent_.name();
+    const GLintptr offset = any || absent[0] == 0 ? 0 : sizeof(glm::vec4);
+    for (const GlVertexArray* array : {&all_streams_, &positions_only_}) {
+      if (array == &positions_only_ && location != 0) continue;
+      glVertexArrayVertexBuffer(array->name(), location, buffer, offset, any ? sizeof(Value) : 0);
+      glVertexArrayAttribFormat(array->name(), location, Value::length(), GL_FLOAT, GL_FALSE, 0);
+      glVertexArrayAttribBinding(array->name(), location, location);
+      glEnableVertexArrayAttrib(array->name(), location);
+    }
+  };
+  stream(0, &Mesh::positions, glm::vec3(0), true);
+  stream(1, &Mesh::normals, glm::vec3(0, 0, 1), true);
+  stream(2, &Mesh::tangents, glm::vec4(0), features & feature_normal_map);
+  stream(3, &Mesh::uv0, glm::vec2(0), features & feature_textured);
+  stream(4, &Mesh::uv1, glm::vec2(0), features & feature_uv1);
+  stream(5, &Mesh::colors, glm::vec4(-1), features & feature_vertex_color);
+  upload_indices(indices);
+  index_count_ = uint32_t(indices.size());
+  geometry_bytes_ += indices.size() * sizeof(uint32_t);
+}
+
+void GlScene::update(const SceneChanges& changes) {
+  for (const int mesh : changes.meshes) update_mesh(mesh);
+}
+
+void GlScene::update_mesh(int index) {
+  const auto found = deforming_.find(index);
+  if (found == deforming_.end() || found->second.empty()) return;  // no instance shows it
+  const Mesh& mesh = scene_.meshes[index];
+  refresh_clusters(mesh, found->second, meshes_[index].clusters);
+  const auto put = [&](GLuint location, const auto& values) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    if (stream_of_[location] == 0 || values.empty()) return;
+    glNamedBufferSubData(stream_of_[location], GLintptr(meshes_[index].base_vertex) * GLintptr(sizeof(Value)),
+                         GLsizeiptr(values.size() * sizeof(Value)), values.data());
+    renderer_.note_scene_bytes(values.size() * sizeof(Value));
+  };
+  put(0, mesh.positions);
+  put(1, mesh.normals);
+  put(2, mesh.tangents);
+  put(3, mesh.uv0);
+  put(4, mesh.uv1);
+  put(5, mesh.colors);
+}
+
+void GlScene::upload_indices(const std::vector<uint32_t>& indices) {
+  indices_ = make_buffer(indices.size() * sizeof(uint32_t), indices.data());
+  glVertexArrayElementBuffer(positions_only_.name(), indices_.name());
+  glVertexArrayElementBuffer(all_streams_.name(), indices_.name());
+}
+
+void GlScene::add_reversed_triangles() {
+  if (reversed_triangle_bytes_ > 0 || index_count_ == 0) return;
+  std::vector<uint32_t> indices(index_count_);
+  glGetNamedBufferSubData(indices_.name(), 0, GLsizeiptr(indices.size() * sizeof(uint32_t)), indices.data());
+  append_reversed_triangles(indices);
+  upload_indices(indices);
+  reversed_triangle_bytes_ = size_t(index_count_) * sizeof(uint32_t);
+  renderer_.note_scene_bytes(reversed_triangle_bytes_);
+}
+
+void GlScene::upload_materials(const std::vector<bool>& used_meshes) {
+  GLint alignment = 256;
+  glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+  material_stride_ = (sizeof(MaterialParams) + alignment - 1) / alignment * alignment;
+  std::vector<char> bytes(material_stride_ * scene_.materials.size());
+  slots_.resize(scene_.materials.size());
+  for (size_t i = 0; i < scene_.materials.size(); ++i) {
+    const MaterialParams params = material_params(scene_.materials[i]);
+    std::memcpy(bytes.data() + i * material_stride_, &params, sizeof params);
+    for (int s = 0; s < 5; ++s) slots_[i].texture[s] = slot_of(scene_.materials[i], s)->texture;
+  }
+  materials_ = make_buffer(bytes.size(), bytes.data());
+  textures_.resize(scene_.textures.size());
+  samplers_.resize(scene_.textures.size());
+  for (size_t i = 0; i < scene_.meshes.size(); ++i) {
+    if (!used_meshes[i]) continue;
+    for (const int texture : slots_[scene_.meshes[i].material].texture) {
+      if (texture >= 0 && !textures_[texture]) upload_texture(texture);
+    }
+  }
+}
+
+void GlScene::upload_texture(int index) {
+  const Texture& texture = scene_.textures[index];
+  const Bitmap& bitmap = scene_.bitmaps[texture.bitmap];
+  const bool mips = texture.min_filter != Filter::nearest && texture.min_filter != Filter::linear;
+  int levels = 1;
+  while (mips && (std::max(bitmap.width, bitmap.height) >> levels) > 0) ++levels;
+  const bool decoded = texture.srgb && renderer_.gl->software;
+  const GLenum format = decoded ? GL_RGBA16 : texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  textures_[index] = make_texture_2d(format, bitmap.width, bitmap.height, levels);
+  const GLuint name = textures_[index].name();
+  if (decoded) {
+    const std::vector<uint16_t> linear = linear_from_srgb_16(bitmap.rgba);
+    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_SHORT,
+                        linear.data());
+  } else {
+    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        bitmap.rgba.data());
+  }
+  if (levels > 1) glGenerateTextureMipmap(name);
+  texture_bytes_ += size_t(bitmap.width) * bitmap.height * (decoded ? 8 : 4) * (levels > 1 ? 4 : 3) / 3;
+  samplers_[index] = make_sampler();
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MIN_FILTER, min_filter_of(texture.min_filter));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MAG_FILTER,
+                      texture.mag_linear ? GL_LINEAR : GL_NEAREST);
+}
+
+void GlScene::bind_material(int material, uint32_t features) const {
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), GLintptr(material * material_stride_),
+                    sizeof(MaterialParams));
+  for (int s = 0; s < 5; ++s) {
+    const int texture = slots_[material].texture[s];
+    if (!(features & map_features[s]) || texture < 0 || !textures_[texture]) continue;
+    glBindTextureUnit(s, textures_[texture].name());
+    glBindSampler(s, samplers_[texture].name());
+  }
+}
+
+}  // namespace lightgrid
