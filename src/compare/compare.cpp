@@ -5,12 +5,13 @@
 
 #include "base/version.h"
 #include "cl/error.h"
-#include "results/flip.h"
-#include "results/metrics.h"
 #include "compare/moving.h"
 #include "compare/oracle_sample.h"
 #include "compare/reference_sample.h"
 #include "compare/run_technique.h"
+#include "compare/silhouettes.h"
+#include "results/flip.h"
+#include "results/metrics.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -168,16 +169,11 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
   reference.blocks = std::move(blocks);
 }
 
-Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
-  Image picked(int(pixels.size()), 1);
-  for (size_t i = 0; i < pixels.size(); ++i) picked.pixels[i] = image.pixels[pixels[i]];
-  return picked;
-}
-
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more before its lists are read.
-void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference, const std::vector<float>& depth,
-             const std::optional<FlipExposures>& exposures) {
+void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference,
+             const std::vector<float>& depth, const std::optional<FlipExposures>& exposures,
+             const std::optional<ShownTriangles>& shown) {
   RunResult row = run.result();
   if (reference.sampled()) {
     const std::vector<uint32_t> pixels = pixels_of(reference.blocks, report.width, report.height);
@@ -188,6 +184,8 @@ void add_row(CompareReport& report, TechniqueRun& run, const Reference& referenc
   }
   const bool is_reference = &run == reference.run;
   if (!is_reference) run.draw_frame();
+  if (shown && run.frame().triangles)
+    row.error->silhouettes = silhouette_error(run.image(), own_triangles(run), reference.image(), *shown);
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
@@ -272,11 +270,17 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   const std::vector<float> depth = read_depth(*reference.run);
   std::optional<FlipExposures> exposures;
   if (options.flip && !reference.sampled()) exposures = flip_exposures(reference.image());
+  std::optional<ShownTriangles> shown;
+  const bool own_surfaces =
+      std::ranges::any_of(entries, [](const Entry& e) { return e.run && e.run->technique().own_surfaces; });
+  if (renderer.gl && own_surfaces && !reference.sampled()) shown = read_triangles(reference.run->view());
   for (size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries[i];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
     // A refusal here keeps the run: it may be the reference.
-    if (entry.run) attempt(entry, [&] { add_row(report, *entry.run, reference, depth, exposures); }, false);
+    if (entry.run)
+      attempt(
+          entry, [&] { add_row(report, *entry.run, reference, depth, exposures, shown); }, false);
     if (entry.refusal) {
       report.rows.push_back(refused_row(entry, reference.run->result()));
       report.images.emplace_back(), report.listed.emplace_back();

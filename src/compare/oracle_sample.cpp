@@ -42,6 +42,12 @@ std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels
   return shade_pixels(v_.view, depth_, surface_at, lights_, settings, pixels);
 }
 
+Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
+  Image picked(int(pixels.size()), 1);
+  for (size_t i = 0; i < pixels.size(); ++i) picked.pixels[i] = image.pixels[pixels[i]];
+  return picked;
+}
+
 std::vector<uint32_t> most_different(const Image& image, const Image& reference, const std::vector<uint32_t>& among, size_t most) {
   std::vector<std::pair<double, uint32_t>> differences;
   for (const uint32_t pixel : among) {

@@ -27,6 +27,9 @@ class SurfaceOracle {
   uint64_t left_out_ = 0;
 };
 
+// A row of these pixels of an image, for the metrics.
+Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels);
+
 // At most `most` pixels of `among`, those where the images differ most; without pixels that are equal.
 std::vector<uint32_t> most_different(const Image& image, const Image& reference, const std::vector<uint32_t>& among, size_t most);
 

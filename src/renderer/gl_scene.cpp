@@ -197,10 +197,16 @@ void GlScene::upload_indices(const std::vector<uint32_t>& indices) {
   glVertexArrayElementBuffer(all_streams_.name(), indices_.name());
 }
 
+std::vector<uint32_t> GlScene::read_indices() const {
+  std::vector<uint32_t> indices(index_count_);
+  if (index_count_ == 0) return indices;
+  glGetNamedBufferSubData(indices_.name(), 0, GLsizeiptr(indices.size() * sizeof(uint32_t)), indices.data());
+  return indices;
+}
+
 void GlScene::add_reversed_triangles() {
   if (reversed_triangle_bytes_ > 0 || index_count_ == 0) return;
-  std::vector<uint32_t> indices(index_count_);
-  glGetNamedBufferSubData(indices_.name(), 0, GLsizeiptr(indices.size() * sizeof(uint32_t)), indices.data());
+  std::vector<uint32_t> indices = read_indices();
   append_reversed_triangles(indices);
   upload_indices(indices);
   reversed_triangle_bytes_ = size_t(index_count_) * sizeof(uint32_t);

@@ -53,6 +53,8 @@ class GlScene {
   // order. The indices [a, b) are repeated at [2 index_count() - b, 2 index_count() - a).
   void add_reversed_triangles();
   uint32_t index_count() const { return index_count_; }
+  std::vector<uint32_t> read_indices()
+      const;  // of all triangles in order, without the reversed ones, each of its mesh
 
   size_t geometry_bytes() const { return geometry_bytes_; }  // without reversed triangles
   size_t reversed_triangle_bytes() const { return reversed_triangle_bytes_; }

@@ -43,9 +43,21 @@ json to_json(const ImageError& error) {
               {"rmse_rel", finite_or_null(error.oracle->rmse_rel)},
               {"of_reference_max_rel", finite_or_null(error.oracle->of_reference_max_rel)}};
   }
+  json silhouettes, inside;
+  if (const auto& apart = error.silhouettes) {
+    const double pixels = double(apart->silhouettes + apart->blended + apart->inside);
+    silhouettes = {{"pixels", apart->silhouettes},
+                   {"share", pixels > 0 ? double(apart->silhouettes) / pixels : 0}};
+    inside = {{"pixels", apart->inside},
+              {"max_rel", finite_or_null(apart->max_rel)},
+              {"rmse_rel", finite_or_null(apart->rmse_rel)},
+              {"p99_rel", finite_or_null(apart->p99_rel)}};
+  }
   json values = {{"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
                  {"bit_identical", error.bit_identical},
-                 {"oracle", oracle}};
+                 {"oracle", oracle},
+                 {"silhouettes", silhouettes},
+                 {"inside", inside}};
   for (const ErrorMeasure& measure : error_measures()) values[measure.key] = finite_or_null(error.*measure.value);
   return values;
 }

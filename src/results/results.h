@@ -33,6 +33,15 @@ struct OracleError {
   double of_reference_max_rel = 0;
 };
 
+// Of a technique that rasterises by its own code: the pixels whose opaque triangle is not the one that OpenGL
+// shows, and the difference at the others, relative to the reference's brightest channel.
+struct SilhouetteError {
+  uint64_t silhouettes = 0;
+  uint64_t blended = 0;  // further pixels that are not compared: a blended surface covers them or a neighbour
+  uint64_t inside = 0;   // compared
+  double max_rel = 0, rmse_rel = 0, p99_rel = 0;
+};
+
 // Linear light, over all pixels and the three colour channels; if the reference is a sample, over its pixels.
 struct ImageError {
   double max_abs = 0;
@@ -42,6 +51,8 @@ struct ImageError {
   std::optional<double> flip_mean;
   bool bit_identical = true;
   std::optional<OracleError> oracle;  // absent if not requested
+  std::optional<SilhouetteError>
+      silhouettes;  // absent where OpenGL draws the surfaces, and where the reference is a sample
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/image.h"
+#include "conformance/double_errors.h"
 #include "conformance/picture.h"
 #include "support/gltf_builder.h"
 
@@ -80,12 +81,25 @@ inline nlohmann::json& add_light(GltfBuilder& made, const nlohmann::json& light)
   return nodes.back();
 }
 
+// The technique visibility shows the surfaces that the double rasteriser and filter find. Pixels' centres lie
+// on the plate's diagonal: on which of its two triangles is not compared.
+inline void expect_visibility_agrees(const Scene& scene, const View& view) {
+  for (const Instance& instance : scene.instances) {
+    if (scene.materials[scene.meshes[instance.mesh].material].alpha_mode == AlphaMode::blend) return;
+  }
+  const DoubleErrors e = errors_against_double(scene, view, {.everything_on = true});
+  EXPECT_LE(e.elsewhere, size_t(2 * own_size));
+  EXPECT_LT(e.mean, 1e-6);
+  EXPECT_LT(e.largest, 2e-5);
+}
+
 // From its own camera, with its own lights only.
 inline Picture shown(Scene scene) {
   scene.ambient = glm::vec3(0);
   Picture picture{make_view(scene.cameras.at(0), own_size, own_size), {}};
   picture.image = render_image(scene, picture.view);
   EXPECT_EQ(count_nan_pixels(picture.image), 0u);
+  expect_visibility_agrees(scene, picture.view);
   return picture;
 }
 inline Picture shown(const GltfBuilder& made) {

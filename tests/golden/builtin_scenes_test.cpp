@@ -81,14 +81,17 @@ Difference difference_of(const Bytes& actual, const Bytes& expected) {
   return d;
 }
 
-class GoldenImage : public testing::TestWithParam<const char*> {};
+class GoldenImage : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+};  // scene, technique
 
 TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
-  const std::string name = GetParam();
+  const auto [scene_name, technique] = GetParam();
+  const std::string name =
+      scene_name + std::string(technique == std::string("forward_plus") ? "" : std::string(".") + technique);
   const fs::path golden = fs::path(source_folder) / "assets/golden" / (name + ".png");
-  const Scene scene = find_builtin_scene(name)->make();
+  const Scene scene = find_builtin_scene(scene_name)->make();
   const View view = make_view(choose_camera(scene, ""), width, height);
-  const Bytes actual = srgb_bytes(render_image(scene, view));
+  const Bytes actual = srgb_bytes(render_image(scene, view, technique));
   const Bytes actual_png = encode_png(width, height, 3, actual);
   if (const char* update = std::getenv("UPDATE_GOLDEN"); update && std::string(update) == "1") {
     write_file(golden, actual_png);
@@ -116,8 +119,12 @@ TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, GoldenImage, testing::Values("hall", "spheres", "terrain", "street"),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Of, GoldenImage,
+                         testing::Combine(testing::Values("hall", "spheres", "terrain", "street"),
+                                          testing::Values("forward_plus", "visibility")),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + std::string("_") + std::get<1>(info.param);
+                         });
 
 }  // namespace
 }  // namespace lightgrid

@@ -19,6 +19,12 @@ struct DepthBuffer {
   cl::Buffer values;
 };
 
+// The nearest opaque triangle of each pixel by its number: those of the plan's opaque instances one after the
+// other.
+struct TriangleBuffer {
+  cl::Buffer numbers;
+};
+
 // A light grid as OpenGL's shaders read it: as lists, or as masks.
 struct GridTextures {
   GLuint cells = 0, indices = 0;  // buffer textures
@@ -47,6 +53,7 @@ struct Frame {
   std::optional<LightGrid> blend_grid;  // of blended ones, in RenderView::blend_grid()
   size_t light_index_bytes = 0;         // of LightIndexImages
   std::optional<DepthBuffer> depth;     // of techniques that rasterise in OpenCL; else the depth image has it
+  std::optional<TriangleBuffer> triangles;  // of the same techniques
 
   size_t light_grid_bytes() const;  // of all these, in use
 };

@@ -56,6 +56,13 @@ function oracleInWords(oracle, reference) {
   return `; off the oracle by ${errorNumber(oracle.max_rel)} of the brightest channel, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
 }
 
+// Of a technique with a rasteriser of its own: what differs beside its silhouettes.
+function silhouettesInWords({silhouettes, inside}) {
+  if (!silhouettes || inside.max_rel === null) return '';
+  return `; ${wholeNumber(silhouettes.pixels)} pixels show another triangle, elsewhere it is at most ${
+      errorNumber(inside.max_rel)} of the brightest channel, RMSE ${errorNumber(inside.rmse_rel)}`;
+}
+
 // Twenty colors that are distinguishable on light and dark paper; the first ten best.
 const COLORS = ["#3b6fb6", "#d9822b", "#3f9b58", "#b5475d", "#7d5bb0", "#2a9aa0", "#a5762c", "#c25aa0", "#6b8e23", "#4e5fa8",
   "#8c564b", "#17a2d4", "#c7a008", "#e2664f", "#5aa17f", "#9467bd", "#7f8f2e", "#d66fa8", "#5b7f95", "#b07d62"];

@@ -63,9 +63,11 @@ function showErrors(view) {
   const measured = ranRows(view).filter((row) => row.error && row !== referenceOf(view));
   const { technique, pixels } = view.results.reference, all = view.results.size[0] * view.results.size[1];
   const where = pixels < all ? ` at ${wholeNumber(pixels)} of ${wholeNumber(all)} pixels` : "";
-  add("Technique", `This picture against ${technique}${where}, which shades every light in float:`,
-    ...measured.map((row) => `${nameOf(view, row)}: ${errorInWords(row.error)}${oracleInWords(row.error.oracle, technique)}.`),
-    ...(measured.length === 0 ? [unknown + "."] : []));
+  add('Technique', `This picture against ${technique}${where}, which shades every light in float:`,
+      ...measured.map(
+          (row) => `${nameOf(view, row)}: ${errorInWords(row.error)}${silhouettesInWords(row.error)}${
+              oracleInWords(row.error.oracle, technique)}.`),
+      ...(measured.length === 0 ? [unknown + '.'] : []));
   if (shared?.pixels_left_out > 0) {
     add("Left out", `${wholeNumber(shared.pixels_left_out)} pixels that blended surfaces cover: the oracle does not shade those.`);
   }

@@ -1,0 +1,79 @@
+#include "passes/read_outs/triangles.h"
+
+#include <algorithm>
+
+#include "renderer/draw.h"
+
+namespace lightgrid {
+namespace {
+
+// Two numbers a pixel over the frame's depth: the instance, and the triangle's place in the scene's indices.
+class TriangleTarget {
+ public:
+  explicit TriangleTarget(RenderView& v)
+      : v_(v),
+        texture_(make_texture_2d(GL_RG32UI, v.view.width, v.view.height)),
+        framebuffer_(make_framebuffer({texture_.name()}, v.targets.depth())),
+        program_(v.programs({"shaders/scene.vert", "shaders/triangles.frag", {}}).of(0)),
+        first_triangle_(glGetUniformLocation(program_.name, "first_triangle")) {}
+
+  std::vector<glm::uvec2> drawn(const DrawList& list, GLenum depth_test) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, v_.view.width, v_.view.height);
+    const GLuint nothing[4] = {none, none, none, none};
+    glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, nothing);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(depth_test);
+    for (const DrawItem& item : list) draw(item);
+    std::vector<glm::uvec2> found(v_.pixels());
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, v_.view.width, v_.view.height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
+    return found;
+  }
+
+  static constexpr GLuint none = 0xffffffffu;
+
+ private:
+  void draw(const DrawItem& item) {
+    InstanceDrawer drawer(v_, DrawStreams::all);
+    drawer.bind(item.instance, program_);
+    glUniform1ui(program_.object, GLuint(item.instance));
+    // gl_PrimitiveID counts from 0 in each range.
+    for (size_t i = 0; i < item.ranges.counts.size(); ++i) {
+      const void* offset = item.ranges.offsets[i];
+      glUniform1ui(first_triangle_, GLuint(reinterpret_cast<size_t>(offset) / (3 * sizeof(uint32_t))));
+      glDrawElementsBaseVertex(GL_TRIANGLES, item.ranges.counts[i], GL_UNSIGNED_INT, offset,
+                               item.ranges.base_vertices[i]);
+    }
+  }
+
+  RenderView& v_;
+  GlTexture texture_;
+  GlFramebuffer framebuffer_;
+  const SceneProgram& program_;
+  GLint first_triangle_;
+};
+
+}  // namespace
+
+ShownTriangles read_triangles(RenderView& v) {
+  TriangleTarget target(v);
+  const std::vector<uint32_t> indices = v.gpu.in_gl().read_indices();
+  ShownTriangles shown;
+  for (const glm::uvec2& found : target.drawn(v.opaque, GL_EQUAL)) {
+    SceneTriangle& triangle = shown.opaque.emplace_back();
+    if (found.x == TriangleTarget::none) continue;
+    triangle.instance = int(found.x);
+    std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(found.y)), 3, triangle.vertices.begin());
+    std::ranges::sort(triangle.vertices);
+  }
+  shown.blended.assign(v.pixels(), false);
+  if (v.blended.empty()) return shown;
+  const std::vector<glm::uvec2> over = target.drawn(v.blended, GL_GEQUAL);
+  for (size_t i = 0; i < over.size(); ++i) shown.blended[i] = over[i].x != TriangleTarget::none;
+  return shown;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,85 @@
+// Pixels that show another triangle than OpenGL's, and the difference elsewhere.
+#include "compare/silhouettes.h"
+
+#include <gtest/gtest.h>
+
+#include "compare/compare.h"
+#include "results/metrics.h"
+#include "support/devices.h"
+#include "support/double_surfaces.h"
+#include "support/small_scene.h"
+
+namespace lightgrid {
+namespace {
+
+// Three pixels of 2 x 2: another triangle, a neighbour of glass, and 0.5 of 4 apart.
+TEST(SilhouetteErrors, WorkedByHand) {
+  const SceneTriangle a{0, {1, 2, 3}}, b{0, {2, 3, 4}}, nothing;
+  Image reference(5, 1), image(5, 1);
+  reference.pixels = {{4, 0, 0, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}};
+  image.pixels = {{4, 0, 0.5f, 1}, {1, 3, 1, 1}, {1, 1, 1, 1}, {9, 0, 0, 1}, {0, 0, 0, 1}};
+  const ShownTriangles shown{{a, a, nothing, a, a}, {false, false, false, false, true}};
+  const SilhouetteError e = silhouette_error(image, {a, b, nothing, a, a}, reference, shown);
+  EXPECT_EQ(e.silhouettes, 1u);
+  EXPECT_EQ(e.blended, 2u);
+  EXPECT_EQ(e.inside, 2u);
+  EXPECT_DOUBLE_EQ(e.max_rel, 0.5 / 4);
+  EXPECT_DOUBLE_EQ(e.rmse_rel, std::sqrt(0.25 / 6) / 4);
+  EXPECT_DOUBLE_EQ(e.p99_rel, 0.5 / 4);
+}
+
+std::vector<SceneTriangle> in_double(const Scene& scene, const View& view,
+                                     const std::vector<int>& instances) {
+  const double_surfaces::Surfaces surfaces(scene, view, instances);
+  std::vector<SceneTriangle> triangles;
+  for (const double_surfaces::Hit& hit : surfaces.hits()) {
+    SceneTriangle& triangle = triangles.emplace_back(SceneTriangle{.instance = hit.instance});
+    if (hit.instance < 0) continue;
+    const std::vector<uint32_t>& indices = scene.meshes[scene.instances[hit.instance].mesh].indices;
+    for (int k = 0; k < 3; ++k) triangle.vertices[k] = indices[3 * hit.triangle + k];
+    std::ranges::sort(triangle.vertices);
+  }
+  return triangles;
+}
+
+size_t differing(const std::vector<SceneTriangle>& a, const std::vector<SceneTriangle>& b) {
+  size_t count = 0;
+  for (size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return count;
+}
+
+TEST(SilhouetteErrors, BothRasterisersTrianglesAreThoseInDouble) {
+  SmallScene s = small_scene();
+  effect("mask").add(s);
+  const View view = small_view(131, 77);
+  TechniqueRun visibility(software_devices(), s.scene, view, {}, find_technique("visibility"));
+  TechniqueRun forward(software_devices(), s.scene, view, {}, find_technique("forward"));
+  visibility.run_frame();
+  forward.run_frame();
+  const auto expected = in_double(s.scene, view, visibility.view().plan.opaque);
+  const auto own = own_triangles(visibility);
+  const ShownTriangles shown = read_triangles(forward.view());
+  EXPECT_LT(differing(own, expected), expected.size() / 200);
+  EXPECT_LT(differing(shown.opaque, expected), expected.size() / 200);
+  EXPECT_EQ(std::ranges::count(shown.blended, true), 0);
+}
+
+TEST(SilhouetteErrors, AreCountedApartByCompare) {
+  SmallScene s = small_scene();
+  effect("blend").add(s);
+  const CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+  const CompareReport report = compare_techniques(
+      software_devices(), s.scene, small_view(131, 77),
+      {{&find_technique("forward_plus"), {}}, {&find_technique("visibility"), {}}}, options);
+  EXPECT_FALSE(report.rows[0].error->silhouettes.has_value());
+  const std::optional<SilhouetteError>& apart = report.rows[1].error->silhouettes;
+  ASSERT_TRUE(apart.has_value());
+  EXPECT_EQ(apart->silhouettes + apart->blended + apart->inside, 131u * 77u);
+  EXPECT_GT(apart->blended, 100u);
+  EXPECT_LT(apart->silhouettes, 131u * 77u / 100u);
+  EXPECT_LT(apart->max_rel, 1e-3);
+  EXPECT_LE(apart->max_rel, report.rows[1].error->max_rel);
+}
+
+}  // namespace
+}  // namespace lightgrid
