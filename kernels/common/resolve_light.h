@@ -2,18 +2,20 @@
 // lights, in the order of forward's shader (shaders/forward.frag).
 //
 // -DDIRECTIONAL  there are directional lights
+// -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN  as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"
 #include "kernels/common/shade_pixels.h"
+#include "shared/light_grid.h"
 
 // What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
 // directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
 // pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth
-// keys between them.
+// keys between them; with -DSLICES the depth keys between slices.
 #define RESOLVE_ARGUMENTS                                                                            \
   global const uint *triangle_instance, global const RasterInstanceRecord *instances,                \
       global const uint *indices, global const float4 *clip, global const SurfaceInstance *surfaces, \
@@ -21,28 +23,55 @@
       global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
       global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
       global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
-      constant float *bin_edges, constant ViewParams *view
+      constant float *bin_edges, constant float *slice_edges, constant ViewParams *view
 #define RESOLVE_SCENE                                                                               \
   {                                                                                                 \
     triangle_instance, instances, surfaces, indices, clip, vertices, materials, texels_4, texels_8, \
         (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                             \
   }
 #define RESOLVE_LIGHTS \
-  { {positions, colors, cones, light_bins}, directional, light_indices, 0 }
+  { {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, slice_edges }
 
 typedef struct ResolveLights {
   Lights lights;
   global const float4* directional;  // two each: direction to the light, and illuminance
   global const index_t* list;  // null: all of them
   uint count;
+  global const uint2* cells;  // with -DSLICES: of all tiles; `list` is then where all lists begin
+  uint cell;                  // the tile's in slice 0
+  constant float* slice_edges;
 } ResolveLights;
 
-// The list of a tile's cell.
+// The list of a tile's cell, or the cells that are one behind the other.
 static inline void take_list(ResolveLights* l, global const index_t* light_indices, global const uint2* cells,
                              uint cell, constant ViewParams* view) {
+#ifdef SLICES
+  l->list = light_indices, l->cell = cell;
+#else
   l->list = cells ? light_indices + cells[cell].x : 0;
   l->count = cells ? cells[cell].y : view->light_count;
+#endif
 }
+
+#ifdef SLICES
+// From the nearest slice to the farthest, the list of each for the pixels in it.
+static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth, mask_t lit, const ResolveLights* l,
+                                   constant float* bin_edges, constant ViewParams* view) {
+  const real nearest = lit ? -depth : REAL(INFINITY), farthest = lit ? depth : REAL(INFINITY);
+  const uint first = slice_of_key(least_lane(nearest), l->slice_edges);
+  const uint last = slice_of_key(-least_lane(farthest), l->slice_edges);
+  Real3 sum = own;
+  for (uint slice = first; slice <= last; ++slice) {
+    const float begin = slice == 0 ? -INFINITY : l->slice_edges[slice - 1], end = l->slice_edges[slice];
+    const mask_t here = lit & (-depth >= REAL(begin)) & (-depth < REAL(end));
+    if (!any_lane(here)) continue;
+    const uint2 range = l->cells[cell_in_slice(l->cell, slice, view->tiles_x, view->tiles_y)];
+    const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y, bins_of_pixels(depth, here, bin_edges), &l->lights);
+    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+  }
+  return sum;
+}
+#endif
 
 static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
                               constant ViewParams* view) {
@@ -66,7 +95,11 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
   const ShadingPoint p = shading_point(position, direction_to_viewer(position), shading_normal(a, s),
                                        s->base_color, s->metallic, s->roughness);
   Real3 sum = own_light(&p, s, l, view);
+#ifdef SLICES
+  sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);
+#else
   sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);
+#endif
   return real3(s->unlit ? s->base_color.x : sum.x, s->unlit ? s->base_color.y : sum.y,
                s->unlit ? s->base_color.z : sum.z);
 }

@@ -55,7 +55,8 @@ class Resolving : public PassState {
     return std::tuple(raster.triangle_instance, raster.instances, raster.indices, raster.clip, surfaces,
                       s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.positions.buffer(),
                       lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), cells,
-                      indices, light_bins, lights.bin_edges.buffer(), lights.view.buffer());
+                      indices, light_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
+                      lights.view.buffer());
   }
 
   const bool lanes;
@@ -67,6 +68,7 @@ class Resolving : public PassState {
   std::string resolve_defines(RenderView& v) {
     std::string defines = light_defines(v, lanes);
     if (v.plan.directional) defines += " -DDIRECTIONAL";
+    if (v.plan.light_grid && v.plan.slices > 1) defines += " -DSLICES";
     const uint32_t features = v.plan.settings.everything_on ? feature_all : scene(v).features();
     for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
                                       {feature_uv1, " -DUV1"},

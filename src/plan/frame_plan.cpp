@@ -126,7 +126,9 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
 
 // From the near plane to the farthest surface in view.
 void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& needs, FramePlan& plan) {
-  plan.slices = needs.slices ? plan.settings.slices : 1;
+  const bool sliced = needs.slices || (needs.given_slices && plan.settings.given.contains("slices"));
+  plan.slices = sliced ? plan.settings.slices : 1;
+  if (needs.given_slices) plan.settings.slices = plan.slices;
   double far_m = view.near_m;
   for (const auto* list : {&plan.opaque, &plan.blended}) {
     for (int i : *list) {
@@ -139,10 +141,13 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
   plan.slice_far_m = far_m > view.near_m ? far_m : view.near_m + 1;
   plan.z_bins = needs.z_bins && plan.light_grid ? plan.settings.z_bins : 1;
   const bool needed = plan.light_grid && plan.slices > 1;
-  plan.decisions.push_back({"depth slices", needed,
-                            needed ? fmt::format("{} from {:.3g} m to {:.3g} m", plan.slices, plan.slice_near_m, plan.slice_far_m)
-                            : !needs.slices ? "the technique uses none"
-                            : plan.light_grid ? "slices=1" : "no light grid"});
+  plan.decisions.push_back(
+      {"depth slices", needed,
+       needed ? fmt::format("{} from {:.3g} m to {:.3g} m", plan.slices, plan.slice_near_m, plan.slice_far_m)
+       : needs.given_slices && !sliced ? "slices is not given"
+       : !sliced                       ? "the technique uses none"
+       : plan.light_grid               ? "slices=1"
+                                       : "no light grid"});
   plan.decisions.push_back({"z-bins", plan.z_bins > 1,
                             plan.z_bins > 1      ? fmt::format("{} between the same distances", plan.z_bins)
                             : !needs.z_bins      ? "the technique's shading reads none"

@@ -44,6 +44,7 @@ struct Decision {
 struct TechniqueNeeds {
   bool light_grid = false;
   bool slices = false;   // tiles are cut into depth slices
+  bool given_slices = false;  // the same, but only if the setting slices is given
   bool stencil = false;  // beside the depth buffer
   bool lists = false;    // light code reads lists only, not masks
   bool z_bins = false;   // shading skips lights by z-bins, if the setting z-bins says so

@@ -52,7 +52,7 @@ const std::vector<Setting>& all_settings() {
        {choice("16", &Settings::tile, 16), choice("8", &Settings::tile, 8), choice("32", &Settings::tile, 32),
         choice("64", &Settings::tile, 64)}},
       {"slices",
-       "depth slices a tile, of clustered",
+       "depth slices a tile, of clustered; of visibility where it is given",
        {choice("24", &Settings::slices, 24), choice("1", &Settings::slices, 1), choice("2", &Settings::slices, 2),
         choice("4", &Settings::slices, 4), choice("8", &Settings::slices, 8), choice("16", &Settings::slices, 16),
         choice("32", &Settings::slices, 32), choice("64", &Settings::slices, 64)}},

@@ -32,7 +32,8 @@ struct Settings {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;  // pixels a side: 8, 16, 32 or 64
-  int slices = 24;  // depth slices, for techniques that use them: 1, 2, 4, 8, 16, 24, 32 or 64
+  int slices = 24;  // depth slices, for techniques that use them (TechniqueNeeds::given_slices: where it is
+                    // given): 1, 2, 4, 8, 16, 24, 32 or 64
   SliceSpacing slice_spacing = SliceSpacing::exponential;
   int z_bins = 1;  // 1 (off), 16, 64 or 256
   GridLists grid_lists = GridLists::lists;

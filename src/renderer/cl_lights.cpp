@@ -22,11 +22,17 @@ void ClLights::upload(RenderView& v) {
     edges.assign(keys.begin(), keys.end());
   }
   bin_edges.put(device, what, edges);
+  edges.clear();
+  if (v.plan.slices > 1) {
+    const auto keys = slice_keys(cull_view(v.view, v.plan));
+    edges.assign(keys.begin(), keys.end());
+  }
+  slice_edges.put(device, what, edges);
 }
 
 size_t ClLights::memory_bytes() const {
   size_t bytes = 0;
-  for (const UploadedBuffer* b : {&positions, &colors, &cones, &directional, &view, &bin_edges})
+  for (const UploadedBuffer* b : {&positions, &colors, &cones, &directional, &view, &bin_edges, &slice_edges})
     bytes += b->bytes();
   return bytes;
 }

@@ -11,8 +11,8 @@ class ClLights {
   void upload(RenderView& v);
   size_t memory_bytes() const;
 
-  UploadedBuffer positions, colors, cones, directional, view,
-      bin_edges;  // shared/punctual_light.h, shared/slices.h
+  UploadedBuffer positions, colors, cones, directional, view, bin_edges,
+      slice_edges;  // shared/punctual_light.h, shared/slices.h
 };
 
 // The -D names that light loops in OpenCL take of a view and its plan (kernels/common/shade_pixels.h).

@@ -18,7 +18,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr TechniqueNeeds needs{.light_grid = true, .lists = true, .z_bins = true, .chosen_lights = true};
+constexpr TechniqueNeeds needs{
+    .light_grid = true, .given_slices = true, .lists = true, .z_bins = true, .chosen_lights = true};
 
 struct Resolved {
   Image image;
@@ -225,6 +226,8 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
   for (const Settings& settings :
        {Settings{}, Settings{.portable = true}, Settings{.tile = 8},
         Settings{.kernel_shape = KernelShape::lanes}, Settings{.kernel_shape = KernelShape::group},
+        Settings{.slices = 8, .z_bins = 64, .given = {"slices"}},
+        Settings{.slices = 8, .kernel_shape = KernelShape::group, .given = {"slices"}},
         Settings{.tile = 64, .lights = ShadedLights::all}}) {
     RenderView v(test_devices(), gpu, view, settings, needs);
     std::optional<LightGrid> grid;

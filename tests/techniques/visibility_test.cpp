@@ -31,6 +31,26 @@ TEST(VisibilityBuffer, ListsAndEveryLightHaveTheSameBytes) {
   }
 }
 
+// A slice's list serves the pixels in it: fewer lights listed, the same bytes. hall has glass.
+TEST(VisibilityBuffer, SlicesHaveTheSameBytesAndListLess) {
+  const Scene scene = find_builtin_scene("hall")->make();
+  const View view = default_view(scene, 95, 53);
+  const Image all = render(scene, view, "visibility", {.lights = ShadedLights::all});
+  uint64_t listed[2];
+  const Settings of[2] = {{}, {.slices = 16, .given = {"slices"}}};
+  for (int i = 0; i < 2; ++i) {
+    TechniqueRun run(test_devices(), scene, view, of[i], find_technique("visibility"));
+    run.run_frame();
+    EXPECT_EQ(run.frame().grid->slices, i == 0 ? 1 : 16);
+    EXPECT_TRUE(identical(run.image(), all)) << i;
+    const LitPairs pairs = count_listed_pairs(run, read_depth(run));
+    EXPECT_EQ(pairs.lost, 0u);
+    EXPECT_EQ(pairs.wrong, 0u);
+    listed[i] = pairs.listed;
+  }
+  EXPECT_LT(double(listed[1]), 0.9 * double(listed[0]));
+}
+
 TEST(VisibilityBuffer, InEverySize) {
   const Scene scene = find_builtin_scene("spheres")->make();
   for (const auto& [width, height] : {std::pair(1, 1), {17, 9}, {3, 31}, {129, 70}}) {
