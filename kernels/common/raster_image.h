@@ -30,17 +30,28 @@ typedef struct Image {
   MaskSource masks;
 } Image;
 
-static inline void put_pixel(const Image* image, uint x, uint y, float depth, uint triangle) {
-  const size_t at = (size_t)y * image->width + x;
-  if (!(depth >= LEAST_DEPTH)) return;
+static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(depth) << 32 | ~triangle; }
+
+// Whether the pixel would change: most triangles are behind what is there, and that is cheaper to see than
+// what a mask shows.
+static inline bool is_nearer(const Image* image, size_t at, float depth, uint triangle) {
+  if (!(depth >= LEAST_DEPTH)) return false;
 #if ATOMICS == 64
-  const ulong key = (ulong)as_uint(depth) << 32 | ~triangle;
-  if (image->keys[at] < key) atom_max(image->keys + at, key);
+  return image->keys[at] < key_of(depth, triangle);
 #elif PASS == 1
-  if (image->depths[at] < as_uint(depth)) atomic_max(image->depths + at, as_uint(depth));
+  return image->depths[at] < as_uint(depth);
 #else
-  if (image->depths[at] == as_uint(depth) && image->triangles[at] > triangle)
-    atomic_min(image->triangles + at, triangle);
+  return image->depths[at] == as_uint(depth) && image->triangles[at] > triangle;
+#endif
+}
+
+static inline void put_pixel(const Image* image, size_t at, float depth, uint triangle) {
+#if ATOMICS == 64
+  atom_max(image->keys + at, key_of(depth, triangle));
+#elif PASS == 1
+  atomic_max(image->depths + at, as_uint(depth));
+#else
+  atomic_min(image->triangles + at, triangle);
 #endif
 }
 
@@ -55,7 +66,10 @@ static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, in
     const float dy = (float)((y0 + y) * 256 + 128 - r->y[0]) * (1.0f / 256), row = fma(r->zy, dy, r->z0);
     for (int x = first_x; x <= x1 - x0; x += step_x) {
       if (((a.c + a.a * x + a.b * y) | (b.c + b.a * x + b.b * y) | (c.c + c.a * x + c.b * y)) < 0) continue;
-      const float dx = (float)((x0 + x) * 256 + 128 - r->x[0]) * (1.0f / 256), depth = fma(r->zx, dx, row);
+      const float dx = (float)((x0 + x) * 256 + 128 - r->x[0]) * (1.0f / 256);
+      const float depth = max(min(fma(r->zx, dx, row), r->z_max), r->z_min);
+      const size_t at = (size_t)(y0 + y) * image->width + (size_t)(x0 + x);
+      if (!is_nearer(image, at, depth, r->triangle)) continue;
 #ifdef ALPHA_MASKS
       const int px = x0 + x, py = y0 + y;
       if (r->alpha_material >= 0 && !shown_by_mask(&image->masks, r->triangle, r->instance, (uint)r->alpha_material, (float)(px & ~3),
@@ -63,7 +77,7 @@ static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, in
         continue;
       }
 #endif
-      put_pixel(image, (uint)(x0 + x), (uint)(y0 + y), max(min(depth, r->z_max), r->z_min), r->triangle);
+      put_pixel(image, at, depth, r->triangle);
     }
   }
 }

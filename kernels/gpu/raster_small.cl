@@ -16,7 +16,7 @@
 #include "kernels/common/raster_setup.h"
 #include "kernels/common/raster_tiles.h"
 
-#define SMALL_PIXELS 256  // of the box around a small triangle
+#define SMALL_PIXELS 64  // of the box around a small triangle
 
 typedef struct LargeList {
   global RasterRecord* records;

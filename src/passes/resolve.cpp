@@ -84,11 +84,11 @@ class Resolving : public PassState {
   size_t scene_bytes_ = 0;
 };
 
-constexpr size_t group_side = 16;  // of the pixels that a group takes
+constexpr size_t group_width = 8, group_height = 16;  // pixels; the 32 items that run together are then 8 x 4
 
 cl::NDRange whole_groups(const View& view) {
-  const auto whole = [](int pixels) { return (size_t(pixels) + group_side - 1) / group_side * group_side; };
-  return {whole(view.width), whole(view.height)};
+  const auto whole = [](int pixels, size_t group) { return (size_t(pixels) + group - 1) / group * group; };
+  return {whole(view.width, group_width), whole(view.height, group_height)};
 }
 
 size_t grid_bytes(const GridInCl& in) {
@@ -106,7 +106,7 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
       [&](const auto&... shared) {
         launch(*v.renderer.cl, "resolve", kernel,
                r.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y) : whole_groups(v.view),
-               r.lanes ? cl::NDRange(1, 1) : cl::NDRange(group_side, group_side), visible.image.triangle,
+               r.lanes ? cl::NDRange(1, 1) : cl::NDRange(group_width, group_height), visible.image.triangle,
                visible.image.depth, shared..., cl_float4{{background.r, background.g, background.b, 1}},
                r.image.cl_buffer());
       },
@@ -124,7 +124,7 @@ void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthB
       [&](const auto&... shared) {
         launch(*v.renderer.cl, "blend_resolved", kernel,
                r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
-               r.lanes ? cl::NDRange(1) : cl::NDRange(group_side, group_side), blended.lists.records,
+               r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
                blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
                shared..., r.image.cl_buffer());
       },

@@ -1,4 +1,5 @@
-// transform, clusters -> order -> setup -> scan -> fill -> tiles: for CPUs.
+// transform, clusters -> order -> setup -> scan -> fill -> tiles: for CPUs. Without tiles also for GPUs, where lists
+// have to be in drawing order.
 #include <algorithm>
 
 #include "cl/avx512.h"
@@ -23,7 +24,7 @@ class RasterLanesPipeline : public RasterPipeline {
     clusters_ = programs.kernel("cpu/raster_clusters", "");
     order_ = programs.kernel("cpu/raster_order", "");
     setup_ = programs.kernel("cpu/raster_setup", defines_);
-    scan_ = programs.kernel("cpu/raster_scan", "");
+    scan_ = programs.kernel(device.info().cpu ? "cpu/raster_scan" : "gpu/raster_scan", "");
     fill_ = programs.kernel("cpu/raster_fill", "");
   }
 
@@ -65,7 +66,8 @@ class RasterLanesPipeline : public RasterPipeline {
     launch(device_, "raster_setup", setup_, cl::NDRange(p.chunks), one, visible_.get(), job.pairs,
            job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip, records_.get(),
            next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters, job.params_buffer);
-    launch(device_, "raster_scan", scan_, one, one, tile_counts_.get(), tile_begin_.get(), job.counters,
+    const cl::NDRange adders(device_.info().cpu ? 1 : RASTER_SCAN_GROUP);
+    launch(device_, "raster_scan", scan_, adders, adders, tile_counts_.get(), tile_begin_.get(), job.counters,
            job.params_buffer);
     launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(),
            chunks_.get(), tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);

@@ -6,6 +6,7 @@
 #define RASTER_TILE 64      // pixels a side
 #define RASTER_CLUSTER 64   // triangles at most
 #define RASTER_BLOCK 256    // records that room is handed out in
+#define RASTER_SCAN_GROUP 128  // work-items that add up a scan on GPUs
 #define RASTER_BUCKETS 256  // of distance, by which clusters are sorted
 #define RASTER_HIDDEN 255   // the bucket of clusters out of view
 #define RASTER_VERTEX_RUN \
