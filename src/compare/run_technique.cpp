@@ -1,5 +1,7 @@
 #include "compare/run_technique.h"
 
+#include <algorithm>
+
 #include "gl/errors.h"
 #include "gl/state.h"
 #include "passes/read_back.h"
@@ -50,6 +52,21 @@ void TechniqueRun::run_profiled_frames() {
   view_.timer.enabled = false;
 }
 
+// In the order of their first launch.
+static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
+  std::vector<std::pair<std::string, std::vector<double>>> by_name;
+  for (const std::vector<KernelTime>& run : pass.kernels) {
+    for (const KernelTime& kernel : run) {
+      auto found = std::ranges::find(by_name, kernel.name, &std::pair<std::string, std::vector<double>>::first);
+      if (found == by_name.end()) found = by_name.insert(by_name.end(), {kernel.name, {}});
+      found->second.push_back(kernel.ms);
+    }
+  }
+  std::vector<KernelResult> results;
+  for (const auto& [name, ms] : by_name) results.push_back({name, spread_of(ms).median});
+  return results;
+}
+
 RunResult TechniqueRun::result() const {
   RunResult result;
   result.technique = technique_.name;
@@ -58,7 +75,8 @@ RunResult TechniqueRun::result() const {
   result.lights_in_view = view_.plan.lights_in_view;
   result.frame_ms = spread_of(frame_ms_);
   for (const PassRecord& record : view_.timer.records()) {
-    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read, record.bytes_written});
+    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read, record.bytes_written,
+                             kernel_results(record)});
   }
   result.memory_total = view_.memory_bytes();
   result.memory_light_grid = frame_.light_grid_bytes();

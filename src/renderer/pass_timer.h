@@ -10,28 +10,41 @@
 
 namespace lightgrid {
 
+struct KernelTime {
+  std::string name;
+  double ms = 0;  // on the device, of all its launches in the pass
+};
+
 struct PassRecord {
   std::string name, on;  // "gl" or "cl"
   std::vector<double> ms;
+  std::vector<std::vector<KernelTime>> kernels;  // of OpenCL passes, by run
   size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs
 };
 
 class PassTimer {
  public:
-  // Waits for the device "gl" or "cl".
-  using Wait = std::function<void(const std::string& on)>;
-  explicit PassTimer(Wait wait) : wait_(std::move(wait)) {}
+  // What surrounds a pass on "gl" or "cl".
+  struct Clock {
+    std::function<void(const std::string& on)> start;
+    std::function<std::vector<KernelTime>(const std::string& on)> stop;  // waits for the device
+  };
+  explicit PassTimer(Clock clock) : clock_(std::move(clock)) {}
 
   // Measures its own lifetime.
   class Scope {
    public:
-    Scope(PassTimer* timer, size_t record) : timer_(timer), record_(record) {}
+    Scope(PassTimer* timer, size_t record) : timer_(timer), record_(record) {
+      if (timer_) timer_->clock_.start(timer_->records_[record_].on);
+      started_ = {};
+    }
     Scope(const Scope&) = delete;
     ~Scope() {
       if (!timer_) return;
       PassRecord& record = timer_->records_[record_];
-      timer_->wait_(record.on);
+      std::vector<KernelTime> kernels = timer_->clock_.stop(record.on);
       record.ms.push_back(started_.elapsed_ms());
+      record.kernels.push_back(std::move(kernels));
     }
     // Bytes of the inputs read and the outputs written.
     void moves(size_t read, size_t written) {
@@ -49,7 +62,7 @@ class PassTimer {
     for (size_t i = 0; i < records_.size(); ++i) {
       if (records_[i].name == name) return {this, i};
     }
-    records_.push_back({name, on, {}, 0, 0});
+    records_.push_back({name, on, {}, {}, 0, 0});
     return {this, records_.size() - 1};
   }
 
@@ -59,7 +72,7 @@ class PassTimer {
   bool enabled = false;
 
  private:
-  Wait wait_;
+  Clock clock_;
   std::vector<PassRecord> records_;
 };
 

@@ -8,14 +8,24 @@
 namespace lightgrid {
 namespace {
 
-PassTimer::Wait wait_for(Renderer& renderer) {
-  return [&renderer](const std::string& on) {
-    if (on == "cl") {
-      finish_queue(*renderer.cl, "timing a pass");
-    } else {
-      glFinish();
-    }
+PassTimer::Clock clock_of(Renderer& renderer) {
+  PassTimer::Clock clock;
+  clock.start = [&renderer](const std::string& on) {
+    if (on == "cl") renderer.cl->profiler().time_launches(true);
   };
+  clock.stop = [&renderer](const std::string& on) {
+    std::vector<KernelTime> kernels;
+    if (on != "cl") {
+      glFinish();
+      return kernels;
+    }
+    finish_queue(*renderer.cl, "timing a pass");
+    ClProfiler& profiler = renderer.cl->profiler();
+    for (const ClProfiler::Row& row : profiler.collect()) kernels.push_back({row.label, row.ms});
+    profiler.time_launches(false);
+    return kernels;
+  };
+  return clock;
 }
 
 FramePlan tuned_plan(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
@@ -49,7 +59,7 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       view(view),
       plan(tuned_plan(scene, view, settings, needs, renderer.tuned)),
       params(params_of(view, plan, scene.ambient)),
-      timer(wait_for(renderer)),
+      timer(clock_of(renderer)),
       targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
       settings_(settings),
       needs_(needs),

@@ -82,11 +82,16 @@ json memory_json(const RunResult& result) {
 }
 
 json to_json(const PassResult& pass) {
+  json kernels = json::array();
+  for (const KernelResult& kernel : pass.kernels) {
+    kernels.push_back({{"name", kernel.name}, {"median_ms", finite_or_null(kernel.median_ms)}});
+  }
   return {{"name", pass.name},
           {"on", pass.on},
           {"median_ms", finite_or_null(pass.median_ms)},
           {"bytes_read", pass.bytes_read},
-          {"bytes_written", pass.bytes_written}};
+          {"bytes_written", pass.bytes_written},
+          {"kernels", std::move(kernels)}};
 }
 
 json to_json(const MovingResult& m) {

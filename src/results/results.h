@@ -14,11 +14,17 @@
 
 namespace lightgrid {
 
+struct KernelResult {
+  std::string name;  // of a kernel or a transfer
+  double median_ms = 0;
+};
+
 struct PassResult {
   std::string name;
   std::string on;  // "gl", "cl" or "cpu"
   double median_ms = 0;
   size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs, not measured
+  std::vector<KernelResult> kernels = {};    // of OpenCL passes, by the device's own clock
 };
 
 // (pixel, light) pairs over the image. lit: according to the oracle.

@@ -25,7 +25,7 @@ void expect_row(const nlohmann::json& row) {
   EXPECT_THAT(keys(row["memory_bytes"]), IsSupersetOf({"total", "light_grid", "gbuffer"}));
   ASSERT_FALSE(row["passes"].empty());
   for (const auto& pass : row["passes"]) {
-    EXPECT_THAT(keys(pass), IsSupersetOf({"name", "on", "median_ms", "bytes_read", "bytes_written"}));
+    EXPECT_THAT(keys(pass), IsSupersetOf({"name", "on", "median_ms", "bytes_read", "bytes_written", "kernels"}));
   }
   for (const auto& effect : row["skipped"]) EXPECT_THAT(keys(effect), IsSupersetOf({"effect", "why"}));
 }

@@ -31,7 +31,7 @@ RunResult small_result() {
   result.lights_total = 1024;
   result.lights_in_view = 871;
   result.frame_ms = {1, 2, 3, 4, 5};
-  result.passes = {{"depth_prepass", "gl", 0.5, 10, 20}};
+  result.passes = {{"depth_prepass", "gl", 0.5, 10, 20}, {"resolve", "cl", 0.75, 30, 40, {{"resolve", 0.25}}}};
   result.memory_total = 3;
   result.memory_light_grid = 2;
   result.memory_gbuffer = 1;
@@ -50,7 +50,9 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
     "settings": {"tile": 16, "cull_test": "planes+aabb", "radius_cutoff": 0.01, "mask": true, "odd": "nan"},
     "lights": {"total": 1024, "in_view": 871},
     "frame_ms": {"min": 1.0, "median": 2.0, "max": 4.0, "runs": 5},
-    "passes": [{"name": "depth_prepass", "on": "gl", "median_ms": 0.5, "bytes_read": 10, "bytes_written": 20}],
+    "passes": [{"name": "depth_prepass", "on": "gl", "median_ms": 0.5, "bytes_read": 10, "bytes_written": 20, "kernels": []},
+               {"name": "resolve", "on": "cl", "median_ms": 0.75, "bytes_read": 30, "bytes_written": 40,
+                "kernels": [{"name": "resolve", "median_ms": 0.25}]}],
     "memory_bytes": {"total": 3, "light_grid": 2, "gbuffer": 1},
     "pairs": {"listed": 9, "lit": 8, "lost": 7, "wrong": 6},
     "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false,
