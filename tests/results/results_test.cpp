@@ -36,7 +36,19 @@ RunResult small_result() {
   result.memory_light_grid = 2;
   result.memory_gbuffer = 1;
   result.pairs = PairCounts{9, 8, 7, 6};
-  result.error = ImageError{0.5, 0.25, 0.125, 0.0625, {}, false, OracleError{0.75, 0.375, 0.875}};
+  result.error = ImageError{0.5,
+                            0.25,
+                            0.125,
+                            0.0625,
+                            {},
+                            false,
+                            OracleError{0.75, 0.375, 0.875},
+                            SilhouetteError{.silhouettes = 1,
+                                            .blended = 2,
+                                            .inside = 5,
+                                            .max_rel = 0.25,
+                                            .rmse_rel = 0.125,
+                                            .p99_rel = 0.0625}};
   result.nan_pixels = 11;
   result.inf_pixels = 13;
   result.overflow = 12;
@@ -56,7 +68,9 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
     "memory_bytes": {"total": 3, "light_grid": 2, "gbuffer": 1},
     "pairs": {"listed": 9, "lit": 8, "lost": 7, "wrong": 6},
     "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false,
-              "oracle": {"max_rel": 0.75, "rmse_rel": 0.375, "of_reference_max_rel": 0.875}},
+              "oracle": {"max_rel": 0.75, "rmse_rel": 0.375, "of_reference_max_rel": 0.875},
+              "silhouettes": {"pixels": 1, "share": 0.125},
+              "inside": {"pixels": 5, "max_rel": 0.25, "rmse_rel": 0.125, "p99_rel": 0.0625}},
     "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
   EXPECT_EQ(to_json(small_result()), expected);
 }
@@ -100,6 +114,9 @@ TEST(Results, WithoutAnOracleHaveNoReferenceErrors) {
   auto result = small_result();
   result.error->oracle.reset();
   EXPECT_TRUE(to_json(result)["error"]["oracle"].is_null());
+  result.error->silhouettes.reset();
+  EXPECT_TRUE(to_json(result)["error"]["silhouettes"].is_null());
+  EXPECT_TRUE(to_json(result)["error"]["inside"].is_null());
 }
 
 TEST(Results, AreTextEvenWhereANameIsNotUtf8) {
