@@ -64,6 +64,7 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       settings_(settings),
       needs_(needs),
       shared_pool_(std::move(pool)) {
+  if (needs_.opengl) renderer.require_gl();
   if (needs_.opengl && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
   follow_view();
 }
