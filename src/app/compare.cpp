@@ -118,10 +118,11 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
 
 std::string page_path(const CompareCommand& o) { return (std::filesystem::path(o.output) / "index.html").string(); }
 
-int compare_one(const CompareCommand& o, Renderer& devices, const std::vector<LoadedView>& views,
+int compare_one(const CompareCommand& o, Renderer& devices, std::vector<LoadedView> views,
                 const std::vector<Contestant>& contestants) {
   CompareReport report;
   run_views(devices, views, contestants, o, [&](CompareReport found) { report = std::move(found); });
+  views.clear();  // pictures and pages are made without the scene
   write_report(o.output, report);
   if (!o.json.empty()) write_json(o.json, json_text(report));
   if (o.json != "-") {
@@ -169,12 +170,13 @@ int compare(const CompareCommand& o) {
       o.techniques.empty() ? default_techniques : o.techniques, chosen_settings(o.scene), o.compare);
   parse_reference(o.reference);
   const GlBackend backend = parse_gl_backend(o.devices.gl);
-  const std::vector<LoadedView> views = load_views(chosen_views(o));
+  std::vector<LoadedView> views = load_views(chosen_views(o));
   if (!o.json.empty()) check_output_file("--json", o.json);
   make_folder(o.output);
   Renderer devices(o.devices.device, backend);
   const std::vector<Contestant> contestants = runnable(o, given, devices);
-  return views.size() == 1 ? compare_one(o, devices, views, contestants) : compare_several(o, devices, views, contestants);
+  return views.size() == 1 ? compare_one(o, devices, std::move(views), contestants)
+                           : compare_several(o, devices, views, contestants);
 }
 
 }  // namespace

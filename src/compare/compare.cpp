@@ -1,10 +1,17 @@
 #include "compare/compare.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <new>
+#include <numeric>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "base/version.h"
 #include "cl/error.h"
+#include "gl/state.h"
 #include "compare/moving.h"
 #include "compare/oracle_sample.h"
 #include "compare/reference_sample.h"
@@ -71,7 +78,25 @@ std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& v
   return entries;
 }
 
-void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options) {
+// OpenGL keeps images that it still draws or has bound, and glibc what is freed, in pieces that the next stage's
+// images do not fit.
+void return_freed_memory(const Renderer& renderer) {
+  if (renderer.gl) {
+    reset_gl_state();
+    glFinish();
+  }
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+// Runs hand the memory of their images on: each keeps none but the reference.
+void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options, const BruteForce& reference,
+                      const Renderer& renderer) {
+  Image memory;
+  const auto hands_on = [&](const Entry& e) {
+    return e.run && !reference.is(e.run->technique(), e.contestant->settings);
+  };
   const int rounds = options.warmup + options.frames;
   const auto tell = [&](int round, size_t i) {
     const double done = round + double(i) / double(entries.size());
@@ -80,10 +105,19 @@ void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options
   for (int round = 0; round <= rounds; ++round) {
     for (size_t i = 0; i < entries.size(); ++i) {
       tell(round, i);
-      TechniqueRun* run = entries[i].run.get();
-      attempt(entries[i], [&] { round < rounds ? run->run_frame(round < options.warmup) : run->run_profiled_frames(); });
+      Entry& entry = entries[i];
+      if (hands_on(entry)) entry.run->reuse(std::move(memory));
+      attempt(entry, [&] {
+        round < rounds ? entry.run->run_frame(round < options.warmup) : entry.run->run_profiled_frames();
+      });
+      if (hands_on(entry)) memory = entry.run->take_image();
     }
   }
+  for (Entry& entry : entries) {
+    if (hands_on(entry)) entry.run->release();
+  }
+  memory = Image();
+  return_freed_memory(renderer);
 }
 
 // If nothing ran, throws the first reason.
@@ -170,10 +204,12 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
 }
 
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
-// once more before its lists are read.
-void add_row(CompareReport& report, TechniqueRun& run, const Reference& reference,
+// once more.
+void set_row(CompareReport& report, size_t place, TechniqueRun& run, const Reference& reference,
              const std::vector<float>& depth, const std::optional<FlipExposures>& exposures,
              const std::optional<ShownTriangles>& shown) {
+  const bool is_reference = &run == reference.run;
+  if (!is_reference) run.run_frame(true);
   RunResult row = run.result();
   if (reference.sampled()) {
     const std::vector<uint32_t> pixels = pixels_of(reference.blocks, report.width, report.height);
@@ -182,17 +218,15 @@ void add_row(CompareReport& report, TechniqueRun& run, const Reference& referenc
     row.error = compare_images(run.image(), reference.image());
     if (exposures) row.error->flip_mean = mean_of(hdr_flip_map(run.image(), reference.image(), *exposures));
   }
-  const bool is_reference = &run == reference.run;
-  if (!is_reference) run.draw_frame();
   if (shown && run.frame().triangles)
     row.error->silhouettes = silhouette_error(run.image(), own_triangles(run), reference.image(), *shown);
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
   Image image = is_reference ? run.image() : run.take_image();
-  report.rows.push_back(std::move(row));
-  report.images.push_back(std::move(image));
-  report.listed.push_back(std::move(pairs.listed_of_pixel));
+  report.rows[place] = std::move(row);
+  report.images[place] = std::move(image);
+  report.listed[place] = std::move(pairs.listed_of_pixel);
   if (!run.frame().depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
 }
 
@@ -230,10 +264,24 @@ void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries,
   });
 }
 
-}  // namespace
+// What takes most memory first, while few images are there: techniques with a copy of the scene in OpenCL, then
+// those whose lists have an entry for each pixel.
+std::vector<size_t> order_of_rows(const std::vector<Entry>& entries) {
+  std::vector<size_t> order(entries.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::ranges::stable_sort(order, {}, [&](size_t i) {
+    const Technique& technique = *entries[i].contestant->technique;
+    return technique.own_surfaces ? 0 : technique.listed ? 1 : 2;
+  });
+  return order;
+}
 
-CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
-                                 const std::vector<Contestant>& contestants, const CompareOptions& options) {
+bool any_has_own_surfaces(const std::vector<Entry>& entries) {
+  return std::ranges::any_of(entries, [](const Entry& e) { return e.run && e.run->technique().own_surfaces; });
+}
+
+CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, const std::vector<Contestant>& contestants,
+                      const CompareOptions& options) {
   CompareReport report;
   report.scene = scene.name;
   report.width = view.width, report.height = view.height;
@@ -248,7 +296,7 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants, every_light);
   Reference reference;
   choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, every_light);
-  time_interleaved(entries, options);
+  time_interleaved(entries, options, every_light, renderer);
   if (!options.all_may_refuse) require_one(entries);
 
   for (Entry& entry : entries) {
@@ -271,26 +319,36 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   std::optional<FlipExposures> exposures;
   if (options.flip && !reference.sampled()) exposures = flip_exposures(reference.image());
   std::optional<ShownTriangles> shown;
-  const bool own_surfaces =
-      std::ranges::any_of(entries, [](const Entry& e) { return e.run && e.run->technique().own_surfaces; });
-  if (renderer.gl && own_surfaces && !reference.sampled()) shown = read_triangles(reference.run->view());
-  for (size_t i = 0; i < entries.size(); ++i) {
-    Entry& entry = entries[i];
+  if (renderer.gl && any_has_own_surfaces(entries) && !reference.sampled())
+    shown = read_triangles(reference.run->view());
+  report.rows.resize(entries.size()), report.images.resize(entries.size()), report.listed.resize(entries.size());
+  const std::vector<size_t> order = order_of_rows(entries);
+  for (size_t i = 0; i < order.size(); ++i) {
+    Entry& entry = entries[order[i]];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
     // A refusal here keeps the run: it may be the reference.
     if (entry.run)
       attempt(
-          entry, [&] { add_row(report, *entry.run, reference, depth, exposures, shown); }, false);
-    if (entry.refusal) {
-      report.rows.push_back(refused_row(entry, reference.run->result()));
-      report.images.emplace_back(), report.listed.emplace_back();
-    }
+          entry, [&] { set_row(report, order[i], *entry.run, reference, depth, exposures, shown); }, false);
+    if (entry.refusal) report.rows[order[i]] = refused_row(entry, reference.run->result());
+    if (entry.run && entry.run.get() != reference.run) options.path.empty() ? entry.run.reset() : entry.run->release();
+    if (options.path.empty() && !any_has_own_surfaces(entries)) gpu.free_in_cl();
+    return_freed_memory(renderer);
   }
   if (options.progress) options.progress(0.9, "oracle: shading");
   // The oracle shades surfaces that OpenGL draws.
   if (renderer.gl) measure_against_oracle(report, reference, depth, options.shaded_samples);
   run_path(report, gpu, entries, reference, options);
   if (options.progress) options.progress(1, "");
+  return report;
+}
+
+}  // namespace
+
+CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
+                                 const std::vector<Contestant>& contestants, const CompareOptions& options) {
+  CompareReport report = measure(renderer, scene, view, contestants, options);
+  return_freed_memory(renderer);  // also of the scene on the devices
   return report;
 }
 

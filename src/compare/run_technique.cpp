@@ -24,6 +24,11 @@ void TechniqueRun::prepare() {
   frame_ = {};
 }
 
+void TechniqueRun::release() {
+  view_.release();
+  frame_ = {};
+}
+
 void TechniqueRun::draw_frame() {
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();

@@ -36,8 +36,13 @@ class TechniqueRun {
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in a second.
   void run_profiled_frames();
 
+  // Frees what the next frame creates again (RenderView::release). All runs of a pool have to be released before one
+  // of them draws again.
+  void release();
+
   const Image& image() const { return image_; }
   Image take_image() { return std::exchange(image_, {}); }  // image() is empty until the next run_frame()
+  void reuse(Image&& memory) { image_ = std::move(memory); }  // for the next frame's image
   RenderView& view() { return view_; }
   const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }

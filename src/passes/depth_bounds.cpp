@@ -6,7 +6,7 @@ namespace lightgrid {
 DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth) {
   const size_t bytes = v.pixels() * 4;
   auto pass = v.timer.pass("depth_to_cl", "gl");
-  SharedBuffer& copy = v.depth_copy();
+  SharedBuffer& copy = v.shared_pixels("depth", 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, depth.framebuffer);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, copy.gl_buffer());
   glReadPixels(0, 0, v.view.width, v.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);

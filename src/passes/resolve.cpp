@@ -14,7 +14,7 @@ class Resolving : public PassState {
  public:
   explicit Resolving(RenderView& v)
       : lanes(shades_in_lanes(v)),
-        image(*v.renderer.cl, v.renderer.bridge, v.pixels() * 16),
+        image(v.shared_pixels("image", 16)),
         defines_(resolve_defines(v)) {
     lights.upload(v);
   }
@@ -29,7 +29,7 @@ class Resolving : public PassState {
     return true;
   }
 
-  size_t memory_bytes() const override { return image.size() + lights.memory_bytes() + scene_bytes_; }
+  size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
 
   // "resolve" or "blend", built at first use.
   cl::Kernel& kernel(RenderView& v, const char* stem) {
@@ -60,7 +60,7 @@ class Resolving : public PassState {
   }
 
   const bool lanes;
-  SharedBuffer image;
+  SharedBuffer& image;  // of the view's targets
   ClLights lights;
 
  private:

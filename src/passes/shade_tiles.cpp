@@ -1,5 +1,8 @@
 #include "passes/shade_tiles.h"
 
+#include <array>
+#include <functional>
+
 #include "cl/launch.h"
 #include "renderer/cl_lights.h"
 
@@ -14,8 +17,9 @@ class TileShading : public PassState {
  public:
   explicit TileShading(RenderView& v)
       : lanes(shades_in_lanes(v)),
-        surfaces{image_buffer(v, layout(v).images[0].bytes), image_buffer(v, layout(v).images[1].bytes)},
-        image(image_buffer(v, 16)),
+        surfaces{v.shared_pixels("gbuffer 0", layout(v).images[0].bytes),
+                 v.shared_pixels("gbuffer 1", layout(v).images[1].bytes)},
+        image(v.shared_pixels("image", 16)),
         defines_(light_defines(v, lanes)) {
     lights.upload(v);
   }
@@ -31,9 +35,7 @@ class TileShading : public PassState {
     return true;
   }
 
-  size_t memory_bytes() const override {
-    return surfaces[0].size() + surfaces[1].size() + image.size() + lights.memory_bytes();
-  }
+  size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
   cl::Kernel& kernel(RenderView& v, const GBuffer& gbuffer) {
@@ -46,15 +48,12 @@ class TileShading : public PassState {
   }
 
   const bool lanes;
-  SharedBuffer surfaces[2], image;
+  const std::array<std::reference_wrapper<SharedBuffer>, 2> surfaces;  // of the view's targets
+  SharedBuffer& image;
   ClLights lights;
 
  private:
   static const GBufferLayout& layout(RenderView& v) { return *gbuffer_of(v).layout; }
-
-  static SharedBuffer image_buffer(RenderView& v, size_t pixel_bytes) {
-    return {*v.renderer.cl, v.renderer.bridge, (v.pixels() + RenderView::spare_pixels) * pixel_bytes};
-  }
 
   std::string defines_;    // of the view and its plan
   cl::Kernel kernels_[2];  // by holds_base_lighting
@@ -74,7 +73,7 @@ void gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer, TileShading& shading) 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
   for (int i = 0; i < 2; ++i) copy_attachment(v, i, gbuffer.layout->images[i].type, shading.surfaces[i]);
   if (base_lighting) copy_attachment(v, 2, GL_FLOAT, shading.image);
-  for (int i = 0; i < 2; ++i) shading.surfaces[i].hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
+  for (int i = 0; i < 2; ++i) shading.surfaces[i].get().hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
   if (base_lighting) shading.image.hand_to_cl(pixels * 16);
   const size_t bytes = pixels * (gbuffer.layout->bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
@@ -101,7 +100,7 @@ void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const Dept
   const glm::vec3 background = base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), s.surfaces[0].cl_buffer(), s.surfaces[1].cl_buffer(),
+         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), s.surfaces[0].get().cl_buffer(), s.surfaces[1].get().cl_buffer(),
          depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
          v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(), s.image.cl_buffer(),
          cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());

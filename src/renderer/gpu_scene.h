@@ -24,6 +24,8 @@ class GpuScene {
   // Made at first use, then kept up to date. in_gl throws Error(machine) without OpenGL.
   GlScene& in_gl();
   const ClScene& in_cl(TexelLayout layout);
+  // Frees the copies in OpenCL's memory: in_cl() then makes them again. No view may hold it.
+  void free_in_cl() { in_cl_.clear(); }
 
   // Counts the updates that moved vertices, for whoever holds positions of its own.
   int shape_version() const { return shape_version_; }

@@ -81,7 +81,6 @@ void RenderView::look(const View& next, PlannedInstances instances) {
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
     targets = Targets(pool, view.width, view.height, plan.stencil);
-    depth_copy_.reset();
     states_.clear();
   }
   follow_view();
@@ -101,10 +100,19 @@ void RenderView::prepare(const std::function<void()>& draw) {
     throw;
   }
   preparing_ = false;
+  drop_states();
+  look(here);
+}
+
+void RenderView::release() {
+  drop_states();
+  targets.clear();
+}
+
+void RenderView::drop_states() {
   states_.clear();
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
-  look(here);
 }
 
 void RenderView::lights_changed() {
@@ -166,9 +174,8 @@ GLuint RenderView::color_framebuffer() {
   return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
-SharedBuffer& RenderView::depth_copy() {
-  if (!depth_copy_) depth_copy_.emplace(*renderer.cl, renderer.bridge, (pixels() + spare_pixels) * 4);
-  return *depth_copy_;
+SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t pixel_bytes) {
+  return targets.buffer(*renderer.cl, renderer.bridge, name, (pixels() + spare_pixels) * pixel_bytes);
 }
 
 LightCuller& RenderView::culler() {
@@ -196,7 +203,6 @@ size_t RenderView::memory_bytes() const {
   if (needs_.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& [type, state] : states_) bytes += state->memory_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
-  if (depth_copy_) bytes += depth_copy_->size();
   if (culler_) bytes += culler_->memory_bytes();
   return bytes;
 }

@@ -49,6 +49,9 @@ struct RenderView {
   // instances and for the plain ones, and without surfaces to draw. Buffers and states are then created anew.
   // After an exception of `draw` the view draws nothing until the next look().
   void prepare(const std::function<void()>& draw);
+  // Frees the passes' states, grids, the culler, and the pool's images (Targets::clear), until the next frame, which
+  // creates them again. Programs stay.
+  void release();
   // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
 
@@ -79,7 +82,8 @@ struct RenderView {
   void bind_lights() const { lights.bind(); }
   ViewLightBuffers lights;
 
-  SharedBuffer& depth_copy();  // memory for a copy of the depth image that OpenCL reads
+  // Memory that OpenCL and OpenGL share, for `pixel_bytes` a pixel and spare ones, by name (Targets::buffer).
+  SharedBuffer& shared_pixels(const std::string& name, size_t pixel_bytes);
 
   // The view's only T; T(RenderView&) creates it at first use.
   template <typename T>
@@ -98,6 +102,7 @@ struct RenderView {
  private:
   void look(const View& view, PlannedInstances instances);
   void follow_view();
+  void drop_states();
   void follow_plan(const FramePlan& before);
   std::vector<std::string> view_defines(std::vector<std::string> defines) const;
 
@@ -106,7 +111,6 @@ struct RenderView {
   bool preparing_ = false;
   std::shared_ptr<TargetPool> shared_pool_;  // null: own images
   std::map<std::string, ScenePrograms> programs_;
-  std::optional<SharedBuffer> depth_copy_;
   std::optional<LightCuller> culler_;
   std::optional<SharedGridStorage> grids_[2];
   std::map<std::type_index, std::unique_ptr<PassState>> states_;

@@ -1,7 +1,5 @@
 #include "renderer/targets.h"
 
-#include <numeric>
-
 namespace lightgrid {
 namespace {
 
@@ -36,6 +34,16 @@ GLuint TargetPool::framebuffer(const std::vector<GLuint>& colors, GLuint depth) 
   return framebuffers_.try_emplace(key, make_framebuffer(colors, depth)).first->second.name();
 }
 
+SharedBuffer& TargetPool::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes) {
+  return buffers_.try_emplace({name, bytes}, cl, bridge, bytes).first->second;
+}
+
+void TargetPool::clear() {
+  framebuffers_.clear();
+  images_.clear();
+  buffers_.clear();
+}
+
 GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
   const auto found = targets_.find(name);
   if (found != targets_.end()) return found->second.texture;
@@ -45,9 +53,23 @@ GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
 
 GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
 
+SharedBuffer& Targets::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes) {
+  SharedBuffer& buffer = pool_->buffer(cl, bridge, name, bytes);
+  buffers_[name] = bytes;
+  return buffer;
+}
+
+void Targets::clear() {
+  targets_.clear();
+  buffers_.clear();
+  pool_->clear();
+}
+
 size_t Targets::bytes() const {
-  return std::accumulate(targets_.begin(), targets_.end(), size_t(0),
-                         [](size_t sum, const auto& target) { return sum + target.second.bytes; });
+  size_t sum = 0;
+  for (const auto& [name, target] : targets_) sum += target.bytes;
+  for (const auto& [name, bytes] : buffers_) sum += bytes;
+  return sum;
 }
 
 size_t Targets::bytes(TargetUse use) const {

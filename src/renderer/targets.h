@@ -1,13 +1,15 @@
-// The images that passes draw into: of the view's size, created at first use, kept by name from frame to
-// frame.
+// The images that passes draw into, and the buffers into which they are copied for OpenCL: of the view's size,
+// created at first use, kept by name from frame to frame.
 #pragma once
 
 #include <compare>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bridge/shared_buffer.h"
 #include "gl/objects.h"
 
 namespace lightgrid {
@@ -15,8 +17,9 @@ namespace lightgrid {
 // The category under which an image's memory is counted.
 enum class TargetUse { image, gbuffer, light_index };
 
-// Images and framebuffers in OpenGL's memory, by name, format and size. Views that share a pool draw into the
-// same images: each overwrites the others' contents. All belong to one context and live as long as the pool.
+// Images and framebuffers in OpenGL's memory, and buffers shared with OpenCL, by name, format and size. Views
+// that share a pool use the same ones in turn: each overwrites the others' contents. All belong to one context
+// and one OpenCL device, and live as long as the pool.
 class TargetPool {
  public:
   struct Image {
@@ -25,6 +28,9 @@ class TargetPool {
   };
   const Image& image(const std::string& name, GLenum format, int width, int height);
   GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth);  // depth 0: none
+  SharedBuffer& buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes);
+  // Frees all of them.
+  void clear();
 
  private:
   struct Key {
@@ -35,9 +41,10 @@ class TargetPool {
   };
   std::map<Key, Image> images_;
   std::map<std::vector<GLuint>, GlFramebuffer> framebuffers_;
+  std::map<std::pair<std::string, size_t>, SharedBuffer> buffers_;
 };
 
-// One view's images in a pool.
+// One view's images and buffers in a pool.
 class Targets {
  public:
   // stencil: the depth image has 8 stencil bits.
@@ -51,7 +58,13 @@ class Targets {
   // A framebuffer over these images; depth 0: none.
   GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) { return pool_->framebuffer(colors, depth); }
 
-  // Bytes of the images that this view uses, shared or not.
+  // The buffer of this name and size, for contents that last no longer than a frame.
+  SharedBuffer& buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes);
+
+  // Frees the pool's images and buffers. Other views of the pool have to do so too before they draw again.
+  void clear();
+
+  // Bytes of the images and buffers that this view uses, shared with other views or not.
   size_t bytes() const;
   size_t bytes(TargetUse use) const;
 
@@ -66,6 +79,7 @@ class Targets {
   int width_, height_;
   bool stencil_;
   std::map<std::string, Target> targets_;
+  std::map<std::string, size_t> buffers_;  // their bytes
 };
 
 }  // namespace lightgrid

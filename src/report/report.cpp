@@ -21,14 +21,23 @@ std::string view_stem(const CompareReport& report) {
   return file_stem(fmt::format("{}-{}x{}-{}", short_scene(report), report.width, report.height, lights));
 }
 
-ReportView finished_view(const fs::path& folder, CompareReport report, bool exr, size_t most_bytes) {
+CompareReport without_images(const CompareReport& report) {
+  CompareReport rest;
+  rest.scene = report.scene;
+  rest.width = report.width, rest.height = report.height;
+  rest.cl_device = report.cl_device, rest.gl_device = report.gl_device, rest.commit = report.commit;
+  rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
+  rest.rows = report.rows;
+  rest.reference_errors = report.reference_errors;
+  return rest;
+}
+
+ReportView finished_view(const fs::path& folder, const CompareReport& report, bool exr, size_t most_bytes) {
   ReportView view;
   view.verdict = verdict(report);
   view.figures = telling_figures(report);
   view.pictures = save_pictures(folder, report, exr, most_bytes);
-  report.images.clear(), report.listed.clear(), report.lit.clear();
-  report.reference_image = {};
-  view.report = std::move(report);
+  view.report = without_images(report);
   return view;
 }
 
@@ -54,7 +63,7 @@ const ReportView& ViewsReport::add(CompareReport report) {
   std::string name = stem;
   for (int i = 2; names_.count(name); ++i) name = fmt::format("{}-{}", stem, i);
   names_.insert(name);
-  views_.push_back(finished_view(folder_ / name, std::move(report), false, page_bytes_ / expected_));
+  views_.push_back(finished_view(folder_ / name, report, false, page_bytes_ / expected_));
   views_.back().folder = name;
   return views_.back();
 }

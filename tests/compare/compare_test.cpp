@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <new>
 
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "compare/run_technique.h"
+#include "results/metrics.h"
 #include "results/results.h"
 #include "support/render.h"
 #include "support/small_scene.h"
@@ -25,6 +28,31 @@ CompareReport compared(const std::vector<Contestant>& contestants) {
   const View view = small_view(17, 9);
   CompareOptions options{.frames = 2, .warmup = 1, .shaded_samples = 10};
   return compare_techniques(software_devices(), scene, view, contestants, options);
+}
+
+TEST(TechniqueRun, SharesItsBuffersWithRunsOfItsPoolAndGivesTheRestBack) {
+  const Scene scene = small_scene().scene;
+  const View view = small_view(48, 32);
+  GpuScene gpu(software_devices(), scene);
+  const auto pool = std::make_shared<TargetPool>();
+  TechniqueRun alone(software_devices(), gpu, view, {}, find_technique("deferred_tiled"));
+  TechniqueRun first(software_devices(), gpu, view, {}, find_technique("deferred_tiled"), pool);
+  TechniqueRun second(software_devices(), gpu, view, {}, find_technique("forward_plus_compute"), pool);
+  alone.run_frame();
+  for (int frame = 0; frame < 2; ++frame) {
+    first.run_frame();
+    second.run_frame();
+    EXPECT_EQ(first.frame().image.in_cl, second.frame().image.in_cl);
+    EXPECT_TRUE(compare_images(first.image(), alone.image()).bit_identical) << "frame " << frame;
+    EXPECT_EQ(first.result().memory_total, alone.result().memory_total) << "as if it had its own";
+  }
+  EXPECT_NE(first.frame().image.in_cl, alone.frame().image.in_cl);
+  const size_t held = first.view().memory_bytes();
+  first.release();
+  EXPECT_LT(first.view().memory_bytes(), held);
+  first.run_frame();
+  EXPECT_EQ(first.view().memory_bytes(), held);
+  EXPECT_TRUE(compare_images(first.image(), alone.image()).bit_identical) << "after its release";
 }
 
 TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {

@@ -32,6 +32,12 @@ struct SurfaceTargets {
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, i, nothing);
   }
   Image read(int i) { return read_image(i, width, height); }
+  // The target is freed: nothing is drawn into it afterwards.
+  Image take(int i) {
+    Image image = read(i);
+    textures[i] = GlTexture();
+    return image;
+  }
 
   int width, height;
   GlTexture textures[3];
@@ -46,7 +52,8 @@ SurfaceImages read_surfaces(RenderView& v) {
   ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", {}});
   glDepthFunc(GL_EQUAL);
   draw_list(v, v.opaque, DrawStreams::all, programs);
-  SurfaceImages surfaces{targets.read(0), targets.read(1), targets.read(2), {}};
+  const auto read = [&](int i) { return v.plan.blended.empty() ? targets.take(i) : targets.read(i); };
+  SurfaceImages surfaces{read(0), read(1), read(2), {}};
   // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
   if (!v.plan.blended.empty()) {
