@@ -17,15 +17,17 @@ static inline uint16 load_block(global const uint* values, uint x, uint y, uint 
   return vload16(0, block);
 }
 
-// Past the caches where four pixels are one aligned store: the image is larger than they are, and of what they
-// hold, texels are needed again.
-#if defined(AVX512)
-#define STORE_ROW(row, to) __builtin_nontemporal_store(row, (global float16*)(to))
-#define ROWS_ALIGN(width) (((width) & 3u) == 0)
-#else
-#define STORE_ROW(row, to) vstore16(row, 0, to)
-#define ROWS_ALIGN(width) true
+// Four pixels. Past the caches where they are one aligned store: the image is larger than the caches, and of what
+// they hold, texels are needed again.
+static inline void store_row(float16 row, global float* to) {
+#ifdef AVX512
+  if (((size_t)to & 63u) == 0) {
+    __builtin_nontemporal_store(row, (global float16*)to);
+    return;
+  }
 #endif
+  vstore16(row, 0, to);
+}
 
 static inline void store_block(global float* image, Real3 c, uint x, uint y, uint width, uint height) {
   const float16 rows[4] = {(float16)(c.x.s0, c.y.s0, c.z.s0, 1, c.x.s1, c.y.s1, c.z.s1, 1, c.x.s2, c.y.s2,
@@ -38,8 +40,8 @@ static inline void store_block(global float* image, Real3 c, uint x, uint y, uin
                                      c.z.se, 1, c.x.sf, c.y.sf, c.z.sf, 1)};
   global float* at = image + 4 * ((size_t)y * width + x);
   const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
-  if (columns == 4 && ROWS_ALIGN(width)) {
-    for (uint row = 0; row < lines; ++row) STORE_ROW(rows[row], at + 4 * (size_t)width * row);
+  if (columns == 4) {
+    for (uint row = 0; row < lines; ++row) store_row(rows[row], at + 4 * (size_t)width * row);
     return;
   }
   for (uint row = 0; row < lines; ++row) {
