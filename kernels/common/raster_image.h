@@ -22,8 +22,8 @@
 #include "kernels/common/raster_masks.h"
 
 typedef struct Image {
-  global volatile ulong*
-      keys;  // a pixel: depth's bits << 32 | ~number; 0: none. Depths of one sign are ordered as their bits
+  // A pixel: its depth's bits << 32 | ~number, or 0 where nothing is. Depths of one sign are ordered as their bits.
+  global volatile ulong* keys;
   global volatile uint* triangles;
   global volatile uint* depths;
   uint width;
@@ -32,9 +32,8 @@ typedef struct Image {
 
 static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(depth) << 32 | ~triangle; }
 
-// Whether the pixel would change: most triangles are behind what is there, and that is cheaper to see than
-// what a mask shows.
-static inline bool is_nearer(const Image* image, size_t at, float depth, uint triangle) {
+// Whether put_pixel would change the pixel. It is tested before the mask, whose lookup costs more.
+static inline bool would_change(const Image* image, size_t at, float depth, uint triangle) {
   if (!(depth >= LEAST_DEPTH)) return false;
 #if ATOMICS == 64
   return image->keys[at] < key_of(depth, triangle);
@@ -69,7 +68,7 @@ static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, in
       const float dx = (float)((x0 + x) * 256 + 128 - r->x[0]) * (1.0f / 256);
       const float depth = max(min(fma(r->zx, dx, row), r->z_max), r->z_min);
       const size_t at = (size_t)(y0 + y) * image->width + (size_t)(x0 + x);
-      if (!is_nearer(image, at, depth, r->triangle)) continue;
+      if (!would_change(image, at, depth, r->triangle)) continue;
 #ifdef ALPHA_MASKS
       const int px = x0 + x, py = y0 + y;
       if (r->alpha_material >= 0 && !shown_by_mask(&image->masks, r->triangle, r->instance, (uint)r->alpha_material, (float)(px & ~3),

@@ -24,11 +24,6 @@ typedef struct Lights {
   global const uint* bins;
 } Lights;
 
-static inline mask_t in_range(Real3 position, PunctualLight light) {
-  const Real3 d = offset_to_light(position, light);
-  return dot3(d, d) * light.position.w < REAL(1.0f);
-}
-
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
   light.position = lights->positions[index];
@@ -63,6 +58,12 @@ static inline PixelBins bins_of_pixels(real depths, mask_t lit, constant float* 
   bins.last = z_bin_of_key(-least_lane(farthest), edges);
 #endif
   return bins;
+}
+
+// Whether positions lie within the light's radius.
+static inline mask_t in_range(Real3 position, PunctualLight light) {
+  const Real3 d = offset_to_light(position, light);
+  return dot3(d, d) * light.position.w < REAL(1.0f);
 }
 
 // A light that reaches none of the lit pixels, or that none of them faces, would add exact zeros. Few of a

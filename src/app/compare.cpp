@@ -28,8 +28,8 @@ struct CompareCommand {
   DeviceOptions devices;
   TimingOptions timing;
   std::string output = "out/compare", json;
-  std::vector<std::string> techniques,
-      compare;  // techniques: empty: default_techniques, or those without OpenGL
+  std::vector<std::string> techniques;  // empty: default_techniques, or those without OpenGL
+  std::vector<std::string> compare;
   std::string reference = "auto";
   int page_mb = 30;
   bool flip = false;

@@ -1,7 +1,6 @@
 #include "compare/compare.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 #include <numeric>
 
@@ -11,12 +10,12 @@
 
 #include "base/version.h"
 #include "cl/error.h"
-#include "gl/state.h"
 #include "compare/moving.h"
 #include "compare/oracle_sample.h"
 #include "compare/reference_sample.h"
 #include "compare/run_technique.h"
 #include "compare/silhouettes.h"
+#include "gl/state.h"
 #include "results/flip.h"
 #include "results/metrics.h"
 #include "results/words.h"

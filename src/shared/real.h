@@ -17,6 +17,7 @@ static inline Real3 real3(real x, real y, real z) {
   const Real3 v = {x, y, z};
   return v;
 }
+
 // a * b + c. With FUSED it is rounded once, and dot and cross products use it too.
 #ifdef FUSED
 #define mad_real(a, b, c) fma(REAL(a), REAL(b), REAL(c))
