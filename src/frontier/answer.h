@@ -1,0 +1,71 @@
+// What the records say: for each point its figures over the views, the Pareto front of each scene, ties, break-evens,
+// growth, failures, and sentences in plain words.
+#pragma once
+
+#include "frontier/record.h"
+
+namespace lightgrid {
+
+// A median with its 95 % nonparametric confidence interval (order statistics).
+struct MedianInterval {
+  double median = 0, low = 0, high = 0;
+  int runs = 0;
+};
+
+// A point over all its views. Ratio: for each run, the sum of its times over the views over the same sum of the
+// baseline's runs beside them. Errors: the largest max_rel, otherwise root mean squares or means over views.
+struct PointFigures {
+  FrontierPoint point;
+  int views = 0;
+  MedianInterval frame_ms;  // of the sum over views, over their number
+  MedianInterval ratio;
+  std::vector<double> ratios;  // one a run
+  PointErrors errors;
+  PairCounts pairs;
+  uint64_t memory_bytes = 0, bytes_moved = 0, nan_pixels = 0;
+  bool front = false;          // no point of its scene is better in both error.total.rmse_rel and ratio
+  std::vector<int> tied_with;  // points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index
+};
+
+// The shading cost from which the tighter of two cull tests is worth its time: extra culling time over pairs saved.
+struct BreakEven {
+  std::string scene, tighter, looser;
+  double ns_per_pixel_light = 0;  // infinite: the tighter test never wins; 0: it always does
+};
+
+struct ShadingCost {  // of this machine, a slope over points of one technique and BRDF
+  std::string scene, technique, brdf;
+  double ns_per_pixel_light = 0;
+};
+
+// time = c x^exponent, least squares in logarithms, with a 95 % interval by Theil-Sen order statistics or bootstrap.
+struct Growth {
+  std::string scene, technique, of;  // of: "lights", "pixels" or "radius"
+  double exponent = 0, low = 0, high = 0;
+  std::vector<std::pair<double, double>> samples;  // x, median ms
+};
+
+struct Failure {
+  FrontierPoint point;
+  std::string why;  // refused, lost pairs, NaN
+};
+
+struct FrontierAnswer {
+  FrontierPart part;  // of the first; records of all
+  std::vector<FrontierMachine> machines;
+  std::vector<PointFigures> points;
+  std::vector<BreakEven> break_even;
+  std::vector<ShadingCost> shading_costs;
+  std::vector<Growth> growth;
+  std::vector<Failure> failures;
+  std::vector<std::string> sentences;  // one paragraph, sentence by sentence
+};
+
+// Pure. Parts of one sweep; throws Error(input) if they are of different requests or commits.
+FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
+
+// frontier.json (docs/frontier.md#frontierjson) and frontier.csv, one row a point and view.
+nlohmann::json to_json(const FrontierAnswer& answer);
+std::string csv_text(const FrontierAnswer& answer);
+
+}  // namespace lightgrid
