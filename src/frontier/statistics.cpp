@@ -1,0 +1,186 @@
+#include "frontier/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "base/timer.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<double> without_nan(std::span<const double> samples) {
+  std::vector<double> kept;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(kept),
+               [](double x) { return !std::isnan(x); });
+  return kept;
+}
+
+// Of Binomial(n, 1/2). By logarithms: 2^-n underflows from n = 1075 on.
+double binomial_probability(int n, int k) {
+  return std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) -
+                  n * std::numbers::ln2);
+}
+
+// The index of the interval's lower end in n sorted samples. Each tail has at most 2.5 %: index k is possible
+// if at most that many of all outcomes leave k or fewer samples below the median.
+int lower_index(int n) {
+  int index = 0;
+  double tail = binomial_probability(n, 0);
+  while (index + 1 <= (n - 1) / 2) {
+    tail += binomial_probability(n, index + 1);
+    if (tail > 0.025) break;
+    ++index;
+  }
+  return index;
+}
+
+struct Ranks {
+  double sum_of_first = 0;    // of the first sample's midranks, from 1
+  double tie_correction = 0;  // sum of t^3 - t over groups of t equal values
+};
+
+Ranks rank_sum(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<std::pair<double, bool>> all;  // value, of the first sample
+  for (const double x : a) all.emplace_back(x, true);
+  for (const double x : b) all.emplace_back(x, false);
+  std::sort(all.begin(), all.end());
+  Ranks ranks;
+  for (size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    size_t of_first = 0;
+    for (end = begin; end < all.size() && all[end].first == all[begin].first; ++end)
+      of_first += all[end].second;
+    const double equal = static_cast<double>(end - begin);
+    ranks.sum_of_first += static_cast<double>(of_first) * 0.5 * static_cast<double>(begin + 1 + end);
+    ranks.tie_correction += equal * equal * equal - equal;
+  }
+  return ranks;
+}
+
+// P(U <= u) without ties: the share of all C(m + n, m) orders of the two samples. count[i][s]: the ways to
+// choose i of the ranks seen so far whose sum exceeds the least possible sum by s.
+double exact_lower_tail(int m, int n, int u) {
+  std::vector<std::vector<double>> count(m + 1, std::vector<double>(m * n + 1, 0.0));
+  count[0][0] = 1;
+  for (int rank = 1; rank <= m + n; ++rank) {
+    for (int i = std::min(rank, m); i >= 1; --i) {
+      const int excess = rank - i;  // of the i-th smallest chosen rank over i
+      for (int s = m * n; s >= excess; --s) count[i][s] += count[i - 1][s - excess];
+    }
+  }
+  const double all = std::accumulate(count[m].begin(), count[m].end(), 0.0);
+  return std::accumulate(count[m].begin(), count[m].begin() + u + 1, 0.0) / all;
+}
+
+// P(|T| <= t) of Student's t with `dof` degrees of freedom, for t = sqrt(dof) tan(angle): Abramowitz and
+// Stegun 26.7.3 and 26.7.4.
+double central_probability(double angle, int dof) {
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const bool odd = dof % 2 == 1;
+  double term = odd ? cosine : 1, sum = 0;
+  for (int k = odd ? 1 : 0; k <= dof - 2; k += 2) {
+    sum += term;
+    term *= cosine * cosine * (k + 1) / (k + 2);
+  }
+  return odd ? 2 / std::numbers::pi * (angle + sine * sum) : sine * sum;
+}
+
+}  // namespace
+
+MedianInterval median_interval(std::span<const double> samples) {
+  std::vector<double> sorted = without_nan(samples);
+  if (sorted.empty()) return {};
+  std::sort(sorted.begin(), sorted.end());
+  const int n = static_cast<int>(sorted.size());
+  const int low = lower_index(n);
+  return {spread_of(sorted).median, sorted[low], sorted[n - 1 - low], n};
+}
+
+double mann_whitney_p(std::span<const double> a, std::span<const double> b) {
+  const std::vector<double> first = without_nan(a), second = without_nan(b);
+  if (first.empty() || second.empty()) return 1;
+  const double m = static_cast<double>(first.size()), n = static_cast<double>(second.size()), all = m + n;
+  const Ranks ranks = rank_sum(first, second);
+  const double u = ranks.sum_of_first - 0.5 * m * (m + 1);
+  if (all <= 20 && ranks.tie_correction == 0) {
+    const int smaller = static_cast<int>(std::min(u, m * n - u));
+    return std::min(1.0, 2 * exact_lower_tail(static_cast<int>(m), static_cast<int>(n), smaller));
+  }
+  const double variance = m * n / 12 * (all + 1 - ranks.tie_correction / (all * (all - 1)));
+  if (variance <= 0) return 1;  // all values are equal
+  const double deviation = std::max(0.0, std::abs(u - 0.5 * m * n) - 0.5);
+  return std::erfc(deviation / std::sqrt(2 * variance));
+}
+
+std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points) {
+  std::vector<size_t> order;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (std::isfinite(points[i].first) && std::isfinite(points[i].second)) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return points[i] < points[j]; });
+  std::vector<bool> front(points.size(), false);
+  double least_y = infinity;  // over the points of smaller x
+  for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    const auto [x, y] = points[order[begin]];
+    for (end = begin; end < order.size() && points[order[end]].first == x; ++end) {
+      front[order[end]] = points[order[end]].second == y && y < least_y;
+    }
+    least_y = std::min(least_y, y);
+  }
+  return front;
+}
+
+double student_t_quantile(double p, int dof) {
+  if (dof < 1 || !(p > 0 && p < 1)) return p == 0.5 ? 0 : p < 0.5 ? -infinity : infinity;
+  if (p < 0.5) return -student_t_quantile(1 - p, dof);
+  double low = 0, high = std::numbers::pi / 2;  // of the angle
+  for (int step = 0; step < 100; ++step) {
+    const double middle = 0.5 * (low + high);
+    (central_probability(middle, dof) < 2 * p - 1 ? low : high) = middle;
+  }
+  return std::sqrt(static_cast<double>(dof)) * std::tan(low);
+}
+
+PowerLaw power_law(std::span<const std::pair<double, double>> samples) {
+  std::vector<std::pair<double, double>> logs;
+  for (const auto& [x, y] : samples) {
+    if (x > 0 && y > 0 && std::isfinite(x) && std::isfinite(y)) logs.emplace_back(std::log(x), std::log(y));
+  }
+  std::sort(logs.begin(), logs.end());
+  int distinct = logs.empty() ? 0 : 1;
+  for (size_t i = 1; i < logs.size(); ++i) distinct += logs[i].first != logs[i - 1].first;
+  PowerLaw law{.exponent = 0, .low = -infinity, .high = infinity, .factor = 0};
+  if (distinct < 2) return law;
+
+  const double n = static_cast<double>(logs.size());
+  double mean_x = 0, mean_y = 0;
+  for (const auto& [x, y] : logs) {
+    mean_x += x / n;
+    mean_y += y / n;
+  }
+  double xx = 0, xy = 0;
+  for (const auto& [x, y] : logs) {
+    xx += (x - mean_x) * (x - mean_x);
+    xy += (x - mean_x) * (y - mean_y);
+  }
+  law.exponent = xy / xx;
+  law.factor = std::exp(mean_y - law.exponent * mean_x);
+  if (distinct < 3) return law;
+
+  double residuals = 0;
+  for (const auto& [x, y] : logs) {
+    const double residual = y - mean_y - law.exponent * (x - mean_x);
+    residuals += residual * residual;
+  }
+  const double deviation = std::sqrt(residuals / (n - 2) / xx);
+  const double half = student_t_quantile(0.975, static_cast<int>(n) - 2) * deviation;
+  law.low = law.exponent - half;
+  law.high = law.exponent + half;
+  return law;
+}
+
+}  // namespace lightgrid
