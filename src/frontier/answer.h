@@ -21,16 +21,28 @@ struct PointFigures {
   MedianInterval ratio;
   std::vector<double> ratios;  // one a run
   PointErrors errors;
-  PairCounts pairs;
-  uint64_t memory_bytes = 0, bytes_moved = 0, nan_pixels = 0;
+  PairCounts pairs;                                // sums over views
+  uint64_t memory_bytes = 0;                       // the largest of the views
+  uint64_t bytes_moved = 0;                        // a frame: the mean over views
+  uint64_t nan_pixels = 0;
   bool front = false;          // no point of its scene is better in both error.total.rmse_rel and ratio
   std::vector<int> tied_with;  // points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index
 };
 
+// "If you can bear an error of … use …": the point of least ratio whose error.total.rmse_rel is at most `error`.
+struct BestWithin {
+  std::string scene;
+  double error = 0;
+  int point = 0;          // index
+  std::vector<int> tied;  // further points within it whose ratio does not differ
+};
+
 // The shading cost from which the tighter of two cull tests is worth its time: extra culling time over pairs saved.
 struct BreakEven {
-  std::string scene, tighter, looser;
-  double ns_per_pixel_light = 0;  // infinite: the tighter test never wins; 0: it always does
+  std::string scene, tighter, looser;  // labels; otherwise of equal settings. Tighter: lists fewer pairs
+  double ns_per_pixel_light = 0;       // infinite: the tighter test never wins; 0: it always does
+  double extra_ms = 0;                 // of culling a view; the mean over the views of both
+  double pairs_saved = 0;              // listed pairs a view, likewise
 };
 
 struct ShadingCost {  // of this machine, a slope over points of one technique and BRDF
@@ -38,22 +50,24 @@ struct ShadingCost {  // of this machine, a slope over points of one technique a
   double ns_per_pixel_light = 0;
 };
 
-// time = c x^exponent, least squares in logarithms, with a 95 % interval by Theil-Sen order statistics or bootstrap.
+// time = c x^exponent, least squares in logarithms, with a 95 % interval (power_law).
 struct Growth {
-  std::string scene, technique, of;  // of: "lights", "pixels" or "radius"
+  std::string scene, technique, of;  // technique: the point's label; of: "lights", "pixels" or "radius"
   double exponent = 0, low = 0, high = 0;
   std::vector<std::pair<double, double>> samples;  // x, median ms
 };
 
 struct Failure {
   FrontierPoint point;
-  std::string why;  // refused, lost pairs, NaN
+  std::string cause;  // "refused", "lost", "wrong", "NaN" or "overflow"
+  std::string why;    // in words, with the figure
 };
 
 struct FrontierAnswer {
   FrontierPart part;  // of the first; records of all
   std::vector<FrontierMachine> machines;
   std::vector<PointFigures> points;
+  std::vector<BestWithin> best_within;
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;
   std::vector<Growth> growth;
