@@ -27,7 +27,8 @@ CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes)
                 depth.size() * sizeof(float));
   }
   const Scene& scene = gpu_.scene();
-  return {scene.name, view, view_.plan.settings.tile, view_.plan.slice_far_m, scene.lights, std::move(depth)};
+  const Settings& settings = view_.plan.settings;
+  return {scene.name, view, settings.tile, view_.plan.slice_far_m, lights_with_ranges(scene, settings.ranges), std::move(depth)};
 }
 
 CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view,

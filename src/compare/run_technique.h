@@ -29,6 +29,9 @@ class TechniqueRun {
     if (!changes.lights.empty()) view_.lights_changed();
   }
 
+  // Other random ranges of the lights (RenderView::draw_ranges), for the frames that follow.
+  void draw_ranges(uint32_t seed) { view_.draw_ranges(seed); }
+
   // One frame, from the first draw to the image read back; its time is recorded unless `warmup`.
   void run_frame(bool warmup = false);
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.

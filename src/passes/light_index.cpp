@@ -56,7 +56,7 @@ class LightIndexState : public PassState {
  private:
   void find_influence(const RenderView& v) {
     influence.clear();
-    const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view);
+    const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
     for (int i : v.plan.local) {
       const glm::dvec3& i_rgb = lights[i].radiant_intensity;
       // The integral of intensity / distance^2 over the sphere, up to a factor.

@@ -101,7 +101,7 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
 
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
-  const std::vector<ViewLight> lights = lights_in_view(scene, view);
+  const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
   int first_spot = -1;
   for (int i = 0; i < int(lights.size()); ++i) {
     const bool directional = lights[i].type == LightType::directional;

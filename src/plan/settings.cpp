@@ -21,6 +21,19 @@ struct Setting {
 };
 
 template <typename T>
+Choice choice(const char* value, T LightRanges::*member, T meant) {
+  return {value, [=](Settings& s) { s.ranges.*member = meant; }, [=](const Settings& s) { return s.ranges.*member == meant; }};
+}
+
+// Numbers as they are written, the default first.
+template <typename T>
+std::vector<Choice> numbers(T LightRanges::*member, std::initializer_list<const char*> values) {
+  std::vector<Choice> choices;
+  for (const char* value : values) choices.push_back(choice(value, member, T(std::stod(value))));
+  return choices;
+}
+
+template <typename T>
 Choice choice(const char* value, T Settings::*member, T meant) {
   return {value, [=](Settings& s) { s.*member = meant; }, [=](const Settings& s) { return s.*member == meant; }};
 }
@@ -41,6 +54,27 @@ const std::vector<Setting>& all_settings() {
       {"brdf",
        "the specular lobe: GGX, or Blinn-Phong of the same width",
        {choice("ggx", &Settings::brdf, Brdf::ggx), choice("blinn", &Settings::brdf, Brdf::blinn)}},
+      {"range",
+       "where a light ends: at the range that the scene gives, where its irradiance falls to cutoff, at a random distance "
+       "whose mean picture is that of no range (with alpha), or nowhere",
+       {choice("scene", &LightRanges::range, LightRange::scene), choice("cutoff", &LightRanges::range, LightRange::cutoff),
+        choice("stochastic", &LightRanges::range, LightRange::stochastic),
+        choice("infinite", &LightRanges::range, LightRange::infinite)}},
+      {"cutoff",
+       "irradiance at which lights end with range=cutoff: intensity over squared distance",
+       numbers(&LightRanges::cutoff, {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002", "0.001",
+                                      "0.0005", "0.0002", "0.0001"})},
+      {"window",
+       "how a light fades towards its range: 1 - (d / range)^4, its square, or not at all",
+       {choice("khr", &LightRanges::window, RangeWindow::khr), choice("smooth", &LightRanges::window, RangeWindow::smooth),
+        choice("none", &LightRanges::window, RangeWindow::none)}},
+      {"alpha",
+       "irradiance below which a light reaches a point by chance, with range=stochastic",
+       numbers(&LightRanges::alpha, {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002", "0.001", "0.0005",
+                                     "0.0002", "0.0001"})},
+      {"light-seed",
+       "of the random ranges, with range=stochastic",
+       numbers(&LightRanges::seed, {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
       {"cull-test",
        "the test that decides whether a light may touch a cell",
        choices_of(cull_tests, &Settings::cull_test, &CullTestRow::test)},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/brdf.h"
+#include "scene/light_ranges.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {
@@ -29,6 +30,7 @@ enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a l
 
 struct Settings {
   Brdf brdf = Brdf::ggx;
+  LightRanges ranges;
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;  // pixels a side: 8, 16, 32 or 64

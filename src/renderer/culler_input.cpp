@@ -15,12 +15,12 @@ CullView cull_view(const View& view, const FramePlan& plan) {
   return culled;
 }
 
-std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices) {
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges) {
   std::vector<CullLight> lights;
   lights.reserve(indices.size());
   for (int i : indices) {
     const Light& light = scene.lights[i];
-    lights.push_back({light.position, light.radius_m, glm::normalize(glm::dvec3(light.direction)),
+    lights.push_back({light.position, range_of(light, size_t(i), ranges), glm::normalize(glm::dvec3(light.direction)),
                       light.type == LightType::spot ? std::cos(double(light.outer_cone_rad)) : -1.0});
   }
   return lights;

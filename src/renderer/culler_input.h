@@ -14,7 +14,7 @@ CullView cull_view(const View& view);
 CullView cull_view(const View& view, const FramePlan& plan);
 
 // The lights of a scene at `indices`. World space, metres.
-std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices);
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges = {});
 
 // The culler options of a plan.
 CullerOptions culler_options(const FramePlan& plan);

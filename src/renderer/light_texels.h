@@ -13,6 +13,9 @@ struct LightTexels {
   std::vector<glm::vec4> positions, colors, cones, directional;
 };
 
+// What the shading of lights with such ranges is compiled with (shared/punctual_light.h).
+std::vector<const char*> range_defines(const LightRanges& ranges);
+
 LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& plan);
 
 }  // namespace lightgrid

@@ -116,7 +116,13 @@ void RenderView::drop_states() {
 }
 
 void RenderView::lights_changed() {
-  if (culler_ && plan.light_grid) culler_->set_lights(cull_lights_of(scene, plan.local));
+  if (culler_ && plan.light_grid) culler_->set_lights(cull_lights_of(scene, plan.local, plan.settings.ranges));
+}
+
+void RenderView::draw_ranges(uint32_t seed) {
+  settings_.ranges.seed = seed;
+  look(view);
+  lights_changed();
 }
 
 void RenderView::follow_view() {

@@ -54,6 +54,8 @@ struct RenderView {
   void release();
   // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
+  // Other random ranges (range=stochastic) for the frames that follow.
+  void draw_ranges(uint32_t seed);
 
   Renderer& renderer;
   GpuScene& gpu;

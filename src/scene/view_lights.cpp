@@ -5,7 +5,7 @@
 
 namespace lightgrid {
 
-std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view) {
+std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges) {
   const glm::dmat3 rotation(view.view_from_world);
   std::vector<ViewLight> lights;
   lights.reserve(scene.lights.size());
@@ -15,7 +15,9 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view) {
     out.position = rotation * (light.position - view.eye);
     out.direction = glm::normalize(rotation * glm::dvec3(light.direction));
     out.radiant_intensity = glm::dvec3(light.color) * double(light.intensity);
-    out.radius_m = light.type == LightType::directional ? std::numeric_limits<double>::infinity() : light.radius_m;
+    out.radius_m = range_of(light, lights.size() - 1, ranges);
+    out.window = window_of(ranges);
+    out.least_falloff = least_falloff(light, ranges);
     out.cos_outer = std::cos(double(light.outer_cone_rad));
     // KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)): a hard edge is softened, the
     // quotient finite.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/camera.h"
+#include "scene/light_ranges.h"
 #include "scene/scene.h"
 
 namespace lightgrid {
@@ -15,10 +16,12 @@ struct ViewLight {
   glm::dvec3 radiant_intensity{1};  // colour times intensity: candela, or lux for directional
   double radius_m = std::numeric_limits<double>::infinity();
   double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner - cos_outer is at least 0.001
+  RangeWindow window = RangeWindow::khr;
+  double least_falloff = 0;  // 1 / m^2: scene/light_ranges.h
 };
 
 // In the scene's order. Positions are subtracted from the eye in double, so that a scene and a camera moved
 // together by an exact amount give the same bits.
-std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view);
+std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges = {});
 
 }  // namespace lightgrid

@@ -79,16 +79,19 @@ void check_comparisons(const std::vector<Contestant>& contestants, const std::ve
   }
 }
 
-// All are compared with one image of every light; with another BRDF, the difference would count as a
-// technique's error.
-void check_brdf(const std::vector<Contestant>& contestants) {
+// All are compared with one image of every light; with another BRDF or other ranges, the difference would count as
+// a technique's error.
+void check_same_picture(const std::vector<Contestant>& contestants) {
   const Contestant& first = contestants.front();
-  const auto brdf_of = [](const Contestant& c) { return to_strings(c.settings).at("brdf"); };
+  auto meant = to_strings(first.settings);
   for (const Contestant& c : contestants) {
-    if (c.settings.brdf == first.settings.brdf) continue;
-    throw input_error(
-        "brdf: {} with brdf={} and {} with brdf={}: one reference cannot serve both; choose one for all",
-        first.technique->name, brdf_of(first), c.technique->name, brdf_of(c));
+    auto other = to_strings(c.settings);
+    for (const char* key : {"brdf", "range", "cutoff", "window", "alpha", "light_seed"}) {
+      if (other.at(key) == meant.at(key)) continue;
+      throw input_error(
+          "{0}: {1} with {0}={2} and {3} with {0}={4}: one reference cannot serve both; choose one for all", key,
+          first.technique->name, meant.at(key), c.technique->name, other.at(key));
+    }
   }
 }
 
@@ -120,7 +123,7 @@ std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techn
   const std::vector<Contestant> named = named_contestants(techniques, common);
   check_comparisons(named, comparisons);
   const std::vector<Contestant> all = swept(named, comparisons);
-  check_brdf(all);
+  check_same_picture(all);
   return all;
 }
 

@@ -1,6 +1,8 @@
 // One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its range. Never NaN:
 // attenuation and BRDF are finite, and their product with the intensity may overflow to infinity.
 // SPOTS: at least one light has a cone.
+// WINDOW_SMOOTH, WINDOW_NONE: how lights fade towards their range (scene/light_ranges.h), if not as in KHR_lights_punctual.
+// LEAST_FALLOFF: inside its range a light counts as if it were no farther than where 1 / distance^2 is color.w.
 #pragma once
 
 #include "shared/brdf.h"
@@ -16,7 +18,7 @@ namespace lightgrid {
 
 SHARED_STRUCT(PunctualLight) {
   Float4 position;  // view space, and 1 / radius^2 (next to 0: no range)
-  Float4 color;  // radiant intensity
+  Float4 color;  // radiant intensity, and the least 1 / distance^2
 #ifdef SPOTS
   Float4 cone;   // axis times scale, and offset: 1 inside, 0 outside
 #endif
@@ -42,8 +44,19 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   arrival.to_light = scale3(to_light, inverse_distance);
   // No branch on the range: beyond it, the result is multiplied by an exact zero. All factors are finite, so
   // it stays 0.
+#ifdef WINDOW_NONE
+  real window = ratio < REAL(1.0f) ? REAL(1.0f) : REAL(0.0f);
+#else
   real window = max_real(mad_real(-ratio, ratio, 1.0f), REAL(0.0f));
-  arrival.attenuation = window * min_real(inverse_distance * inverse_distance, REAL(LARGEST_ATTENUATION));
+#endif
+#ifdef WINDOW_SMOOTH
+  window = window * window;
+#endif
+  real falloff = inverse_distance * inverse_distance;
+#ifdef LEAST_FALLOFF
+  falloff = max_real(falloff, REAL(light.color.w));
+#endif
+  arrival.attenuation = window * min_real(falloff, REAL(LARGEST_ATTENUATION));
 #ifdef SPOTS
   real along = light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y + light.cone.z * arrival.to_light.z;
   real angular = min_real(max_real(light.cone.w - along, REAL(0.0f)), REAL(1.0f));

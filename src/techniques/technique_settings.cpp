@@ -10,10 +10,19 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+// Those of ranges only with the ranges that read them.
+bool has_effect(const Settings& settings, const std::string& key) {
+  const LightRange range = settings.ranges.range;
+  if (key == "cutoff") return range == LightRange::cutoff;
+  if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
+  if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
+  return true;
+}
+
 }  // namespace
 
 const std::vector<const char*>& common_settings() {
-  static const std::vector<const char*> keys = {"everything-on"};
+  static const std::vector<const char*> keys = {"range", "cutoff", "window", "alpha", "light-seed", "everything-on"};
   return keys;
 }
 
@@ -26,7 +35,7 @@ std::map<std::string, std::string> settings_of(const Technique& technique, const
   for (const SettingHelp& help : setting_help()) {
     std::string key = help.key;
     std::replace(key.begin(), key.end(), '-', '_');
-    if (reads_setting(technique, help.key)) own[key] = all.at(key);
+    if (reads_setting(technique, help.key) && has_effect(settings, help.key)) own[key] = all.at(key);
   }
   return own;
 }

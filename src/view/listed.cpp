@@ -20,7 +20,7 @@ ListedFrame read_listed_frame(TechniqueRun& run) {
   frame.view = v.view;
   frame.depth = read_depth(run);
   frame.lists = listed_lights(run, frame.depth);
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
   for (const int light : v.plan.local) {
     frame.lights.push_back(all[light]);
     frame.scene_lights.push_back(light);
@@ -65,7 +65,8 @@ std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vecto
   RenderView& v = run.view();
   if (!v.plan.light_grid) return {};
   const Settings& settings = v.plan.settings;
-  const CapturedFrame frame{v.scene.name, v.view, settings.tile, v.plan.slice_far_m, v.scene.lights, depth};
+  const CapturedFrame frame{v.scene.name, v.view, settings.tile, v.plan.slice_far_m,
+                            lights_with_ranges(v.scene, settings.ranges), depth};
   FrameCuller culler(*v.renderer.cl, *v.renderer.kernels, frame, settings, run.technique().needs);
   culler.run();
   return inspect_pixel(frame, culler.grid(), culler.intervals(), settings, pixel.x, pixel.y);

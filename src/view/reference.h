@@ -15,7 +15,7 @@ class ReferencePicture {
   // The scene changed: lights may have moved.
   void scene_changed() { run_.reset(); }
 
-  // Draws this view with the side's specular lobe. Every call shades every light at every pixel: slow with
+  // Draws this view with the side's BRDF and ranges. Every call shades every light at every pixel: slow with
   // many lights.
   const Image& draw(const View& view, const Settings& settings);
 
@@ -24,6 +24,7 @@ class ReferencePicture {
   GpuScene& gpu_;
   std::unique_ptr<TechniqueRun> run_;
   Brdf brdf_ = Brdf::ggx;
+  LightRanges ranges_;
 };
 
 }  // namespace lightgrid

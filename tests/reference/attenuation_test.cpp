@@ -50,5 +50,25 @@ TEST(Attenuation, DirectionalIsOneEverywhere) {
   EXPECT_EQ(attenuation({.type = LightType::directional}, {1e9, -4, 0}, true), 1);
 }
 
+TEST(Attenuation, FadesByTheWindowOfTheLight) {
+  ViewLight light{.radius_m = 2};
+  light.window = RangeWindow::smooth;
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, true), 15.0 / 16 * 15 / 16);
+  light.window = RangeWindow::none;
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 1.5, 0}, true), 1 / 2.25);
+  EXPECT_EQ(attenuation(light, {0, 2, 0}, true), 0);
+}
+
+// Reached with p = min(f / alpha, 1), each contribution counts 1 / p times: here 1 / d^2 = 1 / 16 and alpha / I = 1 / 4.
+TEST(Attenuation, CountsARandomRangeByTheInverseOfItsProbability) {
+  ViewLight light{.radius_m = 5};
+  light.window = RangeWindow::none;
+  light.least_falloff = 0.25;
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 4, 0}, true), 0.25);
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, true), 1);  // p = 1
+  EXPECT_EQ(attenuation(light, {0, 5, 0}, true), 0);
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 4, 0}, false), 1.0 / 16);
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -1,6 +1,7 @@
 #include "passes/common/light_source.h"
 
 #include "passes/find_object_lights.h"
+#include "renderer/light_texels.h"
 
 namespace lightgrid {
 namespace {
@@ -22,6 +23,7 @@ void LightSource::bind(const RenderView& v) const {
 LightSource base_lighting(const RenderView& v) {
   LightSource source;
   if (v.plan.settings.brdf == Brdf::blinn) source.defines.emplace_back("BLINN");
+  for (const char* define : range_defines(v.plan.settings.ranges)) source.defines.emplace_back(define);
   if (v.plan.directional) source.defines.emplace_back("DIRECTIONAL");
   return source;
 }

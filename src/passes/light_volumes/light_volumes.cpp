@@ -226,7 +226,7 @@ size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_
 bool LightVolumes::follow(RenderView& v) { return instance_bytes_ == v.plan.local.size() * sizeof(VolumeInstance); }
 
 const std::vector<LightVolume>& LightVolumes::update(RenderView& v, VolumeMeshes meshes) {
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
   lights_.clear();
   for (int i : v.plan.local) lights_.push_back(all[i]);
   upload(light_volumes(v.view, lights_, meshes, subpixel_bits_));

@@ -1,0 +1,69 @@
+#include "scene/light_ranges.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lightgrid {
+namespace {
+
+Light lamp(float intensity) {
+  Light light;
+  light.color = {0.5f, 1, 0.25f};
+  light.intensity = intensity;
+  light.radius_m = 3;
+  return light;
+}
+
+TEST(LightRanges, AreTheScenesUnlessOthersAreAskedFor) {
+  EXPECT_EQ(range_of(lamp(8), 0, {}), 3);
+  EXPECT_EQ(least_falloff(lamp(8), {}), 0);
+}
+
+TEST(LightRanges, EndWhereIrradianceFallsToTheCutoff) {
+  EXPECT_DOUBLE_EQ(range_of(lamp(8), 0, {.range = LightRange::cutoff, .cutoff = 0.02}), 20);  // 8 / 20^2 = 0.02
+  EXPECT_EQ(range_of(lamp(0), 0, {.range = LightRange::cutoff}), 0);
+}
+
+TEST(LightRanges, AreInfiniteForDirectionalLightsAlways) {
+  Light sun = lamp(1);
+  sun.type = LightType::directional;
+  for (const LightRange range : {LightRange::cutoff, LightRange::stochastic, LightRange::infinite, LightRange::scene}) {
+    EXPECT_TRUE(std::isinf(range_of(sun, 0, {.range = range})));
+  }
+}
+
+// p = min(f / alpha, 1), by counting over seeds and over indices: f = 8 / d^2, alpha = 0.5.
+TEST(LightRanges, ReachAPointWithTheProbabilityOfItsIrradiance) {
+  constexpr int draws = 40000;
+  for (const bool over_seeds : {true, false}) {
+    for (const double distance : {3.9, 5.0, 8.0, 16.0}) {
+      int reached = 0;
+      for (int i = 0; i < draws; ++i) {
+        const LightRanges ranges{.range = LightRange::stochastic, .alpha = 0.5, .seed = over_seeds ? uint32_t(i) : 7u};
+        reached += distance < range_of(lamp(8), over_seeds ? 3 : size_t(i), ranges);
+      }
+      const double p = std::min(8 / (distance * distance) / 0.5, 1.0);
+      EXPECT_NEAR(double(reached) / draws, p, 4 * std::sqrt(p * (1 - p) / draws) + 1e-12) << distance;
+    }
+  }
+}
+
+// Lights of one seed must not share their luck: reaches of neighbours by index, and of one light in neighbouring seeds.
+TEST(LightRanges, AreIndependentBetweenLightsAndSeeds) {
+  constexpr int draws = 40000;
+  const auto far = [](uint32_t seed, size_t index) {  // reached with p = 1/4
+    return 8.0 < range_of(lamp(8), index, {.range = LightRange::stochastic, .alpha = 0.5, .seed = seed});
+  };
+  int lights = 0, seeds = 0;
+  for (uint32_t i = 0; i < draws; ++i) {
+    lights += far(9, i) && far(9, i + 1);
+    seeds += far(i, 5) && far(i + 1, 5);
+  }
+  const double expected = 1.0 / 16, error = 4 * std::sqrt(expected * (1 - expected) / draws) * 1.2;
+  EXPECT_NEAR(double(lights) / draws, expected, error);
+  EXPECT_NEAR(double(seeds) / draws, expected, error);
+}
+
+}  // namespace
+}  // namespace lightgrid
