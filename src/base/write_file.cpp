@@ -13,12 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error write_error(const fs::path& path, int code) {
-  const bool machine = code == ENOSPC || code == EDQUOT || code == EIO || code == EMFILE || code == ENFILE;
-  const auto message = fmt::format("{}: cannot be written: {}", path.string(), std::strerror(code));
-  return {machine ? ErrorKind::machine : ErrorKind::input, message};
-}
-
 // Returns 0, or the errno of the call that failed.
 int write_to(const fs::path& path, const void* data, size_t size) {
   errno = 0;
@@ -51,6 +45,13 @@ void write_whole(const fs::path& path, const void* data, size_t size) {
 }
 
 }  // namespace
+
+Error write_error(const fs::path& path, int code) {
+  const bool full = code == ENOSPC || code == EDQUOT || code == EFBIG;
+  const bool machine = full || code == EIO || code == EMFILE || code == ENFILE;
+  const auto message = fmt::format("{}: cannot be written: {}", path.string(), std::strerror(code));
+  return {machine ? ErrorKind::machine : ErrorKind::input, message};
+}
 
 void write_file(const fs::path& path, const std::vector<uint8_t>& bytes) {
   write_whole(path, bytes.data(), bytes.size());

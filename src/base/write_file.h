@@ -6,7 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
+
 namespace lightgrid {
+
+// "PATH: cannot be written: REASON" of an errno: a machine error if the disk is full or fails, otherwise an input error.
+Error write_error(const std::filesystem::path& path, int code);
 
 // Writes to a temporary name beside `path` and renames, so that neither a reader nor an interrupted run finds
 // half a file under `path`. A link at `path` is replaced, not followed; a device or pipe is written to

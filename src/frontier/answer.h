@@ -78,8 +78,10 @@ struct FrontierAnswer {
 // Pure. Parts of one sweep; throws Error(input) if they are of different requests or commits.
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
 
-// frontier.json (docs/frontier.md#frontierjson) and frontier.csv, one row a point and view.
+// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`) and samples.csv (one row a run of
+// such a row): docs/frontier_json.md.
 nlohmann::json to_json(const FrontierAnswer& answer);
 std::string csv_text(const FrontierAnswer& answer);
+std::string samples_csv_text(const FrontierAnswer& answer);
 
 }  // namespace lightgrid

@@ -59,6 +59,7 @@ struct FrontierRecord {
   uint64_t nan_pixels = 0, overflow = 0;
   PointErrors errors;
   std::string image;         // name of its picture among the part's pictures, without extension; empty: none
+  int shard = 0;             // of the part that holds it, set by RecordFile and read_part: its times are of that machine
 };
 
 // What does not change between records of one process, and what a sceptic asks for.
@@ -78,6 +79,7 @@ struct FrontierPart {
   int shard = 0, shards = 1;
   std::string baseline;  // label of the baseline point
   FrontierMachine machine;
+  bool finished = false;  // nothing more was to be measured: RecordFile::finish
   std::vector<FrontierRecord> records;
 };
 

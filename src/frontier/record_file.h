@@ -1,47 +1,81 @@
-// A part as a file: one JSON object a line, append-only. The first line describes the part, each further one is a record.
-// A process that is killed leaves at most one half-written line; opening the file again drops it, with a note, and tells
-// which records are there.
+// A part as a file: one JSON object a line, append-only. The first line describes the part, each further one
+// is a record, or says that the part is finished. A process that is killed leaves at most one half-written
+// line; opening the file again drops it, with a notice, and tells which records are there. Keys:
+// docs/frontier_json.md#parts.
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <set>
+#include <string>
 
 #include "frontier/record.h"
 
 namespace lightgrid {
 
+using Notice = std::function<void(const std::string&)>;  // of one line; null: nobody reads it
+
+// 16 hexadecimal digits: FNV-1a (Fowler, Noll, Vo 1991), 64 bits. Records and requests are found again by it.
+std::string content_hash(const std::string& text);
+
 // The content hash by which a record is found again: of point, view, size, lights, series and radius scale.
 std::string record_key(const FrontierRecord& record);
 
+// A record loses nothing on its way through JSON, except that bytes that are not UTF-8 (possible in a path)
+// become U+FFFD in the file.
 nlohmann::json to_json(const FrontierRecord& record);
 FrontierRecord record_of(const nlohmann::json& line);  // throws Error(input) that names the field
 
+nlohmann::json to_json(const FrontierMachine& machine);
+FrontierMachine machine_of(const nlohmann::json& object);  // throws Error(input) that names the field
+
+// "records-3-of-16.jsonl", for shard 3 of 16: parts of one sweep may share a folder.
+std::filesystem::path part_path(const std::filesystem::path& folder, int shard, int shards);
+
 class RecordFile {
  public:
-  // Opens `path` for `part` (whose records are ignored), created if it is not there. Reads the records that are there; a
-  // half-written last line is cut off and `notice` told. Throws Error(input) if the file is of another request, commit or
-  // shard, and if it cannot be written.
-  RecordFile(const std::filesystem::path& path, const FrontierPart& part,
-             const std::function<void(const std::string&)>& notice);
+  // Opens `path` for `part` (whose records are ignored), created if it is not there. Reads the records that
+  // are there; a half-written last line is cut off and `notice` told. Throws Error(input) that names file and
+  // line if the file is not a part, is of another request, commit, seed, shard or machine (times of two
+  // machines are not one part), is being written by another process, or cannot be written; Error(machine) if
+  // the disk is full.
+  RecordFile(const std::filesystem::path& path, const FrontierPart& part, const Notice& notice);
+  ~RecordFile();
+  RecordFile(const RecordFile&) = delete;
+  RecordFile& operator=(const RecordFile&) = delete;
 
   bool has(const std::string& key) const { return keys_.contains(key); }
-  void append(const FrontierRecord& record);  // flushed; throws Error(machine) if the disk is full
+  // In the file when it returns, even if the process is killed then. Throws Error(machine) if the disk is
+  // full: nothing of the record is in the file then.
+  void append(const FrontierRecord& record);
+  // Nothing more is to be measured. `load_at_end`: the system's one-minute load average. Throws like
+  // append().
+  void finish(double load_at_end);
   const FrontierPart& part() const { return part_; }  // with all records
 
  private:
+  void write_text(const std::string& text);
+
   std::filesystem::path path_;
-  std::ofstream out_;
+  int file_ = -1;
   FrontierPart part_;
   std::set<std::string> keys_;
 };
 
-// Reads a finished or half-finished part. Throws Error(input).
-FrontierPart read_part(const std::filesystem::path& path, const std::function<void(const std::string&)>& notice);
+// Reads a finished or half-finished part, even while it is written. A half-written last line is left out, a
+// record that is there twice counts once, each with a notice. Throws Error(input) that names file and line.
+FrontierPart read_part(const std::filesystem::path& path, const Notice& notice);
 
-// The points and views of shard `shard` of `shards`: every shards-th of them, by index, so that each shard has all
-// scenes' costs in like shares. Throws Error(input) for 0 shards and for a shard that is not there.
+// Throws Error(input), "`path`: ...", if the two parts are not of one sweep: request, commit, seed, baseline,
+// shards. `wanted`: what the other is, for the message: "this program", "records-0-of-2.jsonl".
+void check_same_sweep(const std::filesystem::path& path, const FrontierPart& part, const FrontierPart& other,
+                      const std::string& wanted);
+
+// Whether point `index` of the request is in shard `shard` of `shards`: every shards-th of them, so that each
+// shard has all scenes' costs in like shares. Of points, not of views: times are summed over the views of a
+// point, and those of two machines cannot be. Throws Error(input) for less than one shard and for a shard
+// that is not there.
 bool in_shard(size_t index, int shard, int shards);
 
 }  // namespace lightgrid

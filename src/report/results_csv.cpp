@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "results/csv_line.h"
 #include "results/error_measures.h"
 
 namespace lightgrid {
@@ -19,19 +20,6 @@ Fields heading() {
   names.insert(names.end(), {"bit_identical", "nan_pixels", "overflow", "oracle_max_rel", "oracle_rmse_rel",
                              "oracle_of_reference_max_rel", "reference_pixels"});
   return names;
-}
-
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string text = "\"";
-  for (char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
-}
-
-std::string line_of(const Fields& fields) {
-  Fields safe;
-  for (const std::string& field : fields) safe.push_back(quoted(field));
-  return fmt::format("{}\n", fmt::join(safe, ","));
 }
 
 template <typename Number>
@@ -78,10 +66,10 @@ Fields fields_of(const CompareReport& report, const RunResult& row, const std::s
 }  // namespace
 
 std::string results_csv(const std::vector<ReportView>& views) {
-  std::string text = line_of(heading());
+  std::string text = csv_line(heading());
   for (const ReportView& view : views) {
     const auto names = row_names(view.report);
-    for (size_t i = 0; i < names.size(); ++i) text += line_of(fields_of(view.report, view.report.rows[i], names[i]));
+    for (size_t i = 0; i < names.size(); ++i) text += csv_line(fields_of(view.report, view.report.rows[i], names[i]));
   }
   return text;
 }

@@ -1,0 +1,61 @@
+// Records and parts with a different value in each field.
+#pragma once
+
+#include "frontier/record.h"
+
+namespace lightgrid {
+
+inline ErrorFigures some_figures(double scale) {
+  return {
+      .max_rel = 0.1 * scale, .rmse_rel = scale / 3, .relative_rmse = 0.07 * scale, .p99_rel = 0.011 * scale};
+}
+
+// Of view `view` of a point whose tile is `tile`.
+inline FrontierRecord some_record(int tile, int view) {
+  FrontierRecord r;
+  r.point.scene = "scenes/\"Sponza\", großer\n.glb";
+  r.point.technique = "forward_plus";
+  r.point.settings = {{"tile", std::to_string(tile)}, {"cull_test", "planes+aabb"}};
+  r.point.label = "forward_plus:tile=" + std::to_string(tile);
+  r.point.frames = 4;
+  r.view = view;
+  r.width = 160;
+  r.height = 91;
+  r.lights = 1024;
+  r.radius_scale = 1.5;
+  r.frame_ms = {1.25 + view, 1.0 / 3, 2.5};
+  r.baseline_ms = {2.5, 2.0 / 3 + view, 5};
+  r.pass_ms = {{"cull_lights", 0.1}, {"shade_forward", 0.7}};
+  r.bytes_moved = 18446744073709551615u;
+  r.memory_bytes = 9007199254740993u;  // not a double
+  r.covered_pixels = 14000;
+  r.pairs = {1000, 400, 2, 1};
+  r.nan_pixels = 3;
+  r.overflow = 5;
+  r.errors = {some_figures(1), some_figures(2), some_figures(3), some_figures(4), 1e-5, 2e-5};
+  r.errors.total.flip_mean = 0.0123;
+  r.image = "sponza_17";
+  return r;
+}
+
+inline FrontierPart some_part(int shard = 1, int shards = 4) {
+  FrontierPart part;
+  part.request = "0123456789abcdef";
+  part.commit = "9d11b69";
+  part.seed = 18446744073709551615u;
+  part.shard = shard;
+  part.shards = shards;
+  part.baseline = "forward_plus";
+  part.machine = {.cl_device = "cpu-haswell",
+                  .gl_device = "llvmpipe",
+                  .cl_driver = "PoCL 3.1",
+                  .gl_driver = "Mesa 22.3.6",
+                  .cpu = "Xeon",
+                  .governor = "unknown",
+                  .clock_mhz = 2600,
+                  .threads = 2,
+                  .load_at_start = 0.25};
+  return part;
+}
+
+}  // namespace lightgrid
