@@ -70,8 +70,8 @@ std::optional<double> JsonFields::optional_number(const std::string& name) const
 
 uint64_t JsonFields::count(const std::string& name) const {
   const json& value = at(name);
-  if (!value.is_number_unsigned())
-    throw input_error("{}{}: {} is not a whole number", within_, name, shown(value));
+  const bool counts = value.is_number_unsigned() || (value.is_number_integer() && value.get<int64_t>() >= 0);
+  if (!counts) throw input_error("{}{}: {} is not a whole number", within_, name, shown(value));
   return value.get<uint64_t>();
 }
 

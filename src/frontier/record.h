@@ -69,6 +69,7 @@ struct FrontierMachine {
   double clock_mhz = 0;       // at the start; 0: unknown
   int threads = 0;            // of the OpenCL device: compute units
   double load_at_start = 0, load_at_end = 0;  // the system's one-minute load average
+  int shard = 0;              // of the part that it measured, set by RecordFile and read_part
 };
 
 // A part: one process's records. Deterministic: shard i of n of the same request holds the same points.

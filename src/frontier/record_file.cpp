@@ -56,6 +56,7 @@ FrontierPart header_of(const json& line) {
     throw input_error("shard: {} is not below shards, {}", part.shard, part.shards);
   part.baseline = fields.text("baseline");
   part.machine = machine_of(fields.at("machine"));
+  part.machine.shard = part.shard;
   return part;
 }
 
@@ -213,7 +214,8 @@ RecordFile::RecordFile(const fs::path& path, const FrontierPart& part, const Not
     if (!text.described) {
       part_.records.clear();
       part_.finished = false;
-      write_text(header_line(part));
+      part_.machine.shard = part_.shard;
+      write_text(header_line(part_));
     }
   } catch (...) {
     close(file_);

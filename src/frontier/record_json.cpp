@@ -143,7 +143,8 @@ json to_json(const FrontierMachine& m) {
           {"clock_mhz", finite_number(m.clock_mhz)},
           {"threads", m.threads},
           {"load_at_start", finite_number(m.load_at_start)},
-          {"load_at_end", finite_number(m.load_at_end)}};
+          {"load_at_end", finite_number(m.load_at_end)},
+          {"shard", m.shard}};
 }
 
 FrontierMachine machine_of(const json& object) {

@@ -1,7 +1,7 @@
 // Records and parts with a different value in each field.
 #pragma once
 
-#include "frontier/record.h"
+#include "frontier/answer.h"
 
 namespace lightgrid {
 
@@ -56,6 +56,51 @@ inline FrontierPart some_part(int shard = 1, int shards = 4) {
                   .threads = 2,
                   .load_at_start = 0.25};
   return part;
+}
+
+inline PointFigures some_point_figures(int tile) {
+  PointFigures p;
+  p.point = some_record(tile, 0).point;
+  p.views = 2;
+  p.frame_ms = {2.5, 2.25, 3, 8};
+  p.ratio = {0.5, 0.25, 0.75, 8};
+  p.errors = some_record(tile, 0).errors;
+  p.pairs = {2000, 800, 4, 2};
+  p.memory_bytes = 5000;
+  p.bytes_moved = 7000;
+  p.nan_pixels = 6;
+  p.front = tile == 8;
+  return p;
+}
+
+// Two points of two views each, one of them refused beside them.
+inline FrontierAnswer some_answer() {
+  FrontierAnswer answer;
+  answer.part = some_part();
+  for (const int tile : {8, 16}) {
+    for (const int view : {0, 1}) answer.part.records.push_back(some_record(tile, view));
+  }
+  for (FrontierRecord& record : answer.part.records) record.shard = 1;
+  FrontierRecord refused = some_record(32, 0);
+  refused.point.scene = "hall";
+  refused.refused = "needs \"OpenGL\", which is not here";
+  refused.frame_ms.clear();
+  refused.baseline_ms.clear();
+  answer.part.records.push_back(refused);
+  answer.machines = {answer.part.machine, answer.part.machine};
+  answer.machines[0].shard = 1;
+  answer.machines[1].shard = 2;
+  answer.machines[1].cl_device = "another";
+  answer.points = {some_point_figures(8), some_point_figures(16)};
+  answer.points[0].tied_with = {1};
+  answer.points[1].tied_with = {0};
+  answer.best_within = {{answer.points[0].point.scene, 1e-3, 0, {1}}};
+  answer.break_even = {{"hall", "exact", "sphere", 0.25, 1.5, 1000}};
+  answer.shading_costs = {{"hall", "forward_plus", "ggx", 0.75}};
+  answer.growth = {{"hall", "forward_plus", "lights", 0.5, 0.25, 0.75, {{100, 1}, {400, 2}, {1600, 4}}}};
+  answer.failures = {{refused.point, "refused", "refused: " + refused.refused}};
+  answer.sentences = {"One.", "Two."};
+  return answer;
 }
 
 }  // namespace lightgrid

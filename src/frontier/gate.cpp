@@ -1,0 +1,218 @@
+#include "frontier/gate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "frontier/json_fields.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+
+constexpr double error_factor = 1.001, error_slack = 1e-9;  // rounding of another compiler or driver
+
+struct GatePoint {
+  const json* value = nullptr;
+  std::string name;  // "hall, forward_plus:tile=8"
+};
+
+std::string name_of(const JsonFields& fields) {
+  const int frames = fields.has("frames") ? fields.whole("frames", 1) : 1;
+  const std::string averaged = frames > 1 ? fmt::format(", {} frames averaged", frames) : "";
+  return fmt::format("{}, {}{}", fields.text("scene"), fields.text("label"), averaged);
+}
+
+const json& array_in(const json& frontier, const char* name) {
+  const json& array = JsonFields(frontier).at(name);
+  if (!array.is_array()) throw input_error("{}: is not an array", name);
+  return array;
+}
+
+std::map<std::string, GatePoint> points_of(const json& frontier) {
+  std::map<std::string, GatePoint> points;
+  const json& array = array_in(frontier, "points");
+  for (size_t i = 0; i < array.size(); ++i) {
+    const JsonFields fields(array[i], fmt::format("points[{}].", i));
+    const std::string name = name_of(fields);
+    points[name + (fields.has("size") ? fields.at("size").dump() : "")] = {&array[i], name};
+  }
+  return points;
+}
+
+std::map<std::string, std::string> refusals_of(const json& frontier) {
+  std::map<std::string, std::string> refusals;
+  const json& array = array_in(frontier, "failures");
+  for (size_t i = 0; i < array.size(); ++i) {
+    const JsonFields fields(array[i], fmt::format("failures[{}].", i));
+    if (fields.has("cause") && fields.text("cause") == "refused")
+      refusals[name_of(fields)] = fields.text("why");
+  }
+  return refusals;
+}
+
+class PointComparison {
+ public:
+  PointComparison(const GatePoint& now, const GatePoint& earlier, GateResult& result)
+      : name_(now.name),
+        now_(*now.value, now.name + ": "),
+        earlier_(*earlier.value, now.name + ": "),
+        result_(result) {}
+
+  // False if they are of different views.
+  bool is_of_same_views() const {
+    const int now = now_.whole("views", 1), earlier = earlier_.whole("views", 1);
+    if (now == earlier) return true;
+    result_.told.push_back(fmt::format("{}: {} views, earlier {}: not compared", name_, now, earlier));
+    return false;
+  }
+
+  void compare() {
+    for (const char* kind : {"model", "precision", "technique", "total"}) compare_errors(kind);
+    const JsonFields pairs = now_.object("pairs"), earlier_pairs = earlier_.object("pairs");
+    compare_counts("lit pairs of a pixel and a light are lost", pairs.count("lost"),
+                   earlier_pairs.count("lost"));
+    compare_counts("pairs of a pixel and a light are wrong", pairs.count("wrong"),
+                   earlier_pairs.count("wrong"));
+    const auto nan_pixels = [](const JsonFields& point) {
+      return point.has("nan_pixels") ? point.count("nan_pixels") : 0;
+    };
+    compare_counts("pixels are NaN", nan_pixels(now_), nan_pixels(earlier_));
+    compare_ratios();
+  }
+
+ private:
+  void compare_errors(const char* kind) {
+    const JsonFields now = now_.object("error").object(kind), earlier = earlier_.object("error").object(kind);
+    for (const char* measure : {"max_rel", "rmse_rel", "p99_rel", "flip_mean"}) {
+      const auto value = now.optional_number(measure), before = earlier.optional_number(measure);
+      if (!before) continue;  // was not finite, or not measured
+      const std::string what = fmt::format("{}: {} {}", name_, kind, measure);
+      if (!value && measure == std::string("flip_mean")) {
+        result_.told.push_back(what + " is not measured any more");
+      } else if (!value) {
+        result_.worse.push_back(fmt::format("{} is not finite, earlier {:.3g}", what, *before));
+      } else if (*value > error_factor * *before + error_slack) {
+        result_.worse.push_back(fmt::format("{} grew from {:.4g} to {:.4g}", what, *before, *value));
+      }
+    }
+  }
+
+  void compare_counts(const char* what, uint64_t now, uint64_t earlier) {
+    if (now > earlier)
+      result_.worse.push_back(fmt::format("{}: {} {}, earlier {}", name_, now, what, earlier));
+  }
+
+  struct Ratio {
+    std::optional<double> median;
+    double low = 0, high = 0;
+  };
+
+  static Ratio ratio_of(const JsonFields& point) {
+    const JsonFields ratio = point.object("ratio");
+    if (!ratio.has("median")) return {};
+    const std::vector<double> interval = ratio.numbers("ci95");
+    if (interval.size() != 2) throw input_error("ratio.ci95: {} numbers instead of 2", interval.size());
+    return {ratio.number("median"), interval[0], interval[1]};
+  }
+
+  void compare_ratios() {
+    const Ratio now = ratio_of(now_), earlier = ratio_of(earlier_);
+    if (!now.median || !earlier.median || now.low <= earlier.high) return;
+    result_.worse.push_back(fmt::format(
+        "{}: takes {:.3g} times the baseline's time ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to {:.3g})",
+        name_, *now.median, now.low, now.high, *earlier.median, earlier.low, earlier.high));
+  }
+
+  std::string name_;
+  JsonFields now_, earlier_;
+  GateResult& result_;
+};
+
+void check_comparable(const JsonFields& now, const JsonFields& earlier) {
+  if (now.count("seed") != earlier.count("seed")) {
+    throw input_error("seed {} is not {}, that of this sweep", earlier.count("seed"), now.count("seed"));
+  }
+  if (earlier.has("baseline") && now.text("baseline") != earlier.text("baseline")) {
+    throw input_error("baseline {} is not {}, that of this sweep", earlier.text("baseline"),
+                      now.text("baseline"));
+  }
+}
+
+void tell_of_other_machine(const JsonFields& now, const JsonFields& earlier, GateResult& result) {
+  const auto machine_in_words = [](const JsonFields& frontier) {
+    const JsonFields machine = frontier.object("machine");
+    return fmt::format("{}, {}", machine.text("cpu"), machine.text("cl_device"));
+  };
+  const std::string here = machine_in_words(now), there = machine_in_words(earlier);
+  if (here != there) result.told.push_back(fmt::format("measured on {}, earlier on {}", here, there));
+}
+
+GateResult compare_frontiers(const json& now, const json& earlier) {
+  GateResult result;
+  const JsonFields now_fields(now), earlier_fields(earlier);
+  check_comparable(now_fields, earlier_fields);
+  tell_of_other_machine(now_fields, earlier_fields, result);
+  const auto points = points_of(now), before = points_of(earlier);
+  const auto refusals = refusals_of(now);
+  int compared = 0;
+  for (const auto& [key, point] : before) {
+    const auto found = points.find(key);
+    if (found == points.end()) {
+      const auto refusal = refusals.find(point.name);
+      if (refusal != refusals.end()) {
+        result.worse.push_back(fmt::format("{}: {}", point.name, refusal->second));
+        ++compared;
+      } else {
+        result.told.push_back(point.name + ": was measured earlier alone");
+      }
+      continue;
+    }
+    PointComparison comparison(found->second, point, result);
+    if (!comparison.is_of_same_views()) continue;
+    comparison.compare();
+    ++compared;
+  }
+  for (const auto& [key, point] : points) {
+    if (!before.contains(key)) result.told.push_back(point.name + ": was not measured earlier");
+  }
+  if (compared == 0) throw input_error("none of its points is in this sweep with the same size and views");
+  return result;
+}
+
+}  // namespace
+
+json read_frontier_json(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::ifstream file(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path, ignored) || !file)
+    throw input_error("{}: no such file", path.string());
+  const auto shallow = [](int depth, json::parse_event_t, json&) {
+    if (depth > 16) throw input_error("is nested deeper than 16");
+    return true;
+  };
+  try {
+    json frontier = json::parse(file, shallow);
+    JsonFields(frontier).at("points");
+    return frontier;
+  } catch (const json::exception&) {
+    throw input_error("{}: is not JSON", path.string());
+  } catch (const Error& error) {
+    throw input_error("{}: {}", path.string(), error.what());
+  }
+}
+
+GateResult held_against(const json& now, const json& earlier, const std::string& earlier_name) {
+  try {
+    return compare_frontiers(now, earlier);
+  } catch (const Error& error) {
+    throw input_error("{}: {}", earlier_name, error.what());
+  }
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,178 @@
+// frontier.json, frontier.csv and samples.csv of an answer written by hand.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "frontier/answer.h"
+#include "frontier/some_records.h"
+#include "support/csv_table.h"
+#include "support/read_files.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
+
+// The contract with those who read it: keys may be added, none may go.
+TEST(FrontierJson, HasTheAgreedKeys) {
+  const json frontier = to_json(some_answer());
+  EXPECT_THAT(keys(frontier),
+              IsSupersetOf({"machine", "commit", "seed", "scenes", "points", "break_even", "failures"}));
+  const json& point = frontier["points"][0];
+  EXPECT_THAT(keys(point),
+              IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms", "ratio", "error", "pairs",
+                            "listed_per_lit", "memory_bytes", "front", "tied_with"}));
+  EXPECT_THAT(keys(point["frame_ms"]), IsSupersetOf({"median", "ci95", "runs"}));
+  EXPECT_THAT(keys(point["ratio"]), IsSupersetOf({"median", "ci95"}));
+  for (const char* kind : {"model", "precision", "technique", "total"}) {
+    EXPECT_THAT(keys(point["error"][kind]), IsSupersetOf({"max_rel", "rmse_rel", "p99_rel", "flip_mean"}));
+  }
+  EXPECT_THAT(keys(frontier["break_even"][0]),
+              IsSupersetOf({"scene", "tighter", "looser", "ns_per_pixel_light"}));
+  EXPECT_THAT(keys(frontier["failures"][0]), IsSupersetOf({"scene", "technique", "settings", "why"}));
+}
+
+TEST(FrontierJson, HoldsTheAnswer) {
+  const FrontierAnswer answer = some_answer();
+  const json frontier = to_json(answer);
+  const std::string scene = answer.points[0].point.scene;
+  EXPECT_EQ(frontier["commit"], "9d11b69");
+  EXPECT_EQ(frontier["seed"], 18446744073709551615u);
+  EXPECT_EQ(frontier["request"], "0123456789abcdef");
+  EXPECT_EQ(frontier["baseline"], "forward_plus");
+  EXPECT_EQ(frontier["scenes"], (json{scene, "hall"}));
+  EXPECT_EQ(frontier["machine"]["cl_device"], "cpu-haswell");
+  EXPECT_EQ(frontier["machine"]["load_at_start"], 0.25);
+  EXPECT_EQ(frontier["machines"][1]["cl_device"], "another");
+  EXPECT_EQ(frontier["machines"][1]["shard"], 2);
+  ASSERT_EQ(frontier["points"].size(), 2u);
+  const json expected = json::parse(R"({
+    "technique": "forward_plus", "settings": {"tile": 8, "cull_test": "planes+aabb"}, "label": "forward_plus:tile=8",
+    "frames": 4, "size": [160, 91], "views": 2,
+    "frame_ms": {"median": 2.5, "ci95": [2.25, 3.0], "runs": 8},
+    "ratio": {"median": 0.5, "ci95": [0.25, 0.75], "runs": 8},
+    "pairs": {"listed": 2000, "lit": 800, "lost": 4, "wrong": 2}, "listed_per_lit": 2.5,
+    "memory_bytes": 5000, "bytes_moved": 7000, "nan_pixels": 6, "front": true, "tied_with": [1]})");
+  for (const auto& [key, value] : expected.items()) EXPECT_EQ(frontier["points"][0][key], value) << key;
+  const json& error = frontier["points"][0]["error"];
+  EXPECT_EQ(error["total"]["flip_mean"], 0.0123);
+  EXPECT_EQ(error["total"]["rmse_rel"], 4.0 / 3);
+  EXPECT_EQ(error["precision"]["p99_rel"], 0.022);
+  EXPECT_EQ(error["technique"]["max_rel"], answer.points[0].errors.technique.max_rel);
+  EXPECT_EQ(error["model"]["relative_rmse"], 0.07);
+  EXPECT_EQ(error["model"]["flip_mean"], nullptr);
+  EXPECT_EQ(error["bias_rmse_rel"], 1e-5);
+  EXPECT_EQ(error["deviation_rmse_rel"], 2e-5);
+  EXPECT_EQ(frontier["best_within"],
+            (json{{{"scene", scene}, {"error", 1e-3}, {"point", 0}, {"tied", {1}}}}));
+  EXPECT_EQ(frontier["break_even"], json::parse(R"([{"scene": "hall", "tighter": "exact", "looser": "sphere",
+    "ns_per_pixel_light": 0.25, "extra_ms": 1.5, "pairs_saved": 1000.0}])"));
+  EXPECT_EQ(frontier["shading_costs"],
+            json::parse(R"([{"scene": "hall", "technique": "forward_plus", "brdf": "ggx",
+    "ns_per_pixel_light": 0.75}])"));
+  EXPECT_EQ(frontier["growth"], json::parse(R"([{"scene": "hall", "technique": "forward_plus", "of": "lights",
+    "exponent": 0.5, "ci95": [0.25, 0.75], "samples": [[100.0, 1.0], [400.0, 2.0], [1600.0, 4.0]]}])"));
+  EXPECT_EQ(frontier["failures"][0]["label"], "forward_plus:tile=32");
+  EXPECT_EQ(frontier["failures"][0]["cause"], "refused");
+  EXPECT_EQ(frontier["sentences"], (json{"One.", "Two."}));
+}
+
+TEST(FrontierJson, HasNullForWhatIsNotFinite) {
+  FrontierAnswer answer = some_answer();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  answer.points[0].errors.total.max_rel = std::nan("");
+  answer.points[0].frame_ms = {};
+  answer.points[0].pairs.lit = 0;
+  answer.break_even[0].ns_per_pixel_light = infinity;
+  answer.growth[0].low = -infinity;
+  const json frontier = json::parse(to_json(answer).dump());
+  EXPECT_EQ(frontier["points"][0]["error"]["total"]["max_rel"], nullptr);
+  EXPECT_EQ(frontier["points"][0]["frame_ms"],
+            json::parse(R"({"median": null, "ci95": [null, null], "runs": 0})"));
+  EXPECT_EQ(frontier["points"][0]["listed_per_lit"], nullptr);
+  EXPECT_EQ(frontier["break_even"][0]["ns_per_pixel_light"], nullptr);
+  EXPECT_EQ(frontier["growth"][0]["ci95"], json::parse("[null, 0.75]"));
+}
+
+TEST(FrontierJson, OfNothingHasEmptyLists) {
+  const json frontier = to_json(FrontierAnswer{});
+  for (const char* list : {"scenes", "points", "best_within", "break_even", "shading_costs", "growth",
+                           "failures", "sentences", "machines"}) {
+    EXPECT_EQ(frontier[list], json::array()) << list;
+  }
+}
+
+TEST(FrontierCsv, HasALineAPointAndView) {
+  const FrontierAnswer answer = some_answer();
+  const auto table = csv_table(csv_text(answer));
+  ASSERT_EQ(table.size(), 5u);
+  const std::map<std::string, std::string> expected = {{"row", "1"},
+                                                       {"commit", "9d11b69"},
+                                                       {"seed", "18446744073709551615"},
+                                                       {"shard", "1"},
+                                                       {"cl", "cpu-haswell"},
+                                                       {"gl", "llvmpipe"},
+                                                       {"scene", answer.points[0].point.scene},
+                                                       {"label", "forward_plus:tile=8"},
+                                                       {"technique", "forward_plus"},
+                                                       {"settings", "cull_test=planes+aabb tile=8"},
+                                                       {"frames", "4"},
+                                                       {"series", ""},
+                                                       {"view", "1"},
+                                                       {"width", "160"},
+                                                       {"height", "91"},
+                                                       {"lights", "1024"},
+                                                       {"radius_scale", "1.5"},
+                                                       {"refused", ""},
+                                                       {"runs", "3"},
+                                                       {"frame_ms", "2.25"},
+                                                       {"frame_ms_low", "0.3333333333333333"},
+                                                       {"frame_ms_high", "2.5"},
+                                                       {"baseline_ms", "2.5"},
+                                                       {"ratio", "0.5"},
+                                                       {"ratio_high", "0.9"},
+                                                       {"bytes_moved", "18446744073709551615"},
+                                                       {"memory_bytes", "9007199254740993"},
+                                                       {"covered_pixels", "14000"},
+                                                       {"listed", "1000"},
+                                                       {"lit", "400"},
+                                                       {"lost", "2"},
+                                                       {"wrong", "1"},
+                                                       {"nan_pixels", "3"},
+                                                       {"overflow", "5"},
+                                                       {"model_max_rel", "0.1"},
+                                                       {"precision_rmse_rel", "0.6666666666666666"},
+                                                       {"technique_relative_rmse", "0.21000000000000002"},
+                                                       {"total_p99_rel", "0.044"},
+                                                       {"total_flip_mean", "0.0123"},
+                                                       {"model_flip_mean", ""},
+                                                       {"bias_rmse_rel", "1e-05"},
+                                                       {"deviation_rmse_rel", "2e-05"},
+                                                       {"image", "sponza_17"}};
+  for (const auto& [name, value] : expected) EXPECT_EQ(table[1].at(name), value) << name;
+  EXPECT_EQ(std::stod(table[1].at("ratio_low")), (1.0 / 3) / (2.0 / 3 + 1));
+  EXPECT_EQ(table[4].at("refused"), "needs \"OpenGL\", which is not here");
+  for (const char* name : {"frame_ms", "ratio", "listed", "nan_pixels", "total_rmse_rel"})
+    EXPECT_EQ(table[4].at(name), "");
+  EXPECT_EQ(table[4].at("cl"), "") << "nobody has said which machine shard 0 ran on";
+}
+
+TEST(FrontierCsv, HasEachRunBeside) {
+  const FrontierAnswer answer = some_answer();
+  const auto table = csv_table(samples_csv_text(answer));
+  ASSERT_EQ(table.size(), 12u);
+  for (size_t i = 0; i < table.size(); ++i) {
+    const FrontierRecord& record = answer.part.records[i / 3];
+    EXPECT_EQ(table[i].at("row"), std::to_string(i / 3));
+    EXPECT_EQ(table[i].at("run"), std::to_string(i % 3));
+    EXPECT_EQ(std::stod(table[i].at("frame_ms")), record.frame_ms[i % 3]);
+    EXPECT_EQ(std::stod(table[i].at("baseline_ms")), record.baseline_ms[i % 3]);
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid

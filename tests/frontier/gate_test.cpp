@@ -1,0 +1,188 @@
+#include "frontier/gate.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "frontier/faults.h"
+#include "frontier/some_records.h"
+#include "support/temp_folder.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+// One point, of a simple name.
+json frontier() {
+  FrontierAnswer answer = some_answer();
+  answer.points.resize(1);
+  answer.failures.clear();
+  answer.points[0].point.scene = "hall";
+  for (FrontierRecord& record : answer.part.records) record.point.scene = "hall";
+  return to_json(answer);
+}
+
+json& figure(json& frontier, const char* kind, const char* measure) {
+  return frontier["points"][0]["error"][kind][measure];
+}
+
+const char name[] = "hall, forward_plus:tile=8, 4 frames averaged";
+
+TEST(Gate, IsPassedByTheSameFigures) {
+  const GateResult result = held_against(frontier(), frontier(), "old.json");
+  EXPECT_THAT(result.worse, IsEmpty());
+  EXPECT_THAT(result.told, IsEmpty());
+}
+
+TEST(Gate, IsClosedByAnErrorThatGrew) {
+  for (const char* kind : {"model", "precision", "technique", "total"}) {
+    for (const char* measure : {"max_rel", "rmse_rel", "p99_rel", "flip_mean"}) {
+      json now = frontier(), earlier = frontier();
+      figure(earlier, kind, measure) = 0.5;
+      figure(now, kind, measure) = 0.5004;  // within 1.001
+      EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+      figure(now, kind, measure) = 0.1;
+      EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+      figure(now, kind, measure) = 0.5006;
+      EXPECT_THAT(held_against(now, earlier, "").worse,
+                  ElementsAre(fmt::format("{}: {} {} grew from 0.5 to 0.5006", name, kind, measure)));
+    }
+  }
+  json now = frontier(), earlier = frontier();
+  figure(earlier, "total", "rmse_rel") = 0;
+  figure(now, "total", "rmse_rel") = 0.9e-9;
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+  figure(now, "total", "rmse_rel") = 1.1e-9;
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(EndsWith("total rmse_rel grew from 0 to 1.1e-09")));
+}
+
+TEST(Gate, KnowsErrorsThatAreNotFinite) {
+  json now = frontier(), earlier = frontier();
+  figure(now, "total", "max_rel") = nullptr;
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(std::string(name) + ": total max_rel is not finite, earlier 0.4"));
+  figure(earlier, "total", "max_rel") = nullptr;
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+  now = frontier();
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+  figure(now, "total", "flip_mean") = nullptr;  // --flip is an option
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+  EXPECT_THAT(held_against(now, earlier, "").told,
+              ElementsAre(HasSubstr("total flip_mean is not measured any more")));
+}
+
+TEST(Gate, IsClosedByLightsThatAreLost) {
+  for (const char* count : {"lost", "wrong"}) {
+    json now = frontier(), earlier = frontier();
+    now["points"][0]["pairs"][count] = 9;
+    EXPECT_THAT(held_against(now, earlier, "").worse,
+                ElementsAre(AllOf(StartsWith(name), HasSubstr(": 9 "), HasSubstr(count))));
+    EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty());
+  }
+  json now = frontier(), earlier = frontier();
+  now["points"][0]["nan_pixels"] = 7;
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(std::string(name) + ": 7 pixels are NaN, earlier 6"));
+}
+
+TEST(Gate, IsClosedByARatioThatIsWorseWithSignificance) {
+  json now = frontier(), earlier = frontier();  // 0.25 to 0.75
+  json& ratio = now["points"][0]["ratio"];
+  ratio = {{"median", 1.0}, {"ci95", {0.75, 1.25}}};
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+  ratio["ci95"] = {0.76, 1.25};
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(std::string(name) +
+                          ": takes 1 times the baseline's time (0.76 to 1.25), earlier 0.5 (0.25 to 0.75)"));
+  EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty()) << "faster is not worse";
+  ratio = {{"median", nullptr}, {"ci95", {nullptr, nullptr}}};
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+  EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty());
+}
+
+TEST(Gate, IsClosedByARefusal) {
+  json now = frontier(), earlier = frontier();
+  now["failures"] = json::array({now["points"][0]});
+  now["failures"][0]["cause"] = "refused";
+  now["failures"][0]["why"] = "refused: too little memory";
+  now["points"] = json::array();
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(std::string(name) + ": refused: too little memory"));
+}
+
+TEST(Gate, TellsOfPointsOnOneSide) {
+  json now = frontier(), earlier = frontier();
+  json other = now["points"][0];
+  other["label"] = "tiled";
+  now["points"].push_back(other);
+  other["label"] = "forward";
+  earlier["points"].push_back(other);
+  const GateResult result = held_against(now, earlier, "old.json");
+  EXPECT_THAT(result.worse, IsEmpty());
+  EXPECT_THAT(result.told, ElementsAre("hall, forward, 4 frames averaged: was measured earlier alone",
+                                       "hall, tiled, 4 frames averaged: was not measured earlier"));
+  other["label"] = "tiled";
+  other["views"] = 5;
+  earlier["points"].push_back(other);
+  EXPECT_THAT(held_against(now, earlier, "").told,
+              testing::Contains("hall, tiled, 4 frames averaged: 2 views, earlier 5: not compared"));
+}
+
+TEST(Gate, TellsOfAnotherMachine) {
+  json earlier = frontier();
+  earlier["machine"]["cpu"] = "Epyc";
+  EXPECT_THAT(held_against(frontier(), earlier, "").told,
+              ElementsAre("measured on Xeon, cpu-haswell, earlier on Epyc, cpu-haswell"));
+}
+
+TEST(Gate, NamesWhatCannotBeCompared) {
+  const auto fault_with = [](auto change) {
+    json earlier = frontier();
+    change(earlier);
+    return fault_of([&] { held_against(frontier(), earlier, "old.json"); });
+  };
+  EXPECT_EQ(fault_with([](json& f) { f["seed"] = 2; }),
+            "old.json: seed 2 is not 18446744073709551615, that of this sweep");
+  EXPECT_EQ(fault_with([](json& f) { f["baseline"] = "forward"; }),
+            "old.json: baseline forward is not forward_plus, that of this sweep");
+  const char* none = "old.json: none of its points is in this sweep with the same size and views";
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["label"] = "forward"; }), none);
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["size"] = {64, 64}; }), none);
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["views"] = 3; }), none);
+  EXPECT_EQ(fault_with([](json& f) { f["points"] = json::array(); }), none);
+  EXPECT_EQ(fault_with([](json& f) { f["points"] = 3; }), "old.json: points: is not an array");
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0].erase("label"); }),
+            "old.json: points[0].label is missing");
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["error"]["total"]["rmse_rel"] = "big"; }),
+            std::string("old.json: ") + name + ": error.total.rmse_rel: \"big\" is not a number");
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["ratio"]["ci95"] = {1}; }),
+            "old.json: ratio.ci95: 1 numbers instead of 2");
+}
+
+TEST(Gate, ReadsAFileOrNamesIt) {
+  const TempFolder folder;
+  const std::string path = folder.path / "frontier.json";
+  EXPECT_EQ(fault_of([&] { read_frontier_json(path); }), path + ": no such file");
+  EXPECT_EQ(fault_of([&] { read_frontier_json(folder.path); }), folder.path.string() + ": no such file");
+  const std::pair<std::string, std::string> wrong[] = {
+      {"", "is not JSON"},         {"{\"points\"", "is not JSON"},
+      {"\"\xff\"", "is not JSON"}, {"[]", "array is not an object"},
+      {"{}", "points is missing"}, {std::string(99999, '['), "is nested deeper than 16"}};
+  for (const auto& [text, why] : wrong) {
+    std::ofstream(path) << text;
+    EXPECT_EQ(fault_of([&] { read_frontier_json(path); }), path + ": " + why);
+  }
+  std::ofstream(path) << frontier();
+  EXPECT_EQ(read_frontier_json(path), frontier());
+}
+
+}  // namespace
+}  // namespace lightgrid
