@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
-// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN  as kernels/common/shade_pixels.h says
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT  as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"

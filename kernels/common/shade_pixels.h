@@ -5,6 +5,7 @@
 // -DZ_BINS    lights whose z-bin range misses the pixels are skipped
 // -DSPOTS     some light has a cone
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
+// -DLAMBERT   there is none: shared/brdf_lambert.h
 #pragma once
 
 #include "kernels/common/gbuffer.h"

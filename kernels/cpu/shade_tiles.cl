@@ -8,7 +8,7 @@
 // image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show without these lights, which are added
 // background      of pixels without a surface; without -DBASE_LIGHTING alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
-// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DORTHOGRAPHIC  as the headers say
+// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DORTHOGRAPHIC  as the headers say
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16

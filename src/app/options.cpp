@@ -25,7 +25,7 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
   command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.option("--seed", o.seed, "seed of the scatter");
-  command.option("--brdf", o.brdf, "ggx or blinn: short for --set brdf=…");
+  command.option("--brdf", o.brdf, "ggx, blinn or lambert: short for --set brdf=…");
   command.option("--time", o.time, "seconds into the animations of the file; not given: at rest");
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }

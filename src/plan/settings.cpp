@@ -52,8 +52,9 @@ std::vector<Choice> choices_of(const Row (&table)[rows], T Settings::*member, T 
 const std::vector<Setting>& all_settings() {
   static const std::vector<Setting> settings = {
       {"brdf",
-       "the specular lobe: GGX, or Blinn-Phong of the same width",
-       {choice("ggx", &Settings::brdf, Brdf::ggx), choice("blinn", &Settings::brdf, Brdf::blinn)}},
+       "the specular lobe: GGX, Blinn-Phong of the same width, or none: base colour / pi",
+       {choice("ggx", &Settings::brdf, Brdf::ggx), choice("blinn", &Settings::brdf, Brdf::blinn),
+        choice("lambert", &Settings::brdf, Brdf::lambert)}},
       {"range",
        "where a light ends: at the range that the scene gives, where its irradiance falls to cutoff, at a random distance "
        "whose mean picture is that of no range (with alpha), or nowhere",

@@ -24,7 +24,8 @@ Reflectance fresnel(const Reflectance& f0, double v_dot_h) {
 }
 
 // Reflection of constant radiance from all sides: this program's own simplification, without Fresnel.
-dvec3 ambient_reflectance(const Surface& s) {
+dvec3 ambient_reflectance(const Surface& s, Brdf lobe) {
+  if (lobe == Brdf::lambert) return s.base_color;
   return s.base_color * (1 - s.metallic) + glm::mix(dvec3(dielectric_f0), s.base_color, s.metallic);
 }
 
@@ -66,6 +67,7 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
 }  // namespace
 
 dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
+  if (lobe == Brdf::lambert) return surface.base_color / std::numbers::pi;
   const dvec3 sum = to_eye + to_light;
   // Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there, so the diffuse
   // part is 0.
@@ -89,7 +91,7 @@ dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
             const std::vector<ViewLight>& lights, const ShadeSettings& settings) {
   if (surface.unlit) return surface.base_color;
   const dvec3 to_eye = orthographic ? dvec3(0, 0, 1) : glm::normalize(-position);
-  dvec3 radiance = settings.ambient * ambient_reflectance(surface) * surface.occlusion;
+  dvec3 radiance = settings.ambient * ambient_reflectance(surface, settings.brdf) * surface.occlusion;
   radiance += surface.emissive;
   for (const ViewLight& light : lights) {
     radiance += light_radiance(surface, position, to_eye, light, settings);

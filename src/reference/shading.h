@@ -1,4 +1,4 @@
-// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B), with GGX or Blinn-Phong,
+// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B), with GGX or Blinn-Phong, or Lambert alone,
 // under KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL follows too.
 #pragma once
 

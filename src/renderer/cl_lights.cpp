@@ -46,6 +46,7 @@ std::string light_defines(const RenderView& v, bool lanes) {
   if (v.plan.z_bins > 1) defines += " -DZ_BINS";
   if (v.plan.spots) defines += " -DSPOTS";
   if (v.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
+  if (v.plan.settings.brdf == Brdf::lambert) defines += " -DLAMBERT";
   for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
   if (v.view.orthographic) defines += " -DORTHOGRAPHIC";
   return defines;

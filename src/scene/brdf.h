@@ -3,6 +3,6 @@
 
 namespace lightgrid {
 
-enum class Brdf { ggx, blinn };  // the specular lobe: shared/brdf.h
+enum class Brdf { ggx, blinn, lambert };  // the specular lobe, or none: shared/brdf.h
 
 }  // namespace lightgrid

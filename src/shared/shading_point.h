@@ -1,5 +1,6 @@
 // The part of shading that all lights at a point share: the glTF 2.0 metallic-roughness material
 // (specification, appendix B) seen from one side. View space.
+//   LAMBERT: a diffuse surface, without what only specular lobes read.
 #pragma once
 
 #include "shared/real.h"
@@ -13,12 +14,16 @@ namespace lightgrid {
 #define ROUGHNESS_FLOOR 0.045f  // below it, float cannot represent the shape of GGX's peak
 
 SHARED_STRUCT(ShadingPoint) {
-  Real3 position, normal, to_viewer;
-  Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi
-  Real3 f0;       // mix(0.04, base colour, metallic)
+  Real3 position, normal;
+  Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
+                  // with LAMBERT base colour / pi
+#ifndef LAMBERT
+  Real3 to_viewer;
+  Real3 f0;  // mix(0.04, base colour, metallic)
   real alpha, alpha_squared;
   real n_dot_v;
   real lobe;  // the specular lobe's term of viewer and roughness (lobe_of)
+#endif
 };
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

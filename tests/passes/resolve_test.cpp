@@ -123,6 +123,14 @@ TEST_P(Resolve, HasTheRadianceOfTheSurfacesInDouble) {
   }
 }
 
+// The ball is a metal: black if glTF's diffuse part were what remains.
+TEST(ResolveLambert, HasTheRadianceOfTheSurfacesInDouble) {
+  const Errors e = errors_of(small_scene().scene, small_view(79, 45), {.brdf = Brdf::lambert});
+  EXPECT_GT(e.compared, e.pixels / 4);
+  EXPECT_LT(e.mean, 1e-6);
+  EXPECT_LT(e.largest, 2e-5);
+}
+
 std::vector<std::string> drawn_effects() {
   std::vector<std::string> names = effect_names();
   std::erase(names, "blend");

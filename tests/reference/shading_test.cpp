@@ -71,6 +71,16 @@ TEST(Brdf, BlinnPhongByHand) {
               1e-14);
 }
 
+TEST(Brdf, LambertIsBaseColourOverPiWhateverTheRestOfTheMaterial) {
+  for (const double metallic : {0.0, 0.3, 1.0}) {
+    const Surface surface{.base_color = {1, 0.5, 0.25}, .metallic = metallic, .roughness = 1 - metallic};
+    for (const dvec3& to_light : {dvec3(0, 0, 1), dvec3(0.6, 0, 0.8), dvec3(0, 0, -1)}) {
+      expect_near(brdf(surface, {0, 0, 1}, to_light, Brdf::lambert) * pi, {1, 0.5, 0.25}, 1e-15);
+    }
+    expect_near(shade(surface, {0, 0, -3}, false, {}, {.brdf = Brdf::lambert, .ambient = dvec3(0.2)}), {0.2, 0.1, 0.05}, 1e-15);
+  }
+}
+
 TEST(Brdf, SeenFromBehindTheHalfVectorCountsAsLyingInTheSurface) {
   // V + L = (1.4, 0, -0.2), of length sqrt 2: N.H < 0 counts as 0, |N x H|^2 = 0.98. Alpha 1, white metal: F
   // = 1, D = 1 / (0.98^2 pi), N.V = 1e-4, N.L = 0.6: V = 0.5 / (0.6 + 1e-4).

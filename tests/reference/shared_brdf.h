@@ -1,5 +1,5 @@
-// The shading code of shaders and kernels, compiled as C++, against the reference in double. Included once with BLINN and
-// once without.
+// The shading code of shaders and kernels, compiled as C++, against the reference in double. Included once with BLINN,
+// once with LAMBERT and once without either.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -203,15 +203,17 @@ TEST_P(OneByOneEffect, IsThereAsInForwardAndWithEverythingOn) {
 INSTANTIATE_TEST_SUITE_P(Effects, OneByOneEffect, testing::ValuesIn(effect_names()),
                          [](const auto& info) { return info.param; });
 
-TEST(OneByOne, BlinnPhong) {
+TEST(OneByOne, BlinnPhongAndLambert) {
   const Scene scene = lamps(40, 1.5f);
   const View view = small_view(63, 37);
-  const Image forward = render(scene, view, "forward", {.brdf = Brdf::blinn});
-  for (const Way& way : ways) {
-    SCOPED_TRACE(way.name);
-    Settings settings = way.settings;
-    settings.brdf = Brdf::blinn;
-    expect_close(scene, view, settings, forward, way.technique);
+  for (const Brdf brdf : {Brdf::blinn, Brdf::lambert}) {
+    const Image forward = render(scene, view, "forward", {.brdf = brdf});
+    for (const Way& way : ways) {
+      SCOPED_TRACE(way.name);
+      Settings settings = way.settings;
+      settings.brdf = brdf;
+      expect_close(scene, view, settings, forward, way.technique);
+    }
   }
 }
 

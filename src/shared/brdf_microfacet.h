@@ -1,0 +1,66 @@
+// The BRDF of glTF 2.0, appendix B: mix(dielectric, metal, metallic). The dielectric is Lambert
+// under a specular lobe with f0 = 0.04, the metal a specular lobe with f0 = base colour; both use Schlick's
+// Fresnel.
+//   BLINN: Blinn-Phong in place of GGX.
+#pragma once
+
+#include "shared/shading_point.h"
+#ifdef BLINN
+#include "shared/brdf_blinn.h"
+#else
+#include "shared/brdf_ggx.h"
+#endif
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+namespace lightgrid {
+#endif
+
+// to_viewer and normal are unit vectors; roughness is perceptual.
+SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color, real metallic,
+                                           real roughness) {
+  ShadingPoint p;
+  p.position = position;
+  p.normal = normal;
+  p.to_viewer = to_viewer;
+  p.diffuse = scale3(base_color, (1.0f - metallic) * ((1.0f - DIELECTRIC_F0) / SHADING_PI));
+  real dielectric = DIELECTRIC_F0 * (1.0f - metallic);
+  p.f0 = real3(dielectric + base_color.x * metallic, dielectric + base_color.y * metallic,
+               dielectric + base_color.z * metallic);
+  real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));
+  p.alpha = perceptual * perceptual;
+  p.alpha_squared = p.alpha * p.alpha;
+  p.n_dot_v = max_real(dot3(normal, to_viewer), REAL(1e-4f));
+  p.lobe = lobe_of(p);
+  return p;
+}
+
+// A macro, so that it takes part in what the caller declares precise.
+#define AMBIENT_REFLECTANCE(p) add3(scale3((p).diffuse, REAL(SHADING_PI / (1.0f - DIELECTRIC_F0))), (p).f0)
+
+// BRDF times the cosine at the surface. to_light is a unit vector.
+SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
+  real n_dot_l = min_real(max_real(dot3(p.normal, to_light), REAL(0.0f)), REAL(1.0f));
+  // The half vector is not normalised: the formulas contain |h|^2 instead. It vanishes only where viewer and
+  // light are on opposite sides of the surface, and there n_dot_l is 0.
+  Real3 h = add3(to_light, p.to_viewer);
+  real h_squared = max_real(dot3(h, h), REAL(1e-8f));
+  // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
+  Real3 across = cross3(p.normal, h);
+  real specular = specular_lobe(p, n_dot_l, h_squared, max_real(dot3(p.normal, h), REAL(0.0f)), dot3(across, across));
+  // v.h = |h| / 2 for unit vectors.
+  real grazing = max_real(mad_real(-0.5f, sqrt_real(h_squared), 1.0f), REAL(0.0f));
+  real grazing2 = grazing * grazing;
+  real grazing5 = grazing2 * grazing2 * grazing;
+  // Schlick's Fresnel is linear in f0, so the mix of both specular parts is one term with the mixed f0: f0 +
+  // (1 - f0) g = f0 (1 - g) + g. Only the dielectric has a diffuse part, with its own Fresnel: 1 - (0.04 +
+  // 0.96 g) = 0.96 (1 - g); p.diffuse contains the 0.96. Both share the factor 1 - g.
+  real facing = n_dot_l * (1.0f - grazing5);
+  real rim = n_dot_l * grazing5 * specular;
+  return real3(mad_real(mad_real(p.f0.x, specular, p.diffuse.x), facing, rim),
+               mad_real(mad_real(p.f0.y, specular, p.diffuse.y), facing, rim),
+               mad_real(mad_real(p.f0.z, specular, p.diffuse.z), facing, rim));
+}
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
+#endif
