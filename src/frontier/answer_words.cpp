@@ -1,0 +1,252 @@
+// The answer in plain words: one paragraph, each sentence from figures that are there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "frontier/answer_steps.h"
+#include "results/words.h"
+
+namespace lightgrid {
+namespace {
+
+// A technique's own error below which its picture is what its settings mean, as in report.h (exact_max_rel).
+constexpr double same_picture = 1e-5;
+
+using Points = std::vector<PointFigures>;
+
+std::string ratio_in_words(const MedianInterval& ratio) {
+  return fmt::format("{} times (95 % interval {} to {})", three_digits(ratio.median), three_digits(ratio.low),
+                     three_digits(ratio.high));
+}
+
+// " (~ a, b and 3 more)": points that are not ranked against this one.
+std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
+  if (tied.empty()) return "";
+  std::string words;
+  for (size_t i = 0; i < std::min<size_t>(tied.size(), 2); ++i) {
+    words += (i ? ", " : "") + points[tied[i]].point.label;
+  }
+  return fmt::format(" (~ {}{})", words, tied.size() > 2 ? fmt::format(" and {} more", tied.size() - 2) : "");
+}
+
+bool same_model(const PointFigures& a, const PointFigures& b) {
+  const double x = a.errors.model.rmse_rel, y = b.errors.model.rmse_rel;
+  return std::abs(x - y) <= 1e-6 * std::max(x, y);
+}
+
+const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string& scene) {
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene == scene && p.point.label == answer.part.baseline) return &p;
+  }
+  return nullptr;
+}
+
+// The fastest of the points that compute the baseline's picture; -1 if there is none.
+int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene) {
+  const PointFigures* baseline = baseline_of(answer, scene);
+  int best = -1;
+  for (size_t i = 0; baseline && i < answer.points.size(); ++i) {
+    const PointFigures& p = answer.points[i];
+    if (p.point.scene != scene || p.ratios.empty() || !same_model(p, *baseline)) continue;
+    if (!(p.errors.technique.max_rel <= same_picture) || p.nan_pixels || p.pairs.lost) continue;
+    if (best < 0 || p.ratio.median < answer.points[best].ratio.median) best = int(i);
+  }
+  return best;
+}
+
+std::vector<int> tied_same_picture(const FrontierAnswer& answer, int best) {
+  std::vector<int> tied;
+  for (const int other : answer.points[best].tied_with) {
+    const PointFigures& p = answer.points[other];
+    if (same_model(p, answer.points[best]) && p.errors.technique.max_rel <= same_picture)
+      tied.push_back(other);
+  }
+  return tied;
+}
+
+void add_fastest(const FrontierAnswer& answer, const std::string& scene,
+                 std::vector<std::string>& sentences) {
+  const int best = fastest_same_picture(answer, scene);
+  if (best < 0) return;
+  const PointFigures& p = answer.points[best];
+  const std::string tied = ties_in_words(answer.points, tied_same_picture(answer, best));
+  if (p.point.label == answer.part.baseline) {
+    sentences.push_back(
+        fmt::format("In {} no point that computes the same picture (to 1e-5 of the brightest channel) is "
+                    "faster than {}{}.",
+                    scene_in_words(scene), p.point.label, tied));
+  } else {
+    sentences.push_back(fmt::format(
+        "In {} the fastest point that computes the same picture as {} (to 1e-5 of the brightest channel) is "
+        "{}{}: "
+        "it takes {} as long.",
+        scene_in_words(scene), answer.part.baseline, p.point.label, tied, ratio_in_words(p.ratio)));
+  }
+  const PointErrors& e = p.errors;
+  const std::pair<double, const char*> kinds[] = {
+      {e.model.rmse_rel, "the model's (where a light's range ends, and its window)"},
+      {e.precision.rmse_rel, "that of float precision"},
+      {e.technique.rmse_rel, "the technique's own"}};
+  const auto largest = std::max_element(std::begin(kinds), std::end(kinds));
+  if (!(largest->first > 0)) return;
+  sentences.push_back(fmt::format(
+      "Its largest error is {}: model {}, precision {}, technique {} (RMSE over the brightest channel).",
+      largest->second, error_in_words(e.model.rmse_rel), error_in_words(e.precision.rmse_rel),
+      error_in_words(e.technique.rmse_rel)));
+}
+
+// From the largest error down, each point at the least error that it is the best within.
+void add_best_within(const FrontierAnswer& answer, const std::string& scene,
+                     std::vector<std::string>& sentences) {
+  std::vector<const BestWithin*> steps;
+  for (auto best = answer.best_within.rbegin(); best != answer.best_within.rend(); ++best) {
+    if (best->scene != scene) continue;
+    if (steps.empty() || steps.back()->point != best->point) steps.push_back(nullptr);
+    steps.back() = &*best;
+  }
+  std::vector<std::string> words;
+  for (const BestWithin* step : steps) {
+    const PointFigures& p = answer.points[step->point];
+    words.push_back(fmt::format("{}{} use {}{}, {} times {}", percent_of(step->error),
+                                words.empty() ? " (RMSE) in " + scene_in_words(scene) : "", p.point.label,
+                                ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
+                                answer.part.baseline));
+  }
+  if (!words.empty())
+    sentences.push_back(fmt::format("If you can bear an error of {}.", fmt::join(words, "; of ")));
+}
+
+bool is_of_technique(const std::string& label, const std::string& technique) {
+  return label == technique || label.starts_with(technique + ":");
+}
+
+// Of the costs of a scene, the one with the most pairs of cull tests to hold it to.
+void add_break_even(const FrontierAnswer& answer, const std::string& scene,
+                    std::vector<std::string>& sentences) {
+  const ShadingCost* best = nullptr;
+  int most = 0, most_won = 0;
+  for (const ShadingCost& cost : answer.shading_costs) {
+    if (cost.scene != scene) continue;
+    int all = 0, won = 0;
+    for (const BreakEven& pair : answer.break_even) {
+      if (pair.scene != scene || !is_of_technique(pair.tighter, cost.technique)) continue;
+      ++all, won += pair.ns_per_pixel_light < cost.ns_per_pixel_light;
+    }
+    if (all > most) best = &cost, most = all, most_won = won;
+  }
+  if (!best) return;
+  sentences.push_back(
+      fmt::format("In {} a light at a pixel costs {} {} ns to shade{}: at that price the tighter cull test "
+                  "wins in {} of {} pairs.",
+                  scene_in_words(scene), best->technique, three_digits(best->ns_per_pixel_light),
+                  best->brdf.empty() ? "" : " with " + best->brdf, most_won, most));
+}
+
+// Of the baseline, or of the series' first point.
+void add_growth(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
+  const Growth* told[] = {nullptr, nullptr, nullptr};
+  const std::string quantities[] = {"lights", "pixels", "radius"};
+  for (const Growth& g : answer.growth) {
+    const auto of = std::find(std::begin(quantities), std::end(quantities), g.of) - std::begin(quantities);
+    if (g.scene != scene || of == 3 || !std::isfinite(g.low) || !std::isfinite(g.high)) continue;
+    if (!told[of] || g.technique == answer.part.baseline) told[of] = &g;
+  }
+  std::map<std::string, std::vector<std::string>> laws;  // by point
+  for (const Growth* g : told) {
+    if (g)
+      laws[g->technique].push_back(
+          fmt::format("{}^{:.2f} ({:.2f} to {:.2f})", g->of, g->exponent, g->low, g->high));
+  }
+  for (const auto& [point, powers] : laws) {
+    sentences.push_back(fmt::format("In {} the time of {} grows as {}.", scene_in_words(scene), point,
+                                    fmt::join(powers, ", ")));
+  }
+}
+
+void add_failures(const FrontierAnswer& answer, const std::string& scene,
+                  std::vector<std::string>& sentences) {
+  std::vector<std::string> parts;
+  std::set<std::string> failed;
+  for (const auto& [cause, words] :
+       std::vector<std::pair<std::string, std::string>>{{"refused", "refused"},
+                                                        {"lost", "with lost lights"},
+                                                        {"wrong", "with wrong lights"},
+                                                        {"NaN", "with NaN"},
+                                                        {"overflow", "with lists that overflow"}}) {
+    size_t count = 0;
+    for (const Failure& f : answer.failures) {
+      if (f.cause != cause || f.point.scene != scene) continue;
+      ++count;
+      failed.insert(f.point.label);
+    }
+    if (count) parts.push_back(fmt::format("{} {}", with_commas(count), words));
+  }
+  if (parts.empty()) return;
+  std::set<std::string> all;
+  for (const FrontierRecord& r : answer.part.records) {
+    if (r.point.scene == scene) all.insert(label_in_series(r));
+  }
+  sentences.push_back(fmt::format("In {} {} of {} points failed: {}.", scene_in_words(scene),
+                                  with_commas(failed.size()), with_commas(all.size()),
+                                  fmt::join(parts, ", ")));
+}
+
+}  // namespace
+
+std::string scene_in_words(const std::string& scene) {
+  const std::string stem = std::filesystem::path(scene).stem().string();
+  return stem.empty() ? scene : stem;
+}
+
+std::vector<std::string> scenes_of(const FrontierAnswer& answer) {
+  std::vector<std::string> scenes;
+  for (const FrontierRecord& r : answer.part.records) {
+    if (std::find(scenes.begin(), scenes.end(), r.point.scene) == scenes.end())
+      scenes.push_back(r.point.scene);
+  }
+  return scenes;
+}
+
+std::string three_digits(double value) {
+  if (!std::isfinite(value)) return value > 0 ? "infinite" : "unknown";
+  if (value == 0) return "0";
+  if (value >= 99.95) return with_commas(uint64_t(std::llround(value)));
+  const std::string rounded = fmt::format("{:.2e}", value);  // 0.9999 has the exponent of 1.00
+  const int decimals = std::clamp(2 - std::stoi(rounded.substr(rounded.find('e') + 1)), 0, 9);
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string error_in_words(double error) {
+  if (!std::isfinite(error)) return "not finite";
+  if (error == 0) return "0";
+  std::string text = fmt::format("{:.1e}", error);  // "1.2e-03"
+  const size_t exponent = text.find('e') + 2;
+  while (text[exponent] == '0' && exponent + 1 < text.size()) text.erase(exponent, 1);
+  if (text[exponent - 1] == '+') text.erase(exponent - 1, 1);
+  return text;
+}
+
+std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
+
+std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
+  std::vector<std::string> sentences;
+  add_fastest(answer, scene, sentences);
+  add_best_within(answer, scene, sentences);
+  add_break_even(answer, scene, sentences);
+  add_growth(answer, scene, sentences);
+  add_failures(answer, scene, sentences);
+  return sentences;
+}
+
+std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
+  std::vector<std::string> sentences;
+  for (const std::string& scene : scenes_of(answer)) {
+    for (std::string& sentence : sentences_of_scene(answer, scene)) sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,329 @@
+#include "frontier/answer.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "base/error.h"
+#include "frontier/answer_steps.h"
+#include "frontier/synthetic_records.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+const double no_figure = std::nan("");
+
+FrontierAnswer answer_from(std::vector<FrontierRecord> records) {
+  return answer_of({synthetic_part(std::move(records))});
+}
+
+const PointFigures& point_named(const FrontierAnswer& answer, const std::string& label) {
+  for (const PointFigures& p : answer.points) {
+    if (p.point.label == label) return p;
+  }
+  throw std::runtime_error("no point " + label);
+}
+
+std::vector<std::string> point_labels(const FrontierAnswer& answer, const std::vector<int>& indices) {
+  std::vector<std::string> names;
+  for (const int i : indices) names.push_back(answer.points[i].point.label);
+  return names;
+}
+
+std::vector<std::string> front_of(const FrontierAnswer& answer) {
+  std::vector<std::string> names;
+  for (const PointFigures& p : answer.points) {
+    if (p.front) names.push_back(p.point.label);
+  }
+  return names;
+}
+
+TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
+  FrontierRecord a = synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0, 0), b = a;
+  a.frame_ms = {10, 20, 30}, a.baseline_ms = {100, 100, 100};
+  b.view = 1;
+  b.frame_ms = {2, 4, 6, 8}, b.baseline_ms = {20, 20, 20, 40};
+  a.errors.total = {0.1, 0.03, 0.3, 0.01, 0.25};
+  b.errors.total = {0.3, 0.04, 0.4, 0.03, {}};
+  a.errors.deviation_rmse_rel = 0.5;
+  a.pairs = {10, 5, 1, 2}, b.pairs = {20, 6, 3, 4};
+  a.memory_bytes = 7, b.memory_bytes = 9;
+  a.bytes_moved = 100, b.bytes_moved = 300;
+  b.nan_pixels = 11;
+  const FrontierAnswer answer = answer_from({a, b});
+  ASSERT_THAT(answer.points, SizeIs(1));
+  const PointFigures& p = answer.points[0];
+  EXPECT_EQ(p.views, 2);
+  EXPECT_THAT(p.ratios, ElementsAre(DoubleNear(0.1, 1e-15), DoubleNear(0.2, 1e-15), DoubleNear(0.3, 1e-15)));
+  EXPECT_NEAR(p.ratio.median, 0.2, 1e-15);
+  EXPECT_EQ(p.ratio.runs, 3);
+  EXPECT_NEAR(p.frame_ms.median, 12, 1e-12);  // (20 + 4) / 2 views
+  EXPECT_EQ(p.errors.total.max_rel, 0.3);
+  EXPECT_NEAR(p.errors.total.rmse_rel, std::sqrt(0.00125), 1e-15);
+  EXPECT_NEAR(p.errors.total.relative_rmse, std::sqrt(0.125), 1e-15);
+  EXPECT_NEAR(p.errors.total.p99_rel, 0.02, 1e-15);
+  EXPECT_EQ(p.errors.total.flip_mean, 0.25);  // of the one view that has it
+  EXPECT_EQ(p.errors.deviation_rmse_rel, 0.5);
+  EXPECT_EQ(p.errors.bias_rmse_rel, std::nullopt);
+  EXPECT_EQ(p.pairs.listed, 30u);
+  EXPECT_EQ(p.pairs.lit, 11u);
+  EXPECT_EQ(p.pairs.lost, 4u);
+  EXPECT_EQ(p.pairs.wrong, 6u);
+  EXPECT_EQ(p.memory_bytes, 9u);
+  EXPECT_EQ(p.bytes_moved, 200u);
+  EXPECT_EQ(p.nan_pixels, 11u);
+}
+
+TEST(Answer, FrontHoldsWhatNothingBeatsInBothAndNoNaN) {
+  const auto of = [](const std::string& name, double ratio, double error) {
+    return synthetic_record(synthetic_point("hall", name), ratio, error);
+  };
+  std::vector<FrontierRecord> records = {of("coarse", 0.1, 0.5),
+                                         of("middle", 0.2, 0.1),
+                                         of("beaten", 0.3, 0.2),
+                                         of("fine", 0.4, 0.01),
+                                         of("slow", 0.5, 0.01),
+                                         of("not-finite", 0.01, no_figure),
+                                         of("infinite", 0.01, std::numeric_limits<double>::infinity()),
+                                         of("shows-nan", 0.01, 0.001)};
+  records.back().nan_pixels = 1;
+  records.push_back(synthetic_record(synthetic_point("terrain", "worst of hall, alone in terrain"), 9, 0.9));
+  EXPECT_THAT(front_of(answer_from(records)),
+              ElementsAre("coarse", "middle", "fine", "worst of hall, alone in terrain"));
+}
+
+TEST(Answer, TiesPointsOfASceneWhoseRatiosDoNotDiffer) {
+  const auto of = [](const char* scene, const std::string& name, double ratio) {
+    return synthetic_record(synthetic_point(scene, name), ratio, 0.1);
+  };
+  const FrontierAnswer answer = answer_from({of("hall", "a", 0.3), of("terrain", "other scene", 0.3),
+                                             of("hall", "b", 0.3005), of("hall", "c", 0.4)});
+  EXPECT_THAT(point_labels(answer, answer.points[0].tied_with), ElementsAre("b"));
+  EXPECT_THAT(answer.points[1].tied_with, IsEmpty());
+  EXPECT_THAT(point_labels(answer, answer.points[2].tied_with), ElementsAre("a"));
+  EXPECT_THAT(answer.points[3].tied_with, IsEmpty());
+  // Three runs a side cannot differ with alpha 0.05: the least p is 2 / C(6, 3) = 0.1.
+  const auto short_run = [](const std::string& name, double ratio) {
+    return synthetic_record(synthetic_point("hall", name), ratio, 0.1, 0, 3);
+  };
+  EXPECT_THAT(answer_from({short_run("a", 0.3), short_run("b", 0.9)}).points[0].tied_with, ElementsAre(1));
+}
+
+TEST(Answer, FindsTheCheapestPointWithinEachError) {
+  const auto of = [](const std::string& name, double ratio, double error) {
+    return synthetic_record(synthetic_point("hall", name), ratio, error);
+  };
+  const FrontierAnswer answer =
+      answer_from({of("a", 0.1, 5e-2), of("b", 0.3, 1e-4), of("tied, better", 0.301, 1e-5),
+                   of("tied, worse", 0.301, 2e-4), of("c", 0.05, no_figure)});
+  ASSERT_THAT(answer.best_within, SizeIs(5));  // none within 1e-6
+  const auto best = [&](size_t i) { return answer.points[answer.best_within[i].point].point.label; };
+  EXPECT_EQ(answer.best_within[0].error, 1e-5);
+  EXPECT_EQ(best(0), "tied, better");
+  EXPECT_THAT(answer.best_within[0].tied, IsEmpty());
+  EXPECT_EQ(best(1), "b");
+  EXPECT_THAT(point_labels(answer, answer.best_within[1].tied), ElementsAre("tied, better"));
+  EXPECT_EQ(best(2), "b");
+  EXPECT_THAT(point_labels(answer, answer.best_within[2].tied), ElementsAre("tied, better", "tied, worse"));
+  EXPECT_EQ(best(3), "b");
+  EXPECT_EQ(answer.best_within[4].error, 1e-1);
+  EXPECT_EQ(best(4), "a");
+}
+
+FrontierRecord culled(const std::string& test, const std::string& tile, double cull_ms, uint64_t listed,
+                      int view = 0) {
+  FrontierRecord r = synthetic_record(
+      synthetic_point("hall", "forward_plus", {{"cull_test", test}, {"tile", tile}}), 1, 0, view);
+  r.pass_ms = {{"cull_lights", cull_ms}, {"depth_prepass", 50}};
+  r.pairs = {listed, 0, 0, 0};
+  return r;
+}
+
+TEST(BreakEven, IsExtraCullingTimeOverPairsSavedAView) {
+  // Two views: (5 - 2 + 7 - 4) / 2 = 3 ms more, (600,000 + 400,000) / 2 pairs less: 6 ns.
+  const FrontierAnswer answer =
+      answer_from({culled("aabb", "16", 2, 1600000), culled("aabb", "16", 4, 1500000, 1),
+                   culled("exact", "16", 5, 1000000), culled("exact", "16", 7, 1100000, 1),
+                   culled("sphere", "8", 1, 5000000)});  // another tile: no pair
+  ASSERT_THAT(answer.break_even, SizeIs(1));
+  const BreakEven& pair = answer.break_even[0];
+  EXPECT_EQ(pair.tighter, "forward_plus:cull_test=exact,tile=16");
+  EXPECT_EQ(pair.looser, "forward_plus:cull_test=aabb,tile=16");
+  EXPECT_NEAR(pair.ns_per_pixel_light, 6, 1e-9);
+  EXPECT_NEAR(pair.extra_ms, 3, 1e-12);
+  EXPECT_EQ(pair.pairs_saved, 500000);
+}
+
+TEST(BreakEven, IsZeroWhereTheTighterTestIsFasterAndInfiniteWhereItSavesNothing) {
+  const FrontierAnswer faster =
+      answer_from({culled("aabb", "16", 5, 1600000), culled("exact", "16", 4, 1000000)});
+  ASSERT_THAT(faster.break_even, SizeIs(1));
+  EXPECT_EQ(faster.break_even[0].ns_per_pixel_light, 0);
+  const FrontierAnswer same =
+      answer_from({culled("aabb", "16", 5, 1000000), culled("exact", "16", 4, 1000000)});
+  ASSERT_THAT(same.break_even, SizeIs(1));
+  EXPECT_EQ(same.break_even[0].tighter, "forward_plus:cull_test=aabb,tile=16");
+  EXPECT_EQ(same.break_even[0].ns_per_pixel_light, std::numeric_limits<double>::infinity());
+}
+
+TEST(ShadingCost, IsTheSlopeOverListedPairsWhateverElseTheFrameShades) {
+  const auto shaded = [](const char* test, const char* tile, const char* brdf, double fixed_ms, double ns,
+                         uint64_t listed) {
+    FrontierRecord r = culled(test, tile, 1, listed);
+    r.point.settings["brdf"] = brdf;
+    r.pass_ms["shade_forward"] = fixed_ms + ns * 1e-6 * double(listed);
+    return r;
+  };
+  const FrontierAnswer answer = answer_from(
+      {shaded("aabb", "16", "ggx", 7, 4, 1600000), shaded("exact", "16", "ggx", 7, 4, 1000000),
+       shaded("sphere", "16", "ggx", 7, 4, 3000000), shaded("aabb", "8", "ggx", 19, 4, 900000),
+       shaded("exact", "8", "ggx", 19, 4, 700000),  // another intercept, one slope
+       shaded("aabb", "16", "blinn", 7, 1.5, 1600000), shaded("exact", "16", "blinn", 7, 1.5, 1000000),
+       shaded("aabb", "16", "lambert", 7, -1, 1600000),
+       shaded("exact", "16", "lambert", 7, -1, 1000000)});  // noise
+  ASSERT_THAT(answer.shading_costs, SizeIs(2));
+  EXPECT_EQ(answer.shading_costs[0].brdf, "ggx");
+  EXPECT_NEAR(answer.shading_costs[0].ns_per_pixel_light, 4, 1e-9);
+  EXPECT_EQ(answer.shading_costs[1].brdf, "blinn");
+  EXPECT_NEAR(answer.shading_costs[1].ns_per_pixel_light, 1.5, 1e-9);
+}
+
+TEST(Growth, FindsTheExponentOfEachSeries) {
+  std::vector<FrontierRecord> records;
+  for (const int n : {10, 100, 1000, 10000}) {
+    FrontierRecord r = synthetic_record(synthetic_point("hall", "forward"), 1, 0);
+    r.series = "lights";
+    r.lights = n;
+    r.frame_ms = {0.5 * n, 0.4 * n, 7.0 * n};  // median 0.5 n
+    records.push_back(r);
+    r.series = "radius";
+    r.lights = 100;
+    r.radius_scale = n;
+    r.frame_ms = {3e-3 * n * n};
+    records.push_back(r);
+    r.series = "pixels";
+    r.radius_scale = 1;
+    r.width = n, r.height = 4;
+    r.frame_ms = {12};
+    records.push_back(r);
+  }
+  const FrontierAnswer answer = answer_from(records);
+  EXPECT_THAT(answer.points, IsEmpty()) << "points of a series are not on the front";
+  ASSERT_THAT(answer.growth, SizeIs(3));
+  EXPECT_EQ(answer.growth[0].of, "lights");
+  EXPECT_EQ(answer.growth[0].samples[1], std::pair(100.0, 50.0));
+  EXPECT_NEAR(answer.growth[0].exponent, 1, 1e-12);
+  EXPECT_NEAR(answer.growth[0].low, 1, 1e-6);
+  EXPECT_NEAR(answer.growth[0].high, 1, 1e-6);
+  EXPECT_NEAR(answer.growth[1].exponent, 2, 1e-12);
+  EXPECT_EQ(answer.growth[2].samples[0], std::pair(40.0, 12.0));
+  EXPECT_NEAR(answer.growth[2].exponent, 0, 1e-12);
+}
+
+TEST(Failures, NameCauseAndFigureOnceAPoint) {
+  const auto of = [](const std::string& name, int view = 0) {
+    return synthetic_record(synthetic_point("hall", name), 1, 0, view);
+  };
+  std::vector<FrontierRecord> records = {of("fine"),       of("loses"),   of("loses", 1), of("nan"),
+                                         of("not-finite"), of("several"), of("half"),     of("half", 1)};
+  records[1].pairs.lost = 1000, records[2].pairs.lost = 234;
+  records[3].nan_pixels = 5;
+  records[4].errors.total.rmse_rel = no_figure;
+  records[5].overflow = 2, records[5].pairs.wrong = 1;
+  records[7].refused = "16 GiB";
+  records.push_back(of("fine"));
+  records.back().series = "lights", records.back().lights = 10000, records.back().refused = "too many";
+  const FrontierAnswer answer = answer_from(records);
+  std::vector<std::string> told;
+  for (const Failure& f : answer.failures) told.push_back(f.point.label + ": " + f.cause + ": " + f.why);
+  EXPECT_THAT(told,
+              ElementsAre("loses: lost: 1,234 lit pairs are not listed", "nan: NaN: 5 pixels are NaN",
+                          "not-finite: NaN: its error is not finite",
+                          "several: wrong: 1 listed pairs are no light, or twice the same",
+                          "several: overflow: 2 list entries did not fit", "half: refused: refused: 16 GiB",
+                          "fine, 10,000 lights: refused: refused: too many"));
+  EXPECT_THROW(point_named(answer, "half"), std::runtime_error)
+      << "refused in one view: figures of the other would not compare";
+}
+
+TEST(Answer, SaysWhatTheFiguresSay) {
+  const FrontierAnswer answer = answer_of({synthetic_sweep()});
+  ASSERT_THAT(answer.sentences, SizeIs(12));
+  EXPECT_THAT(
+      answer.sentences[0],
+      HasSubstr(
+          "In hall the fastest point that computes the same picture as forward_plus (to 1e-5 of the "
+          "brightest "
+          "channel) is visibility:range=scene (~ clustered): it takes 0.300 times (95 % interval 0.29"));
+  EXPECT_EQ(answer.sentences[1],
+            "Its largest error is the model's (where a light's range ends, and its window): model 1.0e-4, "
+            "precision 0, "
+            "technique 0 (RMSE over the brightest channel).");
+  EXPECT_EQ(answer.sentences[2],
+            "If you can bear an error of 1 % (RMSE) in hall use visibility:cutoff=0.01,range=cutoff, 0.200 "
+            "times forward_plus; "
+            "of 0.01 % use visibility:range=scene (~ clustered), 0.300 times forward_plus; "
+            "of 0.0001 % use deferred, 0.500 times forward_plus.");
+  // 4 ns; exact over planes+aabb 3e6 / 6e5 = 5 ns, over sphere 3.5e6 / 2e6 = 1.75, planes+aabb over sphere
+  // 0.5e6 / 1.4e6 = 0.36.
+  EXPECT_EQ(answer.sentences[3],
+            "In hall a light at a pixel costs forward_plus 4.00 ns to shade: at that price the tighter cull "
+            "test wins in 2 of 3 pairs.");
+  EXPECT_THAT(answer.sentences[4],
+              testing::StartsWith("In hall the time of forward_plus grows as lights^0.50 (0.4"));
+  EXPECT_EQ(answer.sentences[5], "In hall 3 of 18 points failed: 1 refused, 1 with lost lights, 1 with NaN.");
+  EXPECT_THAT(answer.sentences[6], HasSubstr("In terrain the fastest point"));
+  EXPECT_THAT(answer_from({}).sentences, IsEmpty());
+  const FrontierAnswer one = answer_from({synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0)});
+  EXPECT_THAT(one.sentences, ElementsAre(HasSubstr("In hall no point that computes the same picture"),
+                                         HasSubstr("0.0001 %")));
+}
+
+TEST(Answer, JoinsPartsOfOneSweepOnly) {
+  FrontierPart a = synthetic_part({synthetic_record(synthetic_point("hall", "a"), 1, 0.1)});
+  FrontierPart b = synthetic_part({synthetic_record(synthetic_point("hall", "b"), 0.5, 0.1), a.records[0]});
+  b.shard = 1, a.shards = b.shards = 2;
+  b.machine.cpu = "another";
+  const FrontierAnswer answer = answer_of({a, b});
+  EXPECT_THAT(answer.points, SizeIs(2));
+  EXPECT_THAT(answer.part.records, SizeIs(2)) << "a record that is in two parts counts once";
+  ASSERT_THAT(answer.machines, SizeIs(2));
+  EXPECT_EQ(answer.machines[1].cpu, "another");
+  const auto message = [](const FrontierPart& x, const FrontierPart& y) -> std::string {
+    try {
+      answer_of({x, y});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  b.request = "other";
+  EXPECT_THAT(message(a, b), HasSubstr("different requests"));
+  b.commit = "fedc987";
+  EXPECT_THAT(message(a, b), testing::AllOf(HasSubstr("fedc987"), HasSubstr("0123abc")));
+  EXPECT_THROW(answer_of({}), Error);
+}
+
+TEST(ThreeDigits, AreSignificant) {
+  EXPECT_EQ(three_digits(0), "0");
+  EXPECT_EQ(three_digits(0.0123456), "0.0123");
+  EXPECT_EQ(three_digits(0.31), "0.310");
+  EXPECT_EQ(three_digits(0.99999), "1.00");
+  EXPECT_EQ(three_digits(31.06), "31.1");
+  EXPECT_EQ(three_digits(-0.25), "-0.250");
+  EXPECT_EQ(three_digits(12345), "12,345");
+  EXPECT_EQ(three_digits(std::numeric_limits<double>::infinity()), "infinite");
+  EXPECT_EQ(error_in_words(1.25e-12), "1.2e-12");
+  EXPECT_EQ(error_in_words(3), "3.0e0");
+  EXPECT_EQ(error_in_words(no_figure), "not finite");
+}
+
+}  // namespace
+}  // namespace lightgrid
