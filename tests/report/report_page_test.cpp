@@ -2,70 +2,19 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "report/report.h"
 #include "report/synthetic_report.h"
-#include "support/paths.h"
-#include "support/read_files.h"
-#include "support/run_command.h"
+#include "support/browser.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Goes in first: errors are caught from the start of the page on.
-constexpr const char* fault_recorder =
-    "<script>window.faults = [];"
-    "addEventListener('error', (event) => faults.push(event.message || 'a resource failed to load'), true);"
-    "</script>";
-
-void insert_before(std::string& page, const std::string& mark, const std::string& text) {
-  page.insert(page.find(mark), text);
-}
-
-std::string browser() {
-  std::string found =
-      run_command("command -v chromium || command -v chromium-browser || command -v google-chrome").output;
-  while (!found.empty() && found.back() == '\n') found.pop_back();
-  return found;
-}
-
-std::string unescaped(std::string text) {
-  for (const auto& [entity, character] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&nbsp;", "\u00a0"}, {"&amp;", "&"}}) {
-    text = std::regex_replace(text, std::regex(entity), character);
-  }
-  return text;
-}
-
-// The results of the interactions in a window of that size, or null and a failure.
-json seen_in_browser(const fs::path& folder, const char* window_size) {
-  auto page = file_bytes(folder / "index.html");
-  insert_before(page, "<style>", fault_recorder);
-  const auto controls = file_bytes(fs::path(source_folder) / "tests/report/report_page_controls.js");
-  insert_before(page, "</body>", "<script>" + controls + "</script>");
-  std::ofstream(folder / "tried.html") << page;
-  const auto command =
-      "timeout 120 " + browser() +
-      " --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking"
-      " --disable-sync --disable-extensions --virtual-time-budget=5000 --dump-dom --window-size=" +
-      window_size + " --user-data-dir=" + (folder / "profile").string() + " file://" +
-      (folder / "tried.html").string() + " 2>" + (folder / "browser.log").string();
-  const auto dump = run_command(command).output;
-  const std::string open = "<pre id=\"outcome\">";
-  const size_t start = dump.rfind(open), end = dump.find("</pre>", start);
-  if (start == dump.npos || end == dump.npos) {
-    ADD_FAILURE() << "the page wrote no outcome; the browser said: " << file_bytes(folder / "browser.log");
-    return nullptr;
-  }
-  return json::parse(unescaped(dump.substr(start + open.size(), end - start - open.size())));
-}
+constexpr const char* controls = "tests/report/report_page_controls.js";
 
 std::vector<std::string> strings(const json& list) { return list.get<std::vector<std::string>>(); }
 
@@ -89,7 +38,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
-  const auto seen = seen_in_browser(folder.path, "1280,900");
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
   EXPECT_EQ(seen["results"], json::parse(file_bytes(folder.path / "results.json")));
@@ -142,7 +91,7 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
   ViewsReport views(folder.path, 3, 1 << 20);
   for (int lights : {15, 60, 240}) views.add(synthetic_view("scenes/hall.glb", 34, 18, lights));
   views.write();
-  const auto seen = seen_in_browser(folder.path, "1280,900");
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
   EXPECT_EQ(seen["overviewHidden"], false);
@@ -194,7 +143,7 @@ TEST_F(ReportPage, DrawsACurveOverASettingThatOneViewSweeps) {
   CompareReport swept = synthetic_report(34, 18);
   for (size_t i : {1, 5}) swept.rows[i].settings["cull-test"] = "aabb", swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
   write_report(folder.path, swept);
-  const auto seen = seen_in_browser(folder.path, "1280,900");
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
   EXPECT_EQ(seen["settingsCharts"], 1);
@@ -210,7 +159,7 @@ TEST_F(ReportPage, OfSeveralViewsFitsAPhoneAndASheetOfPaper) {
     }
   }
   views.write();
-  const auto seen = seen_in_browser(folder.path, "500,900");
+  const auto seen = seen_in_browser(folder.path, controls, "500,900");
   ASSERT_TRUE(seen.is_object());
   EXPECT_EQ(seen["overflow"], 0);
   EXPECT_THAT(strings(seen["cutInPrint"]), IsEmpty());
@@ -218,7 +167,7 @@ TEST_F(ReportPage, OfSeveralViewsFitsAPhoneAndASheetOfPaper) {
 }
 
 TEST_F(ReportPage, FitsAPhone) {
-  const auto seen = seen_in_browser(folder.path, "500,900");  // headless windows cannot be narrower
+  const auto seen = seen_in_browser(folder.path, controls, "500,900");  // headless windows cannot be narrower
   ASSERT_TRUE(seen.is_object());
   EXPECT_EQ(seen["overflow"], 0);
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
@@ -233,22 +182,10 @@ TEST_F(ReportPage, TakesAReportOfOneRowAndNoOracle) {
   small.rows[0].technique = "forward";
   small.images = {Image(1, 1)};
   write_report(folder.path, small);
-  const auto seen = seen_in_browser(folder.path, "1280,900");
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
   EXPECT_THAT(strings(seen["lost"]), ElementsAre("\u2013"));
-}
-
-void expect_no_other_place(const std::string& page) {
-  const std::regex elsewhere(
-      R"re((src|href)=["'](?!data:)[^"']|url\((?!data:)|@import|fetch\(|XMLHttpRequest|<iframe)re");
-  std::smatch found;
-  EXPECT_FALSE(std::regex_search(page, found, elsewhere)) << found.str();
-  EXPECT_EQ(page.find("https://"), page.npos);
-  // The one http address is a name: SVG's namespace.
-  const std::string svg = "http://www.w3.org/2000/svg";
-  EXPECT_EQ(page.find("http://"), page.find(svg));
-  EXPECT_EQ(page.rfind("http://"), page.find(svg));
 }
 
 TEST(ReportPageText, NamesNoOtherPlace) {

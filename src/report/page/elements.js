@@ -4,7 +4,7 @@ const byId = (id) => document.getElementById(id);
 
 // make("p", { class: "quiet" }, "text", node, ...)
 function make(tag, attributes, ...children) {
-  const svg = ["svg", "g", "rect", "line", "polyline", "circle", "text", "title"].includes(tag);
+  const svg = ["svg", "g", "rect", "line", "polyline", "circle", "path", "text", "title"].includes(tag);
   const element = svg ? document.createElementNS("http://www.w3.org/2000/svg", tag) : document.createElement(tag);
   for (const [name, value] of Object.entries(attributes ?? {})) element.setAttribute(name, value);
   element.append(...children);

@@ -1,0 +1,195 @@
+// Fills the page from the answer, embedded above.
+
+const page = JSON.parse(byId("page").textContent);
+const state = { scene: page.scenes[0]?.key, points: [], x: quantity("ratio"), y: TOTAL, hidden: new Set(), selected: null };
+let drawFront = null;
+
+const sceneTitle = (key) => page.scenes.find((scene) => scene.key === key).title;
+
+function showHeader() {
+  const scenes = page.scenes.map((scene) => scene.title).join(", ");
+  document.title = `${scenes} \u2013 lightgrid frontier`;
+  byId("scenes").textContent = scenes;
+  const first = page.machines[0];
+  byId("sweep").textContent = [`${wholeNumber(page.points.length)} points`, `OpenCL: ${first.cl_device}`, `OpenGL: ${first.gl_device}`,
+    `commit ${page.commit}`, `seed ${page.seed}`].join(" \u00b7 ");
+  for (const element of document.querySelectorAll(".baseline")) element.textContent = page.baseline;
+}
+
+const percent = (error) => `${Number((100 * error).toPrecision(3))} %`;
+
+function pointButton(point, text) {
+  const button = make("button", { type: "button", class: "link" }, text);
+  button.addEventListener("click", () => {
+    chooseScene(point.scene);
+    choosePoint(point);
+    byId("chosen").scrollIntoView({ block: "nearest" });
+  });
+  return button;
+}
+
+function withinCell(best) {
+  if (!best) return make("td", { class: "quiet" }, "\u2013");
+  const point = page.points[best.point], tied = best.tied.map((index) => page.points[index].label);
+  return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
+    make("div", { class: "note" }, `${intervalInWords(point.ratio, "\u00d7")}, ${milliseconds(point.ms.median)}`),
+    ...(tied.length ? [make("div", { class: "note" }, `~ ${tied.slice(0, 2).join(", ")}${tied.length > 2 ? ` and ${tied.length - 2} more` : ""}`)] : []));
+}
+
+function showBestWithin() {
+  const errors = [...new Set(page.best_within.map((best) => best.error))].sort((a, b) => b - a);
+  const head = page.scenes.map((scene) => make("th", { scope: "col" }, scene.title));
+  const lines = errors.map((error) => make("tr", {}, make("th", { scope: "row" }, percent(error)),
+    ...page.scenes.map((scene) => withinCell(page.best_within.find((best) => best.scene === scene.key && best.error === error)))));
+  byId("within").replaceChildren(make("thead", {}, make("tr", {}, make("td", {}, "RMSE"), ...head)), make("tbody", {}, ...lines));
+  byId("within").closest("section").hidden = errors.length === 0;
+}
+
+function showFailures() {
+  byId("failures-part").hidden = page.failures.length === 0;
+  const labels = [...new Set(page.failures.map((failure) => failure.label))];
+  const cell = (label, scene) => {
+    const of = page.failures.filter((failure) => failure.label === label && failure.scene === scene);
+    if (of.length === 0) return make("td", { class: "fine" }, page.points.some((p) => p.label === label && p.scene === scene) ? "\u2713" : "\u2013");
+    return make("td", { title: of.map((failure) => failure.why).join("; ") }, of.map((failure) => failure.cause).join(", "));
+  };
+  byId("failures").replaceChildren(
+    make("thead", {}, make("tr", {}, make("td", {}), ...page.scenes.map((scene) => make("th", { scope: "col" }, scene.title)))),
+    make("tbody", {}, ...labels.map((label) => make("tr", {}, make("th", { scope: "row" }, nameElement(label)),
+      ...page.scenes.map((scene) => cell(label, scene.key))))));
+  byId("reasons").replaceChildren(...page.failures.map((failure) =>
+    make("li", {}, make("strong", {}, failure.label), ` in ${sceneTitle(failure.scene)}: ${failure.why}`)));
+}
+
+function showPlots(id) {
+  const plots = page.plots.filter((plot) => plot.kind === id && plot.scene === state.scene);
+  byId(`${id}-part`).hidden = plots.length === 0;
+  byId(id).replaceChildren(...plots.map((plot) => {
+    const card = make("figure", { class: "chart-card" }, make("figcaption", {}, make("strong", {}, plot.title)), make("div", { class: "drawing" }));
+    card.lastChild.innerHTML = plot.svg;
+    return card;
+  }));
+}
+
+function showMachines() {
+  byId("errors").replaceChildren(...page.machines.flatMap((machine, i) => [
+    make("dt", {}, page.machines.length > 1 ? `Part ${i}` : "This machine"),
+    make("dd", {}, [machine.cpu, machine.clock_mhz > 0 && `${wholeNumber(Math.round(machine.clock_mhz))} MHz`, `governor ${machine.governor}`,
+      `${machine.threads} threads`, `load ${machine.load_at_start} at the start, ${machine.load_at_end} at the end`,
+      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`].filter(Boolean).join(" \u00b7 "))]));
+}
+
+function pictureFigure(number, caption) {
+  const image = make("img", { src: page.pictures[number], alt: caption });
+  const button = make("button", { type: "button", "aria-label": `Enlarge: ${caption}` }, image);
+  button.addEventListener("click", () => {
+    byId("zoom").querySelector("img").src = image.src;
+    byId("zoom").showModal();
+  });
+  return make("figure", {}, button, make("figcaption", {}, caption));
+}
+
+const PICTURE_CAPTIONS = ["Picture", "Difference from the truth: black is equal, blue 1e-7 to red 1 of its brightest channel, white NaN",
+  "FLIP: the darker, the less visible the difference from the truth"];
+
+function errorTable(point) {
+  const text = (value) => (value === null ? "\u2013" : errorNumber(value));
+  return make("div", { class: "scrolls" }, make("table", {},
+    make("thead", {}, make("tr", {}, make("td", {}, "Error"), ...ERROR_MEASURES.map(([, title]) => make("th", { scope: "col" }, title)))),
+    make("tbody", {}, ...ERROR_KINDS.map(([kind, title]) => make("tr", {}, make("th", { scope: "row" }, title),
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.errors[kind][measure]))))))));
+}
+
+function choosePoint(point) {
+  state.selected = point;
+  const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
+  const tied = (point?.tied ?? []).map((index) => page.points[index].label);
+  const summary = point && [point.ratio && `${intervalInWords(point.ratio, "")} times ${page.baseline}`, point.ms && `${intervalInWords(point.ms, " ms")} a frame`,
+    `${point.views} view${point.views === 1 ? "" : "s"}`, point.lost > 0 && `${wholeNumber(point.lost)} pairs lost`, point.nan > 0 && `${wholeNumber(point.nan)} NaN pixels`,
+    point.lit > 0 && `${shortNumber(point.listed / point.lit)} listed pairs for each lit one`, point.front && "on the front"];
+  byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
+    make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
+    ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
+    ...(images.length && page.reduced > 1 ? [make("p", { class: "quiet" }, `Shown at 1/${page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] : []),
+    errorTable(point),
+    ...(point.deviation !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(point.bias ?? 0)}, standard deviation of a frame ${errorNumber(point.deviation)} (RMSE over the brightest channel).`)] : []),
+    ...(tied.length ? [make("p", { class: "quiet" }, `~ ${tied.join(", ")}: their times do not differ.`)] : []),
+    make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
+  redraw();
+}
+
+const FIGURE_COLUMNS = [
+  { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
+  { title: "Time, over the baseline's", value: (point) => point.ratio?.median ?? null, text: threeDigits },
+  { title: "Frame, ms", value: (point) => point.ms?.median ?? null, text: threeDigits },
+  { title: "RMSE", value: TOTAL.value, text: errorNumber },
+  { title: "Largest error", value: quantity("total.max_rel").value, text: errorNumber },
+  { title: "FLIP, mean", value: quantity("total.flip_mean").value, text: errorNumber },
+  { title: "Model", value: quantity("model.rmse_rel").value, text: errorNumber },
+  { title: "Precision", value: quantity("precision.rmse_rel").value, text: errorNumber },
+  { title: "Technique", value: quantity("technique.rmse_rel").value, text: errorNumber },
+  { title: "Lost pairs", value: (point) => point.lost, text: wholeNumber, gate: true },
+  { title: "NaN pixels", value: (point) => point.nan, text: wholeNumber, gate: true },
+  { title: "Listed pairs", value: (point) => point.listed, text: shortCount },
+  { title: "Bytes moved", value: (point) => point.moved, text: byteNumber },
+  { title: "Memory", value: (point) => point.memory, text: byteNumber },
+];
+
+function showTechniques() {
+  const names = page.styles.map((style) => style.technique).filter((name) => state.points.some((point) => point.technique === name));
+  byId("techniques").replaceChildren(...names.map((name) => {
+    const button = make("button", { type: "button", "aria-pressed": String(!state.hidden.has(name)) },
+      make("svg", { viewBox: "-7 -7 14 14", "aria-hidden": "true" }, markerElement(name, {})), name);
+    button.addEventListener("click", () => {
+      if (!state.hidden.delete(name)) state.hidden.add(name);
+      button.setAttribute("aria-pressed", String(!state.hidden.has(name)));
+      redraw();
+    });
+    return make("li", {}, button);
+  }));
+}
+
+function redraw() {
+  if (!drawFront) return;
+  const { shown, missing } = drawFront();
+  byId("front-notes").textContent = [`${wholeNumber(shown)} points.`,
+    missing > 0 && `${wholeNumber(missing)} are not shown: hidden, or without such a figure.`].filter(Boolean).join(" ");
+}
+
+function chooseScene(key) {
+  if (state.points.length > 0 && key === state.scene) return;
+  state.scene = key;
+  byId("scene-choice").value = key;
+  byId("paragraph").textContent = page.scenes.find((scene) => scene.key === key).sentences.join(" ");
+  state.points = page.points.filter((point) => point.scene === key);
+  showTechniques();
+  const frontTag = (point) => (point.front ? (tiedNoWorse(point).length ? "front ~" : "front") : "");
+  showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
+  showPlots("break-even");
+  showPlots("growth");
+  choosePoint(state.points.find((point) => point.front && point.pictures) ?? null);
+}
+
+function startChoices() {
+  byId("scene-choice").replaceChildren(...page.scenes.map((scene) => make("option", { value: scene.key }, scene.title)));
+  byId("scene-choice").addEventListener("change", () => chooseScene(byId("scene-choice").value));
+  for (const axis of ["x", "y"]) {
+    const select = byId(`${axis}-choice`);
+    const options = (list) => list.filter((q) => page.points.some((point) => q.value(point) !== null)).map((q) => make("option", { value: q.key }, q.title));
+    select.replaceChildren(make("optgroup", { label: "Cost" }, ...options(COSTS)), make("optgroup", { label: "Error" }, ...options(ERRORS)));
+    select.value = state[axis].key;
+    select.addEventListener("change", () => {
+      state[axis] = quantity(select.value);
+      redraw();
+    });
+  }
+}
+
+showHeader();
+showBestWithin();
+showFailures();
+showMachines();
+startChoices();
+drawFront = startFront(byId("front"), state, choosePoint);
+if (state.scene !== undefined) chooseScene(state.scene);
+addEventListener("resize", redraw);

@@ -1,0 +1,243 @@
+// The frontier's page in a real browser, and its plots as files.
+#include "frontier/frontier_page.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+
+#include "base/image.h"
+#include "base/write_file.h"
+#include "frontier/page_pictures.h"
+#include "frontier/plots.h"
+#include "frontier/synthetic_records.h"
+#include "support/browser.h"
+#include "support/temp_folder.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::UnorderedElementsAre;
+
+constexpr const char* frontier_controls = "tests/frontier/frontier_page_controls.js";
+
+void write_picture(const std::filesystem::path& path, int width, int height, uint8_t level) {
+  write_file(path, encode_png(width, height, 3, std::vector<uint8_t>(size_t(width) * height * 3, level)));
+}
+
+// hall-visibility with all three pictures, terrain-visibility with one.
+void write_synthetic_pictures(const std::filesystem::path& folder) {
+  write_picture(folder / "hall-visibility.png", 34, 18, 90);
+  write_picture(folder / "hall-visibility.difference.png", 34, 18, 0);
+  write_picture(folder / "hall-visibility.flip.png", 34, 18, 10);
+  write_picture(folder / "terrain-visibility.png", 17, 9, 200);
+}
+
+class FrontierPage : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (browser().empty())
+      GTEST_SKIP() << "needs chromium, chromium-browser or google-chrome in PATH; none is there";
+    write_synthetic_pictures(folder.path);
+    write_file(folder.path / "index.html", page_text(answer, folder.path));
+  }
+  const TempFolder folder;
+  const FrontierAnswer answer = answer_of({synthetic_sweep()});
+};
+
+std::vector<std::string> texts(const json& list) { return list.get<std::vector<std::string>>(); }
+
+json mark_named(const json& marks, const std::string& label) {
+  for (const json& mark : marks) {
+    if (mark["label"] == label) return mark;
+  }
+  ADD_FAILURE() << "no mark " << label;
+  return nullptr;
+}
+
+std::vector<std::string> on_front(const json& marks) {
+  std::vector<std::string> labels;
+  for (const json& mark : marks) {
+    if (mark["front"]) labels.push_back(mark["label"]);
+  }
+  return labels;
+}
+
+void expect_front(const json& seen, const FrontierAnswer& answer) {
+  EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+  EXPECT_THAT(texts(seen["loaded"]), IsEmpty()) << "the page is one file";
+  EXPECT_EQ(seen["title"], "hall, terrain \u2013 lightgrid frontier");
+  EXPECT_THAT(seen["paragraph"].get<std::string>(), HasSubstr(answer.sentences[2]));
+  EXPECT_EQ(seen["unlabelled"], 0);
+
+  // All points of hall but the one of NaN; the script's front is the answer's.
+  std::vector<std::string> front;
+  for (const PointFigures& p : answer.points) {
+    if (p.front && p.point.scene == "scenes/hall.glb") front.push_back(p.point.label);
+  }
+  EXPECT_THAT(front, SizeIs(3));
+  EXPECT_THAT(on_front(seen["marks"]), testing::UnorderedElementsAreArray(front));
+  ASSERT_EQ(seen["marks"].size(), 8u);
+  EXPECT_THAT(texts(seen["ties"]), SizeIs(1)) << "visibility, with which clustered is tied";
+  // Logarithmic: 0.3 lies between 0.2 and 1.4 as its logarithm does. Error 0 lies below 1e-4, at a place of
+  // its own.
+  const auto x_of = [&](const char* label) {
+    return mark_named(seen["marks"], label)["at"][0].get<double>();
+  };
+  const auto y_of = [&](const char* label) {
+    return mark_named(seen["marks"], label)["at"][1].get<double>();
+  };
+  const double share = std::log(0.3 / 0.2) / std::log(1.4 / 0.2);
+  const double low = x_of("visibility:cutoff=0.01,range=cutoff"),
+               high = x_of("forward_plus:cull_test=sphere");
+  EXPECT_NEAR(x_of("visibility:range=scene"), low + share * (high - low),
+              0.8);  // medians are within 0.2 % of the round ratios
+  EXPECT_NEAR(y_of("visibility:range=scene"), y_of("clustered"), 0.2);
+  EXPECT_GT(y_of("deferred"), y_of("clustered") + 30);
+  EXPECT_THAT(texts(seen["axes"]), testing::IsSupersetOf({"0", "1e-4", "0.01", "RMSE, whole picture",
+                                                          "Time, over the baseline's"}));
+
+  EXPECT_THAT(texts(seen["hovered"]),
+              testing::AllOf(Contains("clustered"), Contains(HasSubstr("times forward_plus")),
+                             Contains("RMSE, whole picture: 1.0e-4"), Contains("~ visibility:range=scene")));
+  EXPECT_THAT(texts(seen["tied"]), ElementsAre("visibility:range=scene"));
+  EXPECT_EQ(seen["left"], nullptr);
+  EXPECT_EQ(seen["first"]["name"], "visibility:range=scene");
+  EXPECT_EQ(seen["first"]["sizes"], json::parse("[[34, 18], [34, 18], [34, 18]]"));
+  EXPECT_EQ(seen["clicked"]["name"], "deferred");
+  EXPECT_THAT(seen["clicked"]["text"].get<std::string>(), HasSubstr("No pictures of this point were kept."));
+  EXPECT_EQ(seen["firstByKey"], "visibility:cutoff=0.01,range=cutoff");
+  EXPECT_EQ(seen["secondByKey"], "lidr");
+  EXPECT_EQ(seen["chosenByKey"], "lidr");
+
+  // Over listed pairs all but the cull tests list 1,000; of those only deferred has no error.
+  EXPECT_THAT(texts(seen["changed"]["axes"]),
+              testing::IsSupersetOf({"largest, model", "Listed pairs a view"}));
+  EXPECT_THAT(on_front(seen["changed"]["marks"]), ElementsAre("deferred"));
+  EXPECT_THAT(texts(seen["changed"]["ties"]), IsEmpty());
+  EXPECT_THAT(seen["overMs"], SizeIs(8));
+  EXPECT_EQ(seen["withoutVisibility"]["pressed"], "false");
+  EXPECT_THAT(texts(seen["withoutVisibility"]["labels"]),
+              testing::AllOf(SizeIs(6), Contains("lidr"), testing::Not(Contains("visibility:range=scene"))));
+}
+
+void expect_tables_plots_and_another_scene(const json& seen) {
+  ASSERT_THAT(seen["within"], SizeIs(6));
+  EXPECT_EQ(seen["within"][0][0], "10 %");
+  EXPECT_THAT(seen["within"][0][1].get<std::string>(),
+              testing::StartsWith("visibility:cutoff=0.01,range=cutoff|0.200\u00d7 (0.19"));
+  EXPECT_THAT(seen["within"][3][2].get<std::string>(), testing::EndsWith("~ clustered"));
+  EXPECT_EQ(seen["within"][5][0], "0.0001 %");
+
+  ASSERT_THAT(seen["failures"], SizeIs(3));
+  EXPECT_THAT(texts(seen["failures"][0]), ElementsAre("lidr", "lost", "lost"));
+  EXPECT_THAT(texts(seen["failures"][1]),
+              ElementsAre("forward_plus:cull_test=planes+aabb,tile=8", "NaN", "NaN"));
+  EXPECT_THAT(texts(seen["failures"][2]), ElementsAre("forward", "refused", "refused"));
+  EXPECT_THAT(texts(seen["reasons"]),
+              Contains("forward in hall: refused: shading <every> light would take 20 minutes"));
+  EXPECT_THAT(texts(seen["reasons"]), Contains("lidr in terrain: 1,624 lit pairs are not listed"));
+
+  EXPECT_THAT(texts(seen["pairs"]),
+              ElementsAre("planes+aabb over sphere: from 0.357 ns", "exact over sphere: from 1.75 ns",
+                          "exact over planes+aabb: from 5.00 ns"));
+  EXPECT_THAT(texts(seen["bars"]), SizeIs(3));
+  EXPECT_THAT(texts(seen["machine"]), ElementsAre("4.00 ns on this machine"));
+  EXPECT_THAT(texts(seen["growth"]), ElementsAre("forward: exponent 1.00 (1.00 to 1.00)",
+                                                 HasSubstr("forward_plus: exponent 0.50 (0.4")));
+  EXPECT_EQ(seen["drawn"], true);
+  EXPECT_EQ(seen["byTime"][1], "visibility:cutoff=0.01,range=cutoff front");
+  EXPECT_EQ(seen["byTime"][3], "visibility:range=scene front ~");
+  EXPECT_EQ(seen["byError"][0], "deferred front");
+
+  EXPECT_THAT(texts(seen["second"]["labels"]), SizeIs(8));
+  EXPECT_EQ(seen["second"]["chosen"]["sizes"], json::parse("[[17, 9]]")) << "terrain has a picture alone";
+  EXPECT_THAT(texts(seen["second"]["plots"]), ElementsAre(HasSubstr("terrain")));
+  EXPECT_EQ(seen["followed"]["scene"], "hall");
+  EXPECT_EQ(seen["followed"]["name"], "visibility:cutoff=0.01,range=cutoff");
+}
+
+TEST_F(FrontierPage, ShowsTheAnswerAndFollowsItsControls) {
+  const json seen = seen_in_browser(folder.path, frontier_controls, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  expect_front(seen, answer);
+  expect_tables_plots_and_another_scene(seen);
+}
+
+TEST_F(FrontierPage, FitsAPhone) {
+  const json seen =
+      seen_in_browser(folder.path, frontier_controls, "500,900");  // headless windows cannot be narrower
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_EQ(seen["overflow"], 0);
+  EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+}
+
+TEST_F(FrontierPage, TakesASweepInWhichNothingRan) {
+  FrontierRecord refused;
+  refused.point = synthetic_point("hall", "forward");
+  refused.refused = "no device";
+  write_file(folder.path / "index.html", page_text(answer_of({synthetic_part({refused})})));
+  const json seen = seen_in_browser(folder.path, "tests/frontier/frontier_page_empty.js", "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+  EXPECT_THAT(texts(seen["reasons"]), ElementsAre("forward in hall: refused: no device"));
+  EXPECT_EQ(seen["hidden"], json::parse(R"(["within", "break-even-part", "growth-part"])"));
+}
+
+TEST(FrontierPageText, NamesNoOtherPlaceAndEscapesWhatItShows) {
+  const std::string page = page_text(answer_of({synthetic_sweep()}));
+  expect_no_other_place(page);
+  EXPECT_EQ(page.find("<every>"), page.npos);
+  EXPECT_EQ(page.find("{{"), page.npos);
+}
+
+TEST(PagePictures, AreEachOnceAndAsSmallAsAsked) {
+  const TempFolder folder;
+  std::vector<uint8_t> noise(size_t(160) * 90 * 3);
+  uint32_t state = 7;
+  for (uint8_t& byte : noise) byte = uint8_t((state = state * 1664525u + 1013904223u) >> 24);
+  write_file(folder.path / "a.png", encode_png(160, 90, 3, noise));
+  write_file(folder.path / "b.png", encode_png(160, 90, 3, noise));
+  write_file(folder.path / "b.flip.png", std::string("no PNG"));
+  const PagePictures whole = page_pictures(folder.path, {"a", "", "b", "a", "missing"}, 1 << 20);
+  EXPECT_THAT(whole.urls, SizeIs(1)) << "equal files are one picture";
+  EXPECT_THAT(whole.by_name.at("a"), ElementsAre(0, -1, -1));
+  EXPECT_THAT(whole.by_name.at("b"), ElementsAre(0, -1, -1));
+  EXPECT_THAT(whole.by_name.at("missing"), ElementsAre(-1, -1, -1));
+  EXPECT_EQ(whole.reduced, 1);
+  EXPECT_THAT(whole.urls[0], testing::StartsWith("data:image/webp;base64,"));
+  const PagePictures small = page_pictures(folder.path, {"a"}, whole.urls[0].size() / 4);
+  EXPECT_GT(small.reduced, 1);
+  EXPECT_LE(small.urls[0].size(), whole.urls[0].size() / 4);
+}
+
+TEST(Plots, AreFilesOfTheirOwnWithEveryPoint) {
+  const FrontierAnswer answer = answer_of({synthetic_sweep()});
+  const std::vector<Plot> plots = plots_of(answer);
+  std::vector<std::string> names;
+  for (const Plot& plot : plots) names.push_back(plot.name);
+  EXPECT_THAT(names,
+              ElementsAre("front-hall", "break-even-hall-forward_plus", "growth-lights-hall", "front-terrain",
+                          "break-even-terrain-forward_plus", "growth-lights-terrain"));
+  const std::string front = svg_file(plots[0]);
+  EXPECT_THAT(front, testing::AllOf(HasSubstr("xmlns=\"http://www.w3.org/2000/svg\""),
+                                    HasSubstr("<title>deferred: 0.500 times forward_plus")));
+  size_t marks = 0;
+  for (size_t at = front.find("<title>"); at != front.npos; at = front.find("<title>", at + 1)) ++marks;
+  EXPECT_EQ(marks, 1u + 8u + 5u);  // the plot's own, points, techniques in the legend
+  EXPECT_EQ(front.find("NaN"), front.npos);
+  EXPECT_EQ(front.find("nan"), front.npos);
+  // The front: from (0.2, 1e-2) right, down to (0.3, 1e-4), right, down to 0.5 without error: five corners.
+  const size_t begin = front.find("points=\"") + 8;
+  const std::string corners = front.substr(begin, front.find('"', begin) - begin);
+  EXPECT_EQ(std::count(corners.begin(), corners.end(), ','), 5);
+}
+
+}  // namespace
+}  // namespace lightgrid
