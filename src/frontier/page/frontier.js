@@ -90,7 +90,7 @@ function pictureFigure(number, caption) {
 }
 
 const PICTURE_CAPTIONS = ["Picture", "Difference from the truth: black is equal, blue 1e-7 to red 1 of its brightest channel, white NaN",
-  "FLIP: the darker, the less visible the difference from the truth"];
+  "FLIP, how visible the difference is: black not at all, violet little, yellow most"];
 
 function errorTable(point) {
   const text = (value) => (value === null ? "\u2013" : errorNumber(value));
