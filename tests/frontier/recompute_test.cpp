@@ -1,0 +1,83 @@
+// Fronts and ties of random records, computed again by recompute.py from the tables alone.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "frontier/answer.h"
+#include "frontier/some_records.h"
+#include "support/paths.h"
+#include "support/run_command.h"
+#include "support/temp_folder.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+// Ratios of few distinct medians, so that many points are tied; errors of few values, so that some are equal.
+FrontierPart random_sweep(uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0, 0.05);
+  FrontierPart part = some_part(0, 1);
+  for (const char* scene : {"hall", "a, \"b\""}) {
+    for (int tile = 0; tile < 16; ++tile) {
+      const double ratio = 0.5 + 0.1 * static_cast<double>(random() % 12);
+      const double error = std::pow(10.0, -1.0 - static_cast<double>(random() % 5));
+      const bool refused = random() % 12 == 0, not_finite = random() % 12 == 0,
+                 shows_nan = random() % 12 == 0;
+      for (int view = 0; view < 2; ++view) {
+        FrontierRecord record = some_record(tile, view);
+        record.point.scene = scene;
+        record.nan_pixels = shows_nan && view == 1 ? 3 : 0;
+        record.errors.total.rmse_rel = not_finite && view == 1 ? std::nan("") : error * (1 + view);
+        record.frame_ms.clear();
+        record.baseline_ms.clear();
+        if (refused && view == 1) record.refused = "no";
+        for (uint32_t runs = random() % 3 == 0 ? 21 : 4 + random() % 9; runs > 0 && record.refused.empty();
+             --runs) {
+          record.baseline_ms.push_back(10 + view + 10 * noise(random));
+          record.frame_ms.push_back(record.baseline_ms.back() * (ratio + noise(random)));
+        }
+        part.records.push_back(record);
+      }
+      FrontierRecord series = part.records.back();
+      series.series = "lights";
+      part.records.push_back(series);
+    }
+  }
+  return part;
+}
+
+TEST(Recomputed, FrontsAndTiesAreThoseOfTheTables) {
+  if (run_command("python3 --version 2>&1").status != 0) GTEST_SKIP() << "Python is not installed";
+  const TempFolder folder;
+  const FrontierAnswer answer = answer_of({random_sweep(11)});
+  ASSERT_GT(answer.points.size(), 20u);
+  std::ofstream(folder.path / "frontier.csv") << csv_text(answer);
+  std::ofstream(folder.path / "samples.csv") << samples_csv_text(answer);
+  const auto recompute = [&](const nlohmann::json& frontier) {
+    std::ofstream(folder.path / "frontier.json") << frontier;
+    return run_command(std::string("python3 ") + source_folder + "/tests/frontier/recompute.py " +
+                       folder.path.string() + " 2>&1");
+  };
+  const nlohmann::json stated = to_json(answer);
+  const CommandOutcome run = recompute(stated);
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr(fmt::format("{} points, ", answer.points.size())));
+
+  nlohmann::json wrong = stated;
+  wrong["points"][7]["front"] = !wrong["points"][7]["front"].get<bool>();
+  EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
+  wrong = stated;
+  wrong["points"][7]["tied_with"].clear();
+  ASSERT_NE(wrong, stated);
+  EXPECT_NE(recompute(wrong).status, 0);
+  wrong = stated;
+  wrong["points"].erase(7);
+  EXPECT_NE(recompute(wrong).status, 0);
+}
+
+}  // namespace
+}  // namespace lightgrid
