@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Stands in for `lightgrid` in tests of scripts: `frontier … -o FOLDER --shard I/N` writes a line of each of seven points
 # that the shard has, and `frontier merge FOLDER -o FOLDER` joins them as FOLDER/answer. Shard 1 is killed once, within a
-# line. All calls are in FOLDER/calls.
+# line; shard 2 ends with status 1, as a sweep does that finds a lost light. All calls are in FOLDER/calls.
 set -euo pipefail
 folder=${*: -1}
 [[ $2 == merge ]] || folder=${*: -3:1}
@@ -29,3 +29,4 @@ for ((point = index; point < 7; point += count)); do
   fi
   echo "point $point" >>"$file"
 done
+((index != 2))

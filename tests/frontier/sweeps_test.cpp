@@ -27,7 +27,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Each part with the arguments as they were given, a space in one of them; shard 1 once more; then merge.
+// Each part with the arguments as they were given, a space in one of them; shard 1 once more; then merge,
+// although shard 2 ends with status 1.
 void expect_calls(const std::filesystem::path& folder) {
   const std::string at = "[-o][" + folder.string() + "]",
                     arguments = "[frontier][a scene.glb][--vary][tile=8,16]" + at + "[--shard]";
@@ -50,6 +51,9 @@ TEST(Sweeps, RunByGnuParallel) {
       examples_folder + "/parallel/frontier.sh 3 'the answer' 'a scene.glb' --vary tile=8,16 2>&1");
   EXPECT_EQ(run.status, 0) << run.output;
   expect_calls(folder.path / "the answer");
+  EXPECT_EQ(file_bytes(folder.path / "the answer/records-2-of-3.jsonl"), "point 2\npoint 5\n");
+  const std::string calls = file_bytes(folder.path / "the answer/calls");
+  EXPECT_EQ(calls.find("[2/3]"), calls.rfind("[2/3]")) << "status 1 is not a failure";
 }
 
 // A part that fails cancels the join; submitted again, the sweep is completed.
