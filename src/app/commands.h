@@ -18,6 +18,7 @@ void add_inspect(CommandLine& line);
 void add_devices(CommandLine& line);
 void add_verify(CommandLine& line);
 void add_bench(CommandLine& line);
+void add_frontier(CommandLine& line);
 void add_view(CommandLine& line);
 
 }  // namespace lightgrid

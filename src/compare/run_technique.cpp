@@ -48,10 +48,10 @@ void TechniqueRun::run_frame(bool warmup) {
   if (!warmup) frame_ms_.push_back(timer.elapsed_ms());
 }
 
-void TechniqueRun::run_profiled_frames() {
+void TechniqueRun::run_profiled_frames(double most_ms) {
   const Timer timer;
   view_.timer.enabled = true;
-  for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < 1000); ++i) {
+  for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
     render();
   }
   view_.timer.enabled = false;

@@ -36,8 +36,8 @@ class TechniqueRun {
   void run_frame(bool warmup = false);
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
-  // More frames with a wait after each pass, for pass times: up to five, or as many as fit in a second.
-  void run_profiled_frames();
+  // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.
+  void run_profiled_frames(double most_ms = 1000);
 
   // Frees what the next frame creates again (RenderView::release). All runs of a pool have to be released before one
   // of them draws again.

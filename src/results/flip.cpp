@@ -4,11 +4,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "base/parallel.h"
 #include "results/metrics.h"
 
 namespace lightgrid {
@@ -77,14 +79,13 @@ void normalize(Kernel& kernel) {
 // Values of one channel, filtered by `across` along rows and `up` along columns. Beyond the image its edge goes on.
 std::vector<double> filtered(const std::vector<double>& in, int width, int height, const Kernel& across, const Kernel& up) {
   const int radius_x = int(across.size() / 2), radius_y = int(up.size() / 2);
-  std::vector<double> rows(in.size()), out(in.size());
+  std::vector<double> rows(in.size()), out(in.size()), row(size_t(width) + across.size() - 1);
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      double sum = 0;
-      for (int i = -radius_x; i <= radius_x; ++i) {
-        sum += across[i + radius_x] * in[size_t(y) * width + std::clamp(x + i, 0, width - 1)];
-      }
-      rows[size_t(y) * width + x] = sum;
+    const double* from = in.data() + size_t(y) * width;
+    for (size_t x = 0; x < row.size(); ++x) row[x] = from[std::clamp(int(x) - radius_x, 0, width - 1)];
+    double* to = rows.data() + size_t(y) * width;
+    for (size_t i = 0; i < across.size(); ++i) {
+      for (int x = 0; x < width; ++x) to[x] += across[i] * row[size_t(x) + i];
     }
   }
   for (int y = 0; y < height; ++y) {
@@ -165,11 +166,12 @@ Features features_of(const Planes& ycxcz, double pixels_per_degree) {
 
 constexpr double color_exponent = 0.7, feature_exponent = 0.5;
 
-// The colour difference of two pixels, from 0 to 1: large differences are compressed, since they all look large.
+// The colour difference of two pixels in Hunt-adjusted CIELAB, from 0 to 1: large differences are compressed, since they all
+// look large.
 double color_difference(const glm::dvec3& test, const glm::dvec3& reference) {
   constexpr double knee_in = 0.4, knee_out = 0.95;
   static const double largest = std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), color_exponent);
-  const double error = std::pow(hyab(hunt_lab_from_rgb(test), hunt_lab_from_rgb(reference)), color_exponent);
+  const double error = std::pow(hyab(test, reference), color_exponent);
   const double knee = knee_in * largest;
   return error < knee ? error * knee_out / knee : knee_out + (error - knee) / (largest - knee) * (1 - knee_out);
 }
@@ -182,6 +184,34 @@ Planes ycxcz_of(const Image& image) {
     planes.pixels.push_back(ycxcz_from_rgb(rgb));
   }
   return planes;
+}
+
+// What FLIP compares of an image.
+struct SeenImage {
+  Planes color;  // Hunt-adjusted CIELAB of what an eye sees
+  Features features;
+  std::vector<bool> nan;
+};
+
+SeenImage seen_image(const Image& image, double pixels_per_degree) {
+  const Planes opponent = ycxcz_of(image);
+  SeenImage s{seen(opponent, pixels_per_degree), features_of(opponent, pixels_per_degree), {}};
+  for (glm::dvec3& pixel : s.color.pixels) pixel = hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));
+  for (const glm::vec4& pixel : image.pixels) s.nan.push_back(has_nan(pixel));
+  return s;
+}
+
+std::vector<float> difference_map(const SeenImage& test, const SeenImage& reference) {
+  assert(test.color.width == reference.color.width && test.color.height == reference.color.height);
+  const Features &f = test.features, &g = reference.features;
+  std::vector<float> map(test.color.pixels.size());
+  for (size_t i = 0; i < map.size(); ++i) {
+    const double color = color_difference(test.color.pixels[i], reference.color.pixels[i]);
+    const double difference = std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
+    const double feature = std::pow(difference / std::numbers::sqrt2, feature_exponent);
+    map[i] = test.nan[i] || reference.nan[i] ? 1.0f : float(std::pow(color, 1 - feature));
+  }
+  return map;
 }
 
 // --- Exposures -------------------------------------------------------------------------------------------------------
@@ -212,19 +242,7 @@ Image exposed(const Image& image, double stops) {
 }  // namespace
 
 std::vector<float> flip_map(const Image& test, const Image& reference, double pixels_per_degree) {
-  assert(test.width == reference.width && test.height == reference.height);
-  const Planes of_test = ycxcz_of(test), of_reference = ycxcz_of(reference);
-  const Planes seen_test = seen(of_test, pixels_per_degree), seen_reference = seen(of_reference, pixels_per_degree);
-  const Features f = features_of(of_test, pixels_per_degree), g = features_of(of_reference, pixels_per_degree);
-  std::vector<float> map(test.pixels.size());
-  for (size_t i = 0; i < map.size(); ++i) {
-    const auto rgb = [&](const Planes& p) { return glm::clamp(rgb_from_ycxcz(p.pixels[i]), 0.0, 1.0); };
-    const double color = color_difference(rgb(seen_test), rgb(seen_reference));
-    const double difference = std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
-    const double feature = std::pow(difference / std::numbers::sqrt2, feature_exponent);
-    map[i] = has_nan(test.pixels[i]) || has_nan(reference.pixels[i]) ? 1.0f : float(std::pow(color, 1 - feature));
-  }
-  return map;
+  return difference_map(seen_image(test, pixels_per_degree), seen_image(reference, pixels_per_degree));
 }
 
 std::optional<FlipExposures> flip_exposures(const Image& reference) {
@@ -240,15 +258,29 @@ std::optional<FlipExposures> flip_exposures(const Image& reference) {
   return e;
 }
 
-std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures, double pixels_per_degree) {
-  std::vector<float> worst(test.pixels.size(), 0.0f);
-  for (int i = 0; i < exposures.count; ++i) {
+HdrFlip::HdrFlip(const Image& reference, const FlipExposures& exposures, double pixels_per_degree) {
+  const auto images = std::make_shared<std::vector<SeenImage>>(size_t(exposures.count));  // one an exposure
+  const auto seen_at = [=](const Image& image, int i) {
     const double step = exposures.count > 1 ? (exposures.stop - exposures.start) / (exposures.count - 1) : 0;
-    const double stops = exposures.start + i * step;
-    const std::vector<float> map = flip_map(exposed(test, stops), exposed(reference, stops), pixels_per_degree);
+    return seen_image(exposed(image, exposures.start + i * step), pixels_per_degree);
+  };
+  parallel_for(exposures.count, [&](int i) { images->at(size_t(i)) = seen_at(reference, i); });
+  map_at_ = [=](const Image& test, int i) { return difference_map(seen_at(test, i), images->at(size_t(i))); };
+  count_ = exposures.count;
+}
+
+std::vector<float> HdrFlip::map(const Image& test) const {
+  std::vector<std::vector<float>> maps(static_cast<size_t>(count_));
+  parallel_for(count_, [&](int i) { maps[size_t(i)] = map_at_(test, i); });
+  std::vector<float> worst(test.pixels.size(), 0.0f);
+  for (const std::vector<float>& map : maps) {
     for (size_t k = 0; k < map.size(); ++k) worst[k] = std::max(worst[k], map[k]);
   }
   return worst;
+}
+
+std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures, double pixels_per_degree) {
+  return HdrFlip(reference, exposures, pixels_per_degree).map(test);
 }
 
 double mean_of(const std::vector<float>& map) {

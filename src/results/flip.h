@@ -3,6 +3,7 @@
 // 2021). Written from the papers; held to the authors' program (v1.6) by tests.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,17 @@ std::optional<FlipExposures> flip_exposures(const Image& reference);
 // HDR-FLIP: per pixel the largest FLIP over the exposures. Linear, scene-referred images.
 std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures,
                                 double pixels_per_degree = default_pixels_per_degree);
+
+// The same with the reference's part computed once, for many images.
+class HdrFlip {
+ public:
+  HdrFlip(const Image& reference, const FlipExposures& exposures, double pixels_per_degree = default_pixels_per_degree);
+  std::vector<float> map(const Image& test) const;  // of the reference's size
+
+ private:
+  std::function<std::vector<float>(const Image& test, int exposure)> map_at_;
+  int count_ = 0;
+};
 
 double mean_of(const std::vector<float>& map);
 

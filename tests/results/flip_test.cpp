@@ -108,7 +108,7 @@ Image noise(int width, int height, uint32_t seed) {
 }
 
 TEST(Flip, OfEqualImagesIsZero) {
-  for (const auto [width, height] : {std::pair(1, 1), {17, 9}, {64, 1}}) {
+  for (const auto& [width, height] : {std::pair(1, 1), {17, 9}, {64, 1}}) {
     const Image image = noise(width, height, 7);
     EXPECT_EQ(std::ranges::max(flip_map(image, image)), 0.0f);
     EXPECT_EQ(std::ranges::max(hdr_flip_map(image, image, {-3, 3, 4})), 0.0f);

@@ -1,0 +1,208 @@
+// lightgrid frontier SCENE… -o DIR: what accuracy costs in time; frontier merge DIR… -o DIR.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/timer.h"
+#include "base/version.h"
+#include "base/write_file.h"
+#include "frontier/gate.h"
+#include "frontier/machine.h"
+#include "frontier/measure.h"
+#include "frontier/parts.h"
+#include "frontier/write_answer.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FrontierCommand {
+  SceneChoice scene;  // shared by all scenes
+  std::vector<std::string> scenes;  // or "merge" and folders
+  DeviceOptions devices;
+  std::string output = "out/frontier", json, gate, shard = "0/1";
+  std::vector<std::string> techniques, vary;
+  int views = 8, rounds = 40, budget = 14, page_mb = 30;
+  bool no_growth = false;
+};
+
+const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street"};
+
+struct Shard {
+  int index = 0, count = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  const bool slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
+  const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+  if (!slash || count.ec != std::errc() || count.ptr != end || shard.count < 1 || shard.count > 100000 || shard.index < 0 ||
+      shard.index >= shard.count) {
+    throw input_error("shard {}: not I/N with I from 0 to N - 1", text);
+  }
+  return shard;
+}
+
+SceneChoice choice_of(const FrontierCommand& o, const std::string& scene) {
+  SceneChoice choice = o.scene;
+  choice.scene = scene;
+  return choice;
+}
+
+// Parts of one sweep agree in this.
+std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>& points) {
+  const SceneChoice& s = o.scene;
+  nlohmann::json request = {{"scenes", o.scenes}, {"size", s.size},   {"camera", s.camera}, {"camera_path", s.camera_path},
+                            {"time", s.time},     {"lights", s.lights}, {"lights_file", s.lights_file},
+                            {"light_radius", s.light_radius}, {"seed", s.seed}, {"views", o.views}};
+  for (const ChosenPoint& point : points) {
+    request["points"].push_back({point.contestant.technique->name, settings_of(*point.contestant.technique, point.contestant.settings), point.frames});
+  }
+  return content_hash(request.dump());
+}
+
+// Prints what a gate finds. Returns whether it failed.
+bool failed_gate(const FrontierCommand& o, const FrontierAnswer& answer) {
+  if (o.gate.empty()) return false;
+  const GateResult result = held_against(to_json(answer), read_frontier_json(o.gate), o.gate);
+  for (const std::string& note : result.told) log_info("gate {}: {}", o.gate, note);
+  for (const std::string& fault : result.worse) fmt::print(stderr, "lightgrid: gate {}: {}\n", o.gate, fault);
+  return !result.worse.empty();
+}
+
+// Points that lose lights or draw NaN fail; refused ones do not.
+bool tell_losses(const FrontierAnswer& answer) {
+  bool failed = false;
+  for (const PointFigures& p : answer.points) {
+    const bool limited = find_technique(p.point.technique).limited_lists;
+    if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0) continue;
+    failed = true;
+    fmt::print(stderr, "lightgrid: {} in {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", p.point.label,
+               p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels);
+  }
+  return failed;
+}
+
+int finish(const FrontierCommand& o, const std::vector<FrontierPart>& parts, const std::vector<fs::path>& pictures) {
+  const FrontierAnswer answer = answer_of(parts);
+  write_answer(o.output, answer, pictures, size_t(o.page_mb) << 20);
+  if (!o.json.empty()) write_json(o.json, json_text(to_json(answer)));
+  if (o.json != "-") {
+    fmt::print("{}\n", (fs::path(o.output) / "index.html").string());
+    for (const std::string& sentence : answer.sentences) fmt::print("  {}\n", sentence);
+  }
+  const bool lost = tell_losses(answer), worse = failed_gate(o, answer);
+  return lost || worse ? 1 : 0;
+}
+
+int merge(const FrontierCommand& o) {
+  if (o.scenes.size() < 2) throw input_error("merge: no folders; frontier merge DIR… -o DIR");
+  std::vector<fs::path> folders(o.scenes.begin() + 1, o.scenes.end()), pictures;
+  for (const fs::path& folder : folders) pictures.push_back(folder / "pictures");
+  make_folder(o.output);
+  return finish(o, read_parts(folders, [](const std::string& what) { log_info("{}", what); }), pictures);
+}
+
+// What the command is asked for, checked before a device opens and before the first scene is measured.
+void check_request(const FrontierCommand& o) {
+  if (!o.gate.empty()) read_frontier_json(o.gate);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  for (const std::string& scene : o.scenes) load_chosen_scene(choice_of(o, scene));
+}
+
+FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard) {
+  FrontierJob job;
+  job.common = chosen_settings(o.scene);
+  const bool opengl = renderer.gl != nullptr;
+  const std::vector<ChosenPoint> all = chosen_points(o.techniques, o.vary, job.common, opengl);
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (in_shard(i, shard.index, shard.count)) job.points.push_back(all[i]);
+  }
+  job.baseline = baseline_point(job.common, opengl);
+  job.views = o.views;
+  job.seed = o.scene.seed;
+  job.growth = shard.index == 0 && !o.no_growth;
+  job.most_rounds = o.rounds;
+  job.least_rounds = std::min(job.least_rounds, o.rounds);
+  job.pictures = fs::path(o.output) / "pictures";
+  job.notice = [](const std::string& what) { log_info("{}", what); };
+  return job;
+}
+
+int frontier(FrontierCommand o) {
+  if (!o.scenes.empty() && o.scenes.front() == "merge") return merge(o);
+  if (o.scenes.empty()) o.scenes = default_scenes;
+  const Timer timer;
+  const Shard shard = parse_shard(o.shard);
+  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
+  check_request(o);
+  make_folder(o.output);
+  Renderer renderer(o.devices.device, backend);
+  FrontierJob job = job_of(o, renderer, shard);
+  FrontierPart part;
+  part.request = request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr));
+  part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index, part.shards = shard.count;
+  part.baseline = job.baseline.label;
+  part.machine = machine_of(renderer);
+  RecordFile file(part_path(o.output, shard.index, shard.count), part, job.notice);
+
+  const auto bar = progress_bar();
+  const double budget_s = o.budget * 60.0;
+  size_t measured = 0;
+  for (size_t i = 0; i < o.scenes.size(); ++i) {
+    const double left = budget_s - timer.elapsed_ms() / 1000;
+    if (left <= 0) {
+      log_warning("budget {}: no time left for {}", o.budget, o.scenes[i]);
+      continue;
+    }
+    job.seconds = left / double(o.scenes.size() - i);
+    const double done = 1 - left / budget_s, share = job.seconds / budget_s;
+    job.progress = [&](double part_done, const std::string& step) { bar(done + part_done * share, o.scenes[i] + ": " + step); };
+    measure_scene(renderer, choice_of(o, o.scenes[i]), job, file);
+    ++measured;
+  }
+  if (measured == 0) throw input_error("budget {}: too short for one point", o.budget);
+  bar(1, "");
+  file.finish(load_average());
+  return finish(o, {file.part()}, {job.pictures});
+}
+
+}  // namespace
+
+void add_frontier(CommandLine& line) {
+  auto o = std::make_shared<FrontierCommand>();
+  o->scene.size = "640x360";
+  Subcommand command = line.add("frontier", "what accuracy costs in time, over settings and scenes", [o] { return frontier(*o); });
+  command.list("scene", o->scenes, "scenes as for compare; or: merge DIR…, the parts of one sweep (default: hall, terrain, spheres, street)");
+  command.option("--size", o->scene.size, "image size, WxH");
+  command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0, most_lights);
+  add_view_options(command, o->scene);
+  command.option("--camera-path", o->scene.camera_path, "views from turn:N, dolly:N or a JSON file of keys (default: a turn)");
+  command.option("--views", o->views, "views of each scene, at most", 1, 1000);
+  add_device_options(command, o->devices);
+  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas (default: a star of settings around each)", ',');
+  command.list("--vary", o->vary, "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
+  command.option("--rounds", o->rounds, "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
+  command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
+  command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
+  command.option("--gate", o->gate, "an earlier frontier.json: exit 1 if an error grew, a light is lost or a ratio is worse");
+  command.option("--shard", o->shard, "I/N: every N-th point from the I-th on, for a sweep of several processes");
+  command.option("-o,--output", o->output, "folder of the parts and the answer");
+  command.option("--page-mb", o->page_mb, "limit of pictures in the page in MiB", 1, 1000);
+  command.option("--json", o->json, "frontier.json also into a file, - for stdout");
+}
+
+}  // namespace lightgrid

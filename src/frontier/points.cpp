@@ -1,0 +1,207 @@
+#include "frontier/points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/error.h"
+
+namespace lightgrid {
+namespace {
+
+struct Star {
+  const char* technique;
+  const char* settings;  // assignments, split at spaces
+  int frames = 1;
+};
+
+// Times of techniques; pairs and times of cull tests, bounds and tiles; precision of buffers; capacity of lidr; model
+// errors of ranges, windows and BRDFs. What does not depend on the technique is varied on the fastest one.
+constexpr Star default_points[] = {
+    {"forward", ""},
+    {"forward_zprepass", ""},
+    {"forward_multipass", ""},
+    {"forward_plus", ""},
+    {"forward_plus", "cull-test=sphere"},
+    {"forward_plus", "cull-test=planes"},
+    {"forward_plus", "cull-test=aabb"},
+    {"forward_plus", "cull-test=exact"},
+    {"forward_plus", "depth-bounds=none"},
+    {"forward_plus", "depth-bounds=halfz-modified"},
+    {"forward_plus", "depth-bounds=mask32"},
+    {"forward_plus", "tile=8"},
+    {"forward_plus", "tile=32"},
+    {"forward_plus", "z-bins=64"},
+    {"forward_plus", "brdf=lambert"},
+    {"forward_plus", "brdf=blinn"},
+    {"forward_plus_compute", ""},
+    {"clustered", ""},
+    {"clustered", "slices=8"},
+    {"clustered", "slices=64"},
+    {"deferred", ""},
+    {"deferred_tiled", ""},
+    {"deferred_tiled", "buffer-bits=16"},
+    {"deferred_tiled", "buffer-bits=8"},
+    {"lidr", ""},
+    {"lidr", "lidr-overlap=4"},
+    {"lidr", "lidr-overlap=2"},
+    {"visibility", ""},
+    {"visibility", "lights=all"},
+    {"visibility", "texels=separate"},
+    {"visibility", "slices=16"},
+    {"visibility", "tile=8"},
+    {"visibility", "tile=32"},
+    {"visibility", "cull-test=sphere"},
+    {"visibility", "cull-test=planes"},
+    {"visibility", "cull-test=aabb"},
+    {"visibility", "cull-test=exact"},
+    {"visibility", "brdf=lambert"},
+    {"visibility", "brdf=blinn"},
+    {"visibility", "window=smooth"},
+    {"visibility", "window=none"},
+    {"visibility", "range=infinite"},
+    {"visibility", "range=cutoff cutoff=1"},
+    {"visibility", "range=cutoff cutoff=0.5"},
+    {"visibility", "range=cutoff cutoff=0.2"},
+    {"visibility", "range=cutoff cutoff=0.1"},
+    {"visibility", "range=cutoff cutoff=0.05"},
+    {"visibility", "range=cutoff cutoff=0.02"},
+    {"visibility", "range=cutoff cutoff=0.01"},
+    {"visibility", "range=cutoff cutoff=0.005"},
+    {"visibility", "range=cutoff cutoff=0.002"},
+    {"visibility", "range=cutoff cutoff=0.001"},
+    {"visibility", "range=cutoff cutoff=0.0002"},
+    {"visibility", "range=cutoff cutoff=0.0001"},
+    {"visibility", "range=stochastic alpha=1"},
+    {"visibility", "range=stochastic alpha=0.1"},
+    {"visibility", "range=stochastic alpha=0.1", 4},
+    {"visibility", "range=stochastic alpha=0.1", 16},
+    {"visibility", "range=stochastic alpha=0.01"},
+    {"visibility", "range=stochastic alpha=0.01", 4},
+    {"visibility", "range=stochastic alpha=0.01", 16},
+};
+
+std::vector<std::string> words(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(separator, begin), text.size());
+    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+ChosenPoint point(const Technique& technique, const Settings& settings, int frames) {
+  ChosenPoint chosen{{&technique, settings}, frames, ""};
+  chosen.label = label_of(chosen.contestant, frames);
+  return chosen;
+}
+
+std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
+  std::vector<ChosenPoint> points;
+  for (const Star& s : default_points) {
+    const Technique& technique = find_technique(s.technique);
+    if (technique.needs.opengl && !opengl) continue;
+    Settings settings = common;
+    for (const std::string& assignment : words(s.settings, ' ')) apply_setting(settings, assignment);
+    points.push_back(point(technique, settings, s.frames));
+  }
+  return points;
+}
+
+int frames_of(const std::string& text) {
+  int frames = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), frames);
+  if (failure != std::errc() || end != text.data() + text.size() || frames < 1 || frames > 1024)
+    throw input_error("vary frames: {} is not a number from 1 to 1024", text);
+  return frames;
+}
+
+void apply_for(const Technique& technique, Settings& settings, const std::string& assignment) {
+  apply_setting(settings, assignment);
+  const std::string key = assignment.substr(0, assignment.find('='));
+  if (!reads_setting(technique, key)) throw input_error("techniques {}:{}: {} does not read {}", technique.name, assignment, technique.name, key);
+}
+
+// "NAME[:KEY=VALUE[,KEY=VALUE…]]", split at commas as compare's -t.
+std::vector<ChosenPoint> named(const std::vector<std::string>& items, const Settings& common) {
+  std::vector<Contestant> contestants;
+  for (const std::string& item : items) {
+    const size_t colon = item.find(':');
+    if (colon == std::string::npos && item.find('=') != std::string::npos && !contestants.empty()) {
+      apply_for(*contestants.back().technique, contestants.back().settings, item);
+      continue;
+    }
+    contestants.push_back({&find_technique(item.substr(0, colon)), common});
+    if (colon != std::string::npos) apply_for(*contestants.back().technique, contestants.back().settings, item.substr(colon + 1));
+  }
+  std::vector<ChosenPoint> points;
+  for (const Contestant& c : contestants) points.push_back(point(*c.technique, c.settings, 1));
+  return points;
+}
+
+void vary(std::vector<ChosenPoint>& points, const std::vector<ChosenPoint>& around, const std::string& text) {
+  const size_t equals = text.find('=');
+  const std::string key = text.substr(0, equals);
+  const std::vector<std::string> values = equals == std::string::npos ? std::vector<std::string>() : words(text.substr(equals + 1), ',');
+  if (values.empty()) throw input_error("vary {}: not KEY=VALUE,VALUE,…", text);
+  bool read = false;
+  for (const std::string& value : values) {
+    for (const ChosenPoint& centre : around) {
+      const Technique& technique = *centre.contestant.technique;
+      Settings settings = centre.contestant.settings;
+      if (key == "frames") {
+        const int frames = frames_of(value);
+        if (settings.ranges.range != LightRange::stochastic) continue;
+        points.push_back(point(technique, settings, frames));
+        read = true;
+        continue;
+      }
+      apply_setting(settings, key + "=" + value);
+      if (!reads_setting(technique, key)) continue;
+      points.push_back(point(technique, settings, centre.frames));
+      read = true;
+    }
+  }
+  if (!read) throw input_error("vary {}: no technique reads {}", text, key == "frames" ? "frames without range=stochastic" : key);
+}
+
+}  // namespace
+
+std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques, const std::vector<std::string>& varied,
+                                       const Settings& common, bool opengl) {
+  std::vector<ChosenPoint> points = techniques.empty() ? star(common, opengl) : named(techniques, common);
+  std::vector<ChosenPoint> around;
+  for (const ChosenPoint& p : points) {
+    if (!techniques.empty() || p.label == p.contestant.technique->name) around.push_back(p);
+  }
+  if (techniques.empty() && !varied.empty()) points = around;
+  for (const std::string& text : varied) vary(points, around, text);
+  std::vector<ChosenPoint> distinct;
+  for (ChosenPoint& p : points) {
+    if (std::ranges::find(distinct, p.label, &ChosenPoint::label) == distinct.end()) distinct.push_back(std::move(p));
+  }
+  return distinct;
+}
+
+ChosenPoint baseline_point(const Settings& common, bool opengl) {
+  return point(find_technique(opengl ? "forward_plus" : "visibility"), common, 1);
+}
+
+std::string label_of(const Contestant& contestant, int frames) {
+  const auto own = settings_of(*contestant.technique, contestant.settings), plain = to_strings(Settings{});
+  std::string differing;
+  for (const SettingHelp& help : setting_help()) {
+    std::string key = help.key;
+    std::ranges::replace(key, '-', '_');
+    const auto found = own.find(key);
+    const bool given = contestant.settings.given.contains(help.key);
+    if (found == own.end() || (found->second == plain.at(key) && !(given && key == "slices"))) continue;
+    differing += (differing.empty() ? "" : ",") + help.key + "=" + found->second;
+  }
+  if (frames > 1) differing += fmt::format("{}frames={}", differing.empty() ? "" : ",", frames);
+  return contestant.technique->name + (differing.empty() ? "" : ":" + differing);
+}
+
+}  // namespace lightgrid

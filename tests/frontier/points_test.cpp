@@ -1,0 +1,82 @@
+#include "frontier/points.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "base/error.h"
+#include "frontier/scene_views.h"
+#include "scene/builtin.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> labels(const std::vector<ChosenPoint>& points) {
+  std::vector<std::string> all;
+  for (const ChosenPoint& p : points) all.push_back(p.label);
+  return all;
+}
+
+std::string refusal_of(const std::vector<std::string>& techniques, const std::vector<std::string>& vary) {
+  try {
+    chosen_points(techniques, vary, {}, true);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(FrontierPoints, AreAStarOfDistinctPointsWithEveryTechniqueAsItIs) {
+  const std::vector<ChosenPoint> points = chosen_points({}, {}, {}, true);
+  EXPECT_GE(4 * points.size(), 150u);  // over the four built-in scenes
+  const std::vector<std::string> names = labels(points);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  for (const Technique* t : techniques()) EXPECT_THAT(names, testing::Contains(t->name));
+}
+
+TEST(FrontierPoints, NeedNoOpenGlWithoutIt) {
+  for (const ChosenPoint& p : chosen_points({}, {}, {}, false)) EXPECT_FALSE(p.contestant.technique->needs.opengl) << p.label;
+  EXPECT_EQ(baseline_point({}, false).label, "visibility");
+  EXPECT_EQ(baseline_point({}, true).label, "forward_plus");
+}
+
+TEST(FrontierPoints, VaryOneKeyAtATimeInTechniquesThatReadIt) {
+  EXPECT_THAT(labels(chosen_points({"forward", "forward_plus", "tile=8"}, {"cull-test=sphere,aabb", "z-bins=16"}, {}, true)),
+              ElementsAre("forward", "forward_plus:tile=8", "forward_plus:cull-test=sphere,tile=8",
+                          "forward_plus:cull-test=aabb,tile=8", "forward_plus:tile=8,z-bins=16"));
+}
+
+TEST(FrontierPoints, AverageFramesOfRandomRanges) {
+  const auto points = chosen_points({"visibility:range=stochastic"}, {"frames=1,16"}, {}, true);
+  EXPECT_THAT(labels(points), ElementsAre("visibility:range=stochastic", "visibility:range=stochastic,frames=16"));
+  EXPECT_EQ(points[1].frames, 16);
+}
+
+TEST(FrontierPoints, OfAnUnknownKeyOrValueAreRefusedByName) {
+  EXPECT_THAT(refusal_of({}, {"tiles=8"}), HasSubstr("tiles"));
+  EXPECT_THAT(refusal_of({}, {"tile=9"}), HasSubstr("\"9\""));
+  EXPECT_THAT(refusal_of({}, {"tile"}), HasSubstr("vary tile"));
+  EXPECT_THAT(refusal_of({"forward"}, {"z-bins=16"}), HasSubstr("no technique reads z-bins"));
+  EXPECT_THAT(refusal_of({"forward:z-bins=16"}, {}), HasSubstr("forward does not read z-bins"));
+  EXPECT_THAT(refusal_of({"visibility:range=stochastic"}, {"frames=0"}), HasSubstr("frames: 0"));
+  EXPECT_THAT(refusal_of({"visibility"}, {"frames=4"}), HasSubstr("frames"));
+  EXPECT_THAT(refusal_of({"quick"}, {}), HasSubstr("quick"));
+}
+
+// Fewer views are spread over the path too.
+TEST(FrontierViews, OfAnyPrefixAreSpreadOverThePath) {
+  const Scene scene = find_builtin_scene("spheres")->make();
+  const View start = make_view(choose_camera(scene, ""), 32, 18);
+  const std::vector<View> views = frontier_views(scene, start, {}, 8);
+  ASSERT_EQ(views.size(), 8u);
+  const auto forward = [](const View& v) { return glm::transpose(glm::dmat3(v.view_from_world)) * glm::dvec3(0, 0, -1); };
+  const auto flat = [&](const View& v) { return glm::normalize(glm::dvec2(forward(v).x, forward(v).z)); };
+  EXPECT_NEAR(glm::dot(flat(views[0]), flat(views[1])), -1, 1e-6) << "the second looks back";
+  EXPECT_NEAR(glm::dot(flat(views[0]), flat(views[2])), 0, 1e-6) << "the third aside";
+}
+
+}  // namespace
+}  // namespace lightgrid
