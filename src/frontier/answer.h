@@ -41,8 +41,8 @@ struct BestWithin {
 struct BreakEven {
   std::string scene, tighter, looser;  // labels; otherwise of equal settings. Tighter: lists fewer pairs
   double ns_per_pixel_light = 0;       // infinite: the tighter test never wins; 0: it always does
-  double extra_ms = 0;                 // of culling a view; the mean over the views of both
-  double pairs_saved = 0;              // listed pairs a view, likewise
+  double extra_ms = 0;                 // of culling the first view, on which passes are profiled
+  double pairs_saved = 0;              // listed pairs, likewise
 };
 
 struct ShadingCost {  // of this machine, a slope over points of one technique and BRDF

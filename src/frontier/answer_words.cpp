@@ -32,8 +32,8 @@ std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
   return fmt::format(" (~ {}{})", words, tied.size() > 2 ? fmt::format(" and {} more", tied.size() - 2) : "");
 }
 
-// Whether two points are meant to show the same: settings that change the model agree, and so do its errors, but for the
-// pixels at silhouettes that rasterizers see differently.
+// Whether two points are meant to show the same: settings that change the model agree, and so do its errors,
+// but for the pixels at silhouettes that rasterizers see differently.
 bool same_model(const PointFigures& a, const PointFigures& b) {
   for (const char* key : {"brdf", "range", "window", "cutoff", "alpha"}) {
     const auto of_a = a.point.settings.find(key), of_b = b.point.settings.find(key);
@@ -93,16 +93,23 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
         scene_in_words(scene), answer.part.baseline, p.point.label, tied, ratio_in_words(p.ratio)));
   }
   const PointErrors& e = p.errors;
-  const std::pair<double, const char*> kinds[] = {
-      {e.model.rmse_rel, "the model's (where a light's range ends, and its window)"},
-      {e.precision.rmse_rel, "that of float precision"},
-      {e.technique.rmse_rel, "the technique's own"}};
-  const auto largest = std::max_element(std::begin(kinds), std::end(kinds));
-  if (!(largest->first > 0)) return;
-  sentences.push_back(fmt::format(
-      "Its largest error is {}: model {}, precision {}, technique {} (RMSE over the brightest channel).",
-      largest->second, error_in_words(e.model.rmse_rel), error_in_words(e.precision.rmse_rel),
-      error_in_words(e.technique.rmse_rel)));
+  struct Kind {
+    double rmse;
+    const char *name, *in_words;
+  };
+  Kind largest{};
+  std::vector<std::string> figures;
+  for (const Kind& kind :
+       {Kind{e.model.rmse_rel, "model", "the model's (where a light's range ends, and its window)"},
+        Kind{e.precision.rmse_rel, "precision", "that of float precision"},
+        Kind{e.technique.rmse_rel, "technique", "the technique's own"}}) {
+    if (!std::isfinite(kind.rmse)) continue;
+    if (kind.rmse > largest.rmse) largest = kind;
+    figures.push_back(fmt::format("{} {}", kind.name, error_in_words(kind.rmse)));
+  }
+  if (!(largest.rmse > 0)) return;
+  sentences.push_back(fmt::format("Its largest error is {}: {} (RMSE over the brightest channel).",
+                                  largest.in_words, fmt::join(figures, ", ")));
 }
 
 // From the largest error down, each point at the least error that it is the best within.

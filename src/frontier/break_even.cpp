@@ -1,6 +1,7 @@
 // What a tighter cull test must save, and what it saves: docs/frontier.md#break-even.
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "frontier/answer_steps.h"
 
@@ -19,31 +20,26 @@ bool has_cull_time(const FrontierRecord& r) {
          r.point.settings.contains("cull_test");
 }
 
-// A point's records by view.
-struct CulledPoint {
-  const FrontierPoint* point = nullptr;
-  std::map<int, const FrontierRecord*> views;
-};
-
-// Over the views that both have.
-std::optional<BreakEven> break_even_of(const CulledPoint& a, const CulledPoint& b) {
-  double ms_a = 0, ms_b = 0, listed_a = 0, listed_b = 0;
-  int views = 0;
-  for (const auto& [view, record] : a.views) {
-    const auto other = b.views.find(view);
-    if (other == b.views.end()) continue;
-    ++views;
-    ms_a += record->pass_ms.at(cull_pass), ms_b += other->second->pass_ms.at(cull_pass);
-    listed_a += double(record->pairs.listed), listed_b += double(other->second->pairs.listed);
+// Passes are profiled on the first view of a point; pairs are taken from the same one.
+std::vector<const FrontierRecord*> profiled(Records records) {
+  std::vector<const FrontierRecord*> first;
+  std::set<std::string> keys;
+  for (const FrontierRecord& r : records) {
+    if (has_cull_time(r) && keys.insert(point_key(r.point)).second) first.push_back(&r);
   }
-  if (views == 0) return {};
+  return first;
+}
+
+BreakEven break_even_of(const FrontierRecord& a, const FrontierRecord& b) {
+  const double ms_a = a.pass_ms.at(cull_pass), ms_b = b.pass_ms.at(cull_pass);
+  const double listed_a = double(a.pairs.listed), listed_b = double(b.pairs.listed);
   // With equal lists, the slower test counts as the tighter one, which then never wins.
   const bool a_is_tighter = listed_a != listed_b ? listed_a < listed_b : ms_a > ms_b;
-  const double sign = a_is_tighter ? 1 : -1;
-  BreakEven found{a.point->scene, a_is_tighter ? a.point->label : b.point->label,
-                  a_is_tighter ? b.point->label : a.point->label};
-  found.extra_ms = sign * (ms_a - ms_b) / views;
-  found.pairs_saved = sign * (listed_b - listed_a) / views;
+  const FrontierRecord& tighter = a_is_tighter ? a : b;
+  const FrontierRecord& looser = a_is_tighter ? b : a;
+  BreakEven found{a.point.scene, tighter.point.label, looser.point.label};
+  found.extra_ms = tighter.pass_ms.at(cull_pass) - looser.pass_ms.at(cull_pass);
+  found.pairs_saved = double(looser.pairs.listed) - double(tighter.pairs.listed);
   if (found.extra_ms <= 0) {
     found.ns_per_pixel_light = 0;
   } else if (found.pairs_saved == 0) {
@@ -73,22 +69,17 @@ void add_deviations(const std::vector<PairsAndMs>& samples, double& pairs_square
 
 std::vector<BreakEven> break_evens_of(Records records) {
   std::vector<std::string> keys;
-  std::map<std::string, std::map<std::string, CulledPoint>> groups;  // by other settings, by cull test
-  for (const FrontierRecord& r : records) {
-    if (!has_cull_time(r)) continue;
-    const std::string key = point_key(r.point, cull_test_alone);
+  std::map<std::string, std::vector<const FrontierRecord*>> groups;  // that differ in the cull test alone
+  for (const FrontierRecord* r : profiled(records)) {
+    const std::string key = point_key(r->point, cull_test_alone) + "\n" + std::to_string(r->view);
     if (!groups.contains(key)) keys.push_back(key);
-    CulledPoint& point = groups[key][r.point.settings.at("cull_test")];
-    if (!point.point) point.point = &r.point;
-    point.views[r.view] = &r;
+    groups[key].push_back(r);
   }
   std::vector<BreakEven> all;
   for (const std::string& key : keys) {
-    const auto& points = groups[key];
-    for (auto a = points.begin(); a != points.end(); ++a) {
-      for (auto b = std::next(a); b != points.end(); ++b) {
-        if (const auto found = break_even_of(a->second, b->second)) all.push_back(*found);
-      }
+    const auto& group = groups[key];
+    for (size_t a = 0; a < group.size(); ++a) {
+      for (size_t b = a + 1; b < group.size(); ++b) all.push_back(break_even_of(*group[a], *group[b]));
     }
   }
   return all;
@@ -99,8 +90,8 @@ std::vector<BreakEven> break_evens_of(Records records) {
 std::vector<ShadingCost> shading_costs_of(Records records) {
   std::vector<ShadingCost> costs;
   std::vector<std::map<std::string, std::vector<PairsAndMs>>> groups;  // of each cost
-  for (const FrontierRecord& r : records) {
-    if (!has_cull_time(r)) continue;
+  for (const FrontierRecord* record : profiled(records)) {
+    const FrontierRecord& r = *record;
     double ms = 0;
     bool shades = false;
     for (const char* pass : shading_passes) {

@@ -70,7 +70,8 @@ json page_point(const FrontierAnswer& answer, const PointFigures& p, const PageP
 }
 
 json page_machine(const FrontierMachine& m) {
-  return {{"cl_device", m.cl_device},
+  return {{"shard", m.shard},
+          {"cl_device", m.cl_device},
           {"cl_driver", m.cl_driver},
           {"gl_device", m.gl_device},
           {"gl_driver", m.gl_driver},
