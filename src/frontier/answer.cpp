@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "frontier/answer_steps.h"
+#include "frontier/one_machine.h"
 #include "frontier/record_file.h"
 
 namespace lightgrid {
@@ -47,7 +48,7 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   answer.part = parts.front();
   answer.part.records = joined(parts);
   for (const FrontierPart& part : parts) answer.machines.push_back(part.machine);
-  const Records records = answer.part.records;
+  const std::vector<FrontierRecord> records = on_one_machine(answer.part.records, answer.machines);
   answer.points = figures_of(records);
   rank_points(answer.points);
   answer.best_within = best_within_of(answer.points);
