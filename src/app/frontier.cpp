@@ -70,7 +70,8 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
   for (const ChosenPoint& point : points) {
     request["points"].push_back({point.contestant.technique->name, settings_of(*point.contestant.technique, point.contestant.settings), point.frames});
   }
-  return content_hash(request.dump());
+  // A path may hold bytes that are not UTF-8.
+  return content_hash(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 // Prints what a gate finds. Returns whether it failed.
@@ -97,7 +98,12 @@ bool tell_losses(const FrontierAnswer& answer) {
 
 int finish(const FrontierCommand& o, const std::vector<FrontierPart>& parts, const std::vector<fs::path>& pictures) {
   const FrontierAnswer answer = answer_of(parts);
+  if (answer.points.empty() && answer.failures.empty()) throw input_error("{}: no point was measured", o.output);
   write_answer(o.output, answer, pictures, size_t(o.page_mb) << 20);
+  if (answer.points.empty()) {
+    const Failure& first = answer.failures.front();
+    throw machine_error("{}: no point ran; {} in {}: {}", o.output, first.point.label, first.point.scene, first.why);
+  }
   if (!o.json.empty()) write_json(o.json, json_text(to_json(answer)));
   if (o.json != "-") {
     fmt::print("{}\n", (fs::path(o.output) / "index.html").string());
@@ -105,6 +111,12 @@ int finish(const FrontierCommand& o, const std::vector<FrontierPart>& parts, con
   }
   const bool lost = tell_losses(answer), worse = failed_gate(o, answer);
   return lost || worse ? 1 : 0;
+}
+
+// A part of several has no answer of its own: in a folder that it shares it would replace that of all.
+int finish_part(const FrontierPart& part, const fs::path& path) {
+  fmt::print("{}\n", path.string());
+  return tell_losses(answer_of({part})) ? 1 : 0;
 }
 
 int merge(const FrontierCommand& o) {
@@ -146,6 +158,9 @@ int frontier(FrontierCommand o) {
   if (o.scenes.empty()) o.scenes = default_scenes;
   const Timer timer;
   const Shard shard = parse_shard(o.shard);
+  if (shard.count > 1 && !(o.gate.empty() && o.json.empty())) {
+    throw input_error("shard {}: a part has no answer; give {} to frontier merge", o.shard, o.gate.empty() ? "--json" : "--gate");
+  }
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
   check_request(o);
@@ -157,7 +172,8 @@ int frontier(FrontierCommand o) {
   part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index, part.shards = shard.count;
   part.baseline = job.baseline.label;
   part.machine = machine_of(renderer);
-  RecordFile file(part_path(o.output, shard.index, shard.count), part, job.notice);
+  const fs::path path = part_path(o.output, shard.index, shard.count);
+  RecordFile file(path, part, job.notice);
 
   const auto bar = progress_bar();
   const double budget_s = o.budget * 60.0;
@@ -177,7 +193,7 @@ int frontier(FrontierCommand o) {
   if (measured == 0) throw input_error("budget {}: too short for one point", o.budget);
   bar(1, "");
   file.finish(load_average());
-  return finish(o, {file.part()}, {job.pictures});
+  return shard.count > 1 ? finish_part(file.part(), path) : finish(o, {file.part()}, {job.pictures});
 }
 
 }  // namespace

@@ -39,6 +39,32 @@ std::string list_of(const std::vector<int>& shards) {
   return text;
 }
 
+// How many views a part measured depends on the time that its machine had.
+void tell_different_views(const std::vector<FrontierPart>& parts, const Notice& notice) {
+  struct Views {
+    int count = 0, shard = 0;
+  };
+  std::map<std::string, std::pair<Views, Views>> least_and_most;  // by scene
+  for (const FrontierPart& part : parts) {
+    std::map<std::string, int> views;
+    for (const FrontierRecord& r : part.records) {
+      if (r.series.empty()) views[r.point.scene] = std::max(views[r.point.scene], r.view + 1);
+    }
+    for (const auto& [scene, count] : views) {
+      const Views here = {count, part.shard};
+      auto& [least, most] = least_and_most.try_emplace(scene, here, here).first->second;
+      if (count < least.count) least = here;
+      if (count > most.count) most = here;
+    }
+  }
+  for (const auto& [scene, range] : least_and_most) {
+    const auto& [least, most] = range;
+    if (least.count == most.count) continue;
+    notice(fmt::format("{}: {} views in shard {}, {} in shard {}: points of different views are compared",
+                       scene, least.count, least.shard, most.count, most.shard));
+  }
+}
+
 }  // namespace
 
 std::vector<FrontierPart> read_parts(const std::vector<fs::path>& folders, const Notice& notice) {
@@ -75,6 +101,7 @@ std::vector<FrontierPart> read_parts(const std::vector<fs::path>& folders, const
   if (notice && !missing.empty()) notice(fmt::format("missing of {} shards: {}", shards, list_of(missing)));
   if (notice && !unfinished.empty())
     notice(fmt::format("not finished of {} shards: {}", shards, list_of(unfinished)));
+  if (notice) tell_different_views(parts, notice);
   return parts;
 }
 

@@ -86,6 +86,7 @@ TEST(FrontierCommand, IsMeasuredInPartsThatMergeIntoOneAnswer) {
   for (const char* shard : {"0/2", "1/2"}) {
     const ProgramRun part = run_program(small_sweep(folder.path / "parts") + std::vector<std::string>{"--no-growth", "--shard", shard});
     ASSERT_EQ(part.status, 0) << part.err;
+    EXPECT_FALSE(fs::exists(folder.path / "parts/frontier.json")) << "a part has no answer";
   }
   const ProgramRun merged = run_program({"frontier", "merge", folder.path / "parts", "-o", folder.path / "all"});
   ASSERT_EQ(merged.status, 0) << merged.err;
@@ -98,6 +99,11 @@ TEST(FrontierCommand, RefusesWhatItCannotDoInOneLineThatNamesIt) {
   const TempFolder folder;
   const std::string out = folder.path / "out", file = folder.path / "file";
   std::ofstream(file) << "x";
+  fs::create_directory(folder.path / "empty");
+  std::ofstream(folder.path / "empty/records-0-of-1.jsonl")
+      << R"({"lightgrid_frontier":1,"request":"0","commit":"0","seed":1,"shard":0,"shards":1,"baseline":"forward_plus",)"
+      << R"("machine":{"cl_device":"","gl_device":"","cl_driver":"","gl_driver":"","cpu":"","governor":"","threads":1}})"
+      << "\n{\"finished\":{}}\n";
   const struct {
     std::vector<std::string> arguments;
     const char* says;
@@ -108,6 +114,7 @@ TEST(FrontierCommand, RefusesWhatItCannotDoInOneLineThatNamesIt) {
       {{"--shard", "0/0"}, "--shard 0/0"},
       {{"--shard", "2/2"}, "--shard 2/2"},
       {{"--shard", "1"}, "--shard 1"},
+      {{"--shard", "0/2", "--json", "-"}, "give --json to frontier merge"},
       {{"--budget", "0"}, "--budget"},
       {{"--views", "0"}, "--views"},
       {{"--gate", folder.path / "none.json"}, "none.json"},
@@ -115,6 +122,7 @@ TEST(FrontierCommand, RefusesWhatItCannotDoInOneLineThatNamesIt) {
       {{"no-such-scene"}, "no-such-scene"},
       {{"merge"}, "merge"},
       {{"merge", folder.path / "nothing"}, "nothing"},
+      {{"merge", folder.path / "empty"}, "no point was measured"},
   };
   for (const auto& c : cases) {
     const ProgramRun run = run_program(std::vector<std::string>{"frontier", "-o", out} + c.arguments);

@@ -16,16 +16,16 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-// In FOLDER/NAME, with one record, which is of the shard's view.
+// In FOLDER/NAME, with a record a view of one point.
 struct PartFolders {
   TempFolder root;
   Told told;
 
   std::filesystem::path folder(const std::string& name) const { return root.path / name; }
-  void write(const std::string& name, const FrontierPart& part, bool finished = true) const {
+  void write(const std::string& name, const FrontierPart& part, bool finished = true, int views = 1) const {
     std::filesystem::create_directories(folder(name));
     RecordFile file(part_path(folder(name), part.shard, part.shards), part, nullptr);
-    file.append(some_record(8, part.shard));
+    for (int view = 0; view < views; ++view) file.append(some_record(8 + part.shard, view));
     if (finished) file.finish(0);
   }
   std::vector<FrontierPart> read(const std::vector<std::string>& names) {
@@ -50,7 +50,7 @@ TEST(FrontierParts, AreReadInTheOrderOfShards) {
     EXPECT_EQ(parts[shard].shard, shard);
     EXPECT_EQ(parts[shard].machine.shard, shard);
     ASSERT_EQ(parts[shard].records.size(), 1u);
-    EXPECT_EQ(parts[shard].records[0].view, shard);
+    EXPECT_EQ(parts[shard].records[0].point.settings.at("tile"), std::to_string(8 + shard));
     EXPECT_EQ(parts[shard].records[0].shard, shard);
   }
   EXPECT_THAT(folders.told.lines, IsEmpty());
@@ -64,6 +64,17 @@ TEST(FrontierParts, MayBeMissingOrUnfinishedAndThatIsTold) {
   EXPECT_THAT(folders.told.lines,
               ElementsAre("missing of 20 shards: 0, 1, 2, 4, 5, 6, 8, 9, 10, 11 and 8 more",
                           "not finished of 20 shards: 7"));
+}
+
+TEST(FrontierParts, OfDifferentViewsAreTold) {
+  PartFolders folders;
+  folders.write("a", some_part(0, 3), true, 4);
+  folders.write("a", some_part(1, 3), true, 2);
+  folders.write("a", some_part(2, 3), true, 4);
+  folders.read({"a"});
+  EXPECT_THAT(
+      folders.told.lines,
+      ElementsAre(EndsWith(": 2 views in shard 1, 4 in shard 0: points of different views are compared")));
 }
 
 TEST(FrontierParts, AreOfOneSweep) {
