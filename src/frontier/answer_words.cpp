@@ -17,8 +17,11 @@ constexpr double same_picture = 1e-5;
 
 using Points = std::vector<PointFigures>;
 
+// Below six runs there is no interval: median_interval.
 std::string ratio_in_words(const MedianInterval& ratio) {
-  return fmt::format("{} times (95 % interval {} to {})", three_digits(ratio.median), three_digits(ratio.low),
+  const std::string what =
+      ratio.runs < 6 ? fmt::format("{} run{}", ratio.runs, ratio.runs == 1 ? "" : "s") : "95 % interval";
+  return fmt::format("{} times ({} {} to {})", three_digits(ratio.median), what, three_digits(ratio.low),
                      three_digits(ratio.high));
 }
 

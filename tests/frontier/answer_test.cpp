@@ -281,6 +281,11 @@ TEST(Answer, SaysWhatTheFiguresSay) {
   EXPECT_EQ(answer.sentences[5], "In hall 3 of 18 points failed: 1 refused, 1 with lost lights, 1 with NaN.");
   EXPECT_THAT(answer.sentences[6], HasSubstr("In terrain the fastest point"));
   EXPECT_THAT(answer_from({}).sentences, IsEmpty());
+  const auto short_run = [](const char* technique, double ratio) {
+    return synthetic_record(synthetic_point("hall", technique), ratio, 0, 0, 4);
+  };
+  EXPECT_THAT(answer_from({short_run("forward_plus", 1), short_run("visibility", 0.5)}).sentences[0],
+              HasSubstr("is visibility: it takes 0.501 times (4 runs 0.496 to 0.505) as long."));
   const FrontierAnswer one = answer_from({synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0)});
   EXPECT_THAT(one.sentences, ElementsAre(HasSubstr("In hall no point that computes the same picture"),
                                          HasSubstr("0.0001 %")));

@@ -11,7 +11,9 @@ function threeDigits(value) {
   return value.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 }
 
-const intervalInWords = ({ median, low, high }, unit) => `${threeDigits(median)}${unit} (${threeDigits(low)} to ${threeDigits(high)})`;
+// Below six runs there is no interval: the range of the runs, with their number.
+const intervalInWords = ({ median, low, high, runs }, unit) =>
+  `${threeDigits(median)}${unit} (${threeDigits(low)} to ${threeDigits(high)}${runs < 6 ? `, ${runs} run${runs === 1 ? "" : "s"}` : ""})`;
 
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
