@@ -32,7 +32,7 @@ struct FrontierCommand {
   DeviceOptions devices;
   std::string output = "out/frontier", json, gate, shard = "0/1";
   std::vector<std::string> techniques, vary;
-  int views = 8, rounds = 40, budget = 14, page_mb = 30;
+  int views = 8, rounds = 40, budget = 14, page_mb = 12;
   bool no_growth = false;
 };
 

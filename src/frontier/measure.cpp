@@ -22,8 +22,10 @@
 namespace lightgrid {
 namespace {
 
-// Shares of the scene's time, as far as it is limited: errors first, then times, then the series.
-constexpr double share_of_errors = 0.4, share_of_growth = 0.12;
+// The share of the scene's time that the series take, as far as it is limited.
+constexpr double share_of_growth = 0.12;
+// Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file and its FLIP.
+constexpr double as_brute_force = 1e-6;
 
 struct Measured {
   PointRun run;
@@ -95,27 +97,51 @@ class SceneSweep {
     if (!measured_.empty()) baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool);
   }
 
-  // As many views as the share of time allows, but one.
+  // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
+  bool fits(double more, int rounds, int views) const {
+    const double until = job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0);
+    return seconds() + more + expected_round_s_ * (rounds + 1) * views <= until;
+  }
+
+  // As many points as the time allows on one view, then as many views.
   void measure_errors() {
-    const double until = share_of_errors * job_.seconds;
+    baseline_->draw();
+    const double baseline_s = baseline_->draw() / 1000;
     for (int view = 0; view < int(views_.size()); ++view) {
       const double before = seconds();
-      if (view > 0 && before + last_view_s_ > until) break;
+      if (view > 0 && !fits(last_view_s_, job_.least_rounds, view + 1)) break;
       with_opengl_.look(views_[view]);
       with_opencl_.look(views_[view]);
       const bool own = std::ranges::any_of(measured_, [](const Measured& m) { return has_own_surfaces(m.run.point()); });
       precision_.measure(views_[view], with_opengl_, own ? &with_opencl_ : nullptr);
       if (view == 0) make_flip();
       for (Measured& m : measured_) {
-        const double done = seconds() / job_.seconds;
-        tell(done, fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
+        tell(seconds() / job_.seconds, fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
         m.records.push_back(errors_of(m, view));
+        if (view > 0) continue;
+        expected_round_s_ += 0.5 * baseline_s + seconds_of_passes(m.records.front());
+        if (!fits(0, 1, 1)) break;
       }
+      if (view == 0) leave_out_unmeasured();
       last_view_s_ = seconds() - before;
       used_views_ = view + 1;
     }
     if (used_views_ < int(views_.size()) && job_.notice)
       job_.notice(fmt::format("{}: {} of {} views, for the time there is", choice_.scene, used_views_, views_.size()));
+  }
+
+  // Of a picture with all its frames.
+  static double seconds_of_passes(const FrontierRecord& record) {
+    double ms = 0;
+    for (const auto& [name, pass_ms] : record.pass_ms) ms += pass_ms;
+    return ms * record.point.frames / 1000;
+  }
+
+  void leave_out_unmeasured() {
+    const size_t all = measured_.size();
+    std::erase_if(measured_, [](const Measured& m) { return m.records.empty(); });
+    if (measured_.size() < all && job_.notice)
+      job_.notice(fmt::format("{}: {} of {} points, for the time there is", choice_.scene, measured_.size(), all));
   }
 
   // Where a median pixel is black, HDR-FLIP has no exposures.
@@ -151,12 +177,6 @@ class SceneSweep {
     record.errors.total = error_figures(image, brute.truth(), brightest);
     record.errors.precision = has_own_surfaces(point) ? precision_.of_own_surfaces() : precision_.of_opengl();
     record.nan_pixels = count_nan_pixels(image);
-    if (view == 0) {
-      const auto& flip = has_own_surfaces(point) ? flip_own_ : flip_;
-      const PictureFiles::Written written = pictures_.write(choice_.scene, image, brute.truth(), flip ? &*flip : nullptr);
-      record.image = written.name;
-      record.errors.total.flip_mean = written.flip_mean;
-    }
     if (point.frames > 1) {
       const double relative = brightest > 0 ? m.run.deviation() / brightest : 0;
       record.errors.deviation_rmse_rel = relative;
@@ -167,19 +187,27 @@ class SceneSweep {
     const Image& meant = brute.picture(point.contestant.settings);
     record.errors.technique = error_figures(m.run.run().image(), meant, brightest);
     if (point.frames == 1) record.errors.model = error_figures(meant, brute.truth(), brightest);
+    if (view == 0) show(record, point.frames == 1 && record.errors.technique.max_rel <= as_brute_force ? meant : image, brute);
     TechniqueRun& run = m.run.run();
     const std::vector<float> depth = read_depth(run);
     record.covered_pixels = uint64_t(std::ranges::count_if(depth, [](float d) { return d > 0; }));
     const LitPairs pairs = count_listed_pairs(run, depth);
     record.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
     if (run.technique().limited_lists) record.overflow = pairs.lost;
-    if (view == 0) run.run_profiled_frames(300);
+    if (view == 0) run.run_profiled_frames(100);
     const RunResult result = run.result();
     record.memory_bytes = result.memory_total;
     for (const PassResult& pass : result.passes) {
       record.pass_ms[pass.name] += pass.median_ms;
       record.bytes_moved += pass.bytes_read + pass.bytes_written;
     }
+  }
+
+  void show(FrontierRecord& record, const Image& image, BruteForce& brute) {
+    const auto& flip = &brute == &with_opencl_ ? flip_own_ : flip_;
+    const PictureFiles::Written written = pictures_.write(choice_.scene, image, brute.truth(), flip ? &*flip : nullptr);
+    record.image = written.name;
+    record.errors.total.flip_mean = written.flip_mean;
   }
 
   // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round. A point
@@ -189,7 +217,7 @@ class SceneSweep {
     double longest_round = 0;
     for (int round = 0; round <= job_.most_rounds; ++round) {
       const double before = seconds();
-      if (round >= 3 && before + longest_round > until) break;
+      if (round >= 2 && before + longest_round > until) break;
       if (round > job_.least_rounds && is_certain()) break;
       for (int view = 0; view < used_views_; ++view) time_view(round, view);
       if (round == 0) {
@@ -269,7 +297,7 @@ class SceneSweep {
   std::vector<Measured> measured_;
   std::optional<PointRun> baseline_;
   std::optional<HdrFlip> flip_, flip_own_;
-  double last_view_s_ = 0;
+  double last_view_s_ = 0, expected_round_s_ = 0;  // of a round over one view
   int used_views_ = 0;
 };
 
