@@ -48,6 +48,9 @@ void main() {
 #endif
     vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
     ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
+#ifdef CLEARCOAT
+    p = with_coat(p, s.coat_normal, s.coat, s.coat_roughness);
+#endif
 #ifndef ADDED
     color = base_lighting(s, p);
 #endif

@@ -2,6 +2,7 @@
 // add.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
 //   BASE_LIGHTING: there is an image to write
+//   COATS: there is an image of coats
 #include "shaders/common/surface.glsl"
 #include "shaders/common/gbuffer.glsl"
 
@@ -20,8 +21,20 @@ vec3 light_of(Surface s) {
 #endif
   vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
   vec3 to_viewer = direction_to_viewer(position);
-  return base_lighting(s, shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness));
+  ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
+#ifdef CLEARCOAT
+  p = with_coat(p, s.coat_normal, s.coat, s.coat_roughness);
+#endif
+  return base_lighting(s, p);
 }
+#endif
+
+#ifdef COATS
+#ifdef BASE_LIGHTING
+layout(location = 3) out vec4 coat;
+#else
+layout(location = 2) out vec4 coat;
+#endif
 #endif
 
 void main() {
@@ -32,6 +45,13 @@ void main() {
   GBufferTexels texels = gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit));
   normal_roughness_metallic = texels.normal_roughness_metallic;
   base_color_lit = texels.base_color_lit;
+#ifdef COATS
+#ifdef CLEARCOAT
+  coat = coat_texel(Coat(s.coat_normal, s.coat_roughness, s.coat), s.normal);
+#else
+  coat = vec4(0.0);
+#endif
+#endif
 #ifdef BASE_LIGHTING
   radiance = vec4(light_of(s), 1.0);
 #endif

@@ -1,15 +1,25 @@
 // Surfaces as light passes read them from the geometry buffer, in 32-bit float, for comparison with
 // surfaces.frag.
-//   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
+//   GBUFFER_8, GBUFFER_16, CLEARCOAT: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 
 layout(location = 0) out vec4 normal_roughness;
 layout(location = 1) out vec4 base_color_metallic;
 layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit; emissive is in the image, not here
 
+#ifdef CLEARCOAT
+layout(location = 3) out vec4 coat_normal_roughness;
+layout(location = 4) out vec4 coat_factor;
+#endif
+
 void main() {
   LitSurface s = surface_of_pixel(ivec2(gl_FragCoord.xy));
   normal_roughness = vec4(s.normal, s.roughness);
   base_color_metallic = vec4(s.base_color, s.metallic);
   emissive_occlusion = vec4(vec3(0.0), s.lit ? 1.0 : -1.0);
+#ifdef CLEARCOAT
+  Coat coat = coat_of_pixel(ivec2(gl_FragCoord.xy), s.normal);
+  coat_normal_roughness = vec4(coat.normal, coat.roughness);
+  coat_factor = vec4(coat.factor, vec3(0.0));
+#endif
 }

@@ -4,9 +4,13 @@
 
 #include "shaders/common/vertex_position.glsl"
 
+#if defined(NORMAL_MAP) || defined(CLEARCOAT_NORMAL_MAP)
+#define TANGENTS
+#endif
+
 layout(location = 1) in vec3 normal;
 out vec3 normal_view;
-#ifdef NORMAL_MAP
+#ifdef TANGENTS
 layout(location = 2) in vec4 tangent;
 out vec4 tangent_view;
 #endif
@@ -24,14 +28,14 @@ out vec4 fragment_color;
 #endif
 
 uniform mat3 normal_from_object;
-#ifdef NORMAL_MAP
+#ifdef TANGENTS
 uniform mat3 view_from_object;
 #endif
 
 void main() {
   gl_Position = clip_position();
   normal_view = normal_from_object * normal;
-#ifdef NORMAL_MAP
+#ifdef TANGENTS
   // A tangent transforms as a direction, not as a normal. A mirroring matrix inverts the cross product that
   // gives the bitangent.
   tangent_view = vec4(view_from_object * tangent.xyz, tangent.w * sign(determinant(view_from_object)));

@@ -5,10 +5,23 @@
 layout(location = 0) out vec4 normal_roughness;
 layout(location = 1) out vec4 base_color_metallic;
 layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit
+#ifdef COATS  // some material in view has a coat
+layout(location = 3) out vec4 coat_normal_roughness;
+layout(location = 4) out vec4 coat_factor;  // red; 0: none
+#endif
 
 void main() {
   Surface s = surface_here();
   normal_roughness = vec4(s.normal, s.roughness);
   base_color_metallic = vec4(s.base_color, s.metallic);
   emissive_occlusion = vec4(s.emissive, s.unlit ? -1.0 : s.occlusion);
+#ifdef COATS
+#ifdef CLEARCOAT
+  coat_normal_roughness = vec4(s.coat_normal, s.coat_roughness);
+  coat_factor = vec4(s.unlit ? 0.0 : s.coat, vec3(0.0));
+#else
+  coat_normal_roughness = vec4(0.0);
+  coat_factor = vec4(0.0);
+#endif
+#endif
 }

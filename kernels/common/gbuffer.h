@@ -1,5 +1,6 @@
 // The surface of LANES pixels, read from the geometry buffer (src/passes/common/gbuffer.h).
 //
+// -DCLEARCOAT    with a third image, of coats
 // -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
 #pragma once
 
@@ -69,3 +70,18 @@ static inline ShadingPoint point_of_texels(Real3 position, Real3 to_viewer, Texe
 #endif
   return shading_point(position, to_viewer, normal, color, metallic, roughness);
 }
+
+#ifdef CLEARCOAT
+// As coat_of_texel of shaders/common/gbuffer.glsl.
+static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
+#if BUFFER_BITS == 32
+  const Real3 own = normal_of_octahedral(coat.x, coat.y);
+  const mask_t as_base = coat.w < REAL(0.0f);
+  const Real3 normal = real3(as_base ? p.normal.x : own.x, as_base ? p.normal.y : own.y, as_base ? p.normal.z : own.z);
+  return with_coat(p, normal, fabs(coat.w), coat.z);
+#else
+  const Real3 normal = normal_of_octahedral(OF_NORMAL(coat.x), OF_NORMAL(coat.y));
+  return with_coat(p, normal, OF_ONE(coat.w), OF_ONE(coat.z));
+#endif
+}
+#endif

@@ -2,8 +2,8 @@
 // material at a time. Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading"
 // (JCGT 2013).
 //
-// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP  some surface of the scene has these; without, their code
-// is not there
+// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT  some surface of the scene has
+// these; without, their code is not there
 #pragma once
 
 #include "kernels/common/surface_attributes.h"
@@ -113,6 +113,13 @@ typedef struct Surface {
   Real3 mapped;  // in tangent space, scaled
   mask_t has_map;
 #endif
+#ifdef CLEARCOAT
+  real coat, coat_roughness;
+#ifdef NORMAL_MAP
+  Real3 coat_mapped;
+  mask_t has_coat_map;
+#endif
+#endif
 } Surface;
 
 #ifdef TEXTURED
@@ -120,6 +127,10 @@ typedef struct Surface {
 typedef struct MapTexels {
   Real3 base_color, normal, emissive;
   real alpha, roughness, metallic, occlusion;
+#ifdef CLEARCOAT
+  real coat, coat_roughness;
+  Real3 coat_normal;
+#endif
 } MapTexels;
 
 // One copy of the filter serves all maps that are not packed, since each of 16 unrolled lanes takes its time
@@ -127,17 +138,23 @@ typedef struct MapTexels {
 static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s, global const SurfaceMaterial* m) {
   const real one = 1.0f;
   MapTexels t = {real3(one, one, one), real3(one, one, one), real3(one, one, one), one, one, one, one};
+#ifdef CLEARCOAT
+  t.coat = one, t.coat_roughness = one, t.coat_normal = real3(one, one, one);
+#endif
 #ifdef UV1
 #define PLACE_IN(map) ((map)->flags & MAP_UV1 ? a->uv1 : a->uv0)
 #else
 #define PLACE_IN(map) (a->uv0)
 #endif
   uint maps = m->flags & ((1u << SURFACE_MAPS) - 1u);
+#ifndef CLEARCOAT
+  maps &= (1u << SURFACE_COAT) - 1u;
+#endif
   if (m->flags & SURFACE_PACKED) {
     const Texels8 p = filtered_8(s->texels_8, m->maps, PLACE_IN(m->maps));
     t.base_color = real3(p.c[0], p.c[1], p.c[2]), t.normal = real3(p.c[3], p.c[4], p.c[5]);
     t.roughness = p.c[6], t.metallic = p.c[7];
-    maps &= 1u << SURFACE_OCCLUSION | 1u << SURFACE_EMISSIVE;
+    maps &= ~(1u << SURFACE_BASE_COLOR | 1u << SURFACE_METALLIC_ROUGHNESS | 1u << SURFACE_NORMAL);
   }
 #pragma unroll 1
   for (; maps != 0; maps &= maps - 1) {
@@ -150,8 +167,20 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s, 
     if (i == SURFACE_NORMAL) t.normal = color;
     if (i == SURFACE_OCCLUSION) t.occlusion = p.c[0];
     if (i == SURFACE_EMISSIVE) t.emissive = color;
+#ifdef CLEARCOAT
+    if (i == SURFACE_COAT) t.coat = p.c[0];
+    if (i == SURFACE_COAT_ROUGHNESS) t.coat_roughness = p.c[1];
+    if (i == SURFACE_COAT_NORMAL) t.coat_normal = color;
+#endif
   }
   return t;
+}
+#endif
+
+#ifdef NORMAL_MAP
+// A texel of a normal map as a direction in tangent space.
+static inline Real3 mapped_normal(Real3 texel, real scale) {
+  return real3((texel.x * 2.0f - 1.0f) * scale, (texel.y * 2.0f - 1.0f) * scale, texel.z * 2.0f - 1.0f);
 }
 #endif
 
@@ -170,11 +199,21 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   roughness *= t.roughness, metallic *= t.metallic;
   occlusion = 1.0f + m->occlusion_strength * (t.occlusion - 1.0f);
 #ifdef NORMAL_MAP
-  const real scale = m->normal_scale;
-  KEEP3(surface->mapped, real3((t.normal.x * 2.0f - 1.0f) * scale, (t.normal.y * 2.0f - 1.0f) * scale,
-                               t.normal.z * 2.0f - 1.0f));
+  KEEP3(surface->mapped, mapped_normal(t.normal, REAL(m->normal_scale)));
   KEEP(surface->has_map, (mask_t)(m->flags & 1u << SURFACE_NORMAL ? -1 : 0));
 #endif
+#endif
+#ifdef CLEARCOAT
+  real coat = m->coat, coat_roughness = m->coat_roughness;
+#ifdef TEXTURED
+  coat *= t.coat, coat_roughness *= t.coat_roughness;
+#ifdef NORMAL_MAP
+  KEEP3(surface->coat_mapped, mapped_normal(t.coat_normal, REAL(m->coat_normal_scale)));
+  KEEP(surface->has_coat_map, (mask_t)(m->flags & 1u << SURFACE_COAT_NORMAL ? -1 : 0));
+#endif
+#endif
+  KEEP(surface->coat, coat);
+  KEEP(surface->coat_roughness, coat_roughness);
 #endif
 #ifdef VERTEX_COLOR
   color = real3(color.x * a->red, color.y * a->green, color.z * a->blue);
@@ -189,20 +228,38 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   KEEP(surface->unlit, (mask_t)(m->flags & SURFACE_UNLIT ? -1 : 0));
 }
 
-// As shading_normal of shaders/common/surface.glsl.
-static inline Real3 shading_normal(const Attributes* a, const Surface* s) {
-  Real3 n = scale3(a->normal, inverse_sqrt_real(dot3(a->normal, a->normal)));
+// As bent_normal of shaders/common/surface.glsl, in the lanes that have a map.
 #ifdef NORMAL_MAP
+static inline Real3 bent_normal(const Attributes* a, Real3 n, Real3 mapped, mask_t has_map) {
   const real along = dot3(n, a->tangent);
   Real3 t = real3(a->tangent.x - n.x * along, a->tangent.y - n.y * along, a->tangent.z - n.z * along);
   const real length_squared = dot3(t, t);
   t = scale3(t, inverse_sqrt_real(max_real(length_squared, REAL(1e-12f))));
   const Real3 b = scale3(cross3(n, t), a->handedness);
-  const Real3 bent = add3(add3(scale3(t, s->mapped.x), scale3(b, s->mapped.y)), scale3(n, s->mapped.z));
+  const Real3 bent = add3(add3(scale3(t, mapped.x), scale3(b, mapped.y)), scale3(n, mapped.z));
   const real inverse = inverse_sqrt_real(dot3(bent, bent));
   const mask_t here =
-      s->has_map & (length_squared > REAL(1e-12f));  // without a tangent the geometric normal stands
+      has_map & (length_squared > REAL(1e-12f));  // without a tangent the geometric normal stands
   KEEP3(n, scale3(bent, inverse));
+  return n;
+}
+#endif
+
+static inline Real3 shading_normal(const Attributes* a, const Surface* s) {
+  Real3 n = scale3(a->normal, inverse_sqrt_real(dot3(a->normal, a->normal)));
+#ifdef NORMAL_MAP
+  n = bent_normal(a, n, s->mapped, s->has_map);
 #endif
   return scale3(n, a->side);
 }
+
+#ifdef CLEARCOAT
+// KHR_materials_clearcoat: the base's normal map does not bend the coat.
+static inline Real3 coat_normal(const Attributes* a, const Surface* s) {
+  Real3 n = scale3(a->normal, inverse_sqrt_real(dot3(a->normal, a->normal)));
+#ifdef NORMAL_MAP
+  n = bent_normal(a, n, s->coat_mapped, s->has_coat_map);
+#endif
+  return scale3(n, a->side);
+}
+#endif

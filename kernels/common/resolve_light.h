@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
-// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT  as kernels/common/shade_pixels.h says
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT  as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"
@@ -77,7 +77,7 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
                               constant ViewParams* view) {
   const Real3 ambient =
       reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
-  Real3 sum = add3(s->emissive, scale3(ambient, s->occlusion));
+  Real3 sum = add3(UNDER_COAT(*p, s->emissive), scale3(ambient, s->occlusion));
 #ifdef DIRECTIONAL
   for (uint i = 0; i < view->directional_count; ++i) {
     const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
@@ -92,8 +92,11 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
 static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real y, real depth, mask_t lit,
                              const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
   const Real3 position = position_of_pixel(x, y, lit ? depth : REAL(1.0f), view);
-  const ShadingPoint p = shading_point(position, direction_to_viewer(position), shading_normal(a, s),
-                                       s->base_color, s->metallic, s->roughness);
+  ShadingPoint p = shading_point(position, direction_to_viewer(position), shading_normal(a, s), s->base_color,
+                                 s->metallic, s->roughness);
+#ifdef CLEARCOAT
+  p = with_coat(p, coat_normal(a, s), s->coat, s->coat_roughness);
+#endif
   Real3 sum = own_light(&p, s, l, view);
 #ifdef SLICES
   sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);

@@ -6,6 +6,7 @@
 // -DSPOTS     some light has a cone
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 // -DLAMBERT   there is none: shared/brdf_lambert.h
+// -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
 #pragma once
 
 #include "kernels/common/gbuffer.h"
@@ -73,7 +74,11 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   const PunctualLight light = light_at(lights, index);
   if (!any_lane(lit & in_range(p->position, light))) return sum;
   const Arrival arrival = arrival_at(p->position, light);
-  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(p->normal, arrival.to_light) > REAL(0.0f));
+  mask_t facing = dot3(p->normal, arrival.to_light) > REAL(0.0f);
+#ifdef CLEARCOAT
+  facing |= dot3(p->coat_normal, arrival.to_light) > REAL(0.0f);
+#endif
+  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   return any_lane(lit & reached) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
 }
 

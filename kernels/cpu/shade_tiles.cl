@@ -1,14 +1,14 @@
 // Point and spot lights added to the image of every tile from its light list, for CPUs: a work-item takes a tile, 16 pixels
 // at once. The light pass of Lauritzen, "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
 //
-// first, second  geometry buffer, and depth: row 0 at the bottom (kernels/common/gbuffer.h)
+// first, second, coats  geometry buffer (coats: with -DCLEARCOAT alone), and depth: row 0 at the bottom (kernels/common/gbuffer.h)
 // positions, colors, cones  of lights (shared/punctual_light.h)
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with -DZ_BINS alone
 // image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show without these lights, which are added
 // background      of pixels without a surface; without -DBASE_LIGHTING alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
-// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DORTHOGRAPHIC  as the headers say
+// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DORTHOGRAPHIC  as the headers say
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16
@@ -55,7 +55,8 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
   for (uint i = 0; i < 4 * count; ++i) image[i] = light[i];
 }
 
-kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const float* depth,
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const channel_t* coats,
+                        global const float* depth,
                         global const float4* positions, global const float4* colors, global const float4* cones,
                         global const uint2* cells, global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
@@ -81,7 +82,10 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
       const real px = (real)((float)x + pixel_offsets(), (float)x2 + pixel_offsets());
       const real py = (real)((float8)((float)y + 0.5f), (float8)((float)y2 + 0.5f));
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
-      const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+      ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+#ifdef CLEARCOAT
+      p = coated_point(p, load_texels(coats + 4 * at, coats + 4 * at2));
+#endif
       const PixelBins bins = bins_of_pixels(depths, lit, bin_edges);
       const Real3 sum = light_sum(&p, lit, indices + range.x, range.y, bins, &lights, view);
       const real r = lit ? sum.x : REAL(background.x), g = lit ? sum.y : REAL(background.y);

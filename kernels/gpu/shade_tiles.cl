@@ -4,7 +4,8 @@
 #include "kernels/common/shade_pixels.h"
 #include "shared/light_grid.h"
 
-kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const float* depth,
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const channel_t* coats,
+                        global const float* depth,
                         global const float4* positions, global const float4* colors, global const float4* cones,
                         global const uint2* cells, global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
@@ -19,7 +20,10 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
   if (lit) {
     const Lights lights = {positions, colors, cones, light_bins};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
-    const ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+    ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+#ifdef CLEARCOAT
+    p = coated_point(p, load_texel(coats + 4 * at));
+#endif
     sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
   }
 #ifdef BASE_LIGHTING

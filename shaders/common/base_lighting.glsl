@@ -7,7 +7,7 @@
 vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
   // Precise: otherwise fused multiply-adds could make the rounding depend on the rest of the program.
-  precise vec3 own = s.emissive + ambient * AMBIENT_REFLECTANCE(p) * s.occlusion;
+  precise vec3 own = UNDER_COAT(p, s.emissive) + ambient * AMBIENT_REFLECTANCE(p) * s.occlusion;
   vec3 color = own;
 #ifdef DIRECTIONAL
   color += directional_light_sum(p);

@@ -4,6 +4,9 @@
 //                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
 //   32 bits        first   normal (3), perceptual roughness
 //                  second  base color (3), 1 + metallic; negative for unlit surfaces, 0 where nothing is
+//   With coats in view, a third image:
+//   CLEARCOAT      coat    octahedral normal (2), perceptual roughness, factor; in 32 bits a factor below 0: its normal is
+//                          that of the first image
 // In 32 bits the normal is stored directly: the two roundings of an octahedral one are visible in lobes of polished
 // surfaces.
 
@@ -28,6 +31,11 @@ struct LitSurface {
   bool lit;
 };
 
+struct Coat {
+  vec3 normal;  // view space, unit
+  float roughness, factor;
+};
+
 vec2 signs(vec2 v) { return vec2(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0); }
 
 // The inverse: shared/octahedral.h.
@@ -36,7 +44,16 @@ vec2 octahedral(vec3 n) {
   return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;
 }
 
+// base: the normal of the surface itself.
 #ifndef NORMAL_STEPS
+vec4 coat_texel(Coat c, vec3 base) {
+  return vec4(octahedral(c.normal), c.roughness, c.normal == base ? -c.factor : c.factor);
+}
+
+Coat coat_of_texel(vec4 t, vec3 base) {
+  return Coat(t.w < 0.0 ? base : normal_of_octahedral(t.x, t.y), t.z, abs(t.w));
+}
+
 GBufferTexels gbuffer_texels(LitSurface s) {
   return GBufferTexels(vec4(s.normal, s.roughness), vec4(s.base_color, (s.lit ? 1.0 : -1.0) * (1.0 + s.metallic)));
 }
@@ -46,11 +63,23 @@ LitSurface lit_surface(GBufferTexels t) {
                     t.normal_roughness_metallic.w, t.base_color_lit.a > 0.5);
 }
 #else
+// Rounded here: drivers differ in their conversion to fixed point.
+vec2 stored_normal(vec3 normal) {
+  return floor(octahedral(normal) * NORMAL_STEPS + (NORMAL_STEPS + 1.5)) / (2.0 * NORMAL_STEPS + 1.0);
+}
+
+vec3 normal_of_stored(vec2 stored) {
+  vec2 normal = (stored * (2.0 * NORMAL_STEPS + 1.0) - (NORMAL_STEPS + 1.0)) / NORMAL_STEPS;
+  return normal_of_octahedral(normal.x, normal.y);
+}
+
+vec4 coat_texel(Coat c, vec3 base) { return vec4(stored_normal(c.normal), c.roughness, c.factor); }
+
+Coat coat_of_texel(vec4 t, vec3 base) { return Coat(normal_of_stored(t.xy), t.z, t.w); }
+
 GBufferTexels gbuffer_texels(LitSurface s) {
-  vec2 normal = octahedral(s.normal);
+  vec2 normal = stored_normal(s.normal);
   vec3 color = s.base_color;
-  // Rounded here: drivers differ in their conversion to fixed point.
-  normal = floor(normal * NORMAL_STEPS + (NORMAL_STEPS + 1.5)) / (2.0 * NORMAL_STEPS + 1.0);
 #ifdef GBUFFER_8
   color = sqrt(color);  // distributes the 256 steps perceptually
 #endif
@@ -58,13 +87,11 @@ GBufferTexels gbuffer_texels(LitSurface s) {
 }
 
 LitSurface lit_surface(GBufferTexels t) {
-  vec2 normal = t.normal_roughness_metallic.xy;
   vec3 color = t.base_color_lit.rgb;
-  normal = (normal * (2.0 * NORMAL_STEPS + 1.0) - (NORMAL_STEPS + 1.0)) / NORMAL_STEPS;
 #ifdef GBUFFER_8
   color *= color;
 #endif
-  return LitSurface(normal_of_octahedral(normal.x, normal.y), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
+  return LitSurface(normal_of_stored(t.normal_roughness_metallic.xy), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
                     t.base_color_lit.a > 0.5);
 }
 #endif

@@ -2,7 +2,7 @@
 // define. A program made for exactly the effects of its materials needs no tests; one with every effect on
 // (EVERYTHING_ON) tests each material's flags and gives the same bits.
 //   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP,
-//   EMISSIVE_MAP, MASK, UNLIT
+//   EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP, CLEARCOAT_NORMAL_MAP
 
 #include "shared/material_params.h"
 
@@ -36,9 +36,18 @@ layout(binding = 3) uniform sampler2D occlusion_map;
 #ifdef EMISSIVE_MAP
 layout(binding = 4) uniform sampler2D emissive_map;
 #endif
+#ifdef CLEARCOAT_MAP
+layout(binding = 5) uniform sampler2D clearcoat_map;
+#endif
+#ifdef CLEARCOAT_ROUGHNESS_MAP
+layout(binding = 6) uniform sampler2D clearcoat_roughness_map;
+#endif
+#ifdef CLEARCOAT_NORMAL_MAP
+layout(binding = 7) uniform sampler2D clearcoat_normal_map;
+#endif
 
 #ifdef TEXTURED
-// slot: index of the material's texture, 0 to 4.
+// slot: index of the material's texture, 0 to 7.
 vec2 uv_of(uint slot) {
   vec2 uv = fragment_uv0;
 #ifdef UV1

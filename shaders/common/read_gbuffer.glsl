@@ -5,8 +5,16 @@
 layout(binding = 0) uniform sampler2D gbuffer_normal_roughness_metallic;
 layout(binding = 1) uniform sampler2D gbuffer_base_color_lit;
 layout(binding = 2) uniform sampler2D depth_image;
+#ifdef CLEARCOAT
+layout(binding = 3) uniform sampler2D gbuffer_coat;
+#endif
 
 LitSurface surface_of_pixel(ivec2 pixel) {
   return lit_surface(GBufferTexels(texelFetch(gbuffer_normal_roughness_metallic, pixel, 0),
                                    texelFetch(gbuffer_base_color_lit, pixel, 0)));
 }
+
+#ifdef CLEARCOAT
+// base: the normal of surface_of_pixel.
+Coat coat_of_pixel(ivec2 pixel, vec3 base) { return coat_of_texel(texelFetch(gbuffer_coat, pixel, 0), base); }
+#endif

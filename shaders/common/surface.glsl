@@ -3,7 +3,8 @@
 #include "shaders/common/material.glsl"
 
 in vec3 normal_view;
-#ifdef NORMAL_MAP
+#if defined(NORMAL_MAP) || defined(CLEARCOAT_NORMAL_MAP)
+#define TANGENTS
 in vec4 tangent_view;
 #endif
 
@@ -16,25 +17,57 @@ struct Surface {
   vec3 emissive;
   float occlusion;  // 1: open
   bool unlit;
+#ifdef CLEARCOAT
+  vec3 coat_normal;  // as normal
+  float coat, coat_roughness;
+#endif
 };
+
+// Back faces are visible only with double-sided materials.
+float side_seen() { return gl_FrontFacing ? 1.0 : -1.0; }
+
+#ifdef TANGENTS
+// n, unit, bent by a texel of a normal map.
+vec3 bent_normal(vec3 n, vec3 texel, float scale) {
+  vec3 mapped = texel * 2.0 - 1.0;
+  mapped.xy *= scale;
+  vec3 t = tangent_view.xyz - n * dot(n, tangent_view.xyz);
+  float length_squared = dot(t, t);
+  t *= inversesqrt(max(length_squared, 1e-12));
+  vec3 b = cross(n, t) * tangent_view.w;
+  // Without a tangent the geometric normal is used.
+  return length_squared > 1e-12 ? normalize(mapped.x * t + mapped.y * b + mapped.z * n) : n;
+}
+#endif
 
 vec3 shading_normal() {
   vec3 n = normalize(normal_view);
-  float side = gl_FrontFacing ? 1.0 : -1.0;  // back faces are visible only with double-sided materials
 #ifdef NORMAL_MAP
-  if (has(MATERIAL_NORMAL_MAP)) {
-    vec3 mapped = texture(normal_map, uv_of(2u)).xyz * 2.0 - 1.0;
-    mapped.xy *= material.normal_scale;
-    vec3 t = tangent_view.xyz - n * dot(n, tangent_view.xyz);
-    float length_squared = dot(t, t);
-    t *= inversesqrt(max(length_squared, 1e-12));
-    vec3 b = cross(n, t) * tangent_view.w;
-    // Without a tangent the geometric normal is used.
-    n = length_squared > 1e-12 ? normalize(mapped.x * t + mapped.y * b + mapped.z * n) : n;
+  if (has(MATERIAL_NORMAL_MAP)) n = bent_normal(n, texture(normal_map, uv_of(2u)).xyz, material.normal_scale);
+#endif
+  return n * side_seen();
+}
+
+#ifdef CLEARCOAT
+// KHR_materials_clearcoat: the base's normal map does not bend the coat.
+void add_coat(inout Surface s) {
+  vec3 n = normalize(normal_view);
+  s.coat = has(MATERIAL_CLEARCOAT) ? material.clearcoat : 0.0;
+  s.coat_roughness = material.clearcoat_roughness;
+#ifdef CLEARCOAT_MAP
+  if (has(MATERIAL_CLEARCOAT_MAP)) s.coat *= texture(clearcoat_map, uv_of(5u)).r;
+#endif
+#ifdef CLEARCOAT_ROUGHNESS_MAP
+  if (has(MATERIAL_CLEARCOAT_ROUGHNESS_MAP)) s.coat_roughness *= texture(clearcoat_roughness_map, uv_of(6u)).g;
+#endif
+#ifdef CLEARCOAT_NORMAL_MAP
+  if (has(MATERIAL_CLEARCOAT_NORMAL_MAP)) {
+    n = bent_normal(n, texture(clearcoat_normal_map, uv_of(7u)).xyz, material.clearcoat_normal_scale);
   }
 #endif
-  return n * side;
+  s.coat_normal = n * side_seen();
 }
+#endif
 
 Surface surface_here() {
   Surface s;
@@ -64,6 +97,9 @@ Surface surface_here() {
   s.unlit = false;
 #ifdef UNLIT
   s.unlit = has(MATERIAL_UNLIT);
+#endif
+#ifdef CLEARCOAT
+  add_coat(s);
 #endif
   return s;
 }

@@ -58,6 +58,10 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   surface.emissive = s.emissive_occlusion.pixels[pixel];
   surface.occlusion = s.emissive_occlusion.pixels[pixel].w;
   surface.unlit = surface.occlusion < 0;
+  if (s.coat_factor.pixels.empty() || s.coat_factor.pixels[pixel].r == 0) return surface;
+  surface.coat = s.coat_factor.pixels[pixel].r;
+  surface.coat_roughness = s.coat_normal_roughness.pixels[pixel].w;
+  surface.coat_normal = glm::normalize(glm::dvec3(s.coat_normal_roughness.pixels[pixel]));
   return surface;
 }
 

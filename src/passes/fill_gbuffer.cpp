@@ -9,7 +9,7 @@ namespace {
 
 // Bytes a pixel, besides depth.
 size_t written_bytes(const GBuffer& gbuffer) {
-  return gbuffer.layout->bytes() + (gbuffer.base_lighting == BaseLighting::in_image ? 16 : 0);
+  return gbuffer.bytes() + (gbuffer.base_lighting == BaseLighting::in_image ? 16 : 0);
 }
 
 void clear(RenderView& v, const GBuffer& gbuffer) {
@@ -17,6 +17,7 @@ void clear(RenderView& v, const GBuffer& gbuffer) {
   const float nothing[4] = {0, 0, 0, 0};
   if (gbuffer.base_lighting == BaseLighting::in_image) glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
   for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
+  if (gbuffer.coats) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.coats_attachment(), nothing);
 }
 
 void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfaces) {
@@ -28,6 +29,7 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
   LightSource source = base_lighting(v);
   if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
   if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
+  if (gbuffer.coats) source.defines.emplace_back("COATS");
   source.bind(v);
   draw_list(v, surfaces, DrawStreams::all, v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));
 }

@@ -69,11 +69,13 @@ class Resolving : public PassState {
     std::string defines = light_defines(v, lanes);
     if (v.plan.directional) defines += " -DDIRECTIONAL";
     if (v.plan.light_grid && v.plan.slices > 1) defines += " -DSLICES";
-    const uint32_t features = v.plan.settings.everything_on ? feature_all : scene(v).features();
+    const uint32_t of_scene = v.plan.settings.everything_on ? feature_all : scene(v).features();
+    const uint32_t features = features_read(of_scene, v.plan.settings.brdf);
     for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
                                       {feature_uv1, " -DUV1"},
                                       {feature_vertex_color, " -DVERTEX_COLOR"},
-                                      {feature_normal_map, " -DNORMAL_MAP"}}) {
+                                      {feature_normal_map | feature_clearcoat_normal_map, " -DNORMAL_MAP"},
+                                      {feature_clearcoat, " -DCLEARCOAT"}}) {
       if (features & bit) defines += define;
     }
     return defines;

@@ -30,7 +30,7 @@ class VolumeDraws {
         volumes_(v.state<LightVolumes>()) {
     std::vector<std::string> defines = base_lighting(v).defines;
     if (v.plan.spots) defines.emplace_back("SPOTS");
-    if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
+    for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
     if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
     if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
     if (output) defines.emplace_back(output);
@@ -181,7 +181,7 @@ void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
   VolumeDraws(v, gbuffer, nullptr).draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
   const size_t pixels = size_t(v.view.width) * v.view.height;
-  pass.moves(pixels * (4 + 16 + gbuffer.layout->bytes()), pixels * 16);
+  pass.moves(pixels * (4 + 16 + gbuffer.bytes()), pixels * 16);
 }
 
 ListedLights listed_of_light_volumes(RenderView& v) {

@@ -19,14 +19,16 @@ class TileShading : public PassState {
       : lanes(shades_in_lanes(v)),
         surfaces{v.shared_pixels("gbuffer 0", layout(v).images[0].bytes),
                  v.shared_pixels("gbuffer 1", layout(v).images[1].bytes)},
+        coats(v.plan.clearcoat ? &v.shared_pixels("gbuffer 2", layout(v).images[2].bytes) : nullptr),
         image(v.shared_pixels("image", 16)),
-        defines_(light_defines(v, lanes)) {
+        defines_(defines_of_view(v)) {
     lights.upload(v);
   }
 
   // Another camera at the same size, or moved lights; kernels are rebuilt only if the plan changed.
   bool follow(RenderView& v) override {
-    std::string defines = light_defines(v, lanes);
+    std::string defines = defines_of_view(v);
+    coats = v.plan.clearcoat ? &v.shared_pixels("gbuffer 2", layout(v).images[2].bytes) : nullptr;
     if (defines != defines_) {
       defines_ = std::move(defines);
       for (cl::Kernel& kernel : kernels_) kernel = cl::Kernel();
@@ -49,11 +51,15 @@ class TileShading : public PassState {
 
   const bool lanes;
   const std::array<std::reference_wrapper<SharedBuffer>, 2> surfaces;  // of the view's targets
+  SharedBuffer* coats;  // null: no opaque surface has one
   SharedBuffer& image;
   ClLights lights;
 
  private:
   static const GBufferLayout& layout(RenderView& v) { return *gbuffer_of(v).layout; }
+  std::string defines_of_view(RenderView& v) const {
+    return light_defines(v, lanes) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
+  }
 
   std::string defines_;    // of the view and its plan
   cl::Kernel kernels_[2];  // by holds_base_lighting
@@ -73,9 +79,11 @@ void gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer, TileShading& shading) 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
   for (int i = 0; i < 2; ++i) copy_attachment(v, i, gbuffer.layout->images[i].type, shading.surfaces[i]);
   if (base_lighting) copy_attachment(v, 2, GL_FLOAT, shading.image);
+  if (gbuffer.coats) copy_attachment(v, gbuffer.coats_attachment(), gbuffer.layout->images[2].type, *shading.coats);
   for (int i = 0; i < 2; ++i) shading.surfaces[i].get().hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
   if (base_lighting) shading.image.hand_to_cl(pixels * 16);
-  const size_t bytes = pixels * (gbuffer.layout->bytes() + (base_lighting ? 16 : 0));
+  if (gbuffer.coats) shading.coats->hand_to_cl(pixels * gbuffer.layout->images[2].bytes);
+  const size_t bytes = pixels * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
 }
 
@@ -101,11 +109,12 @@ void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const Dept
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), s.surfaces[0].get().cl_buffer(), s.surfaces[1].get().cl_buffer(),
+         s.coats ? s.coats->cl_buffer() : cl::Buffer(),
          depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
          v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(), s.image.cl_buffer(),
          cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());
   const size_t pixels = v.pixels();
-  const size_t surface_bytes = gbuffer.layout->bytes() + 4 + (base_lighting ? 16 : 0);
+  const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
 }
 

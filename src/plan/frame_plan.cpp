@@ -27,6 +27,10 @@ constexpr FeatureName feature_names[] = {
     {feature_emissive_map, "EMISSIVE_MAP", "emissive maps"},
     {feature_mask, "MASK", "alpha masks"},
     {feature_unlit, "UNLIT", "unlit materials"},
+    {feature_clearcoat, "CLEARCOAT", "clearcoat"},
+    {feature_clearcoat_map, "CLEARCOAT_MAP", "clearcoat maps"},
+    {feature_clearcoat_roughness_map, "CLEARCOAT_ROUGHNESS_MAP", "clearcoat roughness maps"},
+    {feature_clearcoat_normal_map, "CLEARCOAT_NORMAL_MAP", "clearcoat normal maps"},
 };
 
 std::string instance_witness(const Scene& scene, int instance) {
@@ -64,7 +68,9 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
   const Frustum frustum = frustum_of(view);
   const auto planned = [&](int i, const glm::dmat4& to_view) {
     if (instances == PlannedInstances::in_view) return may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds);
-    return instances == PlannedInstances::every || is_plain(scene, i);
+    const bool coated = material_features(scene, scene.meshes[scene.instances[i].mesh]) & feature_clearcoat;
+    if (coated && (instances == PlannedInstances::plain || instances == PlannedInstances::uncoated)) return false;
+    return instances == PlannedInstances::every || instances == PlannedInstances::uncoated || is_plain(scene, i);
   };
   plan.features_of_instance.assign(scene.instances.size(), 0);
   int first_with[std::size(feature_names)];
@@ -74,7 +80,7 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     const glm::dmat4 to_view = view_from_object(view, scene.instances[i].world_from_object);
     if (mesh.indices.empty() || !planned(i, to_view)) continue;
-    const uint32_t features = material_features(scene, mesh);
+    const uint32_t features = features_read(material_features(scene, mesh), plan.settings.brdf);
     plan.features_of_instance[i] = features;
     plan.features |= features;
     for (size_t f = 0; f < std::size(feature_names); ++f) {
@@ -85,6 +91,7 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
       blended.emplace_back((to_view * glm::dvec4(center, 1)).z, i);
     } else {
       plan.opaque.push_back(i);
+      plan.clearcoat = plan.clearcoat || (features & feature_clearcoat);
     }
   }
   std::stable_sort(blended.begin(), blended.end(), [](auto& a, auto& b) { return a.first < b.first; });
@@ -94,8 +101,11 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
   plan.decisions.push_back({"blend", plan.blend, plan.blend ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
                                                             : "no blended material in view"});
   for (size_t f = 0; f < std::size(feature_names); ++f) {
+    const bool left_out = features_read(feature_names[f].bit, plan.settings.brdf) == 0;
     plan.decisions.push_back({feature_names[f].effect, first_with[f] >= 0,
-                              first_with[f] >= 0 ? instance_witness(scene, first_with[f]) : "no material in view has any"});
+                              first_with[f] >= 0 ? instance_witness(scene, first_with[f])
+                              : left_out         ? "brdf=lambert has no lobes"
+                                                 : "no material in view has any"});
   }
 }
 
@@ -162,9 +172,10 @@ void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = reads_light_grid(needs, plan.settings);
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
   plan.index_bits = 32;
-  plan.features = feature_all;
-  for (int i : plan.opaque) plan.features_of_instance[i] = feature_all;
-  for (int i : plan.blended) plan.features_of_instance[i] = feature_all;
+  plan.features = features_read(feature_all, plan.settings.brdf);
+  plan.clearcoat = plan.features & feature_clearcoat;
+  for (int i : plan.opaque) plan.features_of_instance[i] = plan.features;
+  for (int i : plan.blended) plan.features_of_instance[i] = plan.features;
 }
 
 }  // namespace
@@ -175,6 +186,12 @@ std::vector<std::string> defines_of(uint32_t features) {
     if (features & f.bit) defines.emplace_back(f.define);
   }
   return defines;
+}
+
+uint32_t features_read(uint32_t features, Brdf brdf) {
+  constexpr uint32_t coat =
+      feature_clearcoat | feature_clearcoat_map | feature_clearcoat_roughness_map | feature_clearcoat_normal_map;
+  return brdf == Brdf::lambert ? features & ~coat : features;
 }
 
 uint32_t material_features(const Scene& scene, const Mesh& mesh) {
@@ -194,6 +211,11 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   use(m.normal_map, feature_normal_map);
   use(m.occlusion_map, feature_occlusion_map);
   use(m.emissive_map, feature_emissive_map);
+  if (m.clearcoat == 0) return features;
+  features |= feature_clearcoat;
+  use(m.clearcoat_map, feature_clearcoat_map);
+  use(m.clearcoat_roughness_map, feature_clearcoat_roughness_map);
+  use(m.clearcoat_normal_map, feature_clearcoat_normal_map);
   return features;
 }
 

@@ -26,8 +26,15 @@ enum MaterialFeature : uint32_t {
   feature_emissive_map = 256,
   feature_mask = 512,
   feature_unlit = 1024,
-  feature_all = 2047,
+  feature_clearcoat = 2048,
+  feature_clearcoat_map = 4096,
+  feature_clearcoat_roughness_map = 8192,
+  feature_clearcoat_normal_map = 16384,
+  feature_all = 32767,
 };
+
+// Of the features those that shading with this BRDF reads: Lambert has no coat.
+uint32_t features_read(uint32_t features, Brdf brdf);
 
 std::vector<std::string> defines_of(uint32_t features);
 
@@ -69,6 +76,7 @@ struct FramePlan {
   bool blend_grid = false;     // a light grid for blended surfaces
   bool base_lighting = false;      // an opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
+  bool clearcoat = false;      // an opaque surface has a coat
   bool stencil = false;        // 8 bits beside depth
   bool reversed_triangles = false;
   int index_bits = 16;
@@ -85,8 +93,9 @@ struct FramePlan {
 };
 
 // The instances that a plan is for. The last two serve to build in advance what other views of the scene need
-// (RenderView::prepare): all instances, and those alone that are opaque, unmasked and show no base lighting.
-enum class PlannedInstances { in_view, every, plain };
+// (RenderView::prepare): all instances; those alone that are opaque, unmasked and show no base lighting (plain), with and
+// without those under a coat; and all without those under a coat.
+enum class PlannedInstances { in_view, every, plain, plain_or_coated, uncoated };
 
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
                      PlannedInstances instances = PlannedInstances::in_view);

@@ -50,6 +50,25 @@ double blinn_lobe(const dvec3& normal, const dvec3& half, double alpha) {
   return (exponent + 2) / (8 * std::numbers::pi) * std::pow(cosine, exponent);
 }
 
+double specular_of(const dvec3& normal, double perceptual_roughness, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
+  const dvec3 half = glm::normalize(to_eye + to_light);
+  const double roughness = std::max(perceptual_roughness, 0.045), alpha = roughness * roughness;
+  if (lobe == Brdf::blinn) return blinn_lobe(normal, half, alpha);
+  const double n_dot_v = std::max(glm::dot(normal, to_eye), 1e-4);
+  const double n_dot_l = std::clamp(glm::dot(normal, to_light), 0.0, 1.0);
+  return smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(normal, half, alpha);
+}
+
+// Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there, so the diffuse part
+// is 0.
+bool are_opposite(const dvec3& a, const dvec3& b) { return glm::dot(a + b, a + b) < 1e-8; }
+
+// The coat's share of the result: KHR_materials_clearcoat, fresnel_coat.
+double coat_share(const Surface& surface, const dvec3& to_eye, Brdf lobe) {
+  if (surface.coat == 0 || lobe == Brdf::lambert) return 0;
+  return surface.coat * fresnel(dielectric_f0, std::max(glm::dot(surface.coat_normal, to_eye), 1e-4));
+}
+
 dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3& to_eye,
                      const ViewLight& light, const ShadeSettings& settings) {
   const double arriving = attenuation(light, position, settings.window);
@@ -59,40 +78,44 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
     to_light = light.position - position;
     to_light /= std::max(length_of(to_light.x, to_light.y, to_light.z), std::numeric_limits<double>::min());
   }
-  const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
-  if (n_dot_l == 0) return dvec3(0);
-  return brdf(surface, to_eye, to_light, settings.brdf) * n_dot_l * light.radiant_intensity * arriving;
+  const dvec3 back = reflected(surface, to_eye, to_light, settings.brdf);
+  return back == dvec3(0) ? dvec3(0) : back * light.radiant_intensity * arriving;
 }
 
 }  // namespace
 
 dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
   if (lobe == Brdf::lambert) return surface.base_color / std::numbers::pi;
-  const dvec3 sum = to_eye + to_light;
-  // Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there, so the diffuse
-  // part is 0.
-  if (glm::dot(sum, sum) < 1e-8) return dvec3(0);
-  const dvec3 half = glm::normalize(sum);
-  const double roughness = std::max(surface.roughness, 0.045), alpha = roughness * roughness;
-  const double n_dot_v = std::max(glm::dot(surface.normal, to_eye), 1e-4);
-  const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
-  const double specular =
-      lobe == Brdf::blinn ? blinn_lobe(surface.normal, half, alpha)
-                          : smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(surface.normal, half, alpha);
+  if (are_opposite(to_eye, to_light)) return dvec3(0);
+  const double specular = specular_of(surface.normal, surface.roughness, to_eye, to_light, lobe);
   // The form of the specification: a mix of two materials.
-  const double v_dot_h = glm::dot(to_eye, half);
+  const double v_dot_h = glm::dot(to_eye, glm::normalize(to_eye + to_light));
   const dvec3 diffuse = surface.base_color * std::numbers::inv_pi;
   const dvec3 dielectric = glm::mix(diffuse, dvec3(specular), fresnel(dielectric_f0, v_dot_h));
   const dvec3 metal = fresnel(surface.base_color, v_dot_h) * specular;
   return glm::mix(dielectric, metal, surface.metallic);
 }
 
+dvec3 reflected(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
+  const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
+  const dvec3 base = n_dot_l == 0 ? dvec3(0) : brdf(surface, to_eye, to_light, lobe) * n_dot_l;
+  const double share = coat_share(surface, to_eye, lobe);
+  if (share == 0) return base;
+  const double coat_n_dot_l = std::clamp(glm::dot(surface.coat_normal, to_light), 0.0, 1.0);
+  const bool dark = coat_n_dot_l == 0 || are_opposite(to_eye, to_light);
+  const double coat =
+      dark ? 0 : specular_of(surface.coat_normal, surface.coat_roughness, to_eye, to_light, lobe) * coat_n_dot_l;
+  return glm::mix(base, dvec3(coat), share);
+}
+
 dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
             const std::vector<ViewLight>& lights, const ShadeSettings& settings) {
   if (surface.unlit) return surface.base_color;
   const dvec3 to_eye = orthographic ? dvec3(0, 0, 1) : glm::normalize(-position);
-  dvec3 radiance = settings.ambient * ambient_reflectance(surface, settings.brdf) * surface.occlusion;
-  radiance += surface.emissive;
+  // The coat reflects ambient light as the base's lobes do, whole, and lies over what the surface emits.
+  const dvec3 ambient = settings.ambient * surface.occlusion;
+  dvec3 radiance = ambient * ambient_reflectance(surface, settings.brdf);
+  radiance = glm::mix(radiance + surface.emissive, ambient, coat_share(surface, to_eye, settings.brdf));
   for (const ViewLight& light : lights) {
     radiance += light_radiance(surface, position, to_eye, light, settings);
   }

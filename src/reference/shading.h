@@ -1,5 +1,5 @@
 // The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B), with GGX or Blinn-Phong, or Lambert alone,
-// under KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL follows too.
+// and a coat over it (KHR_materials_clearcoat), under KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL follows too.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,15 @@ struct Surface {
   double metallic = 0, roughness = 1;  // perceptual roughness; floored at 0.045
   double occlusion = 1;
   bool unlit = false;  // base_color is the result
+  double coat = 0, coat_roughness = 0;  // factor, 0: no coat; perceptual roughness, floored likewise
+  glm::dvec3 coat_normal{0, 0, 1};      // as normal
 };
 
-// Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr.
+// Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr. Without the coat.
 glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light, Brdf lobe = Brdf::ggx);
+
+// The same times the cosine at the surface, with the coat, whose cosine is that of its own normal.
+glm::dvec3 reflected(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light, Brdf lobe = Brdf::ggx);
 
 struct ShadeSettings {
   Brdf brdf = Brdf::ggx;

@@ -14,16 +14,22 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint32_t map_features[5] = {feature_base_color_map, feature_metallic_roughness_map,
-                                      feature_normal_map, feature_occlusion_map, feature_emissive_map};
-constexpr uint32_t map_flags[5] = {MATERIAL_BASE_COLOR_MAP, MATERIAL_METALLIC_ROUGHNESS_MAP,
-                                   MATERIAL_NORMAL_MAP, MATERIAL_OCCLUSION_MAP, MATERIAL_EMISSIVE_MAP};
+// By texture unit.
+struct MaterialMap {
+  uint32_t feature, flag;
+  TextureSlot Material::*slot;
+};
 
-const TextureSlot* slot_of(const Material& m, int slot) {
-  const TextureSlot* slots[5] = {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map,
-                                 &m.occlusion_map, &m.emissive_map};
-  return slots[slot];
-}
+constexpr MaterialMap material_maps[MATERIAL_MAPS] = {
+    {feature_base_color_map, MATERIAL_BASE_COLOR_MAP, &Material::base_color_map},
+    {feature_metallic_roughness_map, MATERIAL_METALLIC_ROUGHNESS_MAP, &Material::metallic_roughness_map},
+    {feature_normal_map, MATERIAL_NORMAL_MAP, &Material::normal_map},
+    {feature_occlusion_map, MATERIAL_OCCLUSION_MAP, &Material::occlusion_map},
+    {feature_emissive_map, MATERIAL_EMISSIVE_MAP, &Material::emissive_map},
+    {feature_clearcoat_map, MATERIAL_CLEARCOAT_MAP, &Material::clearcoat_map},
+    {feature_clearcoat_roughness_map, MATERIAL_CLEARCOAT_ROUGHNESS_MAP, &Material::clearcoat_roughness_map},
+    {feature_clearcoat_normal_map, MATERIAL_CLEARCOAT_NORMAL_MAP, &Material::clearcoat_normal_map},
+};
 
 MaterialParams material_params(const Material& m) {
   MaterialParams p{};
@@ -32,12 +38,15 @@ MaterialParams material_params(const Material& m) {
   p.metallic = m.metallic, p.roughness = m.roughness;
   p.normal_scale = m.normal_scale, p.occlusion_strength = m.occlusion_strength;
   p.alpha_cutoff = m.alpha_cutoff;
+  p.clearcoat = m.clearcoat, p.clearcoat_roughness = m.clearcoat_roughness;
+  p.clearcoat_normal_scale = m.clearcoat_normal_scale;
+  if (m.clearcoat > 0) p.flags |= MATERIAL_CLEARCOAT;
   if (m.alpha_mode == AlphaMode::mask) p.flags |= MATERIAL_MASK;
   if (m.unlit) p.flags |= MATERIAL_UNLIT;
-  for (int i = 0; i < 5; ++i) {
-    const TextureSlot& slot = *slot_of(m, i);
+  for (int i = 0; i < MATERIAL_MAPS; ++i) {
+    const TextureSlot& slot = m.*material_maps[i].slot;
     if (slot.texture < 0) continue;
-    p.flags |= map_flags[i];
+    p.flags |= material_maps[i].flag;
     if (slot.uv_set == 1) p.flags |= MATERIAL_UV1_FIRST << i;
     if (slot.transformed()) p.flags |= MATERIAL_UV_TRANSFORM_FIRST << i;
     const glm::mat3x2& uv = slot.uv_from_vertex;
@@ -158,7 +167,7 @@ void GlScene::upload_meshes(const std::vector<bool>& used) {
   };
   stream(0, &Mesh::positions, glm::vec3(0), true);
   stream(1, &Mesh::normals, glm::vec3(0, 0, 1), true);
-  stream(2, &Mesh::tangents, glm::vec4(0), features & feature_normal_map);
+  stream(2, &Mesh::tangents, glm::vec4(0), features & (feature_normal_map | feature_clearcoat_normal_map));
   stream(3, &Mesh::uv0, glm::vec2(0), features & feature_textured);
   stream(4, &Mesh::uv1, glm::vec2(0), features & feature_uv1);
   stream(5, &Mesh::colors, glm::vec4(-1), features & feature_vertex_color);
@@ -222,7 +231,7 @@ void GlScene::upload_materials(const std::vector<bool>& used_meshes) {
   for (size_t i = 0; i < scene_.materials.size(); ++i) {
     const MaterialParams params = material_params(scene_.materials[i]);
     std::memcpy(bytes.data() + i * material_stride_, &params, sizeof params);
-    for (int s = 0; s < 5; ++s) slots_[i].texture[s] = slot_of(scene_.materials[i], s)->texture;
+    for (int s = 0; s < MATERIAL_MAPS; ++s) slots_[i].texture[s] = (scene_.materials[i].*material_maps[s].slot).texture;
   }
   materials_ = make_buffer(bytes.size(), bytes.data());
   textures_.resize(scene_.textures.size());
@@ -266,9 +275,9 @@ void GlScene::upload_texture(int index) {
 void GlScene::bind_material(int material, uint32_t features) const {
   glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), GLintptr(material * material_stride_),
                     sizeof(MaterialParams));
-  for (int s = 0; s < 5; ++s) {
+  for (int s = 0; s < MATERIAL_MAPS; ++s) {
     const int texture = slots_[material].texture[s];
-    if (!(features & map_features[s]) || texture < 0 || !textures_[texture]) continue;
+    if (!(features & material_maps[s].feature) || texture < 0 || !textures_[texture]) continue;
     glBindTextureUnit(s, textures_[texture].name());
     glBindSampler(s, samplers_[texture].name());
   }

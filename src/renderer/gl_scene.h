@@ -77,7 +77,7 @@ class GlScene {
   GlVertexArray positions_only_, all_streams_;
   size_t material_stride_ = 0;
   struct Slots {
-    int texture[5];
+    int texture[MATERIAL_MAPS];
   };
   std::vector<Slots> slots_;  // texture index per map, -1: none
   std::vector<GlTexture> textures_;

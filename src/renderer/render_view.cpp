@@ -91,9 +91,15 @@ void RenderView::prepare(const std::function<void()>& draw) {
   const View here = view;
   preparing_ = true;
   try {
-    for (const PlannedInstances instances : {PlannedInstances::every, PlannedInstances::plain}) {
+    const auto draw_planned = [&](PlannedInstances instances) {
       look(here, instances);
       draw();
+    };
+    draw_planned(PlannedInstances::every);
+    const bool coats = plan.clearcoat;
+    draw_planned(PlannedInstances::plain);
+    for (const PlannedInstances instances : {PlannedInstances::plain_or_coated, PlannedInstances::uncoated}) {
+      if (coats) draw_planned(instances);
     }
   } catch (...) {
     preparing_ = false;

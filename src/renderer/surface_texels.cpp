@@ -14,7 +14,8 @@ namespace {
 constexpr int packable = 3;  // base colour, metallic-roughness, normal
 
 std::array<const TextureSlot*, SURFACE_MAPS> maps_of(const Material& m) {
-  return {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emissive_map};
+  return {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emissive_map,
+          &m.clearcoat_map, &m.clearcoat_roughness_map, &m.clearcoat_normal_map};
 }
 
 bool has_mips(const Texture& texture) {
@@ -47,7 +48,8 @@ class TexelWriter {
 
   void add_textures(const Material& m, SurfaceMaterial& record) {
     const auto maps = maps_of(m);
-    const int count = m.unlit ? 1 : SURFACE_MAPS;  // what lighting needs, an unlit surface does not
+    // What lighting needs, an unlit surface does not.
+    const int count = m.unlit ? 1 : m.clearcoat > 0 ? SURFACE_MAPS : SURFACE_COAT;
     const bool packed = !m.unlit && layout_ == TexelLayout::packed && can_pack(m);
     for (int i = 0; i < count; ++i) {
       if (maps[i]->texture < 0) continue;
@@ -171,6 +173,8 @@ SurfaceMaterial factors_of(const Material& m) {
   record.metallic = m.metallic, record.roughness = m.roughness;
   record.normal_scale = m.normal_scale, record.occlusion_strength = m.occlusion_strength;
   record.alpha_cutoff = m.alpha_cutoff;
+  record.coat = m.clearcoat, record.coat_roughness = m.clearcoat_roughness;
+  record.coat_normal_scale = m.clearcoat_normal_scale;
   if (m.unlit) record.flags |= SURFACE_UNLIT;
   if (m.double_sided) record.flags |= SURFACE_DOUBLE_SIDED;
   return record;

@@ -75,6 +75,9 @@ struct Material {
   glm::vec3 emissive{0};  // emissive factor times KHR_materials_emissive_strength
   float normal_scale = 1, occlusion_strength = 1;
   TextureSlot base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map;
+  // KHR_materials_clearcoat. A factor of 0: no coat, whatever its maps hold.
+  float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;
+  TextureSlot clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map;
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;

@@ -1,7 +1,7 @@
 // The BRDF of this program.
 //   LAMBERT: diffuse alone (shared/brdf_lambert.h). Without it, glTF 2.0's (shared/brdf_microfacet.h), with
 //   BLINN: Blinn-Phong in place of GGX.
-// Each has shading_point, AMBIENT_REFLECTANCE(p) and reflected.
+// Each has shading_point, AMBIENT_REFLECTANCE(p), UNDER_COAT(p, light) and reflected.
 #pragma once
 
 #include "shared/shading_point.h"

@@ -9,11 +9,11 @@ namespace lightgrid {
 #endif
 
 // The exponent.
-SHARED_FUNCTION real lobe_of(ShadingPoint p) { return 2.0f / p.alpha_squared - 2.0f; }
+SHARED_FUNCTION real viewer_term(Lobe l) { return 2.0f / l.alpha_squared - 2.0f; }
 
 // D V, 1 / sr. h is the unnormalised half vector; the others are |h|^2, n.h (a cosine times |h|) and sine^2
 // times |h|^2.
-SHARED_FUNCTION real specular_lobe(ShadingPoint p, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
+SHARED_FUNCTION real specular_lobe(Lobe l, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
   // log cos^2 = log(1 - sin^2). The rounding of 1 - sin^2 would grow to n / 2 roundings (exponents reach half
   // a million), so the lost part is added again (Kahan's log1p).
   real sine2 = min_real(across_squared / h_squared, REAL(1.0f));
@@ -21,7 +21,7 @@ SHARED_FUNCTION real specular_lobe(ShadingPoint p, real n_dot_l, real h_squared,
   EXACTLY real rounded = 1.0f - cosine2;
   real log_cosine2 = log_real(cosine2) * (sine2 / max_real(rounded, REAL(1e-30f)));
   log_cosine2 = rounded > REAL(0.0f) ? log_cosine2 : -sine2;
-  real lobe = (p.lobe + 2.0f) * (0.125f / SHADING_PI) * exp_real(0.5f * p.lobe * log_cosine2);
+  real lobe = (l.viewer + 2.0f) * (0.125f / SHADING_PI) * exp_real(0.5f * l.viewer * log_cosine2);
   return n_dot_h * n_dot_l > REAL(0.0f) ? lobe : REAL(0.0f);
 }
 

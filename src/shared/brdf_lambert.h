@@ -19,7 +19,8 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
   return p;
 }
 
-// A macro, as in brdf_microfacet.h.
+// Macros, as in brdf_microfacet.h.
+#define UNDER_COAT(p, light) (light)
 #define AMBIENT_REFLECTANCE(p) scale3((p).diffuse, REAL(SHADING_PI))
 
 // BRDF times the cosine at the surface. to_light is a unit vector.

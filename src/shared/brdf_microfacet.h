@@ -2,6 +2,7 @@
 // under a specular lobe with f0 = 0.04, the metal a specular lobe with f0 = base colour; both use Schlick's
 // Fresnel.
 //   BLINN: Blinn-Phong in place of GGX.
+//   CLEARCOAT: under a coat where with_coat adds one.
 #pragma once
 
 #include "shared/shading_point.h"
@@ -15,6 +16,17 @@
 namespace lightgrid {
 #endif
 
+// Of unit vectors and a perceptual roughness.
+SHARED_FUNCTION Lobe lobe_of(Real3 normal, Real3 to_viewer, real roughness) {
+  Lobe l;
+  real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));
+  l.alpha = perceptual * perceptual;
+  l.alpha_squared = l.alpha * l.alpha;
+  l.n_dot_v = max_real(dot3(normal, to_viewer), REAL(1e-4f));
+  l.viewer = viewer_term(l);
+  return l;
+}
+
 // to_viewer and normal are unit vectors; roughness is perceptual.
 SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color, real metallic,
                                            real roughness) {
@@ -26,27 +38,54 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
   real dielectric = DIELECTRIC_F0 * (1.0f - metallic);
   p.f0 = real3(dielectric + base_color.x * metallic, dielectric + base_color.y * metallic,
                dielectric + base_color.z * metallic);
-  real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));
-  p.alpha = perceptual * perceptual;
-  p.alpha_squared = p.alpha * p.alpha;
-  p.n_dot_v = max_real(dot3(normal, to_viewer), REAL(1e-4f));
-  p.lobe = lobe_of(p);
+  p.lobe = lobe_of(normal, to_viewer, roughness);
   return p;
 }
 
-// A macro, so that it takes part in what the caller declares precise.
-#define AMBIENT_REFLECTANCE(p) add3(scale3((p).diffuse, REAL(SHADING_PI / (1.0f - DIELECTRIC_F0))), (p).f0)
+#ifdef CLEARCOAT
+// The point under a coat of this factor (0: none) and perceptual roughness: KHR_materials_clearcoat, with
+// f0 = 0.04 and Fresnel's term of the viewer, the same for all lights. coat_normal is a unit vector.
+SHARED_FUNCTION ShadingPoint with_coat(ShadingPoint p, Real3 coat_normal, real coat, real roughness) {
+  ShadingPoint coated = p;
+  coated.coat_normal = coat_normal;
+  coated.coat_lobe = lobe_of(coat_normal, p.to_viewer, roughness);
+  real grazing = max_real(1.0f - coated.coat_lobe.n_dot_v, REAL(0.0f));
+  real grazing2 = grazing * grazing;
+  coated.coat = coat * mad_real(1.0f - DIELECTRIC_F0, grazing2 * grazing2 * grazing, DIELECTRIC_F0);
+  return coated;
+}
+#endif
+
+// Reflection of constant radiance from all sides; what is left of light that the surface emits. Macros, so
+// that they take part in what the caller declares precise.
+#define BASE_REFLECTANCE(p) add3(scale3((p).diffuse, REAL(SHADING_PI / (1.0f - DIELECTRIC_F0))), (p).f0)
+#ifdef CLEARCOAT
+#define UNDER_COAT(p, light) scale3(light, 1.0f - (p).coat)
+#define AMBIENT_REFLECTANCE(p) add3(UNDER_COAT(p, BASE_REFLECTANCE(p)), real3((p).coat, (p).coat, (p).coat))
+#else
+#define UNDER_COAT(p, light) (light)
+#define AMBIENT_REFLECTANCE(p) BASE_REFLECTANCE(p)
+#endif
+
+// D V about a normal. h is the unnormalised half vector.
+SHARED_FUNCTION real lobe_about(Real3 normal, Lobe l, real n_dot_l, Real3 h, real h_squared) {
+  // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
+  Real3 across = cross3(normal, h);
+  return specular_lobe(l, n_dot_l, h_squared, max_real(dot3(normal, h), REAL(0.0f)), dot3(across, across));
+}
+
+SHARED_FUNCTION real cosine_of(Real3 normal, Real3 to_light) {
+  return min_real(max_real(dot3(normal, to_light), REAL(0.0f)), REAL(1.0f));
+}
 
 // BRDF times the cosine at the surface. to_light is a unit vector.
 SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
-  real n_dot_l = min_real(max_real(dot3(p.normal, to_light), REAL(0.0f)), REAL(1.0f));
+  real n_dot_l = cosine_of(p.normal, to_light);
   // The half vector is not normalised: the formulas contain |h|^2 instead. It vanishes only where viewer and
   // light are on opposite sides of the surface, and there n_dot_l is 0.
   Real3 h = add3(to_light, p.to_viewer);
   real h_squared = max_real(dot3(h, h), REAL(1e-8f));
-  // sin^2 of the angle between normal and half vector as a cross product: 1 - cos^2 would cancel at the peak.
-  Real3 across = cross3(p.normal, h);
-  real specular = specular_lobe(p, n_dot_l, h_squared, max_real(dot3(p.normal, h), REAL(0.0f)), dot3(across, across));
+  real specular = lobe_about(p.normal, p.lobe, n_dot_l, h, h_squared);
   // v.h = |h| / 2 for unit vectors.
   real grazing = max_real(mad_real(-0.5f, sqrt_real(h_squared), 1.0f), REAL(0.0f));
   real grazing2 = grazing * grazing;
@@ -56,9 +95,16 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   // 0.96 g) = 0.96 (1 - g); p.diffuse contains the 0.96. Both share the factor 1 - g.
   real facing = n_dot_l * (1.0f - grazing5);
   real rim = n_dot_l * grazing5 * specular;
-  return real3(mad_real(mad_real(p.f0.x, specular, p.diffuse.x), facing, rim),
-               mad_real(mad_real(p.f0.y, specular, p.diffuse.y), facing, rim),
-               mad_real(mad_real(p.f0.z, specular, p.diffuse.z), facing, rim));
+  Real3 base = real3(mad_real(mad_real(p.f0.x, specular, p.diffuse.x), facing, rim),
+                     mad_real(mad_real(p.f0.y, specular, p.diffuse.y), facing, rim),
+                     mad_real(mad_real(p.f0.z, specular, p.diffuse.z), facing, rim));
+#ifdef CLEARCOAT
+  // The coat's normal may face a light that the base's does not.
+  real coat_n_dot_l = cosine_of(p.coat_normal, to_light);
+  real coat = p.coat * coat_n_dot_l * lobe_about(p.coat_normal, p.coat_lobe, coat_n_dot_l, h, h_squared);
+  base = add3(UNDER_COAT(p, base), real3(coat, coat, coat));
+#endif
+  return base;
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

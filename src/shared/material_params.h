@@ -10,8 +10,13 @@
 #define MATERIAL_EMISSIVE_MAP 16u
 #define MATERIAL_MASK 32u
 #define MATERIAL_UNLIT 64u
+#define MATERIAL_CLEARCOAT 128u
 #define MATERIAL_UV1_FIRST 256u             // shifted by the slot: base colour 0, metallic-roughness 1, normal 2,
-#define MATERIAL_UV_TRANSFORM_FIRST 8192u   // occlusion 3, emissive 4
+#define MATERIAL_UV_TRANSFORM_FIRST 65536u  // occlusion 3, emissive 4, coat 5, its roughness 6, its normal 7
+#define MATERIAL_CLEARCOAT_MAP 16777216u
+#define MATERIAL_CLEARCOAT_ROUGHNESS_MAP 33554432u
+#define MATERIAL_CLEARCOAT_NORMAL_MAP 67108864u
+#define MATERIAL_MAPS 8
 
 #ifdef LIGHTGRID_GLSL
 layout(std140, binding = 1) uniform MaterialParamsBlock {
@@ -20,8 +25,9 @@ layout(std140, binding = 1) uniform MaterialParamsBlock {
   float metallic, roughness, normal_scale, occlusion_strength;
   float alpha_cutoff;
   uint flags;
-  vec4 uv_linear[5];  // column by column: u axis, v axis
-  vec4 uv_offset[5];
+  float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
+  vec4 uv_linear[MATERIAL_MAPS];  // column by column: u axis, v axis
+  vec4 uv_offset[MATERIAL_MAPS];
 } material;
 #elif !defined(__OPENCL_VERSION__)
 namespace lightgrid {
@@ -31,10 +37,11 @@ struct MaterialParams {
   float metallic, roughness, normal_scale, occlusion_strength;
   float alpha_cutoff;
   uint flags;
-  float padding[2];  // a vec4 starts at a multiple of 16 bytes
-  float uv_linear[5][4];
-  float uv_offset[5][4];
+  float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
+  float padding[3];  // a vec4 starts at a multiple of 16 bytes
+  float uv_linear[MATERIAL_MAPS][4];
+  float uv_offset[MATERIAL_MAPS][4];
 };
-static_assert(sizeof(MaterialParams) == 224);
+static_assert(sizeof(MaterialParams) == 336);
 }  // namespace lightgrid
 #endif

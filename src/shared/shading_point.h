@@ -1,6 +1,7 @@
 // The part of shading that all lights at a point share: the glTF 2.0 metallic-roughness material
 // (specification, appendix B) seen from one side. View space.
 //   LAMBERT: a diffuse surface, without what only specular lobes read.
+//   CLEARCOAT: a second lobe may lie over the first (KHR_materials_clearcoat).
 #pragma once
 
 #include "shared/real.h"
@@ -13,6 +14,13 @@ namespace lightgrid {
 #define DIELECTRIC_F0 0.04f  // reflectance at normal incidence for an index of refraction of 1.5
 #define ROUGHNESS_FLOOR 0.045f  // below it, float cannot represent the shape of GGX's peak
 
+// A specular lobe seen from one side.
+SHARED_STRUCT(Lobe) {
+  real alpha, alpha_squared;
+  real n_dot_v;
+  real viewer;  // its term of viewer and roughness (viewer_term)
+};
+
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal;
   Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
@@ -20,9 +28,12 @@ SHARED_STRUCT(ShadingPoint) {
 #ifndef LAMBERT
   Real3 to_viewer;
   Real3 f0;  // mix(0.04, base colour, metallic)
-  real alpha, alpha_squared;
-  real n_dot_v;
-  real lobe;  // the specular lobe's term of viewer and roughness (lobe_of)
+  Lobe lobe;
+#ifdef CLEARCOAT
+  Real3 coat_normal;
+  Lobe coat_lobe;
+  real coat;  // the coat's factor times its Fresnel term: the base gets the rest, 1 - coat
+#endif
 #endif
 };
 

@@ -12,12 +12,15 @@
 #define SURFACE_NORMAL 2
 #define SURFACE_OCCLUSION 3
 #define SURFACE_EMISSIVE 4
-#define SURFACE_MAPS 5
+#define SURFACE_COAT 5
+#define SURFACE_COAT_ROUGHNESS 6
+#define SURFACE_COAT_NORMAL 7
+#define SURFACE_MAPS 8
 
 // SurfaceMaterial::flags. A map that is there has the bit 1 << its number.
-#define SURFACE_PACKED 32u  // maps 0 to 2 are one chain of 16-byte texels, which maps[0] describes
-#define SURFACE_UNLIT 64u
-#define SURFACE_DOUBLE_SIDED 128u
+#define SURFACE_PACKED 256u  // maps 0 to 2 are one chain of 16-byte texels, which maps[0] describes
+#define SURFACE_UNLIT 512u
+#define SURFACE_DOUBLE_SIDED 1024u
 
 // SurfaceMap::flags.
 #define MAP_CLAMP_U 1u
@@ -65,7 +68,8 @@ typedef struct SurfaceMaterial {
   float metallic, roughness, normal_scale, occlusion_strength, alpha_cutoff;
   uint flags;
   uint alpha_base;  // of a masked base colour map: the first texel of its chain of alphas
-  uint spare[2];
+  float coat, coat_roughness, coat_normal_scale;  // KHR_materials_clearcoat
+  uint spare[3];
   SurfaceMap maps[SURFACE_MAPS];
 } SurfaceMaterial;
 

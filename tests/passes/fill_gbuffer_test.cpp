@@ -80,6 +80,34 @@ TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
   }
 }
 
+// Where a normal map bends the base but not its coat. Float stores the octahedral coordinates of the coat's normal, 24 bits
+// each.
+TEST(FillGbuffer, KeepsNormalsOfCoats) {
+  Scene scene = wall_of_all_normals(100);
+  scene.materials[0].clearcoat = 1;
+  for (const bool bent : {false, true}) {
+    if (bent) scene.materials[0].normal_map.texture = add_speckles(scene, false);
+    for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, bent ? 3e-5 : 0.0)}) {
+      const Surfaces s = surfaces_of(scene, wide_view(200, 200), bits);
+      double largest = 0, apart = 0;
+      for (size_t i = 0; i < s.drawn.coat_factor.pixels.size(); ++i) {
+        ASSERT_EQ(s.drawn.coat_factor.pixels[i].r, 1);
+        ASSERT_EQ(s.kept.coat_factor.pixels[i].r, 1);
+        const glm::vec4& drawn = s.drawn.coat_normal_roughness.pixels[i];
+        largest = std::max(largest, angle_deg(s.kept.coat_normal_roughness.pixels[i], drawn));
+        apart = std::max(apart, angle_deg(s.drawn.normal_roughness.pixels[i], drawn));
+      }
+      EXPECT_LE(largest, bound_deg) << bits;
+      EXPECT_GE(largest, 0.1 * bound_deg) << bits;
+      if (bent) {
+        EXPECT_GT(apart, 1);
+      } else {
+        EXPECT_EQ(apart, 0);
+      }
+    }
+  }
+}
+
 TEST(FillGbuffer, KeepsNormalsAlongAxesAsTheyAre) {
   SmallScene s = small_scene();
   s.scene.instances.pop_back();  // the wall alone
@@ -105,7 +133,7 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
        {std::tuple(8, 1.01f / 255, 0.51f / 255), std::tuple(16, 0.51f / 65535, 0.51f / 65535),
         std::tuple(32, 1e-6f, 1e-6f)}) {
     const Surfaces surfaces = surfaces_of(s.scene, wide_view(127, 73), bits);
-    int lit = 0, unlit = 0;
+    int lit = 0, unlit = 0, coated = 0;
     for (size_t i = 0; i < surfaces.drawn.normal_roughness.pixels.size(); ++i) {
       const glm::vec4 drawn = surfaces.drawn.base_color_metallic.pixels[i],
                       kept = surfaces.kept.base_color_metallic.pixels[i];
@@ -115,6 +143,12 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
       ASSERT_LE(
           std::abs(surfaces.kept.normal_roughness.pixels[i].a - surfaces.drawn.normal_roughness.pixels[i].a),
           bound);
+      ASSERT_LE(std::abs(surfaces.kept.coat_factor.pixels[i].r - surfaces.drawn.coat_factor.pixels[i].r), bound);
+      if (surfaces.drawn.coat_factor.pixels[i].r > 0) {
+        ASSERT_LE(std::abs(surfaces.kept.coat_normal_roughness.pixels[i].a - surfaces.drawn.coat_normal_roughness.pixels[i].a),
+                  bound);
+        ++coated;
+      }
       // Background is not reached by lights: as if unlit.
       const bool nothing = glm::vec3(surfaces.drawn.normal_roughness.pixels[i]) == glm::vec3(0);
       const bool is_unlit = surfaces.drawn.emissive_occlusion.pixels[i].a < 0;
@@ -123,6 +157,7 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
     }
     EXPECT_GT(lit, 100);
     EXPECT_GT(unlit, 100);
+    EXPECT_GT(coated, 100);
   }
 }
 
@@ -137,12 +172,15 @@ TEST(FillGbuffer, IsTheSameAfterADepthPrepass) {
 }
 
 TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
+  SmallScene coated = small_scene();
+  effect("clearcoat").add(coated);
   const Scene scene = small_scene().scene;
   for (const auto& [bits, bytes] : {std::pair(8, 8), std::pair(16, 16), std::pair(32, 32)}) {
     EXPECT_EQ(surfaces_of(scene, wide_view(17, 9), bits).gbuffer_bytes, size_t(17 * 9 * bytes));
     for (const GBufferLayout& layout : gbuffer_layouts) {
       if (layout.bits == bits) {
-        EXPECT_EQ(layout.bytes(), size_t(bytes));
+        EXPECT_EQ(layout.bytes(false), size_t(bytes));
+        EXPECT_EQ(surfaces_of(coated.scene, wide_view(17, 9), bits).gbuffer_bytes, size_t(17 * 9 * bytes * 3 / 2));
       }
     }
   }

@@ -71,6 +71,68 @@ TEST(Brdf, BlinnPhongByHand) {
               1e-14);
 }
 
+TEST(Coat, FromStraightAboveByHand) {
+  // N = V = L, both roughnesses 1: the base 0.97 / pi, the coat 1 / (4 pi), Fresnel 0.04.
+  const Surface coated{.coat = 1, .coat_roughness = 1};
+  expect_near(reflected(coated, {0, 0, 1}, {0, 0, 1}), dvec3((0.96 * 0.97 + 0.04 / 4) / pi), 1e-15);
+  // Half a coat, smoother: alpha 1/4, D = 16 / pi, V = 1/4.
+  const Surface half{.coat = 0.5, .coat_roughness = 0.5};
+  expect_near(reflected(half, {0, 0, 1}, {0, 0, 1}), dvec3((0.98 * 0.97 + 0.02 * 4) / pi), 1e-14);
+  EXPECT_EQ(reflected(half, {0, 0, 1}, {0, 0, 1}, Brdf::lambert), dvec3(1 / pi));
+}
+
+TEST(Coat, HasItsOwnNormalAndCosine) {
+  // The eye straight above the coat, 60 degrees off the base's normal; the light there too.
+  const dvec3 up(0, 0, 1), tilted(std::sqrt(0.75), 0, 0.5);
+  const Surface coated{.normal = tilted, .coat = 1, .coat_roughness = 1, .coat_normal = up};
+  const double base = brdf(coated, up, up).x * 0.5;
+  expect_near(reflected(coated, up, up), dvec3(0.96 * base + 0.04 / (4 * pi)), 1e-15);
+  // Seen at 60 degrees from the coat's normal: Fresnel 0.04 + 0.96 / 32 = 0.07. A light behind the base, in front of
+  // the coat: the coat alone, V + L at 30 degrees from both.
+  const dvec3 across(-std::sqrt(0.75), 0, 0.5);
+  const Surface behind{.normal = tilted, .coat = 1, .coat_roughness = 1, .coat_normal = up};
+  EXPECT_EQ(reflected({.normal = tilted}, tilted, across), dvec3(0));
+  // H = up: D = 1 / pi, V = 0.5 / (0.5 + 0.5) = 1/2; N.L = 1/2.
+  expect_near(reflected(behind, tilted, across), dvec3(0.07 / (4 * pi)), 1e-15);
+}
+
+TEST(Coat, ReflectsAmbientLightAndDarkensWhatIsEmitted) {
+  const Surface coated{.base_color = dvec3(0.5), .emissive = dvec3(3), .metallic = 0.5, .occlusion = 0.5, .coat = 0.5};
+  // Without it 0.52 * 0.1 * 0.5 + 3 (Shade.Ambient...); the coat's share is 0.02 of 0.1 * 0.5.
+  expect_near(shade(coated, {0, 0, -3}, false, {}, {.ambient = dvec3(0.1)}), dvec3(0.98 * 3.026 + 0.02 * 0.05), 1e-15);
+}
+
+TEST(Coat, GivesBackNoMoreThanArrives) {
+  for (double roughness : {0.2, 0.6, 1.0}) {
+    for (double eye_angle : {0.0, 0.6, 1.2, 1.5}) {
+      const dvec3 to_eye(std::sin(eye_angle), 0, std::cos(eye_angle));
+      const Surface coated{.metallic = 1, .roughness = 0.5, .coat = 1, .coat_roughness = roughness};
+      const int steps = 400;
+      double albedo = 0;
+      for (int i = 0; i < steps; ++i) {
+        for (int j = 0; j < steps; ++j) {
+          const double mu = (i + 0.5) / steps, turn = 2 * pi * (j + 0.5) / steps, s = std::sqrt(1 - mu * mu);
+          albedo += reflected(coated, to_eye, {s * std::cos(turn), s * std::sin(turn), mu}).x;
+        }
+      }
+      EXPECT_LT(albedo * 2 * pi / steps / steps, 1.001) << roughness << " " << eye_angle;
+    }
+  }
+}
+
+TEST(Coat, IsFiniteAtEveryEdge) {
+  for (double roughness : {0.0, 1.0}) {
+    for (const dvec3& coat_normal : {dvec3(0, 0, 1), dvec3(1, 0, 0), dvec3(0, 0, -1)}) {
+      for (const dvec3& to_eye : {dvec3(0, 0, 1), dvec3(1, 0, 0), dvec3(0.6, 0, -0.8), dvec3(0, 0, -1)}) {
+        for (const dvec3& to_light : {dvec3(0, 0, 1), dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(-0.6, 0, 0.8)}) {
+          const Surface coated{.coat = 1, .coat_roughness = roughness, .coat_normal = coat_normal};
+          EXPECT_TRUE(finite_and_not_negative(reflected(coated, to_eye, to_light)));
+        }
+      }
+    }
+  }
+}
+
 TEST(Brdf, LambertIsBaseColourOverPiWhateverTheRestOfTheMaterial) {
   for (const double metallic : {0.0, 0.3, 1.0}) {
     const Surface surface{.base_color = {1, 0.5, 0.25}, .metallic = metallic, .roughness = 1 - metallic};

@@ -1,5 +1,5 @@
 // The shading code of shaders and kernels, compiled as C++, against the reference in double. Included once with BLINN,
-// once with LAMBERT and once without either.
+// once with LAMBERT, once with CLEARCOAT and once without any.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,6 +29,11 @@ static double largest_error(Brdf lobe, double least_roughness) {
                     .metallic = uniform(random), .roughness = std::max(uniform(random), least_roughness)};
     const glm::dvec3 position{uniform(random), uniform(random), -2 - uniform(random)};
     if (glm::dot(surface.normal, -position) < 0) surface.normal = -surface.normal;
+#ifdef CLEARCOAT
+    surface.coat = i % 8 == 0 ? 0 : uniform(random), surface.coat_roughness = std::max(uniform(random), least_roughness);
+    surface.coat_normal = random_direction(random);
+    if (glm::dot(surface.coat_normal, -position) < 0) surface.coat_normal = -surface.coat_normal;
+#endif
     ViewLight light{.type = i % 2 ? LightType::spot : LightType::point, .position = position + random_direction(random),
                     .direction = random_direction(random), .radiant_intensity = glm::dvec3(3, 2, 1), .radius_m = 2,
                     .cos_inner = 0.9, .cos_outer = 0.1};
@@ -36,8 +41,11 @@ static double largest_error(Brdf lobe, double least_roughness) {
     const double scale = 1 / (light.cos_inner - light.cos_outer);
     const PunctualLight packed{glm::vec4(light.position, 0.25), glm::vec4(light.radiant_intensity, 0),
                                i % 2 ? glm::vec4(light.direction * scale, -light.cos_outer * scale) : glm::vec4(0, 0, 0, 1)};
-    const ShadingPoint p = shading_point(position, glm::normalize(-position), surface.normal, surface.base_color,
-                                         real(surface.metallic), real(surface.roughness));
+    ShadingPoint p = shading_point(position, glm::normalize(-position), surface.normal, surface.base_color,
+                                   real(surface.metallic), real(surface.roughness));
+#ifdef CLEARCOAT
+    p = with_coat(p, surface.coat_normal, real(surface.coat), real(surface.coat_roughness));
+#endif
     const glm::dvec3 got(radiance_from(p, packed)), want = shade(surface, position, false, {light}, {.brdf = lobe});
     for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(got[c] - want[c]) / (1 + want[c]));
   }

@@ -22,6 +22,7 @@ TEST(GltfExtension, the_supported_ones_may_be_required) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["extensionsRequired"] = {"KHR_lights_punctual",    "KHR_texture_transform",
                                      "KHR_materials_unlit",    "KHR_materials_emissive_strength",
+                                     "KHR_materials_clearcoat",
                                      "KHR_mesh_quantization",  "KHR_draco_mesh_compression",
                                      "EXT_meshopt_compression"};
   made.root["extensionsUsed"] = made.root["extensionsRequired"];

@@ -99,6 +99,34 @@ TEST(GltfMaterial, unlit_and_blend_are_read) {
   EXPECT_EQ(load_material({{"alphaMode", "BLEND"}}).alpha_mode, AlphaMode::blend);
 }
 
+TEST(GltfMaterial, a_clear_coat_is_read_with_its_maps) {
+  const json transform = {{"KHR_texture_transform", {{"scale", {2, 3}}, {"texCoord", 1}}}};
+  json coat = {{"clearcoatFactor", 0.5},
+               {"clearcoatRoughnessFactor", 0.25},
+               {"clearcoatTexture", {{"index", 0}, {"extensions", transform}}},
+               {"clearcoatRoughnessTexture", {{"index", 0}, {"texCoord", 1}}},
+               {"clearcoatNormalTexture", {{"index", 1}, {"scale", 0.75}}}};
+  const auto load = [&] { return with_material({{"extensions", {{"KHR_materials_clearcoat", coat}}}}).load(); };
+  const Scene scene = load();
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(material.clearcoat, 0.5f);
+  EXPECT_EQ(material.clearcoat_roughness, 0.25f);
+  EXPECT_EQ(material.clearcoat_normal_scale, 0.75f);
+  EXPECT_EQ(material.clearcoat_map.uv_set, 1);
+  EXPECT_EQ(material.clearcoat_map.uv_from_vertex[0].x, 2);
+  EXPECT_EQ(material.clearcoat_roughness_map.uv_set, 1);
+  EXPECT_FALSE(material.clearcoat_roughness_map.transformed());
+  EXPECT_EQ(material.clearcoat_map.texture, material.clearcoat_roughness_map.texture);
+  EXPECT_NE(material.clearcoat_normal_map.texture, material.clearcoat_map.texture);
+  EXPECT_FALSE(scene.textures[material.clearcoat_map.texture].srgb);
+  EXPECT_FALSE(scene.textures[material.clearcoat_normal_map.texture].srgb);
+  EXPECT_EQ(scene.meshes[0].tangents.size(), scene.meshes[0].positions.size()) << "of the coat's normal map";
+  coat.erase("clearcoatFactor");
+  const Scene none = load();
+  EXPECT_EQ(none.materials[0].clearcoat, 0);
+  EXPECT_TRUE(none.bitmaps.empty()) << "without a coat its maps are not decoded";
+}
+
 TEST(GltfMaterial, impossible_values_are_refused_by_name) {
   const std::pair<json, const char*> cases[] = {
       {{{"alphaMode", "GLASS"}}, "material 0: alphaMode is \"GLASS\""},
@@ -110,6 +138,13 @@ TEST(GltfMaterial, impossible_values_are_refused_by_name) {
       {{{"emissiveFactor", {1, 1, 1}},
         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}}},
        "emissiveStrength is -1"},
+      {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 2}}}}}}, "clearcoatFactor is 2, outside 0 to 1"},
+      {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", "much"}}}}}},
+       "material 0: clearcoatRoughnessFactor is not a finite number"},
+      {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 2}}}}}}}},
+       "material 0: clearcoatTexture: texture is 2, but there are 2"},
+      {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", 3}}}}}},
+       "material 0: clearcoatNormalTexture: is no texture with an index"},
       {{{"normalTexture", {{"index", 2}}}}, "material 0: normalTexture: texture is 2, but there are 2"},
       {{{"normalTexture", {{"scale", 1}}}}, "'index' property is missing"},
   };

@@ -158,20 +158,28 @@ class Surfaces {
     if (m.occlusion_map.texture >= 0)
       s.occlusion = 1 + m.occlusion_strength * (sampled(m.occlusion_map, hit, at).r - 1);
     if (m.emissive_map.texture >= 0) s.emissive *= dvec3(sampled(m.emissive_map, hit, at));
-    dvec3 n = glm::normalize(normals * dvec3(mean(mesh.normals)));
-    if (m.normal_map.texture >= 0) {
+    const dvec3 geometric = glm::normalize(normals * dvec3(mean(mesh.normals)));
+    const auto bent = [&](const TextureSlot& map, double scale) {
+      dvec3 n = geometric;
+      if (map.texture < 0) return back ? -n : n;
       const dvec4 tangent = mean(mesh.tangents);
       dvec3 t = directions * dvec3(tangent);
       t -= n * glm::dot(n, t);
       if (glm::dot(t, t) > 1e-12) {
         t = glm::normalize(t);
         const dvec3 bitangent = glm::cross(n, t) * tangent.w * (mirrored ? -1.0 : 1.0);
-        dvec3 mapped = dvec3(sampled(m.normal_map, hit, at)) * 2.0 - 1.0;
-        mapped.x *= m.normal_scale, mapped.y *= m.normal_scale;
+        dvec3 mapped = dvec3(sampled(map, hit, at)) * 2.0 - 1.0;
+        mapped.x *= scale, mapped.y *= scale;
         n = glm::normalize(mapped.x * t + mapped.y * bitangent + mapped.z * n);
       }
-    }
-    s.normal = back ? -n : n;
+      return back ? -n : n;
+    };
+    s.normal = bent(m.normal_map, m.normal_scale);
+    if (m.clearcoat == 0) return s;
+    s.coat = m.clearcoat, s.coat_roughness = m.clearcoat_roughness;
+    if (m.clearcoat_map.texture >= 0) s.coat *= sampled(m.clearcoat_map, hit, at).r;
+    if (m.clearcoat_roughness_map.texture >= 0) s.coat_roughness *= sampled(m.clearcoat_roughness_map, hit, at).g;
+    s.coat_normal = bent(m.clearcoat_normal_map, m.clearcoat_normal_scale);
     return s;
   }
 

@@ -120,6 +120,19 @@ inline const std::vector<Effect>& effects() {
          s.scene.materials[s.wall_material].base_color_map.uv_from_vertex = {0.6f, 0.8f, -0.8f,
                                                                              0.6f, 0.1f, 0.2f};
        }},
+      {"clearcoat", "clearcoat", "CLEARCOAT", on_ball,
+       [](SmallScene& s) {
+         Material& m = s.scene.materials[s.ball_material];
+         m.clearcoat = 0.8f, m.clearcoat_roughness = 0.15f;
+       }},
+      {"clearcoat_maps", "clearcoat normal maps", "CLEARCOAT_NORMAL_MAP", on_wall,
+       [=](SmallScene& s) {
+         for (TextureSlot Material::*slot :
+              {&Material::clearcoat_map, &Material::clearcoat_roughness_map, &Material::clearcoat_normal_map})
+           map(slot, false)(s);
+         Material& m = s.scene.materials[s.wall_material];
+         m.clearcoat = 1, m.clearcoat_roughness = 0.7f, m.clearcoat_normal_scale = 0.4f;
+       }},
       {"unlit", "unlit materials", "UNLIT", on_ball,
        [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},
       {"spot", "spot cones", "", "light 6 \"torch\"",

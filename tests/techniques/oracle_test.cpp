@@ -117,6 +117,53 @@ INSTANTIATE_TEST_SUITE_P(Scales, Polished,
                                               std::get<1>(info.param) > 0 ? "01" : "0", int(std::get<2>(info.param)));
                          });
 
+// All of them lacquered, so that highlights of two widths lie over each other; under half of the coats a normal map.
+Scene polished_and_coated() {
+  Scene scene = polished(1, 0.4f, 10);
+  for (Material& m : scene.materials) m.clearcoat = 1, m.clearcoat_roughness = 0.1f;
+  scene.materials[1].normal_map.texture = add_speckles(scene, false);
+  scene.materials[1].normal_scale = 0.3f;
+  return scene;
+}
+
+TEST(PolishedUnderCoats, EveryTechniqueIsAsExactAsForward) { expect_each_exact(polished_and_coated(), view_at(1, 192, 108)); }
+
+TEST(CoatShading, InFloatIsTheOraclesWithinItsRounding) {
+  const Scene scene = polished_and_coated();
+  TechniqueRun run(test_devices(), scene, view_at(1, 192, 108), {}, find_technique("forward"));
+  run.run_frame();
+  EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
+  EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
+  Scene bare = scene;
+  for (Material& m : bare.materials) m.clearcoat = 0;
+  EXPECT_GT(compare_images(run.image(), render(bare, view_at(1, 192, 108), "forward")).max_rel, 0.1) << "the coats are seen";
+}
+
+// A coat whose map is black is compiled and sampled, and changes no bit.
+TEST(CoatShading, ABlackMapIsNoCoat) {
+  Scene scene = polished_and_coated();
+  const View view = view_at(1, 95, 53);
+  scene.textures.push_back({.bitmap = int(scene.bitmaps.size())});
+  scene.bitmaps.push_back({.name = "black", .width = 1, .height = 1, .rgba = {0, 0, 0, 255}});
+  Scene bare = scene;
+  for (Material& m : scene.materials) m.clearcoat_map.texture = int(scene.textures.size()) - 1;
+  for (Material& m : bare.materials) m.clearcoat = 0;
+  for (const char* technique : {"forward", "forward_plus", "deferred", "visibility"}) {
+    const Image image = render(scene, view, technique);
+    EXPECT_TRUE(identical(image, render(bare, view, technique))) << technique;
+  }
+}
+
+TEST(CoatShading, LambertHasNone) {
+  const Scene scene = polished_and_coated();
+  Scene bare = scene;
+  for (Material& m : bare.materials) m.clearcoat = 0;
+  const View view = view_at(1, 95, 53);
+  EXPECT_TRUE(identical(render(scene, view, "forward", {.brdf = Brdf::lambert}), render(bare, view, "forward", {.brdf = Brdf::lambert})));
+}
+
 TEST(PolishedBlinnPhong, EveryTechniqueIsAsExactAsForward) { expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {.brdf = Brdf::blinn}); }
 
 }  // namespace

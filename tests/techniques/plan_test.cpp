@@ -101,6 +101,8 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"normal_map", mapped_material + vertex_array},  // tangents
       {"occlusion_map", mapped_material},
       {"emissive_map", mapped_material},
+      {"clearcoat", program},
+      {"clearcoat_maps", mapped_material + vertex_array + material_map + material_map},
       {"vertex_color", program + vertex_array},
       {"uv1", mapped_material + vertex_array},
       {"uv_transform", mapped_material},

@@ -13,28 +13,34 @@ GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
   GBuffer g;
   g.base_lighting = base_lighting;
   g.layout = &layout_of(v.plan.settings);
-  for (int i = 0; i < 2; ++i) {
+  g.coats = v.plan.clearcoat;
+  for (size_t i = 0; i < g.images(); ++i) {
     g.textures[i] =
         v.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
   }
   g.depth = v.targets.depth();
   const GLuint image = v.targets.texture("color", GL_RGBA32F);
-  g.framebuffer = base_lighting == BaseLighting::in_image ? v.targets.framebuffer({g.textures[0], g.textures[1], image}, g.depth)
-                                                  : v.targets.framebuffer({g.textures[0], g.textures[1]}, g.depth);
+  std::vector<GLuint> drawn = {g.textures[0], g.textures[1]};
+  if (base_lighting == BaseLighting::in_image) drawn.push_back(image);
+  if (g.coats) drawn.push_back(g.textures[2]);
+  g.framebuffer = v.targets.framebuffer(drawn, g.depth);
   g.depth_image = {v.depth_framebuffer()};
   g.image = {v.color_framebuffer()};
   return g;
 }
 
 std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
-  return gbuffer.layout->define ? std::vector<std::string>{gbuffer.layout->define}
-                                : std::vector<std::string>{};
+  std::vector<std::string> defines;
+  if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
+  if (gbuffer.coats) defines.emplace_back("CLEARCOAT");
+  return defines;
 }
 
 void bind_gbuffer(const GBuffer& gbuffer) {
   glBindTextureUnit(0, gbuffer.textures[0]);
   glBindTextureUnit(1, gbuffer.textures[1]);
   glBindTextureUnit(2, gbuffer.depth);
+  if (gbuffer.coats) glBindTextureUnit(3, gbuffer.textures[2]);
 }
 
 }  // namespace lightgrid

@@ -23,27 +23,34 @@ struct GBufferImage {
 //   32 bits
 //   [0]  normal x, y, z in view space; perceptual roughness
 //   [1]  base color red, green, blue; 1 + metallic, negative for unlit surfaces, 0 where nothing is
+// With FramePlan::clearcoat a third image:
+//   [2]  of the coat: octahedral normal u, v in view space; perceptual roughness; factor, 0 where there is none. In 32 bits
+//        a negative factor: the normal is that of [0], stored without loss
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
 struct GBufferLayout {
   int bits;
   const char* define;  // of shaders; null for 32 bits
-  std::array<GBufferImage, 2> images;
-  size_t bytes() const { return images[0].bytes + images[1].bytes; }  // a pixel
+  std::array<GBufferImage, 3> images;
+  size_t bytes(bool coats) const { return images[0].bytes + images[1].bytes + (coats ? images[2].bytes : 0); }  // a pixel
 };
 
 inline constexpr GBufferLayout gbuffer_layouts[] = {
     {8,
      "GBUFFER_8",
      {{{"gbuffer_normal_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4},
-       {"gbuffer_color_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4}}}},
+       {"gbuffer_color_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4},
+       {"gbuffer_coat_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4}}}},
     {16,
      "GBUFFER_16",
      {{{"gbuffer_normal_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8},
-       {"gbuffer_color_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8}}}},
+       {"gbuffer_color_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8},
+       {"gbuffer_coat_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8}}}},
     {32,
      nullptr,
-     {{{"gbuffer_normal_32", GL_RGBA32F, GL_FLOAT, 16}, {"gbuffer_color_32", GL_RGBA32F, GL_FLOAT, 16}}}},
+     {{{"gbuffer_normal_32", GL_RGBA32F, GL_FLOAT, 16},
+       {"gbuffer_color_32", GL_RGBA32F, GL_FLOAT, 16},
+       {"gbuffer_coat_32", GL_RGBA32F, GL_FLOAT, 16}}}},
 };
 
 // Where base lighting (ambient, emissive, directional, unlit color) is added. in_image: by the geometry pass;
@@ -54,11 +61,15 @@ enum class BaseLighting { in_image, in_light_pass };
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
-  GLuint framebuffer = 0;  // the layout's images and, for base lighting, the image; over depth
-  std::array<GLuint, 2> textures{};
+  bool coats = false;      // there is a third image
+  GLuint framebuffer = 0;  // the first two images, for base lighting the image, then that of coats; over depth
+  std::array<GLuint, 3> textures{};
   GLuint depth = 0;
   DepthImage depth_image;
   ShadedImage image;  // contains base lighting, for light passes to add to
+  size_t images() const { return coats ? 3 : 2; }
+  size_t bytes() const { return layout->bytes(coats); }  // a pixel
+  int coats_attachment() const { return base_lighting == BaseLighting::in_image ? 3 : 2; }
 };
 
 // The view's geometry buffer in the layout of buffer-bits, drawn or not.

@@ -13,17 +13,18 @@ Image read_image(int attachment, int width, int height) {
   return image;
 }
 
-// Three images over the frame's depth, cleared and bound.
+// Images over the frame's depth, cleared and bound: three, and two of coats.
 struct SurfaceTargets {
-  explicit SurfaceTargets(RenderView& v)
-      : width(v.view.width),
-        height(v.view.height),
-        textures{make_texture_2d(GL_RGBA32F, width, height), make_texture_2d(GL_RGBA32F, width, height),
-                 make_texture_2d(GL_RGBA32F, width, height)},
-        framebuffer(make_framebuffer({textures[0].name(), textures[1].name(), textures[2].name()}, v.targets.depth())) {
+  SurfaceTargets(RenderView& v, bool coats) : width(v.view.width), height(v.view.height) {
+    std::vector<GLuint> names;
+    for (int i = 0; i < (coats ? 5 : 3); ++i) {
+      textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
+      names.push_back(textures.back().name());
+    }
+    framebuffer = make_framebuffer(names, v.targets.depth());
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glViewport(0, 0, width, height);
-    for (int i = 0; i < 3; ++i) clear(i);
+    for (size_t i = 0; i < textures.size(); ++i) clear(int(i));
     glDepthMask(GL_FALSE);
     glDisable(GL_BLEND);
   }
@@ -31,29 +32,33 @@ struct SurfaceTargets {
     const float nothing[4] = {0, 0, 0, 0};
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, i, nothing);
   }
-  Image read(int i) { return read_image(i, width, height); }
+  // An image that is not there is empty.
+  Image read(size_t i) { return i < textures.size() ? read_image(int(i), width, height) : Image(); }
   // The target is freed: nothing is drawn into it afterwards.
-  Image take(int i) {
+  Image take(size_t i) {
     Image image = read(i);
-    textures[i] = GlTexture();
+    if (i < textures.size()) textures[i] = GlTexture();
     return image;
   }
 
   int width, height;
-  GlTexture textures[3];
+  std::vector<GlTexture> textures;
   GlFramebuffer framebuffer;
 };
 
 }  // namespace
 
 SurfaceImages read_surfaces(RenderView& v) {
-  SurfaceTargets targets(v);
+  const bool coats = v.plan.features & feature_clearcoat;
+  SurfaceTargets targets(v, coats);
   glEnable(GL_DEPTH_TEST);
-  ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", {}});
+  std::vector<std::string> defines;
+  if (coats) defines.emplace_back("COATS");
+  ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", defines});
   glDepthFunc(GL_EQUAL);
   draw_list(v, v.opaque, DrawStreams::all, programs);
-  const auto read = [&](int i) { return v.plan.blended.empty() ? targets.take(i) : targets.read(i); };
-  SurfaceImages surfaces{read(0), read(1), read(2), {}};
+  const auto read = [&](size_t i) { return v.plan.blended.empty() ? targets.take(i) : targets.read(i); };
+  SurfaceImages surfaces{read(0), read(1), read(2), read(3), read(4), {}};
   // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
   if (!v.plan.blended.empty()) {
@@ -68,13 +73,13 @@ SurfaceImages read_surfaces(RenderView& v) {
 }
 
 SurfaceImages read_gbuffer_surfaces(RenderView& v) {
-  SurfaceTargets targets(v);
+  SurfaceTargets targets(v, v.plan.clearcoat);
   const GBuffer gbuffer = gbuffer_of(v);
   v.bind_lights();
   bind_gbuffer(gbuffer);
   glDisable(GL_DEPTH_TEST);
   draw_screen(v.program("shaders/screen.vert", "shaders/gbuffer_surfaces.frag", gbuffer_defines(gbuffer)));
-  return {targets.read(0), targets.read(1), targets.read(2), {}};
+  return {targets.read(0), targets.read(1), targets.read(2), targets.read(3), targets.read(4), {}};
 }
 
 }  // namespace lightgrid

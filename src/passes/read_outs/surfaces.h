@@ -10,6 +10,7 @@ struct SurfaceImages {
   Image normal_roughness;      // view-space shading normal; perceptual roughness
   Image base_color_metallic;
   Image emissive_occlusion;    // occlusion -1: unlit
+  Image coat_normal_roughness, coat_factor;  // as above; red. Empty if no material in view has a coat
   std::vector<bool> blended;   // pixels covered by a blended surface
 };
 

@@ -67,6 +67,43 @@ TextureSlot read_slot(Document& doc, const auto& info, const std::string& place)
   return slot;
 }
 
+// A texture of an extension, which tinygltf leaves as it is in the file.
+struct ExtensionTexture {
+  int index = -1, texCoord = 0;
+  tinygltf::ExtensionMap extensions;
+  double scale = 1;
+};
+
+ExtensionTexture read_extension_texture(const Document& doc, const tinygltf::Value& extension, const char* key,
+                                        const std::string& place) {
+  if (!extension.Has(key)) return {};
+  const tinygltf::Value& in = extension.Get(key);
+  const std::string at = place + ": " + key;
+  if (!in.IsObject() || !in.Has("index")) throw doc.error("{}: is no texture with an index", at);
+  ExtensionTexture out{.index = static_cast<int>(size_or(doc, in, "index", 0, at)),
+                       .texCoord = static_cast<int>(size_or(doc, in, "texCoord", 0, at)),
+                       .scale = number_or(doc, in, "scale", 1, at)};
+  if (!in.Has("extensions")) return out;
+  const tinygltf::Value& extensions = in.Get("extensions");
+  if (!extensions.IsObject()) throw doc.error("{}: extensions is no object", at);
+  for (const std::string& name : extensions.Keys()) out.extensions.emplace(name, extensions.Get(name));
+  return out;
+}
+
+// KHR_materials_clearcoat.
+void read_clearcoat(Document& doc, const tinygltf::Value& in, const std::string& place, Material& out) {
+  const auto factor = [&](const char* key) { return in_unit(doc, number_or(doc, in, key, 0, place), place, key); };
+  const auto texture = [&](const char* key) { return read_extension_texture(doc, in, key, place); };
+  out.clearcoat = factor("clearcoatFactor");
+  out.clearcoat_roughness = factor("clearcoatRoughnessFactor");
+  out.clearcoat_map = read_slot(doc, texture("clearcoatTexture"), place + ": clearcoatTexture");
+  out.clearcoat_roughness_map = read_slot(doc, texture("clearcoatRoughnessTexture"), place + ": clearcoatRoughnessTexture");
+  const ExtensionTexture normal = texture("clearcoatNormalTexture");
+  out.clearcoat_normal_map = read_slot(doc, normal, place + ": clearcoatNormalTexture");
+  out.clearcoat_normal_scale = finite(doc, normal.scale, place, "clearcoatNormalTexture.scale");
+  if (out.clearcoat == 0) out.clearcoat_map = out.clearcoat_roughness_map = out.clearcoat_normal_map = {};  // not decoded
+}
+
 AlphaMode read_alpha_mode(const Document& doc, const std::string& mode, const std::string& place) {
   if (mode == "OPAQUE") return AlphaMode::opaque;
   if (mode == "MASK") return AlphaMode::mask;
@@ -102,6 +139,8 @@ Material read_material(Document& doc, const tinygltf::Material& in, const std::s
   out.alpha_cutoff = not_negative(doc, in.alphaCutoff, place, "alphaCutoff");
   out.double_sided = in.doubleSided;
   out.unlit = find_extension(in.extensions, "KHR_materials_unlit") != nullptr;
+  if (const auto* clearcoat = find_extension(in.extensions, "KHR_materials_clearcoat"))
+    read_clearcoat(doc, *clearcoat, place, out);
   return out;
 }
 

@@ -28,6 +28,9 @@ inline constexpr SlotUse material_slots[] = {{&Material::base_color_map, true},
                                              {&Material::metallic_roughness_map, false},
                                              {&Material::normal_map, false},
                                              {&Material::occlusion_map, false},
-                                             {&Material::emissive_map, true}};
+                                             {&Material::emissive_map, true},
+                                             {&Material::clearcoat_map, false},
+                                             {&Material::clearcoat_roughness_map, false},
+                                             {&Material::clearcoat_normal_map, false}};
 
 }  // namespace lightgrid::gltf

@@ -162,8 +162,9 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
 }
 
 TangentNeed tangent_need(const Material& material) {
-  if (material.normal_map.texture < 0) return TangentNeed::none;
-  return material.normal_map.uv_set == 0 ? TangentNeed::along_uv0 : TangentNeed::along_uv1;
+  const TextureSlot& map = material.normal_map.texture >= 0 ? material.normal_map : material.clearcoat_normal_map;
+  if (map.texture < 0) return TangentNeed::none;
+  return map.uv_set == 0 ? TangentNeed::along_uv0 : TangentNeed::along_uv1;
 }
 
 void spend_on_flat_normals(const Document& doc, const Mesh& mesh, Budget& budget, const std::string& place) {
