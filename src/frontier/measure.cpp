@@ -61,9 +61,7 @@ class SceneSweep {
     if (!measured_.empty()) {
       measure_errors();
       measure_times();
-      for (const Measured& m : measured_) {
-        for (const FrontierRecord& record : m.records) file_.append(record);
-      }
+      for (const Measured& m : measured_) file_.append(m.records);
       measured_.clear();
     }
     baseline_.reset();

@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr size_t max_line_bytes = size_t(16) << 20;  // ten thousand runs take half a million
+constexpr size_t max_line_bytes = size_t(64) << 20;  // a thousand views of a thousand runs take 40 million
 constexpr int max_depth = 8;
 constexpr char first_key[] = "lightgrid_frontier";
 
@@ -94,6 +94,17 @@ struct PartText {
   std::set<std::string> keys;
 };
 
+void add_record(PartText& text, const json& object, const std::string& place, const Notice& notice) {
+  FrontierRecord record = record_of(object);
+  record.shard = text.part.shard;
+  if (text.keys.insert(record_key(record)).second) {
+    text.part.records.push_back(std::move(record));
+  } else if (notice) {
+    notice(fmt::format("{}: {} of {}, view {}, is there twice; the first counts", place, record.point.label,
+                       record.point.scene, record.view));
+  }
+}
+
 void add_line(PartText& text, const json& line, const std::string& place, const Notice& notice) {
   if (!text.described) {
     text.part = header_of(line);
@@ -106,15 +117,9 @@ void add_line(PartText& text, const json& line, const std::string& place, const 
         JsonFields(line).object("finished").optional_number("load_at_end").value_or(0);
     return;
   }
-  FrontierRecord record = record_of(line);
-  record.shard = text.part.shard;
   text.part.finished = false;  // until the next line that says so
-  if (text.keys.insert(record_key(record)).second) {
-    text.part.records.push_back(std::move(record));
-  } else if (notice) {
-    notice(fmt::format("{}: {} of {}, view {}, is there twice; the first counts", place, record.point.label,
-                       record.point.scene, record.view));
-  }
+  if (!line.is_array()) add_record(text, line, place, notice);
+  for (size_t i = 0; line.is_array() && i < line.size(); ++i) add_record(text, line[i], place, notice);
 }
 
 // A complete line that is not what it should be is an error: only the last line can be cut off by a process's
@@ -225,13 +230,19 @@ RecordFile::RecordFile(const fs::path& path, const FrontierPart& part, const Not
 
 RecordFile::~RecordFile() { close(file_); }
 
-void RecordFile::append(const FrontierRecord& record) {
-  const std::string key = record_key(record);
-  assert(!has(key));
-  write_text(line_text(to_json(record)));
-  keys_.insert(key);
-  part_.records.push_back(record);
-  part_.records.back().shard = part_.shard;
+void RecordFile::append(std::span<const FrontierRecord> records) {
+  if (records.empty()) return;
+  json line = json::array();
+  for (const FrontierRecord& record : records) {
+    assert(!has(record_key(record)));
+    line.push_back(to_json(record));
+  }
+  write_text(line_text(records.size() == 1 ? line[0] : line));
+  for (const FrontierRecord& record : records) {
+    keys_.insert(record_key(record));
+    part_.records.push_back(record);
+    part_.records.back().shard = part_.shard;
+  }
   part_.finished = false;
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
+#include <span>
 #include <string>
 
 #include "frontier/record.h"
@@ -47,8 +48,10 @@ class RecordFile {
 
   bool has(const std::string& key) const { return keys_.contains(key); }
   // In the file when it returns, even if the process is killed then. Throws Error(machine) if the disk is
-  // full: nothing of the record is in the file then.
-  void append(const FrontierRecord& record);
+  // full: nothing of the records is in the file then.
+  void append(const FrontierRecord& record) { append(std::span(&record, 1)); }
+  // The views of a point, in one line: after a kill all of them are there, or none.
+  void append(std::span<const FrontierRecord> records);
   // Nothing more is to be measured. `load_at_end`: the system's one-minute load average. Throws like
   // append().
   void finish(double load_at_end);

@@ -240,6 +240,26 @@ TEST(RecordFile, LosesAtMostTheLastRecordWhereverItIsCutOff) {
   }
 }
 
+// A point of which only some views were there would count as measured, with the figures of those views.
+TEST(RecordFile, HoldsAllViewsOfAPointOrNone) {
+  PartFile part;
+  const std::vector<FrontierRecord> views = {some_record(8, 0), some_record(8, 1), some_record(8, 2)};
+  part.open().append(views);
+  const std::string whole = part.text();
+  EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 2);
+  for (size_t size = whole.find('\n') + 1; size <= whole.size(); size += 7) {
+    write_text(part.path, whole.substr(0, size));
+    const RecordFile file = part.open();
+    EXPECT_EQ(file.part().records.size(), size == whole.size() ? 3u : 0u) << size;
+  }
+  write_text(part.path, whole);
+  const FrontierPart read = read_part(part.path, nullptr);
+  ASSERT_EQ(read.records.size(), 3u);
+  for (int view = 0; view < 3; ++view) expect_equal(read.records[view], views[view]);
+  EXPECT_EQ(read.records[2].shard, 1);
+  EXPECT_TRUE(part.open().has(record_key(views[2])));
+}
+
 TEST(RecordFile, TellsWhichLineIsHalfWritten) {
   PartFile part;
   part.fill();
@@ -264,13 +284,13 @@ TEST(RecordFile, NamesADamagedLine) {
   const auto with_line_3 = [&](const std::string& line) {
     return whole.substr(0, starts[2]) + line + "\n" + whole.substr(starts[3]);
   };
-  const std::string deep(100000, '['), huge = "\"" + std::string(17 << 20, 'x') + "\"";
+  const std::string deep(100000, '['), huge = "\"" + std::string(65 << 20, 'x') + "\"";
   const std::pair<std::string, std::string> damaged[] = {{"", "is not JSON"},
                                                          {"{\"scene\": \"ha", "is not JSON"},
                                                          {"17", "17 is not an object"},
                                                          {"{}", "scene is missing"},
                                                          {deep, "is nested deeper"},
-                                                         {huge, "is longer than 16 MiB"},
+                                                         {huge, "is longer than 64 MiB"},
                                                          {std::string(50, '\0'), "is not JSON"}};
   for (const auto& [line, why] : damaged) {
     write_text(part.path, with_line_3(line));
