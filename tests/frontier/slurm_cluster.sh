@@ -59,7 +59,7 @@ chmod 400 "$folder/munge.key"
 munged --foreground --force --num-threads=1 --socket="$folder/munge.socket" --key-file="$folder/munge.key" \
   --pid-file="$folder/munged.pid" --seed-file="$folder/munged.seed" --log-file="$folder/munged.log" &>"$folder/munged.out" &
 children+=($!)
-wait_for 5 test -S "$folder/munge.socket" || skip "munged does not start: $(tail -n 1 "$folder/munged.out")"
+wait_for 15 test -S "$folder/munge.socket" || skip "munged does not start: $(tail -n 1 "$folder/munged.out")"
 
 cat >"$folder/slurm.conf" <<END
 ClusterName=lightgrid
@@ -93,10 +93,10 @@ END
 export SLURM_CONF=$folder/slurm.conf
 slurmctld -D &>"$folder/slurmctld.out" &
 children+=($!)
-wait_for 10 scontrol ping || skip "slurmctld does not start: $(tail -n 1 "$folder/slurmctld.log" "$folder/slurmctld.out" 2>&1)"
+wait_for 30 scontrol ping || skip "slurmctld does not start: $(tail -n 1 "$folder/slurmctld.log" "$folder/slurmctld.out" 2>&1)"
 slurmd -D -N node &>"$folder/slurmd.out" &
 children+=($!)
 is_idle() { scontrol -o show node node | grep -q 'State=IDLE '; }
-wait_for 10 is_idle || skip "slurmd does not start: $(tail -n 1 "$folder/slurmd.log" "$folder/slurmd.out" 2>&1)"
+wait_for 30 is_idle || skip "slurmd does not start: $(tail -n 1 "$folder/slurmd.log" "$folder/slurmd.out" 2>&1)"
 
 "$@"

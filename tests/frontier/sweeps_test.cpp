@@ -59,7 +59,7 @@ TEST(Sweeps, RunByGnuParallel) {
 // A part that fails cancels the join; submitted again, the sweep is completed.
 TEST(Sweeps, RunOnSlurm) {
   const TempFolder folder;
-  const std::string wait = "; for i in {1..300}; do squeue -h | grep -q . || break; sleep 0.1; done; ";
+  const std::string wait = "; for i in {1..1200}; do squeue -h | grep -q . || break; sleep 0.1; done; ";
   const std::string submit = examples_folder + "/slurm/submit.sh 3 answer 'a scene.glb' --vary tile=8,16";
   const std::string command =
       submit + wait + "ls answer/answer; cat answer/part-1.log; " + submit + wait + "cat answer/merge.log";
