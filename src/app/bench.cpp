@@ -167,7 +167,7 @@ int bench(const BenchCommand& o) {
 
 void add_bench(CommandLine& line) {
   auto o = std::make_shared<BenchCommand>();
-  Subcommand command = line.add("bench", "the culling kernels against the machine's limits", [o] { return bench(*o); });
+  Subcommand command = line.add("bench", "culling and rasteriser kernels against the machine's limits", [o] { return bench(*o); });
   command.option("--filter", o->filter, "only rows whose \"CASE/ROW\" matches this regular expression");
   add_scene_options(command, o->scene);
   add_path_option(command, o->scene);

@@ -5,7 +5,9 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "bench/raster_run.h"
 #include "bench/row_filter.h"
+#include "scene/builtin.h"
 #include "shared/cull_tests.h"
 
 namespace lightgrid {
@@ -54,7 +56,23 @@ CapturedFrame frame_of(const BenchCase& c) {
   return frame;
 }
 
-// The rows of one case before filtering.
+// The rows of one case, with ratios to those of the first contestant.
+std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, const MeasuredFrame& measured,
+                                   const Limits& limits) {
+  std::vector<BenchRow> rows, of_first;
+  for (size_t i = 0; i < about.size(); ++i) {
+    std::vector<BenchRow> found = contestant_rows(about[i], measured.runs[i], measured, limits);
+    for (BenchRow& row : found) {
+      const auto first = std::ranges::find(of_first, row.name, &BenchRow::name);
+      if (first != of_first.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
+    }
+    if (i == 0) of_first = found;
+    rows.insert(rows.end(), found.begin(), found.end());
+  }
+  return rows;
+}
+
+// The rows of one case of culling before filtering.
 std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options, const BenchCase& c,
                                    const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;
@@ -72,18 +90,44 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
   const MeasuredFrame measured = measure_in_turn(device, in_turn, read, rounds);
 
-  std::vector<BenchRow> rows, of_first;
+  std::vector<ContestantParams> about;
   for (size_t i = 0; i < runs.size(); ++i) {
-    const ContestantParams about{c.name, params_of(frame, contestants[i].compared, *runs[i]), work_of(frame, *runs[i])};
-    std::vector<BenchRow> found = contestant_rows(about, measured.runs[i], measured, limits);
-    for (BenchRow& row : found) {
-      const auto first = std::ranges::find(of_first, row.name, &BenchRow::name);
-      if (first != of_first.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
-    }
-    if (i == 0) of_first = found;
-    rows.insert(rows.end(), found.begin(), found.end());
+    about.push_back({c.name, params_of(frame, contestants[i].compared, *runs[i]), work_of(frame, *runs[i])});
   }
-  return rows;
+  return rows_in_turn(about, measured, limits);
+}
+
+// The same of the rasteriser.
+std::vector<BenchRow> measure_raster(ClDevice& device, ProgramCache& programs, const BenchOptions& options,
+                                     const BenchCase& c, const Limits& limits) {
+  const BuiltinScene* builtin = find_builtin_scene(c.raster);
+  if (!builtin) throw input_error("bench {}: there is no built-in scene {}", c.name, c.raster);
+  const Scene scene = builtin->make();
+  std::vector<std::unique_ptr<RasterRun>> runs;
+  std::vector<std::function<void()>> work;
+  for (const BenchContestant& contestant : options.contestants) {
+    runs.push_back(std::make_unique<RasterRun>(device, programs, scene, c.recipe.width, c.recipe.height, contestant.settings));
+    work.push_back([run = runs.back().get()] { run->run(); });
+  }
+  Rounds rounds{options.warmup, options.frames, {}};
+  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
+  MeasuredFrame measured;
+  measured.runs = time_in_turn(device, work, rounds, [](bool) {});
+  std::vector<ContestantParams> about;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const KernelWork of_run = runs[i]->work();
+    about.push_back({c.name,
+                     {{"scene", c.raster},
+                      {"size", {c.recipe.width, c.recipe.height}},
+                      {"triangles", of_run.triangles},
+                      {"clusters", of_run.clusters},
+                      {"records", of_run.records},
+                      {"tile_entries", of_run.tile_entries},
+                      {"settings", to_strings(options.contestants[i].settings)}},
+                     of_run});
+    if (!options.contestants[i].compared.empty()) about.back().params["compared"] = options.contestants[i].compared;
+  }
+  return rows_in_turn(about, measured, limits);
 }
 
 // The names of the rows that the contestants will have, from a frame too small to take time.
@@ -113,7 +157,8 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options) {
   ProgramCache programs(device);
   const std::vector<std::string> names = row_names(device, programs, options);
   const auto wanted = [&](const BenchCase& c) {
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return filter.keeps(c.name, name); });
+    const std::vector<std::string>& rows = c.raster.empty() ? names : raster_rows();
+    return std::any_of(rows.begin(), rows.end(), [&](const std::string& name) { return filter.keeps(c.name, name); });
   };
   BenchReport report;
   report.machine = machine_of(device.info());
@@ -124,6 +169,10 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options) {
   for (const BenchCase& c : options.cases) {
     if (!wanted(c)) continue;
     if (options.step) options.step(0, c.name);
+    if (!c.raster.empty()) {
+      keep_rows(report, options, filter, measure_raster(device, programs, options, c, report.limits));
+      continue;
+    }
     const CapturedFrame frame = frame_of(c);
     keep_rows(report, options, filter, measure_case(device, programs, options, c, frame, report.limits));
   }
@@ -134,7 +183,7 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options) {
 void write_frames(const std::filesystem::path& folder, const BenchOptions& options) {
   const RowFilter filter(options.filter);
   for (const BenchCase& c : options.cases) {
-    if (!filter.keeps(c.name, "")) continue;
+    if (!c.raster.empty() || !filter.keeps(c.name, "")) continue;
     if (options.step) options.step(0, c.name);
     write_frame(folder / c.name, frame_of(c));
   }

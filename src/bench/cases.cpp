@@ -21,6 +21,9 @@ std::vector<BenchCase> standard_cases() {
   for (const auto& [width, height] : sizes) {
     cases.push_back({fmt::format("size-{}x{}", width, height), {.lights = 4096, .width = width, .height = height}});
   }
+  for (const char* scene : {"hall", "terrain"}) {
+    cases.push_back({fmt::format("raster-{}", scene), {.width = 1280, .height = 720}, {}, 0, scene});
+  }
   return cases;
 }
 

@@ -1,4 +1,4 @@
-// The default cases of `lightgrid bench`.
+// The default cases of `lightgrid bench`: culling, and the rasteriser.
 #pragma once
 
 #include <functional>
@@ -15,9 +15,10 @@ struct BenchCase {
   FrameRecipe recipe;
   std::function<CapturedFrame()> captured{};  // called when the case runs; empty: the recipe
   int tile = 0;                               // the case's own tile size; 0: from the settings
+  std::string raster{};  // a built-in scene: its triangles are drawn, at the recipe's size, instead of culling
 };
 
-// The standard frames, then scaling in lights, tile size and resolution.
+// The standard frames, then scaling in lights, tile size and resolution; then the rasteriser.
 std::vector<BenchCase> standard_cases();
 
 }  // namespace lightgrid

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "shared/raster_params.h"
+
 namespace lightgrid {
 namespace {
 
@@ -27,6 +29,12 @@ double test_flops(const KernelWork& w) { return box_flops + (w.exact ? exact_flo
 // A bin has at least as many candidates as its longest list, and therefore at least its indices / 64.
 double least_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
 double cell_mark_bytes(const KernelWork& w) { return least_candidates(w) * bin_tiles / 8; }
+
+// The rasteriser: a position, a vertex in clip space, a triangle's corners, the pixels of its box, a pixel of the
+// image. An instance's clusters are at least its triangles / 64.
+constexpr double position_bytes = 12, clip_bytes = 16, corner_bytes = 12, box_bytes = 8, visible_pixel_bytes = 8;
+constexpr double transform_flops = 24;  // twelve multiply-adds
+double least_clusters(const KernelWork& w) { return double(w.triangles) / RASTER_CLUSTER; }
 
 // Lower bounds for any kernel with these inputs and outputs: each is read and written once, as if repeated
 // accesses hit caches, with one test for each final list entry.
@@ -63,6 +71,25 @@ const std::map<std::string, Formula>& formulas() {
        }},
       {"lists_to_masks",
        [](const KernelWork& w) { return KernelCost{cell_bytes * w.cells + w.index_bytes + w.mask_bytes, 0.0}; }},
+      // CPU kernels; of GPUs the first two and the last.
+      {"raster_transform",
+       [](const KernelWork& w) {
+         return KernelCost{(position_bytes + clip_bytes) * w.vertices, transform_flops * w.vertices};
+       }},
+      {"raster_clusters", [](const KernelWork& w) { return KernelCost{sizeof(RasterCluster) * least_clusters(w), 0.0}; }},
+      {"raster_order",
+       [](const KernelWork& w) { return KernelCost{least_clusters(w) + id_bytes * w.clusters, 0.0}; }},
+      {"raster_setup",
+       [](const KernelWork& w) { return KernelCost{(corner_bytes + sizeof(RasterRecord)) * w.records, 0.0}; }},
+      {"raster_scan", [](const KernelWork& w) { return KernelCost{2.0 * count_bytes * w.tiles, 0.0}; }},
+      {"raster_fill",
+       [](const KernelWork& w) { return KernelCost{box_bytes * w.records + id_bytes * w.tile_entries, 0.0}; }},
+      {"raster_tiles",
+       [](const KernelWork& w) {
+         return KernelCost{id_bytes * w.tile_entries + sizeof(RasterRecord) * w.records + visible_pixel_bytes * w.pixels,
+                           0.0};
+       }},
+      {"raster_keys", [](const KernelWork& w) { return KernelCost{2.0 * visible_pixel_bytes * w.pixels, 0.0}; }},
   };
   return table;
 }

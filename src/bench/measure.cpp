@@ -12,10 +12,10 @@ struct Samples {
   std::vector<std::vector<double>> kernels;  // by label, in the order of `first`
 };
 
-double wall_ms(ClDevice& device, CullingRun& run) {
+double wall_ms(ClDevice& device, const std::function<void()>& work) {
   device.profiler().time_launches(false);
   const Timer timer;
-  run.run();
+  work();
   return timer.elapsed_ms();
 }
 
@@ -25,11 +25,11 @@ struct DeviceRun {
   double wall_ms = 0;
 };
 
-DeviceRun device_run(ClDevice& device, CullingRun& run) {
+DeviceRun device_run(ClDevice& device, const std::function<void()>& work) {
   device.profiler().time_launches(true);
   device.profiler().collect();
   const Timer timer;
-  run.run();
+  work();
   const double wall = timer.elapsed_ms();
   return {device.profiler().collect(), wall};
 }
@@ -77,31 +77,40 @@ void measure_transfers(CullingRun& run, MeasuredRun& result) {
 
 }  // namespace
 
+std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::function<void()>>& work, const Rounds& rounds,
+                                      const std::function<void(bool counts)>& end_of_round) {
+  std::vector<Samples> samples(work.size());
+  for (int round = -rounds.warmup; round < rounds.timed; ++round) {
+    for (size_t i = 0; i < work.size(); ++i) {
+      // The wall-clock run comes second: its caches are as after a frame of its own.
+      const DeviceRun timed = device_run(device, work[i]);
+      const double wall = wall_ms(device, work[i]);
+      if (round >= 0) take(samples[i], wall, timed);
+    }
+    end_of_round(round >= 0);
+    if (rounds.progress) rounds.progress(double(round + rounds.warmup + 1) / (rounds.timed + rounds.warmup));
+  }
+  device.profiler().time_launches(false);
+  std::vector<MeasuredRun> runs;
+  for (const Samples& of_one : samples) runs.push_back(result_of(of_one));
+  return runs;
+}
+
 MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
                               const Rounds& rounds) {
   const cl::Buffer& depth = contestants.front()->depth();
   const size_t bytes = contestants.front()->depth_bytes();
   const double least = read.fit(depth, bytes);
-  std::vector<Samples> samples(contestants.size());
+  std::vector<std::function<void()>> work;
+  for (CullingRun* run : contestants) work.push_back([run] { run->run(); });
   std::vector<double> reads;
-  for (int round = -rounds.warmup; round < rounds.timed; ++round) {
-    for (size_t i = 0; i < contestants.size(); ++i) {
-      // The wall-clock run comes second: its caches are as after a frame of its own.
-      const DeviceRun timed = device_run(device, *contestants[i]);
-      const double wall = wall_ms(device, *contestants[i]);
-      if (round >= 0) take(samples[i], wall, timed);
-    }
+  MeasuredFrame measured;
+  measured.runs = time_in_turn(device, work, rounds, [&](bool counts) {
     device.profiler().time_launches(true);
     const double read_ms = read.run(depth, bytes);
-    if (round >= 0) reads.push_back(read_ms);
-    if (rounds.progress) rounds.progress(double(round + rounds.warmup + 1) / (rounds.timed + rounds.warmup));
-  }
-  device.profiler().time_launches(false);
-  MeasuredFrame measured;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    measured.runs.push_back(result_of(samples[i]));
-    measure_transfers(*contestants[i], measured.runs.back());
-  }
+    if (counts) reads.push_back(read_ms);
+  });
+  for (size_t i = 0; i < contestants.size(); ++i) measure_transfers(*contestants[i], measured.runs[i]);
   measured.plain_read = spread_of(reads);
   measured.least_read_ms = std::min(least, measured.plain_read.min);
   return measured;

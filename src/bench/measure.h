@@ -1,4 +1,4 @@
-// Compares several ways to cull one frame, timed in turn.
+// Compares several ways to do one thing, timed in turn.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ struct MeasuredRun {
   Spread device;                // the sum over all kernels of one run, which is timed by events; not the run
                                 // of `wall`
   std::vector<Kernel> kernels;  // in order of first launch
-  Spread lights_upload, grid_download;  // wall clock, each with its wait
+  Spread lights_upload, grid_download;  // of culling: wall clock, each with its wait
   Spread overhead;              // wall minus device, for the runs timed by events
 };
 
@@ -35,7 +35,12 @@ struct Rounds {
   std::function<void(double done)> progress;  // may be empty
 };
 
-// In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer
+// In each round each piece of work runs once for the wall clock and once for the device's. end_of_round is then called:
+// whether the round counts. Each ends with a wait.
+std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::function<void()>>& work, const Rounds& rounds,
+                                      const std::function<void(bool counts)>& end_of_round);
+
+// The same of culling. In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer
 // is read once, so that other load on the machine affects all of them.
 MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
                               const Rounds& rounds);

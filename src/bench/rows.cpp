@@ -14,7 +14,7 @@ BenchRow limit_row(const char* name, const char* kind, const Spread& ms, double 
   return row;
 }
 
-// The least time for a cost: memory at the rate of reading this frame's depth, arithmetic at its limit, together.
+// The least time for a cost: memory at a rate of reading, arithmetic at its limit, together.
 double least_ms(const KernelCost& cost, double read_gb_s, const Limits& limits) {
   return std::max(1e-6 * cost.bytes / read_gb_s, 1e-6 * cost.flops / limits.gflop_s());
 }
@@ -36,7 +36,8 @@ std::vector<BenchRow> limit_rows(const Limits& l) {
 std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const MeasuredFrame& frame,
                                       const Limits& limits) {
   const double depth_bytes = double(PlainRead::bytes_read(4 * about.work.pixels));
-  const double read_gb_s = depth_bytes > 0 ? 1e-6 * depth_bytes / frame.least_read_ms : limits.read_depth_gb_s();
+  const bool culls = frame.plain_read.runs > 0;
+  const double read_gb_s = culls && depth_bytes > 0 ? 1e-6 * depth_bytes / frame.least_read_ms : limits.read_depth_gb_s();
   const auto row = [&](const std::string& name, const char* kind, const Spread& ms, std::optional<KernelCost> cost) {
     BenchRow r{name, kind, about.case_name, about.params, ms, cost, {}, {}};
     if (cost) r.limit_ms = least_ms(*cost, read_gb_s, limits);
@@ -53,9 +54,11 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
     if (cost) all.bytes += cost->bytes, all.flops += cost->flops;
   }
   const std::optional<KernelCost> sum = all_known ? std::optional(all) : std::nullopt;
-  rows.push_back(row("plain_read", "limit", frame.plain_read, KernelCost{depth_bytes, 0}));
-  rows.push_back(row("lights_upload", "transfer", run.lights_upload, {}));
-  rows.push_back(row("grid_download", "transfer", run.grid_download, {}));
+  if (culls) {
+    rows.push_back(row("plain_read", "limit", frame.plain_read, KernelCost{depth_bytes, 0}));
+    rows.push_back(row("lights_upload", "transfer", run.lights_upload, {}));
+    rows.push_back(row("grid_download", "transfer", run.grid_download, {}));
+  }
   rows.push_back(row("launch_overhead", "overhead", run.overhead, {}));
   rows.push_back(row("pipeline_device", "pipeline", run.device, sum));
   rows.push_back(row("pipeline", "pipeline", run.wall, sum));

@@ -1,0 +1,47 @@
+#include "bench/raster_run.h"
+
+#include "scene/camera.h"
+#include "shared/raster_params.h"
+
+namespace lightgrid {
+
+const std::vector<std::string>& raster_rows() {
+  static const std::vector<std::string> rows = {
+      "raster_transform", "raster_clusters", "raster_order", "raster_setup", "raster_scan",     "raster_fill",    "raster_tiles",
+      "raster_small",     "raster_large",    "raster_keys",  "pipeline",     "pipeline_device", "launch_overhead"};
+  return rows;
+}
+
+RasterRun::RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height,
+                     const Settings& settings)
+    : rasterizer_(device, programs, {.shape = settings.kernel_shape, .portable = settings.portable}) {
+  std::vector<RasterMesh> meshes;
+  for (const Mesh& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
+  std::vector<RasterInstance> instances;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Material& material = scene.materials[mesh.material];
+    if (material.alpha_mode == AlphaMode::blend) continue;
+    instances.push_back({.mesh = instance.mesh,
+                         .world_from_object = instance.world_from_object,
+                         .two_sided = material.double_sided});
+    scene_.vertices += mesh.positions.size();
+  }
+  rasterizer_.set_meshes(meshes);
+  rasterizer_.set_instances(instances);
+  const View view = make_view(choose_camera(scene, ""), width, height);
+  rasterizer_.set_view({width, height, view.clip_from_view, view.view_from_world, view.eye});
+  const auto tiles = [](int pixels) { return (size_t(pixels) + RASTER_TILE - 1) / RASTER_TILE; };
+  scene_.pixels = size_t(width) * size_t(height), scene_.tiles = tiles(width) * tiles(height);
+  for (int i = 0; i < 2; ++i) run();
+}
+
+KernelWork RasterRun::work() const {
+  const RasterCounts& counts = rasterizer_.counts();
+  KernelWork work = scene_;
+  work.triangles = counts.triangles, work.clusters = counts.clusters;
+  work.records = counts.records, work.tile_entries = counts.tile_entries;
+  return work;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,33 @@
+// A built-in scene's opaque and masked triangles, for repeated rasterising. Masks are not looked up: masked triangles are
+// drawn whole.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/kernel_costs.h"
+#include "plan/settings.h"
+#include "raster/rasterizer.h"
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+// Names of the rows that a case of the rasteriser may have.
+const std::vector<std::string>& raster_rows();
+
+class RasterRun {
+ public:
+  // The scene's first camera. Draws twice, so that kernels are built and room has its size.
+  RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height, const Settings& settings);
+
+  // Vertices to the visibility buffer, with the wait in which the rasteriser reads its counters.
+  void run() { rasterizer_.draw(); }
+
+  KernelWork work() const;  // of the last run
+
+ private:
+  Rasterizer rasterizer_;
+  KernelWork scene_;
+};
+
+}  // namespace lightgrid
