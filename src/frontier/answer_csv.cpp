@@ -41,7 +41,7 @@ CsvFields csv_heading() {
       names.push_back(fmt::format("{}_{}", kind, name));
     }
   }
-  names.insert(names.end(), {"bias_rmse_rel", "deviation_rmse_rel", "image"});
+  names.insert(names.end(), {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel", "flip_start", "flip_stop", "flip_count", "image"});
   return names;
 }
 
@@ -77,6 +77,10 @@ void add_errors(CsvFields& fields, const FrontierRecord& r) {
   }
   fields.push_back(figure(r.errors.bias_rmse_rel));
   fields.push_back(figure(r.errors.deviation_rmse_rel));
+  fields.push_back(figure(r.errors.temporal_rmse_rel));
+  fields.push_back(r.flip ? figure(r.flip->start) : "");
+  fields.push_back(r.flip ? figure(r.flip->stop) : "");
+  fields.push_back(r.flip ? fmt::format("{}", r.flip->count) : "");
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ json point_json(const PointFigures& p) {
                   {"technique", error_json(p.errors.technique)},
                   {"total", error_json(p.errors.total)},
                   {"bias_rmse_rel", optional_finite(p.errors.bias_rmse_rel)},
-                  {"deviation_rmse_rel", optional_finite(p.errors.deviation_rmse_rel)}};
+                  {"deviation_rmse_rel", optional_finite(p.errors.deviation_rmse_rel)},
+                  {"temporal_rmse_rel", optional_finite(p.errors.temporal_rmse_rel)}};
   out["pairs"] = {
       {"listed", p.pairs.listed}, {"lit", p.pairs.lit}, {"lost", p.pairs.lost}, {"wrong", p.pairs.wrong}};
   out["listed_per_lit"] = p.pairs.lit > 0 ? json(double(p.pairs.listed) / double(p.pairs.lit)) : json();

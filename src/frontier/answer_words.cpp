@@ -38,13 +38,15 @@ std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
 // Whether two points are meant to show the same: settings that change the model agree, and so do its errors,
 // but for the pixels at silhouettes that rasterizers see differently.
 bool same_model(const PointFigures& a, const PointFigures& b) {
-  for (const char* key : {"brdf", "range", "window", "cutoff", "alpha"}) {
-    const auto of_a = a.point.settings.find(key), of_b = b.point.settings.find(key);
-    if (of_a == a.point.settings.end() || of_b == b.point.settings.end()) continue;
-    if (of_a->second != of_b->second) return false;
+  const auto value_of = [](const PointFigures& p, const std::string& key, const std::string& otherwise) {
+    const auto found = p.point.settings.find(key);
+    return found == p.point.settings.end() ? otherwise : found->second;
+  };
+  for (const auto& [key, otherwise] : {std::pair("brdf", "ggx"), std::pair("range", "scene"), std::pair("window", "khr"),
+                                       std::pair("cutoff", ""), std::pair("alpha", ""), std::pair("light_seed", "")}) {
+    if (value_of(a, key, otherwise) != value_of(b, key, otherwise)) return false;
   }
-  const double x = a.errors.model.rmse_rel, y = b.errors.model.rmse_rel;
-  return a.point.frames == b.point.frames && std::abs(x - y) <= 0.05 * std::max(x, y);
+  return a.point.frames == b.point.frames;
 }
 
 const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string& scene) {

@@ -77,6 +77,20 @@ double PictureMoments::deviation() const {
   return std::sqrt(variances / (3 * double(sum_.size())));
 }
 
+void ChangeOfError::add(const Image& image, const Image& truth) {
+  std::vector<glm::vec3> difference;
+  difference.reserve(image.pixels.size());
+  for (size_t i = 0; i < image.pixels.size(); ++i) difference.emplace_back(image.pixels[i] - truth.pixels[i]);
+  for (size_t i = 0; i < last_.size(); ++i) {
+    const glm::dvec3 change = glm::dvec3(difference[i]) - glm::dvec3(last_[i]);
+    squares_ += glm::dot(change, change);
+    channels_ += 3;
+  }
+  last_ = std::move(difference);
+}
+
+double ChangeOfError::rmse() const { return channels_ > 0 ? std::sqrt(squares_ / double(channels_)) : 0; }
+
 double bias_rmse(double rmse_of_mean, double deviation, int count) {
   return std::sqrt(std::max(rmse_of_mean * rmse_of_mean - deviation * deviation / std::max(count, 1), 0.0));
 }

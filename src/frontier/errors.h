@@ -26,6 +26,19 @@ class PictureMoments {
   std::vector<glm::dvec3> sum_, squares_;
 };
 
+// How much a picture's difference from the truth changes from frame to frame: flicker that the scene does not have.
+class ChangeOfError {
+ public:
+  void add(const Image& image, const Image& truth);
+  // Root mean square over pixels, channels and all changes; 0 before the second frame.
+  double rmse() const;
+
+ private:
+  std::vector<glm::vec3> last_;
+  double squares_ = 0;
+  size_t channels_ = 0;
+};
+
 // The root mean square of the mean's own error, without what `count` random pictures leave in it: the bias. 0 where the
 // difference is no larger than that.
 double bias_rmse(double rmse_of_mean, double deviation, int count);

@@ -63,6 +63,7 @@ json page_point(const FrontierAnswer& answer, const PointFigures& p, const PageP
                      {"technique", page_errors(p.errors.technique)},
                      {"total", page_errors(p.errors.total)}};
   point["bias"] = p.errors.bias_rmse_rel ? json(*p.errors.bias_rmse_rel) : json();
+  point["temporal"] = p.errors.temporal_rmse_rel ? json(*p.errors.temporal_rmse_rel) : json();
   point["deviation"] = p.errors.deviation_rmse_rel ? json(*p.errors.deviation_rmse_rel) : json();
   const auto found = pictures.by_name.find(picture_of(answer, p.point));
   point["pictures"] = found == pictures.by_name.end() ? json() : json(found->second);

@@ -60,6 +60,7 @@ class SceneSweep {
     make_runs();
     if (!measured_.empty()) {
       measure_errors();
+      measure_flicker();
       measure_times();
       for (const Measured& m : measured_) file_.append(m.records);
       measured_.clear();
@@ -128,6 +129,31 @@ class SceneSweep {
       job_.notice(fmt::format("{}: {} of {} views, for the time there is", choice_.scene, used_views_, views_.size()));
   }
 
+  // If it leaves time for rounds.
+  void measure_flicker() {
+    constexpr int frames = 3;
+    if (!fits(frames * (expected_round_s_ + last_view_s_ / 10), job_.least_rounds, used_views_)) return;
+    std::vector<ChangeOfError> changes(measured_.size());
+    const std::vector<View> turn = slow_turn(scene_, views_.front(), frames);
+    for (int frame = 0; frame < frames; ++frame) {
+      with_opengl_.look(turn[size_t(frame)]);
+      with_opencl_.look(turn[size_t(frame)]);
+      for (size_t i = 0; i < measured_.size(); ++i) {
+        PointRun& run = measured_[i].run;
+        tell(seconds() / job_.seconds, "flicker, " + run.point().label);
+        run.look(turn[size_t(frame)]);
+        run.go_to_frame(frame);
+        run.draw();
+        if (run.refused().empty()) changes[i].add(run.image(), brute_force_of(run.point()).truth());
+      }
+    }
+    for (size_t i = 0; i < measured_.size(); ++i) {
+      measured_[i].run.go_to_frame(0);
+      if (!measured_[i].run.refused().empty() || !(brightest_ > 0)) continue;
+      measured_[i].records.front().errors.temporal_rmse_rel = changes[i].rmse() / brightest_;
+    }
+  }
+
   // Of a picture with all its frames.
   static double seconds_of_passes(const FrontierRecord& record) {
     double ms = 0;
@@ -145,11 +171,13 @@ class SceneSweep {
   // Where a median pixel is black, HDR-FLIP has no exposures.
   void make_flip() {
     const Image& truth = with_opengl_.truth();
-    const auto exposures = flip_exposures(truth);
-    if (!exposures) return;
-    flip_.emplace(truth, *exposures);
-    flip_own_.emplace(with_opencl_.truth(), *exposures);
+    exposures_ = flip_exposures(truth);
+    if (!exposures_) return;
+    flip_.emplace(truth, *exposures_);
+    flip_own_.emplace(with_opencl_.truth(), *exposures_);
   }
+
+  BruteForce& brute_force_of(const ChosenPoint& point) { return has_own_surfaces(point) ? with_opencl_ : with_opengl_; }
 
   FrontierRecord errors_of(Measured& m, int view) {
     FrontierRecord record = record_of(m.run.point(), view);
@@ -169,9 +197,11 @@ class SceneSweep {
 
   void fill(FrontierRecord& record, Measured& m, int view) {
     const ChosenPoint& point = m.run.point();
-    BruteForce& brute = has_own_surfaces(point) ? with_opencl_ : with_opengl_;
+    BruteForce& brute = brute_force_of(point);
     const Image& image = m.run.image();
-    const double brightest = brute.brightest();
+    // One for both kinds of surfaces, since a highlight of one pixel makes it.
+    const double brightest = (renderer_.gl ? with_opengl_ : with_opencl_).brightest();
+    if (view == 0) brightest_ = brightest;
     record.errors.total = error_figures(image, brute.truth(), brightest);
     record.errors.precision = has_own_surfaces(point) ? precision_.of_own_surfaces() : precision_.of_opengl();
     record.nan_pixels = count_nan_pixels(image);
@@ -206,6 +236,7 @@ class SceneSweep {
     const PictureFiles::Written written = pictures_.write(choice_.scene, image, brute.truth(), flip ? &*flip : nullptr);
     record.image = written.name;
     record.errors.total.flip_mean = written.flip_mean;
+    record.flip = exposures_;
   }
 
   // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round. A point
@@ -294,7 +325,9 @@ class SceneSweep {
   Precision precision_;
   std::vector<Measured> measured_;
   std::optional<PointRun> baseline_;
+  std::optional<FlipExposures> exposures_;
   std::optional<HdrFlip> flip_, flip_own_;
+  double brightest_ = 0;  // channel of the truth on the first view
   double last_view_s_ = 0, expected_round_s_ = 0;  // of a round over one view
   int used_views_ = 0;
 };

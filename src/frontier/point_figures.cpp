@@ -89,7 +89,8 @@ PointFigures over_views(const ViewRecords& views) {
        {&PointErrors::model, &PointErrors::precision, &PointErrors::technique, &PointErrors::total}) {
     all.errors.*kind = errors_over(views, kind);
   }
-  for (const auto spread : {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel}) {
+  for (const auto spread :
+       {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
     all.errors.*spread = over_present(
         views, [&](const FrontierRecord& v) { return v.errors.*spread; }, rms_of_views);
   }

@@ -32,7 +32,13 @@ PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const Ch
   });
 }
 
-uint32_t PointRun::seed(int frame) const { return point_.contestant.settings.ranges.seed + uint32_t(frame); }
+uint32_t PointRun::seed(int frame) const { return point_.contestant.settings.ranges.seed + uint32_t(frame_ * point_.frames + frame); }
+
+void PointRun::go_to_frame(int number) {
+  frame_ = number;
+  if (point_.frames > 1 || !has_random_ranges()) return;
+  attempt([&] { run_->draw_ranges(seed(0)); });
+}
 
 void PointRun::look(const View& view) {
   attempt([&] { run_->look(view); });

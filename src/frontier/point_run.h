@@ -28,17 +28,21 @@ class PointRun {
   void draw_for_errors();
   // The first of its frames alone.
   void draw_first_frame();
+  // For the frame of that number: random ranges, if they are, are others in each.
+  void go_to_frame(int number);
 
  private:
   template <typename Work>
   void attempt(const Work& work);
   uint32_t seed(int frame) const;
+  bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }
 
   ChosenPoint point_;
   std::unique_ptr<TechniqueRun> run_;
   std::string refused_;
   Image mean_;
   double deviation_ = 0;
+  int frame_ = 0;
 };
 
 }  // namespace lightgrid

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "results/flip.h"
 #include "results/results.h"
 
 namespace lightgrid {
@@ -39,6 +40,9 @@ struct PointErrors {
   // Of random ranges, over at least 16 seeds, relative like the others: root mean square over pixels of the mean's
   // error and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
+  // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera turns by a
+  // quarter of a degree a frame; root mean square over pixels and frames. On the first view.
+  std::optional<double> temporal_rmse_rel;
 };
 
 struct FrontierRecord {
@@ -58,6 +62,7 @@ struct FrontierRecord {
   PairCounts pairs;
   uint64_t nan_pixels = 0, overflow = 0;
   PointErrors errors;
+  std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured
   std::string image;         // name of its picture among the part's pictures, without extension; empty: none
   int shard = 0;             // of the part that holds it, set by RecordFile and read_part: its times are of that machine
 };

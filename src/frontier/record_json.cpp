@@ -34,7 +34,8 @@ json errors_json(const PointErrors& errors) {
           {"technique", figures_json(errors.technique)},
           {"total", figures_json(errors.total)},
           {"bias_rmse_rel", optional_json(errors.bias_rmse_rel)},
-          {"deviation_rmse_rel", optional_json(errors.deviation_rmse_rel)}};
+          {"deviation_rmse_rel", optional_json(errors.deviation_rmse_rel)},
+          {"temporal_rmse_rel", optional_json(errors.temporal_rmse_rel)}};
 }
 
 PointErrors errors_of(const JsonFields& fields) {
@@ -43,7 +44,8 @@ PointErrors errors_of(const JsonFields& fields) {
           .technique = figures_of(fields.object("technique")),
           .total = figures_of(fields.object("total")),
           .bias_rmse_rel = fields.optional_number("bias_rmse_rel"),
-          .deviation_rmse_rel = fields.optional_number("deviation_rmse_rel")};
+          .deviation_rmse_rel = fields.optional_number("deviation_rmse_rel"),
+          .temporal_rmse_rel = fields.optional_number("temporal_rmse_rel")};
 }
 
 json numbers_json(const std::vector<double>& values) {
@@ -95,6 +97,8 @@ json to_json(const FrontierRecord& r) {
   line["nan_pixels"] = r.nan_pixels;
   line["overflow"] = r.overflow;
   line["errors"] = errors_json(r.errors);
+  line["flip_exposures"] =
+      r.flip ? json{exact_number(r.flip->start), exact_number(r.flip->stop), r.flip->count} : json::array();
   line["image"] = r.image;
   return line;
 }
@@ -129,6 +133,11 @@ FrontierRecord record_of(const json& line) {
   r.nan_pixels = fields.count("nan_pixels");
   r.overflow = fields.count("overflow");
   r.errors = errors_of(fields.object("errors"));
+  const std::vector<double> flip = fields.numbers("flip_exposures");
+  if (!flip.empty()) {
+    if (flip.size() != 3) throw input_error("flip_exposures: not start, stop and count");
+    r.flip = FlipExposures{flip[0], flip[1], int(flip[2])};
+  }
   r.image = fields.text("image");
   return r;
 }

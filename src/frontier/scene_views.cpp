@@ -36,4 +36,10 @@ std::vector<View> frontier_views(const Scene& scene, const View& start, const Sc
   return views;
 }
 
+std::vector<View> slow_turn(const Scene& scene, const View& start, int frames) {
+  std::vector<View> views = camera_path(scene, start, "turn:1440");
+  views.resize(size_t(frames));
+  return views;
+}
+
 }  // namespace lightgrid

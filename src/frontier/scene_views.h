@@ -9,4 +9,7 @@ namespace lightgrid {
 // spread over the path.
 std::vector<View> frontier_views(const Scene& scene, const View& start, const SceneChoice& choice, int count);
 
+// Frames of a camera that turns from `start` by a quarter of a degree a frame.
+std::vector<View> slow_turn(const Scene& scene, const View& start, int frames);
+
 }  // namespace lightgrid

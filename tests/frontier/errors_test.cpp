@@ -73,5 +73,16 @@ TEST(FrontierErrors, SplitNoiseIntoBiasAndDeviation) {
   }
 }
 
+// A difference that stays is no flicker; one that comes and goes is.
+TEST(FrontierErrors, FlickerWhereTheDifferenceChangesFromFrameToFrame) {
+  const Image dark = picture({{1, 1, 1}}), bright = picture({{3, 3, 3}}), off = picture({{1.5f, 1.5f, 1.5f}}),
+              bright_off = picture({{3.5f, 3.5f, 3.5f}});
+  ChangeOfError steady, flickering;
+  steady.add(off, dark), steady.add(bright_off, bright), steady.add(off, dark);
+  EXPECT_EQ(steady.rmse(), 0);
+  flickering.add(dark, dark), flickering.add(bright_off, bright), flickering.add(dark, dark);
+  EXPECT_DOUBLE_EQ(flickering.rmse(), 0.5);
+}
+
 }  // namespace
 }  // namespace lightgrid

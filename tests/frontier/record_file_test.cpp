@@ -85,6 +85,11 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.model.flip_mean, std::nullopt);
   EXPECT_EQ(read.errors.bias_rmse_rel, r.errors.bias_rmse_rel);
   EXPECT_EQ(read.errors.deviation_rmse_rel, r.errors.deviation_rmse_rel);
+  EXPECT_EQ(read.errors.temporal_rmse_rel, r.errors.temporal_rmse_rel);
+  ASSERT_TRUE(read.flip);
+  EXPECT_EQ(read.flip->start, r.flip->start);
+  EXPECT_EQ(read.flip->stop, r.flip->stop);
+  EXPECT_EQ(read.flip->count, r.flip->count);
   EXPECT_EQ(read.image, r.image);
 }
 

@@ -34,6 +34,8 @@ inline FrontierRecord some_record(int tile, int view) {
   r.overflow = 5;
   r.errors = {some_figures(1), some_figures(2), some_figures(3), some_figures(4), 1e-5, 2e-5};
   r.errors.total.flip_mean = 0.0123;
+  r.errors.temporal_rmse_rel = 3e-5;
+  r.flip = FlipExposures{-2.5, 7.25, 10};
   r.image = "sponza_17";
   return r;
 }

@@ -18,7 +18,8 @@ const intervalInWords = ({ median, low, high, runs }, unit) =>
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
   value: (point) => point.errors[kind][measure], text: errorNumber });
-const ERRORS = ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure)));
+const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
+  { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: (point) => point.temporal, text: errorNumber }];
 const COSTS = [
   { key: "ratio", title: "Time, over the baseline's", value: (point) => point.ratio?.median ?? null, text: threeDigits, time: true },
   { key: "ms", title: "Time, ms a frame", value: (point) => point.ms?.median ?? null, text: threeDigits, time: true },

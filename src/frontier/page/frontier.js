@@ -113,6 +113,7 @@ function choosePoint(point) {
     ...(images.length && page.reduced > 1 ? [make("p", { class: "quiet" }, `Shown at 1/${page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] : []),
     errorTable(point),
     ...(point.deviation !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(point.bias ?? 0)}, standard deviation of a frame ${errorNumber(point.deviation)} (RMSE over the brightest channel).`)] : []),
+    ...(point.temporal !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(point.temporal)} (RMSE over the brightest channel).`)] : []),
     ...(tied.length ? [make("details", {}, make("summary", {}, `~ ${tied.length} point${tied.length === 1 ? "" : "s"} whose time does not differ`), make("p", {}, tied.join(", ")))] : []),
     make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
   redraw();
