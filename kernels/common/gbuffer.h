@@ -1,4 +1,4 @@
-// The surface of LANES pixels, read from the geometry buffer (src/passes/common/gbuffer.h).
+// The surface of LANES pixels, read from the geometry buffer and written to it (src/passes/common/gbuffer.h).
 //
 // -DCLEARCOAT    with a third image, of coats
 // -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
@@ -85,3 +85,64 @@ static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
 #endif
 }
 #endif
+
+// --- Writing: as gbuffer_texels and coat_texel of shaders/common/gbuffer.glsl; channels as they are stored, integers not
+// yet converted.
+#if BUFFER_BITS == 32
+#define STORED_ONE 1.0f
+#define STORED_NORMAL(x) (x)
+#elif BUFFER_BITS == 16
+#define STORED_ONE 65535.0f
+#define STORED_NORMAL(x) floor((x) * 32767.0f + 32768.5f)
+#else
+#define STORED_ONE 255.0f
+#define STORED_NORMAL(x) floor((x) * 127.0f + 128.5f)
+#endif
+
+// The inverse of normal_of_octahedral.
+static inline void octahedral(Real3 n, real* u, real* v) {
+  const real none = 0.0f, sum = fabs(n.x) + fabs(n.y) + fabs(n.z);
+  const real across = n.x / sum, up = n.y / sum;
+  const real folded_across = 1.0f - fabs(up), folded_up = 1.0f - fabs(across);
+  const mask_t behind = n.z < none;
+  *u = behind ? (across < none ? -folded_across : folded_across) : across;
+  *v = behind ? (up < none ? -folded_up : folded_up) : up;
+}
+
+// Zeros where no surface is `covered`.
+static inline Texels covered_texels(Texels t, mask_t covered) {
+  const real none = 0.0f;
+  const Texels here = {covered ? t.x : none, covered ? t.y : none, covered ? t.z : none, covered ? t.w : none};
+  return here;
+}
+
+static inline void texels_of_surface(Texels* first, Texels* second, Real3 normal, Real3 color, real metallic,
+                                     real roughness, mask_t unlit, mask_t covered) {
+#if BUFFER_BITS == 32
+  const Texels a = {normal.x, normal.y, normal.z, roughness};
+  const real lit = 1.0f + metallic;
+  const Texels b = {color.x, color.y, color.z, unlit ? -lit : lit};
+#else
+#if BUFFER_BITS == 8
+  color = real3(sqrt(color.x), sqrt(color.y), sqrt(color.z));
+#endif
+  real u, v;
+  octahedral(normal, &u, &v);
+  const Texels a = {STORED_NORMAL(u), STORED_NORMAL(v), roughness * STORED_ONE, metallic * STORED_ONE};
+  const Texels b = {color.x * STORED_ONE, color.y * STORED_ONE, color.z * STORED_ONE,
+                    unlit ? REAL(0.0f) : REAL(STORED_ONE)};
+#endif
+  *first = covered_texels(a, covered), *second = covered_texels(b, covered);
+}
+
+// base: the normal of the surface itself.
+static inline Texels texels_of_coat(Real3 normal, Real3 base, real factor, real roughness, mask_t covered) {
+  real u, v;
+  octahedral(normal, &u, &v);
+#if BUFFER_BITS == 32
+  const mask_t as_base = (normal.x == base.x) & (normal.y == base.y) & (normal.z == base.z);
+  factor = as_base ? -factor : factor;
+#endif
+  const Texels t = {STORED_NORMAL(u), STORED_NORMAL(v), roughness * STORED_ONE, factor * STORED_ONE};
+  return covered_texels(t, covered);
+}

@@ -88,15 +88,30 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
   return sum;
 }
 
-// x, y: pixel centres. lit: lanes with a surface that light reaches.
-static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real y, real depth, mask_t lit,
-                             const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
-  const Real3 position = position_of_pixel(x, y, lit ? depth : REAL(1.0f), view);
+// What a surface shows without point and spot lights.
+static inline Real3 base_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
+                               constant ViewParams* view) {
+  const Real3 own = own_light(p, s, l, view);
+  return real3(s->unlit ? s->base_color.x : own.x, s->unlit ? s->base_color.y : own.y,
+               s->unlit ? s->base_color.z : own.z);
+}
+
+// x, y: pixel centres. covered: lanes with a surface.
+static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s, real x, real y, real depth,
+                                          mask_t covered, constant ViewParams* view) {
+  const Real3 position = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
   ShadingPoint p = shading_point(position, direction_to_viewer(position), shading_normal(a, s), s->base_color,
                                  s->metallic, s->roughness);
 #ifdef CLEARCOAT
   p = with_coat(p, coat_normal(a, s), s->coat, s->coat_roughness);
 #endif
+  return p;
+}
+
+// The same arguments. lit: lanes with a surface that light reaches.
+static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real y, real depth, mask_t lit,
+                             const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
+  const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
   Real3 sum = own_light(&p, s, l, view);
 #ifdef SLICES
   sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);

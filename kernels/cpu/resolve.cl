@@ -1,6 +1,6 @@
 // Radiance of every pixel of a visibility buffer, for CPUs: a work-item takes a tile, block after block of 4
-// x 4 pixels. Of each block its distinct triangles give the attributes, then its distinct materials the
-// textures, then the tile's lights the radiance. Burns, Hunt, "The Visibility Buffer" (JCGT 2013).
+// x 4 pixels (kernels/common/resolve_block.h), then the tile's lights. Burns, Hunt, "The Visibility Buffer" (JCGT
+// 2013).
 //
 // triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
 // RESOLVE_ARGUMENTS  kernels/common/resolve_light.h
@@ -11,6 +11,7 @@
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/common/image_blocks.h"
+#include "kernels/common/resolve_block.h"
 #include "kernels/common/resolve_light.h"
 
 #ifndef TILE
@@ -31,26 +32,14 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
       Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
       if (any_lane(covered)) {
         Attributes a = {0};
-        for (uint left = mask_bits(covered); left != 0;) {
-          const uint one = ((const uint*)&triangle)[lowest_bit(left)];
-          const mask_t here = triangle == (uint16)(one);
-          left &= ~mask_bits(here);
-          add_triangle(&a, &scene, one, here, (float)x, (float)y, BLOCK_DX, BLOCK_DY);
-        }
         Surface s = {0};
-        const whole material = a.material;
-        for (uint left = mask_bits(covered); left != 0;) {
-          const int one = ((const int*)&material)[lowest_bit(left)];
-          const mask_t here = covered & (material == (int16)(one));
-          left &= ~mask_bits(here);
-          add_material(&s, &a, &scene, (uint)one, here);
-        }
+        add_surfaces(&a, &s, &scene, triangle, covered, x, y);
         const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
         const Real3 shown = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
                                      covered, &lights, bin_edges, view);
         color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
       }
-      store_block(image, color, x, y, width, height);
+      store_block(image, color, REAL(1.0f), x, y, width, height);
     }
   }
 }

@@ -56,7 +56,7 @@ int capture(const CaptureOptions& o) {
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   make_folder(o.output);
-  Renderer devices = open_devices(o.devices, o.technique);
+  Renderer devices = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, devices);
   const std::string summary =
       path.empty()

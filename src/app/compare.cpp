@@ -155,7 +155,7 @@ std::vector<Contestant> runnable(const CompareCommand& o, std::vector<Contestant
                                  const Renderer& devices) {
   if (devices.gl) return contestants;
   if (!o.techniques.empty()) {
-    if (std::ranges::any_of(contestants, [](const Contestant& c) { return c.technique->needs.opengl; }))
+    if (std::ranges::any_of(contestants, [](const Contestant& c) { return draws_with_opengl(c.technique->needs, c.settings); }))
       devices.require_gl();
     return contestants;
   }

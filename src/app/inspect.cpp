@@ -96,7 +96,7 @@ struct OpenCl {
 OpenCl open_devices_for(Subject& subject, const InspectOptions& o) {
   subject.technique = o.technique.empty() ? "forward_plus" : o.technique;
   if (subject.scene) {
-    Renderer renderer = open_devices(o.devices, o.technique);
+    Renderer renderer = open_devices(o.devices, o.technique, subject.settings);
     const Technique& chosen = technique_or_default(o.technique, renderer);
     subject.frame =
         capture_frame(renderer, subject.scene->scene, subject.scene->view, subject.settings, chosen);

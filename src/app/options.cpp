@@ -49,8 +49,8 @@ void add_technique_option(Subcommand& command, std::string& technique, const std
   command.option("-t,--technique", technique, what + " (default: forward_plus; without OpenGL visibility)");
 }
 
-Renderer open_devices(const DeviceOptions& o, const std::string& technique) {
-  const bool opengl = technique.empty() || find_technique(technique).needs.opengl;
+Renderer open_devices(const DeviceOptions& o, const std::string& technique, const Settings& settings) {
+  const bool opengl = technique.empty() || draws_with_opengl(find_technique(technique).needs, settings);
   const GlBackend wanted = parse_gl_backend(o.gl);
   Renderer renderer(o.device, !opengl && wanted == GlBackend::automatic ? GlBackend::none : wanted);
   if (opengl && !technique.empty()) renderer.require_gl();

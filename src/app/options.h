@@ -27,10 +27,10 @@ void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what);
 
-// The devices for a technique by its name; empty: whichever can be had. OpenGL is opened only if the
+// The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened only if the
 // technique needs it or --gl names a backend. Throws Error(input) for an unknown name, Error(machine) without
 // what it needs.
-Renderer open_devices(const DeviceOptions& options, const std::string& technique);
+Renderer open_devices(const DeviceOptions& options, const std::string& technique, const Settings& settings);
 
 // The technique by its name; if that is empty, forward_plus or, without OpenGL, visibility, which is reported
 // on stderr.

@@ -51,7 +51,7 @@ int render(const RenderOptions& o) {
   parse_gl_backend(o.devices.gl);
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
-  Renderer renderer = open_devices(o.devices, o.technique);
+  Renderer renderer = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, renderer);
   const SceneMotion advance = chosen_motion(chosen.scene, o.scene);
   if (path.empty() && o.scene.light_motion != "none") advance(0);

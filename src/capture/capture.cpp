@@ -11,7 +11,7 @@ namespace lightgrid {
 SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
     : gpu_(renderer, scene),
-      opengl_(technique.needs.opengl),
+      opengl_(draws_with_opengl(technique.needs, settings)),
       view_(renderer, gpu_, view, settings, find_technique(opengl_ ? "forward_plus" : "visibility").needs) {}
 
 CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes) {

@@ -269,14 +269,14 @@ std::vector<size_t> order_of_rows(const std::vector<Entry>& entries) {
   std::vector<size_t> order(entries.size());
   std::iota(order.begin(), order.end(), size_t(0));
   std::ranges::stable_sort(order, {}, [&](size_t i) {
-    const Technique& technique = *entries[i].contestant->technique;
-    return technique.own_surfaces ? 0 : technique.listed ? 1 : 2;
+    const Contestant& c = *entries[i].contestant;
+    return own_surfaces(*c.technique, c.settings) ? 0 : c.technique->listed ? 1 : 2;
   });
   return order;
 }
 
 bool any_has_own_surfaces(const std::vector<Entry>& entries) {
-  return std::ranges::any_of(entries, [](const Entry& e) { return e.run && e.run->technique().own_surfaces; });
+  return std::ranges::any_of(entries, [](const Entry& e) { return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings); });
 }
 
 CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, const std::vector<Contestant>& contestants,

@@ -37,7 +37,9 @@ FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
   return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
 }
 
-bool has_own_surfaces(const ChosenPoint& point) { return point.contestant.technique->own_surfaces; }
+bool has_own_surfaces(const ChosenPoint& point) {
+  return own_surfaces(*point.contestant.technique, point.contestant.settings);
+}
 
 class SceneSweep {
  public:

@@ -85,9 +85,9 @@ std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
   std::vector<ChosenPoint> points;
   for (const Star& s : default_points) {
     const Technique& technique = find_technique(s.technique);
-    if (technique.needs.opengl && !opengl) continue;
     Settings settings = common;
     for (const std::string& assignment : words(s.settings, ' ')) apply_setting(settings, assignment);
+    if (draws_with_opengl(technique.needs, settings) && !opengl) continue;
     points.push_back(point(technique, settings, s.frames));
   }
   return points;

@@ -1,6 +1,8 @@
 // From triangle numbers to radiance: the resolve pass, and blended surfaces by the same kernels' code.
 #include "passes/resolve.h"
 
+#include <fmt/format.h>
+
 #include <tuple>
 
 #include "cl/launch.h"
@@ -8,6 +10,13 @@
 
 namespace lightgrid {
 namespace {
+
+constexpr size_t group_width = 8, group_height = 16;  // pixels; the 32 items that run together are then 8 x 4
+
+cl::NDRange whole_groups(const View& view) {
+  const auto whole = [](int pixels, size_t group) { return (size_t(pixels) + group - 1) / group * group; };
+  return {whole(view.width, group_width), whole(view.height, group_height)};
+}
 
 // The image, the lights and the kernels.
 class Resolving : public PassState {
@@ -31,10 +40,12 @@ class Resolving : public PassState {
 
   size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
 
-  // "resolve" or "blend", built at first use.
-  cl::Kernel& kernel(RenderView& v, const char* stem) {
+  // "resolve", "resolve_gbuffer" or "blend", built at first use.
+  cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
     cl::Kernel& kernel = kernels_[stem];
-    if (!kernel()) kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_);
+    if (!kernel()) {
+      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_ + more_defines);
+    }
     return kernel;
   }
 
@@ -58,6 +69,12 @@ class Resolving : public PassState {
                       indices, light_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
                       lights.view.buffer());
   }
+
+  // Of kernels over all pixels: a work-item takes a tile, or a pixel.
+  cl::NDRange items(const RenderView& v) const {
+    return lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y) : whole_groups(v.view);
+  }
+  cl::NDRange group() const { return lanes ? cl::NDRange(1, 1) : cl::NDRange(group_width, group_height); }
 
   const bool lanes;
   SharedBuffer& image;  // of the view's targets
@@ -86,11 +103,9 @@ class Resolving : public PassState {
   size_t scene_bytes_ = 0;
 };
 
-constexpr size_t group_width = 8, group_height = 16;  // pixels; the 32 items that run together are then 8 x 4
-
-cl::NDRange whole_groups(const View& view) {
-  const auto whole = [](int pixels, size_t group) { return (size_t(pixels) + group - 1) / group * group; };
-  return {whole(view.width, group_width), whole(view.height, group_height)};
+cl_float4 background(const RenderView& v) {
+  const glm::vec3& background = v.scene.background;
+  return {{background.r, background.g, background.b, 1}};
 }
 
 size_t grid_bytes(const GridInCl& in) {
@@ -102,19 +117,33 @@ size_t grid_bytes(const GridInCl& in) {
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
   cl::Kernel& kernel = r.kernel(v, "resolve");
-  const glm::vec3& background = v.scene.background;
   auto pass = v.timer.pass("resolve", "cl");
   std::apply(
       [&](const auto&... shared) {
-        launch(*v.renderer.cl, "resolve", kernel,
-               r.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y) : whole_groups(v.view),
-               r.lanes ? cl::NDRange(1, 1) : cl::NDRange(group_width, group_height), visible.image.triangle,
-               visible.image.depth, shared..., cl_float4{{background.r, background.g, background.b, 1}},
-               r.image.cl_buffer());
+        launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle, visible.image.depth,
+               shared..., background(v), r.image.cl_buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, lights));
   pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
+}
+
+GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, BaseLighting base_lighting) {
+  Resolving& r = v.state<Resolving>();
+  const GBufferInCl g = gbuffer_in_cl_of(v, base_lighting, TargetUse::gbuffer);
+  const bool image = base_lighting == BaseLighting::in_image;
+  cl::Kernel& kernel = r.kernel(v, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
+  auto pass = v.timer.pass("resolve_gbuffer", "cl");
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "resolve_gbuffer", kernel, r.items(v), r.group(), visible.image.triangle,
+               visible.image.depth, shared..., background(v), g.surfaces[0]->cl_buffer(), g.surfaces[1]->cl_buffer(),
+               g.coats ? g.surfaces[2]->cl_buffer() : cl::Buffer(), image ? g.image->cl_buffer() : cl::Buffer());
+      },
+      r.arguments(v, visible.raster, visible.surfaces, {}));
+  pass.moves(v.pixels() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
+             v.pixels() * (g.bytes() + (image ? 16 : 0)));
+  return g;
 }
 
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,

@@ -1,6 +1,7 @@
 // From triangle numbers to radiance, in OpenCL: the resolve pass, and blended surfaces over its image.
 #pragma once
 
+#include "passes/common/gbuffer.h"
 #include "passes/rasterize.h"
 
 namespace lightgrid {
@@ -14,7 +15,11 @@ struct GridInCl {
 // Attributes, textures and light of every pixel in one pass. The image stays in OpenCL's memory.
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights);
 
-// Lays blended surfaces over the image of resolve(), where they are in front of the opaque ones.
+// The surface of every pixel into a geometry buffer of the layout of buffer-bits, as fill_gbuffer does with OpenGL. With
+// BaseLighting::in_image it writes the image too.
+GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, BaseLighting base_lighting);
+
+// Lays blended surfaces over the image of resolve() or of a light pass in OpenCL, where they are in front of the opaque ones.
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
                     const GridInCl& lights);
 

@@ -1,8 +1,5 @@
 #include "passes/shade_tiles.h"
 
-#include <array>
-#include <functional>
-
 #include "cl/launch.h"
 #include "renderer/cl_lights.h"
 
@@ -10,17 +7,13 @@ namespace lightgrid {
 namespace {
 
 // Whether the image already contains base lighting before the light pass.
-bool holds_base_lighting(const GBuffer& gbuffer) { return gbuffer.base_lighting == BaseLighting::in_image; }
+bool holds_base_lighting(const GBufferInCl& gbuffer) { return gbuffer.base_lighting == BaseLighting::in_image; }
 
-// The geometry buffer and the image as OpenCL reads them, the lights, and the kernels.
+// The lights and the kernels.
 class TileShading : public PassState {
  public:
   explicit TileShading(RenderView& v)
       : lanes(shades_in_lanes(v)),
-        surfaces{v.shared_pixels("gbuffer 0", layout(v).images[0].bytes),
-                 v.shared_pixels("gbuffer 1", layout(v).images[1].bytes)},
-        coats(v.plan.clearcoat ? &v.shared_pixels("gbuffer 2", layout(v).images[2].bytes) : nullptr),
-        image(v.shared_pixels("image", 16)),
         defines_(defines_of_view(v)) {
     lights.upload(v);
   }
@@ -28,7 +21,6 @@ class TileShading : public PassState {
   // Another camera at the same size, or moved lights; kernels are rebuilt only if the plan changed.
   bool follow(RenderView& v) override {
     std::string defines = defines_of_view(v);
-    coats = v.plan.clearcoat ? &v.shared_pixels("gbuffer 2", layout(v).images[2].bytes) : nullptr;
     if (defines != defines_) {
       defines_ = std::move(defines);
       for (cl::Kernel& kernel : kernels_) kernel = cl::Kernel();
@@ -40,7 +32,7 @@ class TileShading : public PassState {
   size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
-  cl::Kernel& kernel(RenderView& v, const GBuffer& gbuffer) {
+  cl::Kernel& kernel(RenderView& v, const GBufferInCl& gbuffer) {
     cl::Kernel& kernel = kernels_[holds_base_lighting(gbuffer)];
     if (kernel()) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
@@ -50,13 +42,9 @@ class TileShading : public PassState {
   }
 
   const bool lanes;
-  const std::array<std::reference_wrapper<SharedBuffer>, 2> surfaces;  // of the view's targets
-  SharedBuffer* coats;  // null: no opaque surface has one
-  SharedBuffer& image;
   ClLights lights;
 
  private:
-  static const GBufferLayout& layout(RenderView& v) { return *gbuffer_of(v).layout; }
   std::string defines_of_view(RenderView& v) const {
     return light_defines(v, lanes) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
   }
@@ -72,19 +60,20 @@ void copy_attachment(RenderView& v, int attachment, GLenum type, SharedBuffer& t
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-void gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer, TileShading& shading) {
+GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
   const size_t pixels = v.pixels();
-  const bool base_lighting = holds_base_lighting(gbuffer);
+  const GBufferInCl in_cl = gbuffer_in_cl_of(v, gbuffer.base_lighting, TargetUse::image);
+  const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
-  for (int i = 0; i < 2; ++i) copy_attachment(v, i, gbuffer.layout->images[i].type, shading.surfaces[i]);
-  if (base_lighting) copy_attachment(v, 2, GL_FLOAT, shading.image);
-  if (gbuffer.coats) copy_attachment(v, gbuffer.coats_attachment(), gbuffer.layout->images[2].type, *shading.coats);
-  for (int i = 0; i < 2; ++i) shading.surfaces[i].get().hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
-  if (base_lighting) shading.image.hand_to_cl(pixels * 16);
-  if (gbuffer.coats) shading.coats->hand_to_cl(pixels * gbuffer.layout->images[2].bytes);
+  for (size_t i = 0; i < 2; ++i) copy_attachment(v, int(i), gbuffer.layout->images[i].type, *in_cl.surfaces[i]);
+  if (base_lighting) copy_attachment(v, 2, GL_FLOAT, *in_cl.image);
+  if (gbuffer.coats) copy_attachment(v, gbuffer.coats_attachment(), gbuffer.layout->images[2].type, *in_cl.surfaces[2]);
+  for (size_t i = 0; i < in_cl.images(); ++i) in_cl.surfaces[i]->hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
+  if (base_lighting) in_cl.image->hand_to_cl(pixels * 16);
   const size_t bytes = pixels * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
+  return in_cl;
 }
 
 void image_to_gl(RenderView& v, SharedBuffer& image) {
@@ -98,7 +87,8 @@ void image_to_gl(RenderView& v, SharedBuffer& image) {
   pass.moves(bytes, bytes);
 }
 
-void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
+void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
+  TileShading& s = v.state<TileShading>();
   auto pass = v.timer.pass("shade_tiles", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
@@ -108,10 +98,10 @@ void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const Dept
   const glm::vec3 background = base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), s.surfaces[0].get().cl_buffer(), s.surfaces[1].get().cl_buffer(),
-         s.coats ? s.coats->cl_buffer() : cl::Buffer(),
+         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(), gbuffer.surfaces[1]->cl_buffer(),
+         gbuffer.coats ? gbuffer.surfaces[2]->cl_buffer() : cl::Buffer(),
          depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
-         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(), s.image.cl_buffer(),
+         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(), gbuffer.image->cl_buffer(),
          cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());
   const size_t pixels = v.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
@@ -121,12 +111,16 @@ void add_light(RenderView& v, TileShading& s, const GBuffer& gbuffer, const Dept
 }  // namespace
 
 ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
-  TileShading& shading = v.state<TileShading>();
-  gbuffer_to_cl(v, gbuffer, shading);
-  add_light(v, shading, gbuffer, depth, grid);
-  if (!v.plan.blend) return {gbuffer.image.framebuffer, &shading.image};
-  image_to_gl(v, shading.image);
+  const GBufferInCl in_cl = gbuffer_to_cl(v, gbuffer);
+  add_light(v, in_cl, depth, grid);
+  if (!v.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
+  image_to_gl(v, *in_cl.image);
   return gbuffer.image;
+}
+
+ShadedImage shade_tiles(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
+  add_light(v, gbuffer, depth, grid);
+  return {0, gbuffer.image};
 }
 
 }  // namespace lightgrid

@@ -219,6 +219,10 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   return features;
 }
 
+bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings) {
+  return needs.opengl && !(needs.chosen_raster && settings.raster == RasterApi::opencl);
+}
+
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
                      PlannedInstances instances) {
   FramePlan plan;

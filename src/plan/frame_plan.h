@@ -58,8 +58,12 @@ struct TechniqueNeeds {
   bool light_volumes = false;  // lights are drawn one by one; with stencil if volume-culling uses it
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
   bool opengl = true;               // draws with OpenGL; false: OpenCL alone
+  bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool chosen_lights = false;  // whose light grid is left out by the setting lights=all
 };
+
+// Whether a technique with these settings draws with OpenGL.
+bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);
 
 struct FramePlan {
   Settings settings;

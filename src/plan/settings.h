@@ -22,7 +22,11 @@ enum class LidrVolumes { stencil, front_faces };
 enum class LidrUnpack { integers, floats };
 enum class LidrOrder { priority, scene };
 
-// How the resolve pass of visibility keeps a material's maps (renderer/surface_texels.h), and which lights it adds up.
+// Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/rasterizer.h), which then needs no
+// OpenGL.
+enum class RasterApi { opengl, opencl };
+
+// How the resolve passes keep a material's maps (renderer/surface_texels.h), and which lights it adds up.
 enum class TexelLayout { packed, separate };
 enum class ShadedLights { grid, all };
 
@@ -51,6 +55,7 @@ struct Settings {
   LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrOrder lidr_order = LidrOrder::priority;
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
+  RasterApi raster = RasterApi::opengl;
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;
   bool portable = false;       // kernels without the builtins of one kind of CPU

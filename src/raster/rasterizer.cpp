@@ -181,7 +181,7 @@ void Rasterizer::run(bool image) {
   if (image) {
     const size_t pixels = size_t(view.width) * view.height;
     s.image_triangles.at_least(s.device, pixels * sizeof(cl_uint));
-    s.image_depths.at_least(s.device, pixels * sizeof(cl_float));
+    s.image_depths.at_least(s.device, (pixels + Visibility::spare_pixels) * sizeof(cl_float));
   }
   s.upload_instances();
 

@@ -77,6 +77,7 @@ constexpr uint32_t no_triangle = 0xffffffffu;
 // The rasteriser's own buffers, written again by the next draw(). Row 0 is at the bottom, rows lie without
 // gaps.
 struct Visibility {
+  static constexpr size_t spare_pixels = 16;  // of depth, that kernels may read past its end
   cl::Buffer triangle;  // uint a pixel: the nearest triangle's number, or no_triangle
   cl::Buffer
       depth;  // float a pixel: reversed z / w of clip_from_view, 0 where no triangle is: DepthInput::values

@@ -63,9 +63,10 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
       settings_(settings),
       needs_(needs),
+      opengl_(draws_with_opengl(needs, settings)),
       shared_pool_(std::move(pool)) {
-  if (needs_.opengl) renderer.require_gl();
-  if (needs_.opengl && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
+  if (opengl_) renderer.require_gl();
+  if (opengl_ && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
   follow_view();
 }
 
@@ -136,7 +137,7 @@ void RenderView::follow_view() {
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
-  if (!needs_.opengl) return;
+  if (!opengl_) return;
   lights.update(scene, view, plan, params);
   if (preparing_) {
     opaque.clear(), blended.clear();
@@ -186,8 +187,8 @@ GLuint RenderView::color_framebuffer() {
   return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
-SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t pixel_bytes) {
-  return targets.buffer(*renderer.cl, renderer.bridge, name, (pixels() + spare_pixels) * pixel_bytes);
+SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use) {
+  return targets.buffer(*renderer.cl, renderer.bridge, name, (pixels() + spare_pixels) * pixel_bytes, use);
 }
 
 LightCuller& RenderView::culler() {
@@ -211,8 +212,8 @@ SharedGridStorage& RenderView::blend_grid() {
 
 size_t RenderView::memory_bytes() const {
   size_t bytes = targets.bytes() + lights.light_bytes();
-  if (needs_.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
-  if (needs_.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
+  if (opengl_) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
+  if (opengl_ && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& [type, state] : states_) bytes += state->memory_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (culler_) bytes += culler_->memory_bytes();

@@ -33,8 +33,8 @@ class PassState {
 };
 
 struct RenderView {
-  // All outlive it; it may add reversed triangles to the GPU scene. Without needs.opengl nothing of the scene
-  // is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool the
+  // All outlive it; it may add reversed triangles to the GPU scene. Unless draws_with_opengl() nothing of the
+  // scene is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool the
   // view has its own. Throws Error(input) if the settings do not fit the view, Error(machine) if it needs an
   // OpenGL that the renderer lacks.
   RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const TechniqueNeeds& needs,
@@ -67,7 +67,7 @@ struct RenderView {
   Targets targets;
 
   std::vector<InstanceTransform> transforms;  // by instance; set for those in the plan
-  DrawList opaque, blended;                   // nearest first; back to front. Empty without needs.opengl
+  DrawList opaque, blended;                   // nearest first; back to front. Empty unless draws_with_opengl()
 
   // The programs of a pass over the scene's surfaces, by material features. All of them get `defines`.
   ScenePrograms& programs(SurfaceShaders shaders);
@@ -85,7 +85,7 @@ struct RenderView {
   ViewLightBuffers lights;
 
   // Memory that OpenCL and OpenGL share, for `pixel_bytes` a pixel and spare ones, by name (Targets::buffer).
-  SharedBuffer& shared_pixels(const std::string& name, size_t pixel_bytes);
+  SharedBuffer& shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use = TargetUse::image);
 
   // The view's only T; T(RenderView&) creates it at first use.
   template <typename T>
@@ -110,6 +110,7 @@ struct RenderView {
 
   Settings settings_;
   TechniqueNeeds needs_;
+  bool opengl_;  // draws_with_opengl()
   bool preparing_ = false;
   std::shared_ptr<TargetPool> shared_pool_;  // null: own images
   std::map<std::string, ScenePrograms> programs_;

@@ -53,9 +53,9 @@ GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
 
 GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
 
-SharedBuffer& Targets::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes) {
+SharedBuffer& Targets::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes, TargetUse use) {
   SharedBuffer& buffer = pool_->buffer(cl, bridge, name, bytes);
-  buffers_[name] = bytes;
+  buffers_[name] = {use, bytes};
   return buffer;
 }
 
@@ -68,13 +68,14 @@ void Targets::clear() {
 size_t Targets::bytes() const {
   size_t sum = 0;
   for (const auto& [name, target] : targets_) sum += target.bytes;
-  for (const auto& [name, bytes] : buffers_) sum += bytes;
+  for (const auto& [name, buffer] : buffers_) sum += buffer.bytes;
   return sum;
 }
 
 size_t Targets::bytes(TargetUse use) const {
   size_t sum = 0;
   for (const auto& [name, target] : targets_) sum += target.use == use ? target.bytes : 0;
+  for (const auto& [name, buffer] : buffers_) sum += buffer.use == use ? buffer.bytes : 0;
   return sum;
 }
 

@@ -59,7 +59,8 @@ class Targets {
   GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) { return pool_->framebuffer(colors, depth); }
 
   // The buffer of this name and size, for contents that last no longer than a frame.
-  SharedBuffer& buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes);
+  SharedBuffer& buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes,
+                       TargetUse use = TargetUse::image);
 
   // Frees the pool's images and buffers. Other views of the pool have to do so too before they draw again.
   void clear();
@@ -79,7 +80,11 @@ class Targets {
   int width_, height_;
   bool stencil_;
   std::map<std::string, Target> targets_;
-  std::map<std::string, size_t> buffers_;  // their bytes
+  struct Buffer {
+    TargetUse use;
+    size_t bytes;
+  };
+  std::map<std::string, Buffer> buffers_;
 };
 
 }  // namespace lightgrid

@@ -18,4 +18,8 @@ Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& 
 // The same without point and spot lights: the geometry buffer's image lacks only blended surfaces.
 Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer);
 
+// The whole frame with raster=opencl: triangles, surfaces and light in OpenCL. Both techniques then have the depth
+// before the surfaces, and each pixel's material once.
+Frame tiled_light_in_cl(RenderView& v);
+
 }  // namespace lightgrid

@@ -6,6 +6,7 @@
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
+  if (v.plan.settings.raster == RasterApi::opencl) return tiled_light_in_cl(v);
   const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
   if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
   const DepthBuffer depth = depth_to_cl(v, gbuffer.depth_image);
@@ -16,9 +17,9 @@ extern const Technique deferred_tiled{
     .name = "deferred_tiled",
     .summary = "a geometry buffer, lit in OpenCL from per-tile light lists",
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true},
+    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true},
     .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",
-                 "kernel-shape", "portable", "group-size"},
+                 "raster", "texels", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

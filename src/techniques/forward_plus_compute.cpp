@@ -8,6 +8,7 @@
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
+  if (v.plan.settings.raster == RasterApi::opencl) return tiled_light_in_cl(v);
   const DepthBuffer depth = depth_to_cl(v, depth_prepass(v));
   const DepthBounds bounds = depth_bounds(v, depth);
   const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
@@ -18,9 +19,9 @@ extern const Technique forward_plus_compute{
     .name = "forward_plus_compute",
     .summary = "per-tile light lists, shaded in OpenCL",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true},
+    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true},
     .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",
-                 "kernel-shape", "portable", "group-size"},
+                 "raster", "texels", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

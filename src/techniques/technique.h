@@ -22,10 +22,13 @@ struct Technique {
   ListedLights (*listed)(RenderView& v) = nullptr;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
-  // Rasterises and filters by its own code: at silhouettes, where surfaces share a depth and in minified textures its image
-  // differs from one that OpenGL draws.
-  bool own_surfaces = false;
 };
+
+// Whether the technique with these settings rasterises and filters by its own code, in OpenCL: at silhouettes, where
+// surfaces share a depth and in minified textures its image differs from one that OpenGL draws.
+inline bool own_surfaces(const Technique& technique, const Settings& settings) {
+  return !draws_with_opengl(technique.needs, settings);
+}
 
 // The frame of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended
 // surfaces.
@@ -34,6 +37,9 @@ Frame shade_from_light_grid(RenderView& v);
 // Blends blended surfaces over the frame's image. With depth bounds, they get a grid of their own, stored in
 // the frame; without, they use that of opaque surfaces.
 void shade_blended_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame);
+
+// The same over an image in OpenCL, from triangles that OpenCL rasterises.
+void blend_resolved_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame);
 
 const std::vector<const Technique*>& techniques();
 

@@ -7,17 +7,6 @@
 
 namespace lightgrid {
 
-// Over the frame's image, from a grid of their own, whose cells begin at the near plane; where there are no
-// depth bounds, from that of opaque ones.
-static void blend(RenderView& v, const DepthBounds& bounds, Frame& frame) {
-  if (v.plan.blended.empty()) return;
-  if (v.plan.blend_grid) frame.blend_grid = cull_lights_for_blended(v, bounds);
-  GridInCl lights;
-  if (v.plan.light_grid) lights = {&*frame.grid, &v.opaque_grid()};
-  if (v.plan.blend_grid) lights = {&*frame.blend_grid, &v.blend_grid()};
-  blend_resolved(v, list_blended(v), *frame.depth, lights);
-}
-
 static Frame render(RenderView& v) {
   Frame frame;
   const VisibilityBuffer visible = rasterize(v);
@@ -31,7 +20,7 @@ static Frame render(RenderView& v) {
     lights = {&*frame.grid, &v.opaque_grid()};
   }
   frame.image = resolve(v, visible, lights);
-  blend(v, bounds, frame);
+  blend_resolved_from_grid(v, bounds, frame);
   return frame;
 }
 
@@ -47,7 +36,6 @@ extern const Technique visibility{
               .chosen_lights = true},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins", "lights",
                  "texels", "kernel-shape", "portable", "group-size"},
-    .render = render,
-    .own_surfaces = true};
+    .render = render};
 
 }  // namespace lightgrid

@@ -70,7 +70,14 @@ TEST(SilhouetteErrors, AreCountedApartByCompare) {
   const CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
   const CompareReport report = compare_techniques(
       software_devices(), s.scene, small_view(131, 77),
-      {{&find_technique("forward_plus"), {}}, {&find_technique("visibility"), {}}}, options);
+      {{&find_technique("forward_plus"), {}},
+       {&find_technique("visibility"), {}},
+       {&find_technique("deferred_tiled"), {}},
+       {&find_technique("deferred_tiled"), {.raster = RasterApi::opencl}}},
+      options);
+  EXPECT_FALSE(report.rows[2].error->silhouettes.has_value());
+  ASSERT_TRUE(report.rows[3].error->silhouettes.has_value());
+  EXPECT_EQ(report.rows[3].error->silhouettes->silhouettes, report.rows[1].error->silhouettes->silhouettes);
   EXPECT_FALSE(report.rows[0].error->silhouettes.has_value());
   const std::optional<SilhouetteError>& apart = report.rows[1].error->silhouettes;
   ASSERT_TRUE(apart.has_value());

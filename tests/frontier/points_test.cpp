@@ -38,7 +38,7 @@ TEST(FrontierPoints, AreAStarOfDistinctPointsWithEveryTechniqueAsItIs) {
 }
 
 TEST(FrontierPoints, NeedNoOpenGlWithoutIt) {
-  for (const ChosenPoint& p : chosen_points({}, {}, {}, false)) EXPECT_FALSE(p.contestant.technique->needs.opengl) << p.label;
+  for (const ChosenPoint& p : chosen_points({}, {}, {}, false)) EXPECT_FALSE(draws_with_opengl(p.contestant.technique->needs, p.contestant.settings)) << p.label;
   EXPECT_EQ(baseline_point({}, false).label, "visibility");
   EXPECT_EQ(baseline_point({}, true).label, "forward_plus");
 }

@@ -49,7 +49,7 @@ TEST_P(EveryTechnique, SumsManyDimLightsAsOneOfTheirSum) {
   SmallScene s = small_scene(false);
   const View view = small_view(17, 9);
   add_point(s.scene, "lamp", {0, 0.5f, -3.2f}, {1, 1, 1}, 4, 1.5f);
-  const Image one = render(s.scene, view, GetParam()->own_surfaces ? GetParam()->name : "forward");
+  const Image one = render(s.scene, view, own_surfaces(*GetParam(), {}) ? GetParam()->name : "forward");
   s.scene.lights[0].intensity /= count;
   s.scene.lights.resize(count, s.scene.lights[0]);
   // Each of the sum's terms may round once.

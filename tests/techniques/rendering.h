@@ -97,7 +97,7 @@ inline void expect_close(const Scene& scene, const View& view, const Settings& s
                          const char* technique, double bound = 1e-5) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
-  if (run.technique().own_surfaces) {
+  if (own_surfaces(run.technique(), settings)) {
     expect_near(run.image(), forward);
   } else {
     EXPECT_LT(compare_images(run.image(), forward).max_rel, bound);

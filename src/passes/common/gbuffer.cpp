@@ -4,15 +4,23 @@
 
 namespace lightgrid {
 
-static const GBufferLayout& layout_of(const Settings& settings) {
+const GBufferLayout& gbuffer_layout(const Settings& settings) {
   return *std::find_if(std::begin(gbuffer_layouts), std::end(gbuffer_layouts),
                        [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
+}
+
+GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use) {
+  constexpr const char* names[] = {"gbuffer 0", "gbuffer 1", "gbuffer 2"};
+  GBufferInCl g{.base_lighting = base_lighting, .layout = &gbuffer_layout(v.plan.settings), .coats = v.plan.clearcoat};
+  for (size_t i = 0; i < g.images(); ++i) g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
+  g.image = &v.shared_pixels("image", 16);
+  return g;
 }
 
 GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
   GBuffer g;
   g.base_lighting = base_lighting;
-  g.layout = &layout_of(v.plan.settings);
+  g.layout = &gbuffer_layout(v.plan.settings);
   g.coats = v.plan.clearcoat;
   for (size_t i = 0; i < g.images(); ++i) {
     g.textures[i] =

@@ -58,6 +58,24 @@ inline constexpr GBufferLayout gbuffer_layouts[] = {
 // (FramePlan::base_lighting); the geometry pass then writes no image.
 enum class BaseLighting { in_image, in_light_pass };
 
+// The same surfaces as plain bytes in OpenCL's memory, row 0 at the bottom: copied from OpenGL, or written there
+// (passes/resolve.h).
+struct GBufferInCl {
+  BaseLighting base_lighting = BaseLighting::in_image;
+  const GBufferLayout* layout = nullptr;
+  bool coats = false;                       // there is a third image
+  std::array<SharedBuffer*, 3> surfaces{};  // the third null without
+  SharedBuffer* image = nullptr;            // for light passes to add to, or to write
+  size_t images() const { return coats ? 3 : 2; }
+  size_t bytes() const { return layout->bytes(coats); }  // a pixel, without `image`
+};
+
+// That of buffer-bits.
+const GBufferLayout& gbuffer_layout(const Settings& settings);
+
+// The view's buffers, written or not. use: gbuffer where they are no copies.
+GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use);
+
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
