@@ -50,7 +50,8 @@ class TexelWriter {
     const auto maps = maps_of(m);
     // What lighting needs, an unlit surface does not.
     const int count = m.unlit ? 1 : m.clearcoat > 0 ? SURFACE_MAPS : SURFACE_COAT;
-    const bool packed = !m.unlit && layout_ == TexelLayout::packed && can_pack(m);
+    // A packed texel has no alpha, which blending takes from the base colour.
+    const bool packed = !m.unlit && m.alpha_mode != AlphaMode::blend && layout_ == TexelLayout::packed && can_pack(m);
     for (int i = 0; i < count; ++i) {
       if (maps[i]->texture < 0) continue;
       record.flags |= 1u << i;

@@ -21,7 +21,7 @@ struct SurfaceTexels {
 // Textures that no used material has are left out. A texture or a set of packed ones is there once, however
 // many materials share it. Maps are packed, with TexelLayout::packed, where a material has two or more of
 // base colour, metallic-roughness and normal map, of one size, with one sampler and one set of texture
-// coordinates.
+// coordinates, and is not blended: a packed texel has no alpha.
 SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials, TexelLayout layout);
 
 }  // namespace lightgrid

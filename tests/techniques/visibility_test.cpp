@@ -94,6 +94,19 @@ TEST(VisibilityBuffer, LaysBlendedSurfacesOverOneAnotherInForwardsOrder) {
   EXPECT_GT(compare_images(render(s.scene, view, "visibility"), forward).rmse, 20 * apart) << "glass is seen";
 }
 
+// The base colour's alpha, of a material with two maps of one size.
+TEST(VisibilityBuffer, BlendsByTheAlphaOfATexture) {
+  SmallScene s = small_scene();
+  effect("blend").add(s);
+  Material& glass = s.scene.materials.back();
+  glass.base_color_map.texture = add_speckles(s.scene, true);
+  glass.normal_map.texture = add_speckles(s.scene, false);
+  const View view = small_view(127, 73);
+  const Image image = render(s.scene, view, "visibility");
+  expect_near(image, render(s.scene, view, "forward"));
+  EXPECT_LT(compare_images(image, render(s.scene, view, "visibility", {.texels = TexelLayout::separate})).max_rel, 1e-5);
+}
+
 struct Distances {
   double visibility = 0, forward = 0;
   size_t pixels = 0;
