@@ -6,8 +6,10 @@
 // RESOLVE_ARGUMENTS  kernels/common/resolve_light.h; of the lights only directional ones are read
 // background  of pixels without a surface
 // first, second, coats  out: the geometry buffer (kernels/common/gbuffer.h); coats null: none is wanted
-// image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds
-// it -DTILE      pixels a side, a multiple of 8 (default 16) -DBUFFER_BITS  kernels/common/gbuffer.h
+// image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds it
+//
+// -DTILE         pixels a side, a multiple of 8 (default 16)
+// -DBUFFER_BITS  kernels/common/gbuffer.h
 // -DORTHOGRAPHIC, and what kernels/common/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
