@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/timer.h"
@@ -27,8 +26,13 @@ constexpr double share_of_growth = 0.12;
 // Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file and its FLIP.
 constexpr double as_brute_force = 1e-6;
 
+// Points that take more than so many times as long as the baseline are far from the others: fewer rounds tell where.
+constexpr double slow_factor = 3;
+constexpr int slow_rounds = 4;
+
 struct Measured {
   PointRun run;
+  bool slow = false;
   std::vector<FrontierRecord> records;  // one a view
 };
 
@@ -93,7 +97,7 @@ class SceneSweep {
     for (const ChosenPoint& point : job_.points) {
       if (file_.has(record_key(record_of(point, 0)))) continue;
       tell(0, point.label);
-      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool), {}});
+      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool)});
     }
     if (!measured_.empty()) baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool);
   }
@@ -101,7 +105,8 @@ class SceneSweep {
   // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
   bool fits(double more, int rounds, int views) const {
     const double until = job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0);
-    return seconds() + more + expected_round_s_ * (rounds + 1) * views <= until;
+    const int of_slow = std::min(rounds, slow_rounds);
+    return seconds() + more + (fast_s_ * (rounds + 1) + slow_s_ * (of_slow + 1)) * views <= until;
   }
 
   // As many points as the time allows on one view, then as many views.
@@ -120,7 +125,9 @@ class SceneSweep {
         tell(seconds() / job_.seconds, fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
         m.records.push_back(errors_of(m, view));
         if (view > 0) continue;
-        expected_round_s_ += 0.5 * baseline_s + seconds_of_passes(m.records.front());
+        const double picture_s = seconds_of_passes(m.records.front());
+        m.slow = picture_s > slow_factor * baseline_s;
+        (m.slow ? slow_s_ : fast_s_) += 0.5 * baseline_s + picture_s;
         if (!fits(0, 1, 1)) break;
       }
       if (view == 0) leave_out_unmeasured();
@@ -134,7 +141,7 @@ class SceneSweep {
   // If it leaves time for rounds.
   void measure_flicker() {
     constexpr int frames = 3;
-    if (!fits(frames * (expected_round_s_ + last_view_s_ / 10), job_.least_rounds, used_views_)) return;
+    if (!fits(frames * (fast_s_ + slow_s_ + last_view_s_ / 10), job_.least_rounds, used_views_)) return;
     std::vector<ChangeOfError> changes(measured_.size());
     const std::vector<View> turn = slow_turn(scene_, views_.front(), frames);
     for (int frame = 0; frame < frames; ++frame) {
@@ -242,7 +249,7 @@ class SceneSweep {
   }
 
   // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round. A point
-  // counts with the baseline run beside it. The first round does not count: drivers compile in it what they dropped.
+  // counts with the baseline run beside it. Slow points are left out of late rounds. The first round does not count: drivers compile in it what they dropped.
   void measure_times() {
     const double until = job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0);
     double longest_round = 0;
@@ -260,17 +267,19 @@ class SceneSweep {
   }
 
   void time_view(int round, int view) {
-    std::vector<size_t> order(measured_.size());
-    std::iota(order.begin(), order.end(), size_t(0));
+    std::vector<size_t> order;
+    for (size_t i = 0; i < measured_.size(); ++i) {
+      if (!measured_[i].slow || round <= slow_rounds) order.push_back(i);
+    }
     Random random(Random::mix(job_.seed) + uint64_t(round) * 1000 + uint64_t(view));
     for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
     baseline_->look(views_[view]);
     baseline_->draw();
-    double beside = 0;
+    double beside = baseline_->draw();
     for (size_t i = 0; i < order.size(); i += 2) {
       tell(seconds() / job_.seconds, fmt::format("times, round {}", round + 1));
-      beside = baseline_->draw();
-      time_point(measured_[order[i]], view, beside);
+      Measured& first = measured_[order[i]];
+      add_times(first, view, timed(first, view), beside);
       if (i + 1 == order.size()) break;
       Measured& second = measured_[order[i + 1]];
       const double ms = timed(second, view);
@@ -282,8 +291,6 @@ class SceneSweep {
   static void forget_times(Measured& m) {
     for (FrontierRecord& record : m.records) record.frame_ms.clear(), record.baseline_ms.clear();
   }
-
-  void time_point(Measured& m, int view, double beside) { add_times(m, view, timed(m, view), beside); }
 
   double timed(Measured& m, int view) {
     m.run.look(views_[view]);
@@ -330,7 +337,7 @@ class SceneSweep {
   std::optional<FlipExposures> exposures_;
   std::optional<HdrFlip> flip_, flip_own_;
   double brightest_ = 0;  // channel of the truth on the first view
-  double last_view_s_ = 0, expected_round_s_ = 0;  // of a round over one view
+  double last_view_s_ = 0, fast_s_ = 0, slow_s_ = 0;  // the latter of a round over one view
   int used_views_ = 0;
 };
 
