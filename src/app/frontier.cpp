@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FrontierCommand {
-  SceneChoice scene;  // shared by all scenes
+  SceneChoice scene;                // shared by all scenes
   std::vector<std::string> scenes;  // or "merge" and folders
   DeviceOptions devices;
   std::string output = "out/frontier", json, gate, shard = "0/1";
@@ -48,8 +48,8 @@ Shard parse_shard(const std::string& text) {
   const auto index = std::from_chars(text.data(), end, shard.index);
   const bool slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
   const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
-  if (!slash || count.ec != std::errc() || count.ptr != end || shard.count < 1 || shard.count > 100000 || shard.index < 0 ||
-      shard.index >= shard.count) {
+  if (!slash || count.ec != std::errc() || count.ptr != end || shard.count < 1 || shard.count > 100000 ||
+      shard.index < 0 || shard.index >= shard.count) {
     throw input_error("shard {}: not I/N with I from 0 to N - 1", text);
   }
   return shard;
@@ -64,11 +64,20 @@ SceneChoice choice_of(const FrontierCommand& o, const std::string& scene) {
 // Parts of one sweep agree in this.
 std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>& points) {
   const SceneChoice& s = o.scene;
-  nlohmann::json request = {{"scenes", o.scenes}, {"size", s.size},   {"camera", s.camera}, {"camera_path", s.camera_path},
-                            {"time", s.time},     {"lights", s.lights}, {"lights_file", s.lights_file},
-                            {"light_radius", s.light_radius}, {"seed", s.seed}, {"views", o.views}};
+  nlohmann::json request = {{"scenes", o.scenes},
+                            {"size", s.size},
+                            {"camera", s.camera},
+                            {"camera_path", s.camera_path},
+                            {"time", s.time},
+                            {"lights", s.lights},
+                            {"lights_file", s.lights_file},
+                            {"light_radius", s.light_radius},
+                            {"seed", s.seed},
+                            {"views", o.views}};
   for (const ChosenPoint& point : points) {
-    request["points"].push_back({point.contestant.technique->name, settings_of(*point.contestant.technique, point.contestant.settings), point.frames});
+    request["points"].push_back({point.contestant.technique->name,
+                                 settings_of(*point.contestant.technique, point.contestant.settings),
+                                 point.frames});
   }
   // A path may hold bytes that are not UTF-8.
   return content_hash(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -90,19 +99,22 @@ bool tell_losses(const FrontierAnswer& answer) {
     const bool limited = find_technique(p.point.technique).limited_lists;
     if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0) continue;
     failed = true;
-    fmt::print(stderr, "lightgrid: {} in {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", p.point.label,
-               p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels);
+    fmt::print(stderr, "lightgrid: {} in {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n",
+               p.point.label, p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels);
   }
   return failed;
 }
 
-int finish(const FrontierCommand& o, const std::vector<FrontierPart>& parts, const std::vector<fs::path>& pictures) {
+int finish(const FrontierCommand& o, const std::vector<FrontierPart>& parts,
+           const std::vector<fs::path>& pictures) {
   const FrontierAnswer answer = answer_of(parts);
-  if (answer.points.empty() && answer.failures.empty()) throw input_error("{}: no point was measured", o.output);
+  if (answer.points.empty() && answer.failures.empty())
+    throw input_error("{}: no point was measured", o.output);
   write_answer(o.output, answer, pictures, size_t(o.page_mb) << 20);
   if (answer.points.empty()) {
     const Failure& first = answer.failures.front();
-    throw machine_error("{}: no point ran; {} in {}: {}", o.output, first.point.label, first.point.scene, first.why);
+    throw machine_error("{}: no point ran; {} in {}: {}", o.output, first.point.label, first.point.scene,
+                        first.why);
   }
   if (!o.json.empty()) write_json(o.json, json_text(to_json(answer)));
   if (o.json != "-") {
@@ -159,7 +171,8 @@ int frontier(FrontierCommand o) {
   const Timer timer;
   const Shard shard = parse_shard(o.shard);
   if (shard.count > 1 && !(o.gate.empty() && o.json.empty())) {
-    throw input_error("shard {}: a part has no answer; give {} to frontier merge", o.shard, o.gate.empty() ? "--json" : "--gate");
+    throw input_error("shard {}: a part has no answer; give {} to frontier merge", o.shard,
+                      o.gate.empty() ? "--json" : "--gate");
   }
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
@@ -169,7 +182,8 @@ int frontier(FrontierCommand o) {
   FrontierJob job = job_of(o, renderer, shard);
   FrontierPart part;
   part.request = request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr));
-  part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index, part.shards = shard.count;
+  part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index,
+  part.shards = shard.count;
   part.baseline = job.baseline.label;
   part.machine = machine_of(renderer);
   const fs::path path = part_path(o.output, shard.index, shard.count);
@@ -186,7 +200,9 @@ int frontier(FrontierCommand o) {
     }
     job.seconds = left / double(o.scenes.size() - i);
     const double done = 1 - left / budget_s, share = job.seconds / budget_s;
-    job.progress = [&](double part_done, const std::string& step) { bar(done + part_done * share, o.scenes[i] + ": " + step); };
+    job.progress = [&](double part_done, const std::string& step) {
+      bar(done + part_done * share, o.scenes[i] + ": " + step);
+    };
     measure_scene(renderer, choice_of(o, o.scenes[i]), job, file);
     ++measured;
   }
@@ -201,21 +217,33 @@ int frontier(FrontierCommand o) {
 void add_frontier(CommandLine& line) {
   auto o = std::make_shared<FrontierCommand>();
   o->scene.size = "640x360";
-  Subcommand command = line.add("frontier", "what accuracy costs in time, over settings and scenes", [o] { return frontier(*o); });
-  command.list("scene", o->scenes, "scenes as for compare; or: merge DIR…, the parts of one sweep (default: hall, terrain, spheres, street)");
+  Subcommand command = line.add("frontier", "what accuracy costs in time, over settings and scenes",
+                                [o] { return frontier(*o); });
+  command.list("scene", o->scenes,
+               "scenes as for compare; or: merge DIR…, the parts of one sweep (default: hall, terrain, "
+               "spheres, street)");
   command.option("--size", o->scene.size, "image size, WxH");
-  command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0, most_lights);
+  command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
+                 most_lights);
   add_view_options(command, o->scene);
-  command.option("--camera-path", o->scene.camera_path, "views from turn:N, dolly:N or a JSON file of keys (default: a turn)");
+  command.option("--camera-path", o->scene.camera_path,
+                 "views from turn:N, dolly:N or a JSON file of keys (default: a turn)");
   command.option("--views", o->views, "views of each scene, at most", 1, 1000);
   add_device_options(command, o->devices);
-  command.list("-t,--techniques", o->techniques, "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas (default: a star of settings around each)", ',');
-  command.list("--vary", o->vary, "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
-  command.option("--rounds", o->rounds, "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
+  command.list("-t,--techniques", o->techniques,
+               "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas (default: a star of settings around each)",
+               ',');
+  command.list(
+      "--vary", o->vary,
+      "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
+  command.option("--rounds", o->rounds,
+                 "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
   command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
-  command.option("--gate", o->gate, "an earlier frontier.json: exit 1 if an error grew, a light is lost or a ratio is worse");
-  command.option("--shard", o->shard, "I/N: every N-th point from the I-th on, for a sweep of several processes");
+  command.option("--gate", o->gate,
+                 "an earlier frontier.json: exit 1 if an error grew, a light is lost or a ratio is worse");
+  command.option("--shard", o->shard,
+                 "I/N: every N-th point from the I-th on, for a sweep of several processes");
   command.option("-o,--output", o->output, "folder of the parts and the answer");
   command.option("--page-mb", o->page_mb, "limit of pictures in the page in MiB", 1, 1000);
   command.option("--json", o->json, "frontier.json also into a file, - for stdout");

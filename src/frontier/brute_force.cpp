@@ -17,7 +17,8 @@ Settings meaning_of(const Settings& settings, const Settings& common) {
 std::string name_of(const Settings& meaning) {
   const auto all = to_strings(meaning);
   std::string name;
-  for (const char* key : {"brdf", "range", "cutoff", "window", "alpha", "light_seed"}) name += all.at(key) + " ";
+  for (const char* key : {"brdf", "range", "cutoff", "window", "alpha", "light_seed"})
+    name += all.at(key) + " ";
   return name;
 }
 

@@ -8,7 +8,8 @@
 
 namespace lightgrid {
 
-// Pictures of one view, for techniques that share its surfaces: OpenGL's (`forward`) or those of the rasteriser in OpenCL
+// Pictures of one view, for techniques that share its surfaces: OpenGL's (`forward`) or those of the
+// rasteriser in OpenCL
 // (`visibility:lights=all`). Float; their own error against the oracle in double is measured apart.
 class BruteForce {
  public:

@@ -16,7 +16,9 @@ double difference_of(float a, float b) {
   return std::isnan(difference) ? infinite : difference;
 }
 
-double over(double error, double brightest) { return error == 0 ? 0 : brightest > 0 ? error / brightest : infinite; }
+double over(double error, double brightest) {
+  return error == 0 ? 0 : brightest > 0 ? error / brightest : infinite;
+}
 
 }  // namespace
 
@@ -30,7 +32,8 @@ ErrorFigures error_figures(const Image& image, const Image& reference, double br
       const double error = difference_of(image.pixels[i][c], reference.pixels[i][c]);
       worst_channel = std::max(worst_channel, error);
       squares += error * error;
-      const double relative = over(error, std::max(double(reference.pixels[i][c]), least_channel * brightest));
+      const double relative =
+          over(error, std::max(double(reference.pixels[i][c]), least_channel * brightest));
       relative_squares += relative * relative;
     }
     worst.push_back(worst_channel);
@@ -63,7 +66,8 @@ void PictureMoments::add(const Image& image) {
 
 Image PictureMoments::mean() const {
   Image image(width_, height_);
-  for (size_t i = 0; i < sum_.size(); ++i) image.pixels[i] = glm::vec4(glm::vec3(sum_[i] / double(count_)), 1);
+  for (size_t i = 0; i < sum_.size(); ++i)
+    image.pixels[i] = glm::vec4(glm::vec3(sum_[i] / double(count_)), 1);
   return image;
 }
 
@@ -71,7 +75,8 @@ double PictureMoments::deviation() const {
   if (count_ < 2 || sum_.empty()) return 0;
   double variances = 0;
   for (size_t i = 0; i < sum_.size(); ++i) {
-    const glm::dvec3 variance = glm::max(squares_[i] - sum_[i] * sum_[i] / double(count_), 0.0) / double(count_ - 1);
+    const glm::dvec3 variance =
+        glm::max(squares_[i] - sum_[i] * sum_[i] / double(count_), 0.0) / double(count_ - 1);
     variances += variance.r + variance.g + variance.b;
   }
   return std::sqrt(variances / (3 * double(sum_.size())));

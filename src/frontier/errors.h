@@ -8,8 +8,8 @@
 
 namespace lightgrid {
 
-// Of one size. `brightest`: the truth's brightest channel, over which errors are stated; 0: a black truth, of which any
-// difference is infinitely far. Without flip_mean.
+// Of one size. `brightest`: the truth's brightest channel, over which errors are stated; 0: a black truth, of
+// which any difference is infinitely far. Without flip_mean.
 ErrorFigures error_figures(const Image& image, const Image& reference, double brightest);
 
 // The mean of pictures and how far they scatter, per channel.
@@ -26,7 +26,8 @@ class PictureMoments {
   std::vector<glm::dvec3> sum_, squares_;
 };
 
-// How much a picture's difference from the truth changes from frame to frame: flicker that the scene does not have.
+// How much a picture's difference from the truth changes from frame to frame: flicker that the scene does not
+// have.
 class ChangeOfError {
  public:
   void add(const Image& image, const Image& truth);
@@ -39,8 +40,8 @@ class ChangeOfError {
   size_t channels_ = 0;
 };
 
-// The root mean square of the mean's own error, without what `count` random pictures leave in it: the bias. 0 where the
-// difference is no larger than that.
+// The root mean square of the mean's own error, without what `count` random pictures leave in it: the bias. 0
+// where the difference is no larger than that.
 double bias_rmse(double rmse_of_mean, double deviation, int count);
 
 }  // namespace lightgrid

@@ -15,15 +15,15 @@ constexpr int runs = 7;
 // A variant of the scene, by one of its three sizes.
 struct Variant {
   std::string series;
-  int lights = -1;     // scattered; -1: the scene's own
-  double side = 1;     // of the image's sides
-  double radius = 1;   // of the lights' ranges
+  int lights = -1;    // scattered; -1: the scene's own
+  double side = 1;    // of the image's sides
+  double radius = 1;  // of the lights' ranges
 };
 
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all = {
-      {"lights", 128},          {"lights", 512},      {"lights", 2048},     {"pixels", -1, 0.5},   {"pixels", -1, 1},
-      {"pixels", -1, 2},        {"radius", -1, 1, 0.5}, {"radius", -1, 1, 1}, {"radius", -1, 1, 2}};
+      {"lights", 128},   {"lights", 512},        {"lights", 2048},     {"pixels", -1, 0.5}, {"pixels", -1, 1},
+      {"pixels", -1, 2}, {"radius", -1, 1, 0.5}, {"radius", -1, 1, 1}, {"radius", -1, 1, 2}};
   return all;
 }
 
@@ -36,13 +36,14 @@ std::string scaled_size(const std::string& size, double side) {
 std::vector<ChosenPoint> grown_points(const FrontierJob& job) {
   std::vector<ChosenPoint> grown;
   for (const ChosenPoint& point : job.points) {
-    if (point.label == point.contestant.technique->name && point.contestant.technique->needs.light_grid) grown.push_back(point);
+    if (point.label == point.contestant.technique->name && point.contestant.technique->needs.light_grid)
+      grown.push_back(point);
   }
   return grown;
 }
 
-void measure(const std::vector<ChosenPoint>& points, Renderer& renderer, GpuScene& gpu, const View& view, const FrontierJob& job,
-             FrontierRecord base, RecordFile& file) {
+void measure(const std::vector<ChosenPoint>& points, Renderer& renderer, GpuScene& gpu, const View& view,
+             const FrontierJob& job, FrontierRecord base, RecordFile& file) {
   const auto pool = std::make_shared<TargetPool>();
   PointRun baseline(renderer, gpu, view, job.baseline, pool);
   std::vector<std::pair<PointRun, FrontierRecord>> measured;
@@ -69,19 +70,21 @@ void measure(const std::vector<ChosenPoint>& points, Renderer& renderer, GpuScen
 
 }  // namespace
 
-void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice, const FrontierJob& job,
-                    double seconds, RecordFile& file) {
+void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
+                    const FrontierJob& job, double seconds, RecordFile& file) {
   const Timer timer;
   const std::vector<ChosenPoint> points = grown_points(job);
   const std::vector<Light> own = scene.lights;
   for (size_t i = 0; i < variants().size() && !points.empty(); ++i) {
     if (timer.elapsed_ms() / 1000 > seconds) {
-      if (job.notice) job.notice(fmt::format("{}: growth measured in part, for the time there is", choice.scene));
+      if (job.notice)
+        job.notice(fmt::format("{}: growth measured in part, for the time there is", choice.scene));
       break;
     }
     const Variant& variant = variants()[i];
     if (variant.lights >= 0 && !choice.lights_file.empty()) continue;
-    if (job.progress) job.progress(0.9 + 0.1 * double(i) / double(variants().size()), "growth with " + variant.series);
+    if (job.progress)
+      job.progress(0.9 + 0.1 * double(i) / double(variants().size()), "growth with " + variant.series);
     SceneChoice varied = choice;
     varied.size = scaled_size(choice.size, variant.side);
     if (variant.lights >= 0) varied.lights = variant.lights;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "cl/error.h"
 #include "compare/oracle.h"
 #include "frontier/brute_force.h"
 #include "frontier/errors.h"
@@ -23,10 +25,12 @@ namespace {
 
 // The share of the scene's time that the series take, as far as it is limited.
 constexpr double share_of_growth = 0.12;
-// Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file and its FLIP.
+// Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file and
+// its FLIP.
 constexpr double as_brute_force = 1e-6;
 
-// Points that take more than so many times as long as the baseline are far from the others: fewer rounds tell where.
+// Points that take more than so many times as long as the baseline are far from the others: fewer rounds tell
+// where.
 constexpr double slow_factor = 3;
 constexpr int slow_rounds = 4;
 
@@ -47,8 +51,8 @@ bool has_own_surfaces(const ChosenPoint& point) {
 
 class SceneSweep {
  public:
-  SceneSweep(Renderer& renderer, Scene& scene, const SceneChoice& choice, const View& start, const FrontierJob& job,
-             RecordFile& file)
+  SceneSweep(Renderer& renderer, Scene& scene, const SceneChoice& choice, const View& start,
+             const FrontierJob& job, RecordFile& file)
       : renderer_(renderer),
         scene_(scene),
         choice_(choice),
@@ -113,16 +117,22 @@ class SceneSweep {
   void measure_errors() {
     baseline_->draw();
     const double baseline_s = baseline_->draw() / 1000;
+    if (!baseline_->refused().empty()) {
+      throw machine_error("{}: the baseline {} cannot run: {}", choice_.scene, job_.baseline.label,
+                          baseline_->refused());
+    }
     for (int view = 0; view < int(views_.size()); ++view) {
       const double before = seconds();
       if (view > 0 && !fits(last_view_s_, job_.least_rounds, view + 1)) break;
       with_opengl_.look(views_[view]);
       with_opencl_.look(views_[view]);
-      const bool own = std::ranges::any_of(measured_, [](const Measured& m) { return has_own_surfaces(m.run.point()); });
+      const bool own =
+          std::ranges::any_of(measured_, [](const Measured& m) { return has_own_surfaces(m.run.point()); });
       precision_.measure(views_[view], with_opengl_, own ? &with_opencl_ : nullptr);
       if (view == 0) make_flip();
       for (Measured& m : measured_) {
-        tell(seconds() / job_.seconds, fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
+        tell(seconds() / job_.seconds,
+             fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
         m.records.push_back(errors_of(m, view));
         if (view > 0) continue;
         const double picture_s = seconds_of_passes(m.records.front());
@@ -135,7 +145,8 @@ class SceneSweep {
       used_views_ = view + 1;
     }
     if (used_views_ < int(views_.size()) && job_.notice)
-      job_.notice(fmt::format("{}: {} of {} views, for the time there is", choice_.scene, used_views_, views_.size()));
+      job_.notice(fmt::format("{}: {} of {} views, for the time there is", choice_.scene, used_views_,
+                              views_.size()));
   }
 
   // If it leaves time for rounds.
@@ -174,7 +185,8 @@ class SceneSweep {
     const size_t all = measured_.size();
     std::erase_if(measured_, [](const Measured& m) { return m.records.empty(); });
     if (measured_.size() < all && job_.notice)
-      job_.notice(fmt::format("{}: {} of {} points, for the time there is", choice_.scene, measured_.size(), all));
+      job_.notice(
+          fmt::format("{}: {} of {} points, for the time there is", choice_.scene, measured_.size(), all));
   }
 
   // Where a median pixel is black, HDR-FLIP has no exposures.
@@ -186,7 +198,9 @@ class SceneSweep {
     flip_own_.emplace(with_opencl_.truth(), *exposures_);
   }
 
-  BruteForce& brute_force_of(const ChosenPoint& point) { return has_own_surfaces(point) ? with_opencl_ : with_opengl_; }
+  BruteForce& brute_force_of(const ChosenPoint& point) {
+    return has_own_surfaces(point) ? with_opencl_ : with_opengl_;
+  }
 
   FrontierRecord errors_of(Measured& m, int view) {
     FrontierRecord record = record_of(m.run.point(), view);
@@ -194,9 +208,13 @@ class SceneSweep {
     m.run.draw_for_errors();
     if (m.run.refused().empty()) {
       try {
-        fill(record, m, view);
-      } catch (const Error& error) {  // its lists may not fit into memory
+        fill(record, m, view);  // its lists may not fit into memory
+      } catch (const Error& error) {
         record.refused = error.what();
+      } catch (const cl::Error& error) {
+        record.refused = cl_machine_error(error).what();
+      } catch (const std::bad_alloc&) {
+        record.refused = "out of memory";
       }
     } else {
       record.refused = m.run.refused();
@@ -224,7 +242,9 @@ class SceneSweep {
     const Image& meant = brute.picture(point.contestant.settings);
     record.errors.technique = error_figures(m.run.run().image(), meant, brightest);
     if (point.frames == 1) record.errors.model = error_figures(meant, brute.truth(), brightest);
-    if (view == 0) show(record, point.frames == 1 && record.errors.technique.max_rel <= as_brute_force ? meant : image, brute);
+    if (view == 0)
+      show(record, point.frames == 1 && record.errors.technique.max_rel <= as_brute_force ? meant : image,
+           brute);
     TechniqueRun& run = m.run.run();
     const std::vector<float> depth = read_depth(run);
     record.covered_pixels = uint64_t(std::ranges::count_if(depth, [](float d) { return d > 0; }));
@@ -242,14 +262,16 @@ class SceneSweep {
 
   void show(FrontierRecord& record, const Image& image, BruteForce& brute) {
     const auto& flip = &brute == &with_opencl_ ? flip_own_ : flip_;
-    const PictureFiles::Written written = pictures_.write(choice_.scene, image, brute.truth(), flip ? &*flip : nullptr);
+    const PictureFiles::Written written =
+        pictures_.write(choice_.scene, image, brute.truth(), flip ? &*flip : nullptr);
     record.image = written.name;
     record.errors.total.flip_mean = written.flip_mean;
     record.flip = exposures_;
   }
 
-  // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round. A point
-  // counts with the baseline run beside it. Slow points are left out of late rounds. The first round does not count: drivers compile in it what they dropped.
+  // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each
+  // round. A point counts with the baseline run beside it. Slow points are left out of late rounds. The first
+  // round does not count: drivers compile in it what they dropped.
   void measure_times() {
     const double until = job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0);
     double longest_round = 0;
@@ -308,11 +330,13 @@ class SceneSweep {
   // Whether each ratio's interval is narrow enough.
   bool is_certain() const {
     return std::ranges::all_of(measured_, [&](const Measured& m) {
-      if (!m.records.front().refused.empty()) return true;
+      if (std::ranges::any_of(m.records, [](const FrontierRecord& r) { return !r.refused.empty(); }))
+        return true;
       std::vector<double> ratios;
       for (size_t i = 0; i < m.records.front().frame_ms.size(); ++i) {
         double ms = 0, beside = 0;
-        for (const FrontierRecord& record : m.records) ms += record.frame_ms[i], beside += record.baseline_ms[i];
+        for (const FrontierRecord& record : m.records)
+          ms += record.frame_ms[i], beside += record.baseline_ms[i];
         ratios.push_back(ms / beside);
       }
       const MedianInterval ratio = median_interval(ratios);
@@ -336,7 +360,7 @@ class SceneSweep {
   std::optional<PointRun> baseline_;
   std::optional<FlipExposures> exposures_;
   std::optional<HdrFlip> flip_, flip_own_;
-  double brightest_ = 0;  // channel of the truth on the first view
+  double brightest_ = 0;                              // channel of the truth on the first view
   double last_view_s_ = 0, fast_s_ = 0, slow_s_ = 0;  // the latter of a round over one view
   int used_views_ = 0;
 };

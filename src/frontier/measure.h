@@ -1,4 +1,5 @@
-// Measures a scene's points: errors on each view of a path, then times in rounds, each point beside the baseline.
+// Measures a scene's points: errors on each view of a path, then times in rounds, each point beside the
+// baseline.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +15,22 @@ struct FrontierJob {
   std::vector<ChosenPoint> points;
   ChosenPoint baseline;
   Settings common;
-  int views = 8;            // at most: fewer if the time allows no more
-  double seconds = 180;     // for the scene, from loading to its last record
+  int views = 8;         // at most: fewer if the time allows no more
+  double seconds = 180;  // for the scene, from loading to its last record
   int least_rounds = 6, most_rounds = 40;
   double interval_width = 0.05;  // rounds end when each ratio's interval is at most this share of its median
   uint64_t seed = 1;
-  size_t shaded_samples = 400;   // pixels a view at which the oracle judges precision
-  bool growth = true;            // the series of lights, pixels and radius too
+  size_t shaded_samples = 400;     // pixels a view at which the oracle judges precision
+  bool growth = true;              // the series of lights, pixels and radius too
   std::filesystem::path pictures;  // folder; empty: no pictures
   // Called with the progress (0 to 1) and the next step.
   std::function<void(double done, const std::string& step)> progress;
   std::function<void(const std::string& what)> notice;
 };
 
-// Appends to `file` a record for each point and view, and for each point of a series. Points whose records are there are
-// left out. Throws Error for what concerns the whole scene; a point that cannot run becomes a record with the reason.
+// Appends to `file` a record for each point and view, and for each point of a series. Points whose records
+// are there are left out. Throws Error for what concerns the whole scene; a point that cannot run becomes a
+// record with the reason.
 void measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file);
 
 }  // namespace lightgrid

@@ -11,8 +11,8 @@
 
 namespace lightgrid {
 
-// Writes NAME.png, and if the picture is not the truth NAME.difference.png (logarithmic, as in `compare`) and, with
-// `flip`, NAME.flip.png: HDR-FLIP from 0, black, to 1, yellow (viridis).
+// Writes NAME.png, and if the picture is not the truth NAME.difference.png (logarithmic, as in `compare`)
+// and, with `flip`, NAME.flip.png: HDR-FLIP from 0, black, to 1, yellow (viridis).
 class PictureFiles {
  public:
   explicit PictureFiles(std::filesystem::path folder);  // created; empty: nothing is written

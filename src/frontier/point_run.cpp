@@ -28,11 +28,14 @@ PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const Ch
                    std::shared_ptr<TargetPool> pool)
     : point_(point) {
   attempt([&] {
-    run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, point.contestant.settings, *point.contestant.technique, std::move(pool));
+    run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, point.contestant.settings,
+                                          *point.contestant.technique, std::move(pool));
   });
 }
 
-uint32_t PointRun::seed(int frame) const { return point_.contestant.settings.ranges.seed + uint32_t(frame_ * point_.frames + frame); }
+uint32_t PointRun::seed(int frame) const {
+  return point_.contestant.settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
+}
 
 void PointRun::go_to_frame(int number) {
   frame_ = number;

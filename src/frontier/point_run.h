@@ -12,7 +12,8 @@ namespace lightgrid {
 class PointRun {
  public:
   // Refused at once if the technique cannot run.
-  PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point, std::shared_ptr<TargetPool> pool);
+  PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,
+           std::shared_ptr<TargetPool> pool);
 
   const ChosenPoint& point() const { return point_; }
   const std::string& refused() const { return refused_; }  // empty: it runs

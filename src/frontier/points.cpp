@@ -16,8 +16,9 @@ struct Star {
   int frames = 1;
 };
 
-// Each technique as it is; then pairs and times of cull tests, bounds and tiles; precision of buffers; capacity of lidr;
-// model errors of ranges, windows and BRDFs. What does not depend on the technique is varied on the fastest one.
+// Each technique as it is; then pairs and times of cull tests, bounds and tiles; precision of buffers;
+// capacity of lidr; model errors of ranges, windows and BRDFs. What does not depend on the technique is
+// varied on the fastest one.
 constexpr Star default_points[] = {
     {"forward", ""},
     {"forward_zprepass", ""},
@@ -104,7 +105,9 @@ int frames_of(const std::string& text) {
 void apply_for(const Technique& technique, Settings& settings, const std::string& assignment) {
   apply_setting(settings, assignment);
   const std::string key = assignment.substr(0, assignment.find('='));
-  if (!reads_setting(technique, key)) throw input_error("techniques {}:{}: {} does not read {}", technique.name, assignment, technique.name, key);
+  if (!reads_setting(technique, key))
+    throw input_error("techniques {}:{}: {} does not read {}", technique.name, assignment, technique.name,
+                      key);
 }
 
 // "NAME[:KEY=VALUE[,KEY=VALUE…]]", split at commas as compare's -t.
@@ -117,7 +120,8 @@ std::vector<ChosenPoint> named(const std::vector<std::string>& items, const Sett
       continue;
     }
     contestants.push_back({&find_technique(item.substr(0, colon)), common});
-    if (colon != std::string::npos) apply_for(*contestants.back().technique, contestants.back().settings, item.substr(colon + 1));
+    if (colon != std::string::npos)
+      apply_for(*contestants.back().technique, contestants.back().settings, item.substr(colon + 1));
   }
   std::vector<ChosenPoint> points;
   for (const Contestant& c : contestants) points.push_back(point(*c.technique, c.settings, 1));
@@ -127,7 +131,8 @@ std::vector<ChosenPoint> named(const std::vector<std::string>& items, const Sett
 void vary(std::vector<ChosenPoint>& points, const std::vector<ChosenPoint>& around, const std::string& text) {
   const size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
-  const std::vector<std::string> values = equals == std::string::npos ? std::vector<std::string>() : words(text.substr(equals + 1), ',');
+  const std::vector<std::string> values =
+      equals == std::string::npos ? std::vector<std::string>() : words(text.substr(equals + 1), ',');
   if (values.empty()) throw input_error("vary {}: not KEY=VALUE,VALUE,…", text);
   bool read = false;
   for (const std::string& value : values) {
@@ -147,13 +152,16 @@ void vary(std::vector<ChosenPoint>& points, const std::vector<ChosenPoint>& arou
       read = true;
     }
   }
-  if (!read) throw input_error("vary {}: no technique reads {}", text, key == "frames" ? "frames without range=stochastic" : key);
+  if (!read)
+    throw input_error("vary {}: no technique reads {}", text,
+                      key == "frames" ? "frames without range=stochastic" : key);
 }
 
 }  // namespace
 
-std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques, const std::vector<std::string>& varied,
-                                       const Settings& common, bool opengl) {
+std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques,
+                                       const std::vector<std::string>& varied, const Settings& common,
+                                       bool opengl) {
   std::vector<ChosenPoint> points = techniques.empty() ? star(common, opengl) : named(techniques, common);
   std::vector<ChosenPoint> around;
   for (const ChosenPoint& p : points) {
@@ -163,7 +171,8 @@ std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& technique
   for (const std::string& text : varied) vary(points, around, text);
   std::vector<ChosenPoint> distinct;
   for (ChosenPoint& p : points) {
-    if (std::ranges::find(distinct, p.label, &ChosenPoint::label) == distinct.end()) distinct.push_back(std::move(p));
+    if (std::ranges::find(distinct, p.label, &ChosenPoint::label) == distinct.end())
+      distinct.push_back(std::move(p));
   }
   return distinct;
 }

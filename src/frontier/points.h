@@ -1,5 +1,5 @@
-// The points of a frontier: techniques with settings. By default a star around the defaults: each technique as it is, then
-// one setting at a time.
+// The points of a frontier: techniques with settings. By default a star around the defaults: each technique
+// as it is, then one setting at a time.
 #pragma once
 
 #include <string>
@@ -16,11 +16,13 @@ struct ChosenPoint {
   std::string label;
 };
 
-// `techniques` as compare's -t, or empty: the default points, of which those that need OpenGL are left out without it.
-// `vary`: "KEY=V1,V2": each technique that reads KEY with each value, one key at a time; "frames=1,4,16": averaged frames of
-// points with range=stochastic. Duplicates are dropped. Throws Error(input) that names what is wrong.
-std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques, const std::vector<std::string>& vary,
-                                       const Settings& common, bool opengl);
+// `techniques` as compare's -t, or empty: the default points, of which those that need OpenGL are left out
+// without it. `vary`: "KEY=V1,V2": each technique that reads KEY with each value, one key at a time;
+// "frames=1,4,16": averaged frames of points with range=stochastic. Duplicates are dropped. Throws
+// Error(input) that names what is wrong.
+std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques,
+                                       const std::vector<std::string>& vary, const Settings& common,
+                                       bool opengl);
 
 // The point with which each other is measured in turn: forward_plus as it is or, without OpenGL, visibility.
 ChosenPoint baseline_point(const Settings& common, bool opengl);

@@ -17,7 +17,8 @@ Image as_image(const std::vector<glm::dvec3>& colors) {
 
 }  // namespace
 
-Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common, size_t samples)
+Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common,
+                     size_t samples)
     : renderer_(renderer), common_(common), samples_(samples) {
   of_opengl_ = of_own_ = {unknown, unknown, unknown, unknown, {}};
   if (!renderer_.gl) return;

@@ -9,9 +9,9 @@
 
 namespace lightgrid {
 
-// On the surfaces that OpenGL shows, at a sample of opaque pixels, with the ranges and the BRDF of `common`. For techniques
-// with surfaces of their own the sample holds the pixels where both show the same triangle, and the figure contains what
-// their texture filter does otherwise.
+// On the surfaces that OpenGL shows, at a sample of opaque pixels, with the ranges and the BRDF of `common`.
+// For techniques with surfaces of their own the sample holds the pixels where both show the same triangle,
+// and the figure contains what their texture filter does otherwise.
 class Precision {
  public:
   // Without OpenGL nothing is measured: figures are NaN. All outlive it.

@@ -25,7 +25,8 @@ std::vector<size_t> spread_order(size_t count) {
 
 }  // namespace
 
-std::vector<View> frontier_views(const Scene& scene, const View& start, const SceneChoice& choice, int count) {
+std::vector<View> frontier_views(const Scene& scene, const View& start, const SceneChoice& choice,
+                                 int count) {
   if (count == 1 && choice.camera_path.empty()) return {start};
   const std::string path = choice.camera_path.empty() ? fmt::format("turn:{}", count) : choice.camera_path;
   const std::vector<View> all = camera_path(scene, start, path);

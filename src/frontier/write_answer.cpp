@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Into `to`, what records name and is not there yet.
-void collect_pictures(const fs::path& to, const FrontierAnswer& answer, const std::vector<fs::path>& folders) {
+void collect_pictures(const fs::path& to, const FrontierAnswer& answer,
+                      const std::vector<fs::path>& folders) {
   for (const FrontierRecord& record : answer.part.records) {
     if (record.image.empty()) continue;
     for (const char* suffix : picture_suffixes) {
@@ -24,7 +25,8 @@ void collect_pictures(const fs::path& to, const FrontierAnswer& answer, const st
         if (fs::exists(to / name, failure) || !fs::exists(folder / name, failure)) continue;
         make_folder(to);
         if (!fs::copy_file(folder / name, to / name, failure))
-          throw input_error("{}: cannot be copied to {}: {}", (folder / name).string(), to.string(), failure.message());
+          throw input_error("{}: cannot be copied to {}: {}", (folder / name).string(), to.string(),
+                            failure.message());
       }
     }
   }
@@ -32,7 +34,8 @@ void collect_pictures(const fs::path& to, const FrontierAnswer& answer, const st
 
 }  // namespace
 
-void write_answer(const fs::path& folder, const FrontierAnswer& answer, const std::vector<fs::path>& pictures, size_t page_bytes) {
+void write_answer(const fs::path& folder, const FrontierAnswer& answer, const std::vector<fs::path>& pictures,
+                  size_t page_bytes) {
   collect_pictures(folder / "pictures", answer, pictures);
   write_file(folder / "frontier.json", json_text(to_json(answer)));
   write_file(folder / "frontier.csv", csv_text(answer));

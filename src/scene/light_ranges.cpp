@@ -25,11 +25,14 @@ double brightest_intensity(const Light& light) {
 double range_of(const Light& light, size_t index, const LightRanges& ranges) {
   if (light.type == LightType::directional) return infinite;
   switch (ranges.range) {
-    case LightRange::scene: return light.radius_m;
-    case LightRange::cutoff: return std::sqrt(brightest_intensity(light) / ranges.cutoff);
+    case LightRange::scene:
+      return light.radius_m;
+    case LightRange::cutoff:
+      return std::sqrt(brightest_intensity(light) / ranges.cutoff);
     case LightRange::stochastic:
       return std::sqrt(brightest_intensity(light) / (ranges.alpha * random_of(ranges.seed, index)));
-    case LightRange::infinite: return brightest_intensity(light) > 0 ? infinite : 0;
+    case LightRange::infinite:
+      return brightest_intensity(light) > 0 ? infinite : 0;
   }
   return infinite;
 }

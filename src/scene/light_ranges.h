@@ -8,33 +8,37 @@
 
 namespace lightgrid {
 
-// scene: the range that the scene gives. cutoff: where irradiance falls to a given value. infinite: nowhere. stochastic:
-// a random distance that makes the expected image that of infinite ranges (Tokuyoshi and Harada, Stochastic Light
-// Culling, JCGT 2016).
+// scene: the range that the scene gives. cutoff: where irradiance falls to a given value. infinite: nowhere.
+// stochastic: a random distance that makes the expected image that of infinite ranges (Tokuyoshi and Harada,
+// Stochastic Light Culling, JCGT 2016).
 enum class LightRange { scene, cutoff, stochastic, infinite };
 
-// How a light fades towards its range, as a factor on 1 / d^2. khr: 1 - (d / range)^4 (KHR_lights_punctual). smooth: its
-// square (Karis, Real Shading in Unreal Engine 4, 2013). none: 1, with a hard edge.
+// How a light fades towards its range, as a factor on 1 / d^2. khr: 1 - (d / range)^4 (KHR_lights_punctual).
+// smooth: its square (Karis, Real Shading in Unreal Engine 4, 2013). none: 1, with a hard edge.
 enum class RangeWindow { khr, smooth, none };
 
 struct LightRanges {
   LightRange range = LightRange::scene;
   RangeWindow window = RangeWindow::khr;  // random ranges have none
-  double cutoff = 0.01;  // irradiance at the range: brightest channel of the radiant intensity over distance^2
-  double alpha = 0.01;   // a light whose irradiance at a point is f reaches it with the probability min(f / alpha, 1)
-  uint32_t seed = 1;     // of the random ranges
+  double cutoff =
+      0.01;  // irradiance at the range: brightest channel of the radiant intensity over distance^2
+  double alpha =
+      0.01;  // a light whose irradiance at a point is f reaches it with the probability min(f / alpha, 1)
+  uint32_t seed = 1;  // of the random ranges
   bool operator==(const LightRanges&) const = default;
 };
 
 // Radiant intensity of the brightest channel.
 double brightest_intensity(const Light& light);
 
-// Metres, at least 0. `index`: of the light in its scene, which together with the seed determines a random range. 0 for a
-// light without intensity, unless the scene's own ranges are meant; infinite for directional lights.
+// Metres, at least 0. `index`: of the light in its scene, which together with the seed determines a random
+// range. 0 for a light without intensity, unless the scene's own ranges are meant; infinite for directional
+// lights.
 double range_of(const Light& light, size_t index, const LightRanges& ranges);
 
-// A light that reaches a point with the probability p = min(f / alpha, 1) counts 1 / p times: f / p = max(f, alpha). This
-// is alpha over the intensity, the least value of 1 / d^2 that shading uses within the light's range. 0: as it is.
+// A light that reaches a point with the probability p = min(f / alpha, 1) counts 1 / p times: f / p = max(f,
+// alpha). This is alpha over the intensity, the least value of 1 / d^2 that shading uses within the light's
+// range. 0: as it is.
 double least_falloff(const Light& light, const LightRanges& ranges);
 
 // The scene's lights with their ranges as radius_m.

@@ -17,9 +17,15 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 std::vector<std::string> small_sweep(const fs::path& folder) {
-  return {"frontier", "spheres", "--size", "48x27", "--lights", "32", "--views", "2", "--rounds", "3", "-t",
-          "forward_plus,visibility,visibility:range=stochastic,alpha=0.1", "--vary", "range=infinite", "--vary", "frames=4",
-          "-o", folder.string()};
+  return {"frontier", "spheres",
+          "--size",   "48x27",
+          "--lights", "32",
+          "--views",  "2",
+          "--rounds", "3",
+          "-t",       "forward_plus,visibility,visibility:range=stochastic,alpha=0.1",
+          "--vary",   "range=infinite",
+          "--vary",   "frames=4",
+          "-o",       folder.string()};
 }
 
 std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
@@ -52,10 +58,12 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   EXPECT_GT(noise["deviation_rmse_rel"], 0);
   EXPECT_FALSE(answer["growth"].empty());
 
-  const auto recomputed = run_command("python3 " + std::string(source_folder) + "/tests/frontier/recompute.py " + folder.path.string());
+  const auto recomputed = run_command("python3 " + std::string(source_folder) +
+                                      "/tests/frontier/recompute.py " + folder.path.string());
   EXPECT_EQ(recomputed.status, 0) << recomputed.output;
 
-  // Killed in its last record, and run again: every point is there, and those measured before keep their figures.
+  // Killed in its last record, and run again: every point is there, and those measured before keep their
+  // figures.
   const fs::path records = folder.path / "records-0-of-1.jsonl";
   std::string text = file_bytes(records);
   const size_t last_record = text.rfind("{\"baseline_ms\"");
@@ -70,13 +78,15 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   // No worse than itself; an earlier run of smaller errors, lost lights and times is a gate that fails.
   const fs::path earlier = folder.path / "earlier.json";
   fs::copy_file(folder.path / "frontier.json", earlier);
-  EXPECT_EQ(run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()}).status, 0);
+  EXPECT_EQ(
+      run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()}).status, 0);
   json better = resumed;
   for (json& point : better["points"]) {
     if (point["label"] == "forward_plus") point["error"]["total"]["rmse_rel"] = 1e-7;
   }
   std::ofstream(earlier) << better;
-  const ProgramRun gated = run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()});
+  const ProgramRun gated =
+      run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()});
   EXPECT_EQ(gated.status, 1) << gated.err;
   EXPECT_THAT(gated.err, HasSubstr("forward_plus"));
 }
@@ -84,11 +94,13 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
 TEST(FrontierCommand, IsMeasuredInPartsThatMergeIntoOneAnswer) {
   const TempFolder folder;
   for (const char* shard : {"0/2", "1/2"}) {
-    const ProgramRun part = run_program(small_sweep(folder.path / "parts") + std::vector<std::string>{"--no-growth", "--shard", shard});
+    const ProgramRun part = run_program(small_sweep(folder.path / "parts") +
+                                        std::vector<std::string>{"--no-growth", "--shard", shard});
     ASSERT_EQ(part.status, 0) << part.err;
     EXPECT_FALSE(fs::exists(folder.path / "parts/frontier.json")) << "a part has no answer";
   }
-  const ProgramRun merged = run_program({"frontier", "merge", folder.path / "parts", "-o", folder.path / "all"});
+  const ProgramRun merged =
+      run_program({"frontier", "merge", folder.path / "parts", "-o", folder.path / "all"});
   ASSERT_EQ(merged.status, 0) << merged.err;
   const json answer = json::parse(file_bytes(folder.path / "all/frontier.json"));
   EXPECT_EQ(answer["points"].size(), 6u);

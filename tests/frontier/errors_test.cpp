@@ -26,7 +26,8 @@ TEST(FrontierErrors, AreNothingForEqualPictures) {
   EXPECT_EQ(e.p99_rel, 0);
 }
 
-// Errors 1 and 2 of six channels, over a brightest channel of 4; relative to the channels themselves 1/2 and 2/4.
+// Errors 1 and 2 of six channels, over a brightest channel of 4; relative to the channels themselves 1/2 and
+// 2/4.
 TEST(FrontierErrors, HaveTheValuesWorkedOutByHand) {
   const ErrorFigures e = error_figures(picture({{3, 1, 1}, {1, 1, 6}}), picture({{2, 1, 1}, {1, 1, 4}}), 4);
   EXPECT_DOUBLE_EQ(e.max_rel, 0.5);

@@ -38,20 +38,23 @@ TEST(FrontierPoints, AreAStarOfDistinctPointsWithEveryTechniqueAsItIs) {
 }
 
 TEST(FrontierPoints, NeedNoOpenGlWithoutIt) {
-  for (const ChosenPoint& p : chosen_points({}, {}, {}, false)) EXPECT_FALSE(draws_with_opengl(p.contestant.technique->needs, p.contestant.settings)) << p.label;
+  for (const ChosenPoint& p : chosen_points({}, {}, {}, false))
+    EXPECT_FALSE(draws_with_opengl(p.contestant.technique->needs, p.contestant.settings)) << p.label;
   EXPECT_EQ(baseline_point({}, false).label, "visibility");
   EXPECT_EQ(baseline_point({}, true).label, "forward_plus");
 }
 
 TEST(FrontierPoints, VaryOneKeyAtATimeInTechniquesThatReadIt) {
-  EXPECT_THAT(labels(chosen_points({"forward", "forward_plus", "tile=8"}, {"cull-test=sphere,aabb", "z-bins=16"}, {}, true)),
+  EXPECT_THAT(labels(chosen_points({"forward", "forward_plus", "tile=8"},
+                                   {"cull-test=sphere,aabb", "z-bins=16"}, {}, true)),
               ElementsAre("forward", "forward_plus:tile=8", "forward_plus:cull-test=sphere,tile=8",
                           "forward_plus:cull-test=aabb,tile=8", "forward_plus:tile=8,z-bins=16"));
 }
 
 TEST(FrontierPoints, AverageFramesOfRandomRanges) {
   const auto points = chosen_points({"visibility:range=stochastic"}, {"frames=1,16"}, {}, true);
-  EXPECT_THAT(labels(points), ElementsAre("visibility:range=stochastic", "visibility:range=stochastic,frames=16"));
+  EXPECT_THAT(labels(points),
+              ElementsAre("visibility:range=stochastic", "visibility:range=stochastic,frames=16"));
   EXPECT_EQ(points[1].frames, 16);
 }
 
@@ -72,7 +75,9 @@ TEST(FrontierViews, OfAnyPrefixAreSpreadOverThePath) {
   const View start = make_view(choose_camera(scene, ""), 32, 18);
   const std::vector<View> views = frontier_views(scene, start, {}, 8);
   ASSERT_EQ(views.size(), 8u);
-  const auto forward = [](const View& v) { return glm::transpose(glm::dmat3(v.view_from_world)) * glm::dvec3(0, 0, -1); };
+  const auto forward = [](const View& v) {
+    return glm::transpose(glm::dmat3(v.view_from_world)) * glm::dvec3(0, 0, -1);
+  };
   const auto flat = [&](const View& v) { return glm::normalize(glm::dvec2(forward(v).x, forward(v).z)); };
   EXPECT_NEAR(glm::dot(flat(views[0]), flat(views[1])), -1, 1e-6) << "the second looks back";
   EXPECT_NEAR(glm::dot(flat(views[0]), flat(views[2])), 0, 1e-6) << "the third aside";

@@ -21,14 +21,16 @@ TEST(LightRanges, AreTheScenesUnlessOthersAreAskedFor) {
 }
 
 TEST(LightRanges, EndWhereIrradianceFallsToTheCutoff) {
-  EXPECT_DOUBLE_EQ(range_of(lamp(8), 0, {.range = LightRange::cutoff, .cutoff = 0.02}), 20);  // 8 / 20^2 = 0.02
+  EXPECT_DOUBLE_EQ(range_of(lamp(8), 0, {.range = LightRange::cutoff, .cutoff = 0.02}),
+                   20);  // 8 / 20^2 = 0.02
   EXPECT_EQ(range_of(lamp(0), 0, {.range = LightRange::cutoff}), 0);
 }
 
 TEST(LightRanges, AreInfiniteForDirectionalLightsAlways) {
   Light sun = lamp(1);
   sun.type = LightType::directional;
-  for (const LightRange range : {LightRange::cutoff, LightRange::stochastic, LightRange::infinite, LightRange::scene}) {
+  for (const LightRange range :
+       {LightRange::cutoff, LightRange::stochastic, LightRange::infinite, LightRange::scene}) {
     EXPECT_TRUE(std::isinf(range_of(sun, 0, {.range = range})));
   }
 }
@@ -40,7 +42,8 @@ TEST(LightRanges, ReachAPointWithTheProbabilityOfItsIrradiance) {
     for (const double distance : {3.9, 5.0, 8.0, 16.0}) {
       int reached = 0;
       for (int i = 0; i < draws; ++i) {
-        const LightRanges ranges{.range = LightRange::stochastic, .alpha = 0.5, .seed = over_seeds ? uint32_t(i) : 7u};
+        const LightRanges ranges{
+            .range = LightRange::stochastic, .alpha = 0.5, .seed = over_seeds ? uint32_t(i) : 7u};
         reached += distance < range_of(lamp(8), over_seeds ? 3 : size_t(i), ranges);
       }
       const double p = std::min(8 / (distance * distance) / 0.5, 1.0);
@@ -49,7 +52,8 @@ TEST(LightRanges, ReachAPointWithTheProbabilityOfItsIrradiance) {
   }
 }
 
-// Lights of one seed must not share their luck: reaches of neighbours by index, and of one light in neighbouring seeds.
+// Lights of one seed must not share their luck: reaches of neighbours by index, and of one light in
+// neighbouring seeds.
 TEST(LightRanges, AreIndependentBetweenLightsAndSeeds) {
   constexpr int draws = 40000;
   const auto far = [](uint32_t seed, size_t index) {  // reached with p = 1/4

@@ -1,5 +1,5 @@
-// Where lights end (scene/light_ranges.h): every technique draws forward's picture, forward the oracle's; and the mean over
-// random ranges is the picture without ranges.
+// Where lights end (scene/light_ranges.h): every technique draws forward's picture, forward the oracle's; and
+// the mean over random ranges is the picture without ranges.
 #include "compare/oracle_sample.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
@@ -45,11 +45,12 @@ TEST_P(Ranges, AreShadedAsTheOracleDoes) {
   expect_near(render(s.scene, view, "visibility", with(GetParam())), run.image());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Ranges,
-                         testing::Values(LightRanges{.range = LightRange::cutoff, .cutoff = 1},
-                                         LightRanges{.range = LightRange::cutoff, .window = RangeWindow::smooth, .cutoff = 0.5},
-                                         LightRanges{.window = RangeWindow::none}, LightRanges{.range = LightRange::infinite},
-                                         random_ranges));
+INSTANTIATE_TEST_SUITE_P(
+    Of, Ranges,
+    testing::Values(LightRanges{.range = LightRange::cutoff, .cutoff = 1},
+                    LightRanges{.range = LightRange::cutoff, .window = RangeWindow::smooth, .cutoff = 0.5},
+                    LightRanges{.window = RangeWindow::none}, LightRanges{.range = LightRange::infinite},
+                    random_ranges));
 
 // Per pixel and channel, over images that are added.
 class Moments {
@@ -61,7 +62,9 @@ class Moments {
   }
   size_t size() const { return sum_.size(); }
   double mean(size_t i) const { return sum_[i] / count_; }
-  double variance(size_t i) const { return std::max(squares_[i] - sum_[i] * sum_[i] / count_, 0.0) / (count_ - 1); }
+  double variance(size_t i) const {
+    return std::max(squares_[i] - sum_[i] * sum_[i] / count_, 0.0) / (count_ - 1);
+  }
   double standard_error(size_t i) const { return std::sqrt(variance(i) / count_); }
 
  private:
@@ -83,7 +86,8 @@ double share_that_varies(const Moments& m) {
 
 double share_within_four_errors(const Moments& m, const std::vector<double>& truth, double rounding) {
   size_t within = 0;
-  for (size_t i = 0; i < m.size(); ++i) within += std::abs(m.mean(i) - truth[i]) <= 4 * m.standard_error(i) + rounding;
+  for (size_t i = 0; i < m.size(); ++i)
+    within += std::abs(m.mean(i) - truth[i]) <= 4 * m.standard_error(i) + rounding;
   return double(within) / double(m.size());
 }
 
@@ -99,7 +103,8 @@ struct Stochastic : testing::Test {
   Stochastic() {
     s = small_scene();
     add_spot(s.scene, "torch", {0, 0, -1}, {-0.5f, 0, -4}, {1, 1, 1}, 9, 5, 10, 25);
-    run.emplace(test_devices(), s.scene, small_view(32, 18), with(random_ranges), find_technique("forward_plus"));
+    run.emplace(test_devices(), s.scene, small_view(32, 18), with(random_ranges),
+                find_technique("forward_plus"));
     run->run_frame();
     depth = read_depth(*run);
     oracle.emplace(run->view(), depth);
