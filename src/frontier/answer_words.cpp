@@ -35,15 +35,15 @@ std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
   return fmt::format(" (~ {}{})", words, tied.size() > 2 ? fmt::format(" and {} more", tied.size() - 2) : "");
 }
 
-// Whether two points are meant to show the same: settings that change the model agree, and so do its errors,
-// but for the pixels at silhouettes that rasterizers see differently.
+// Whether two points are meant to show the same: the settings that change the model agree.
 bool same_model(const PointFigures& a, const PointFigures& b) {
   const auto value_of = [](const PointFigures& p, const std::string& key, const std::string& otherwise) {
     const auto found = p.point.settings.find(key);
     return found == p.point.settings.end() ? otherwise : found->second;
   };
-  for (const auto& [key, otherwise] : {std::pair("brdf", "ggx"), std::pair("range", "scene"), std::pair("window", "khr"),
-                                       std::pair("cutoff", ""), std::pair("alpha", ""), std::pair("light_seed", "")}) {
+  for (const auto& [key, otherwise] :
+       {std::pair("brdf", "ggx"), std::pair("range", "scene"), std::pair("window", "khr"),
+        std::pair("cutoff", ""), std::pair("alpha", ""), std::pair("light_seed", "")}) {
     if (value_of(a, key, otherwise) != value_of(b, key, otherwise)) return false;
   }
   return a.point.frames == b.point.frames;

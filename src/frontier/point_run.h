@@ -25,7 +25,7 @@ class PointRun {
   // The picture drawn last; and of an averaged one how far its frames scatter.
   const Image& image() const { return point_.frames > 1 ? mean_ : run_->image(); }
   double deviation() const { return deviation_; }
-  // The same with `moments` of each frame: not for timing.
+  // Draws as draw() does, and computes deviation(), which takes time.
   void draw_for_errors();
   // The first of its frames alone.
   void draw_first_frame();

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "session/contestants.h"
 
 namespace lightgrid {
 namespace {
@@ -102,29 +103,9 @@ int frames_of(const std::string& text) {
   return frames;
 }
 
-void apply_for(const Technique& technique, Settings& settings, const std::string& assignment) {
-  apply_setting(settings, assignment);
-  const std::string key = assignment.substr(0, assignment.find('='));
-  if (!reads_setting(technique, key))
-    throw input_error("techniques {}:{}: {} does not read {}", technique.name, assignment, technique.name,
-                      key);
-}
-
-// "NAME[:KEY=VALUE[,KEY=VALUE…]]", split at commas as compare's -t.
 std::vector<ChosenPoint> named(const std::vector<std::string>& items, const Settings& common) {
-  std::vector<Contestant> contestants;
-  for (const std::string& item : items) {
-    const size_t colon = item.find(':');
-    if (colon == std::string::npos && item.find('=') != std::string::npos && !contestants.empty()) {
-      apply_for(*contestants.back().technique, contestants.back().settings, item);
-      continue;
-    }
-    contestants.push_back({&find_technique(item.substr(0, colon)), common});
-    if (colon != std::string::npos)
-      apply_for(*contestants.back().technique, contestants.back().settings, item.substr(colon + 1));
-  }
   std::vector<ChosenPoint> points;
-  for (const Contestant& c : contestants) points.push_back(point(*c.technique, c.settings, 1));
+  for (const Contestant& c : named_contestants(items, common)) points.push_back(point(*c.technique, c.settings, 1));
   return points;
 }
 

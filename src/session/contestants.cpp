@@ -38,23 +38,6 @@ void apply_own_setting(Contestant& contestant, const std::string& assignment) {
   }
 }
 
-// Items of a list of techniques, split at its commas: "forward", "forward_plus:tile=32", "cull-test=aabb". An
-// item with "=" and without a name before a colon is another setting of the name before it.
-std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common) {
-  std::vector<Contestant> contestants;
-  for (const std::string& item : items) {
-    const size_t colon = item.find(':');
-    const bool setting_only = colon == std::string::npos && item.find('=') != std::string::npos;
-    if (setting_only && !contestants.empty()) {
-      apply_own_setting(contestants.back(), item);
-      continue;
-    }
-    contestants.push_back({&find_technique(item.substr(0, colon)), common});
-    if (colon != std::string::npos) apply_own_setting(contestants.back(), item.substr(colon + 1));
-  }
-  return contestants;
-}
-
 // Each contestant with each value of the settings that it reads.
 std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
   std::vector<Contestant> all;
@@ -96,6 +79,21 @@ void check_same_picture(const std::vector<Contestant>& contestants) {
 }
 
 }  // namespace
+
+std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common) {
+  std::vector<Contestant> contestants;
+  for (const std::string& item : items) {
+    const size_t colon = item.find(':');
+    const bool setting_only = colon == std::string::npos && item.find('=') != std::string::npos;
+    if (setting_only && !contestants.empty()) {
+      apply_own_setting(contestants.back(), item);
+      continue;
+    }
+    contestants.push_back({&find_technique(item.substr(0, colon)), common});
+    if (colon != std::string::npos) apply_own_setting(contestants.back(), item.substr(colon + 1));
+  }
+  return contestants;
+}
 
 std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
                                             size_t most) {

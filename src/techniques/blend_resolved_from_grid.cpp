@@ -1,3 +1,4 @@
+// Blended surfaces over an image that resolve() drew, lit from the light grid.
 #include "passes/cull_lights.h"
 #include "passes/resolve.h"
 #include "techniques/technique.h"
