@@ -182,7 +182,7 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
   EXPECT_EQ(depths, expected.depths);
 }
 
-TEST(Rasterizer, TheSameBytesOnEveryDevice) {
+TEST(RasterizerOnDevices, HasTheSameBytes) {
   const std::vector<ClDeviceInfo> devices = list_cl_devices();
   if (devices.size() < 2) GTEST_SKIP() << "there is one device";
   const RasterScene scene = many_triangles(5000, 501, 299, 8);

@@ -69,7 +69,7 @@ std::vector<Row> rows_of(const std::filesystem::path& path) {
   return rows;
 }
 
-TEST(Flip, IsThatOfTheAuthorsProgram) {
+TEST(FlipOfTheAuthors, IsThatOfTheirProgram) {
   LIGHTGRID_NEEDS_SHARED("flip/values.csv");
   const std::filesystem::path folder = shared_folder() / "flip";
   const std::vector<Row> rows = rows_of(folder / "values.csv");

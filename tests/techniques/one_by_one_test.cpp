@@ -60,7 +60,7 @@ TEST(OneByOne, AtASizeThatNothingDivides) {
   expect_all_close(scene, default_view(scene, 1279, 721));
 }
 
-TEST(OneByOne, Sponza) {
+TEST(SponzaOneByOne, IsTheImageOfEveryLightAtEveryPixel) {
   LIGHTGRID_NEEDS_SHARED("scenes/large/Sponza");
   LIGHTGRID_NEEDS_SHARED("bench/sponza_lights.json");
   Scene scene = load_gltf(shared_folder() / "scenes/large/Sponza/Sponza.gltf");

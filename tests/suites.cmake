@@ -1,0 +1,32 @@
+# Run by ctest as it starts: adds a ctest entry for each test suite of `program`, and for each test of the suites in
+# `one_by_one`. A suite is one process, so that devices, contexts, programs and kernels are made once: a process a test
+# takes 1.5 to 5 times as long. Skipped tests give their reason in Testing/Temporary/LastTest.log.
+cmake_policy(VERSION 3.25)
+execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  add_test(${folder}_tests_not_listed ${program} --gtest_list_tests)
+  return()
+endif()
+
+function(add_entry name filter)
+  add_test(${name} ${program} --gtest_filter=${filter} --gtest_brief=1)
+  set(lock)
+  if(suite IN_LIST of_one_kernel)
+    set(lock RESOURCE_LOCK ${folder}_kernel)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 LABELS ${folder} COST ${cost} ${lock}
+                       ENVIRONMENT LIGHTGRID_TUNED=off)
+endfunction()
+
+string(REPLACE "\n" ";" lines "${lines}")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE " +#.*" "" line "${line}")
+  if(line MATCHES "^([^ ]+)\\.$")
+    set(suite ${CMAKE_MATCH_1})
+    if(NOT suite IN_LIST one_by_one)
+      add_entry(${suite} "${suite}.*")
+    endif()
+  elseif(line MATCHES "^  (.+)$" AND suite IN_LIST one_by_one)
+    add_entry(${suite}.${CMAKE_MATCH_1} ${suite}.${CMAKE_MATCH_1})
+  endif()
+endforeach()
