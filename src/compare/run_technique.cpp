@@ -49,12 +49,15 @@ void TechniqueRun::run_frame(bool warmup) {
 }
 
 void TechniqueRun::run_profiled_frames(double most_ms) {
+  struct Enabled {
+    PassTimer& timer;
+    explicit Enabled(PassTimer& t) : timer(t) { timer.enabled = true; }
+    ~Enabled() { timer.enabled = false; }  // also after an exception
+  } enabled(view_.timer);
   const Timer timer;
-  view_.timer.enabled = true;
   for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
     render();
   }
-  view_.timer.enabled = false;
 }
 
 // In the order of their first launch.

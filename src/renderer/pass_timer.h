@@ -39,12 +39,16 @@ class PassTimer {
       started_ = {};
     }
     Scope(const Scope&) = delete;
+    // A pass whose clock fails is not recorded, since a destructor must not throw: the frame's next wait fails as well.
     ~Scope() {
       if (!timer_) return;
-      PassRecord& record = timer_->records_[record_];
-      std::vector<KernelTime> kernels = timer_->clock_.stop(record.on);
-      record.ms.push_back(started_.elapsed_ms());
-      record.kernels.push_back(std::move(kernels));
+      try {
+        PassRecord& record = timer_->records_[record_];
+        std::vector<KernelTime> kernels = timer_->clock_.stop(record.on);
+        record.ms.push_back(started_.elapsed_ms());
+        record.kernels.push_back(std::move(kernels));
+      } catch (...) {
+      }
     }
     // Bytes of the inputs read and the outputs written.
     void moves(size_t read, size_t written) {
