@@ -3,12 +3,22 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
+// -DVOXELS       point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
 // -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT  as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"
 #include "kernels/common/shade_pixels.h"
 #include "shared/light_grid.h"
+#ifdef VOXELS
+#include "kernels/common/voxel_lookup.h"
+#define VOXEL_ARGUMENTS \
+  , global const stored_voxel_t *irradiance, global const stored_voxel_t *directions, constant VoxelLookup *voxels
+#define GIVEN_VOXELS , irradiance, directions, voxels
+#else
+#define VOXEL_ARGUMENTS
+#define GIVEN_VOXELS
+#endif
 
 // What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
@@ -23,14 +33,14 @@
       global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
       global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
       global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
-      constant float *bin_edges, constant float *slice_edges, constant ViewParams *view
+      constant float *bin_edges, constant float *slice_edges, constant ViewParams *view VOXEL_ARGUMENTS
 #define RESOLVE_SCENE                                                                               \
   {                                                                                                 \
     triangle_instance, instances, surfaces, indices, clip, vertices, materials, texels_4, texels_8, \
         (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                             \
   }
 #define RESOLVE_LIGHTS \
-  { {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, slice_edges }
+  { {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, slice_edges GIVEN_VOXELS }
 
 typedef struct ResolveLights {
   Lights lights;
@@ -40,6 +50,10 @@ typedef struct ResolveLights {
   global const uint2* cells;  // with -DSLICES: of all tiles; `list` is then where all lists begin
   uint cell;                  // the tile's in slice 0
   constant float* slice_edges;
+#ifdef VOXELS
+  global const stored_voxel_t *irradiance, *directions;
+  constant VoxelLookup* voxels;
+#endif
 } ResolveLights;
 
 // The list of a tile's cell, or the cells that are one behind the other.
@@ -113,7 +127,9 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
                              const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
   const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
   Real3 sum = own_light(&p, s, l, view);
-#ifdef SLICES
+#ifdef VOXELS
+  sum = add3(sum, radiance_of_voxels(p, voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels), l->voxels));
+#elif defined(SLICES)
   sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);
 #else
   sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);

@@ -17,7 +17,7 @@ struct Star {
   int frames = 1;
 };
 
-// Each technique as it is; then pairs and times of cull tests, bounds and tiles; precision of buffers;
+// Each technique as it is, and voxel_lights in its sizes; then pairs and times of cull tests, bounds and tiles; precision of buffers;
 // capacity of lidr; model errors of ranges, windows and BRDFs. What does not depend on the technique is
 // varied on the fastest one.
 constexpr Star default_points[] = {
@@ -31,6 +31,15 @@ constexpr Star default_points[] = {
     {"deferred_tiled", ""},
     {"lidr", ""},
     {"visibility", ""},
+    {"voxel_lights", ""},
+    {"voxel_lights", "raster=opencl"},
+    {"voxel_lights", "raster=opencl voxel-size=16x16x4"},
+    {"voxel_lights", "raster=opencl voxel-size=32x32x8"},
+    {"voxel_lights", "raster=opencl voxel-size=64x64x16"},
+    {"voxel_lights", "raster=opencl voxel-size=128x128x64"},
+    {"voxel_lights", "raster=opencl voxel-size=256x256x64"},
+    {"voxel_lights", "raster=opencl voxel-bits=16"},
+    {"voxel_lights", "raster=opencl voxel-space=view"},
     {"forward_plus", "cull-test=sphere"},
     {"forward_plus", "cull-test=aabb"},
     {"forward_plus", "cull-test=exact"},

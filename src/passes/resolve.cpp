@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cl/launch.h"
+#include "passes/build_voxels.h"
 #include "renderer/cl_lights.h"
 
 namespace lightgrid {
@@ -42,7 +43,7 @@ class Resolving : public PassState {
 
   // "resolve", "resolve_gbuffer" or "blend", built at first use.
   cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
-    cl::Kernel& kernel = kernels_[stem];
+    cl::Kernel& kernel = kernels_[stem + more_defines];
     if (!kernel()) {
       kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_ + more_defines);
     }
@@ -99,7 +100,7 @@ class Resolving : public PassState {
   }
 
   std::string defines_;
-  std::map<std::string, cl::Kernel> kernels_;  // by stem
+  std::map<std::string, cl::Kernel> kernels_;  // by stem and what more defines it has
   size_t scene_bytes_ = 0;
 };
 
@@ -108,7 +109,18 @@ cl_float4 background(const RenderView& v) {
   return {{background.r, background.g, background.b, 1}};
 }
 
+// Calls `launch` with the arguments of a kernel that adds these lights.
+template <typename Arguments, typename Launch>
+void with_voxels(const GridInCl& in, const Arguments& arguments, const Launch& launch) {
+  if (!in.voxels) return std::apply(launch, arguments);
+  std::apply(launch, std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(), in.voxels->directions->cl_buffer(),
+                                                          in.voxels->lookup)));
+}
+
+std::string light_kernel_defines(const GridInCl& in) { return in.voxels ? " -DVOXELS" + in.voxels->kernel_defines : ""; }
+
 size_t grid_bytes(const GridInCl& in) {
+  if (in.voxels) return in.voxels->bytes;
   return in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0;
 }
 
@@ -116,14 +128,12 @@ size_t grid_bytes(const GridInCl& in) {
 
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
-  cl::Kernel& kernel = r.kernel(v, "resolve");
+  cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(lights));
   auto pass = v.timer.pass("resolve", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle, visible.image.depth,
-               shared..., background(v), r.image.cl_buffer());
-      },
-      r.arguments(v, visible.raster, visible.surfaces, lights));
+  with_voxels(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
+    launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle, visible.image.depth, shared...,
+           background(v), r.image.cl_buffer());
+  });
   pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
 }
@@ -149,17 +159,14 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
                     const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
-  cl::Kernel& kernel = r.kernel(v, "blend");
+  cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(lights));
   auto pass = v.timer.pass("blend_resolved", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*v.renderer.cl, "blend_resolved", kernel,
-               r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
-               r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
-               blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
-               shared..., r.image.cl_buffer());
-      },
-      r.arguments(v, blended.raster, blended.surfaces, lights));
+  with_voxels(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
+    launch(*v.renderer.cl, "blend_resolved", kernel,
+           r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
+           r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records, blended.lists.tile_begin,
+           blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values, shared..., r.image.cl_buffer());
+  });
   pass.moves(v.pixels() * 20 + grid_bytes(lights), v.pixels() * 16);
 }
 

@@ -6,10 +6,13 @@
 
 namespace lightgrid {
 
-// A light grid and where it lies; null: every light is added.
+struct VoxelVolume;
+
+// A light grid and where it lies; null: every light is added. Or, in place of all lists, a voxel light buffer.
 struct GridInCl {
   const LightGrid* grid = nullptr;
   SharedGridStorage* storage = nullptr;
+  const VoxelVolume* voxels = nullptr;
 };
 
 // Attributes, textures and light of every pixel in one pass. The image stays in OpenCL's memory.

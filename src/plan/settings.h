@@ -32,6 +32,10 @@ enum class ShadedLights { grid, all };
 
 enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a light's ball: docs/light_volumes.md
 
+// The voxel light buffer (docs/techniques/voxel_lights.md): which space its samples divide, and when it is filled.
+enum class VoxelSpace { world, view };
+enum class VoxelSize { s16x16x4, s32x32x8, s64x64x16, s128x128x16, s128x128x32, s128x128x64, s256x256x64 };
+
 struct Settings {
   Brdf brdf = Brdf::ggx;
   LightRanges ranges;
@@ -58,6 +62,10 @@ struct Settings {
   RasterApi raster = RasterApi::opengl;
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;
+  VoxelSize voxel_size = VoxelSize::s128x128x16;
+  VoxelSpace voxel_space = VoxelSpace::world;
+  int voxel_bits = 32;         // of a stored value: 16 or 32
+  bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   bool portable = false;       // kernels without the builtins of one kind of CPU
   int group_size = 0;          // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against

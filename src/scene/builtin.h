@@ -15,7 +15,7 @@ struct BuiltinScene {
   Scene (*make)();
 };
 
-// hall, spheres, terrain, street.
+// hall, spheres, terrain, street, particles.
 const std::vector<BuiltinScene>& builtin_scenes();
 
 // nullptr if there is none of that name.

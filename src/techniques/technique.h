@@ -22,6 +22,8 @@ struct Technique {
   ListedLights (*listed)(RenderView& v) = nullptr;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
+  // Its picture is not forward's, by nature: lists and images need not be exact.
+  bool approximate = false;
 };
 
 // Whether the technique with these settings rasterises and filters by its own code, in OpenCL: at silhouettes, where

@@ -59,6 +59,7 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
     EXPECT_EQ(row.moving->scene_bytes, 0u) << row.technique;
     EXPECT_EQ(row.moving->pairs.lost, 0u) << row.technique;
     if (own_surfaces(find_technique(row.technique), {})) continue;  // another image than forward's
+    if (find_technique(row.technique).approximate) continue;
     // Sums in another order round to within 1e-5 (techniques/lidr_scenes.h); two frames may differ in opposite directions.
     EXPECT_LT(row.moving->max_rel, 1e-5) << row.technique;
     EXPECT_LT(row.moving->temporal_max_rel, 2e-5) << row.technique;

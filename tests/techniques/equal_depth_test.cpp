@@ -74,6 +74,7 @@ void expect_each_as_forward(const Scene& scene, const View& view) {
   const Image forward = render(scene, view, "forward");
   for (const Technique* technique : techniques()) {
     if (technique->name == std::string("lidr")) continue;  // holds fewer lights a pixel than there are here: below
+    if (technique->approximate) continue;
     if (own_surfaces(*technique, {})) continue;  // shows the first one drawn, which has the lowest number
     SCOPED_TRACE(technique->name);
     const Image image = render(scene, view, technique->name);

@@ -1,5 +1,6 @@
 #include "passes/common/light_source.h"
 
+#include "passes/build_voxels.h"
 #include "passes/find_object_lights.h"
 #include "renderer/light_texels.h"
 
@@ -18,6 +19,7 @@ LightSource with_lights(const RenderView& v) {
 void LightSource::bind(const RenderView& v) const {
   v.bind_lights();
   for (const Binding& binding : textures) glBindTextureUnit(binding.unit, binding.texture);
+  if (voxel_block) glBindBufferBase(GL_UNIFORM_BUFFER, 4, voxel_block);
 }
 
 LightSource base_lighting(const RenderView& v) {
@@ -55,6 +57,16 @@ LightSource from_objects(const RenderView& v, const ObjectLights& objects) {
   source.defines.emplace_back("LIGHTS_OBJECT");
   if (objects.texture()) source.textures.push_back({12, objects.texture()});
   source.bytes = objects.lights().size() * sizeof(uint32_t);
+  return source;
+}
+
+LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels) {
+  LightSource source = with_lights(v);
+  source.defines.emplace_back("LIGHTS_VOXELS");
+  if (voxels.log_depth) source.defines.emplace_back("VOXELS_LOG");
+  source.textures = {{12, voxels.irradiance}, {13, voxels.directions}};
+  source.voxel_block = voxels.lookup;
+  source.bytes = voxels.bytes;
   return source;
 }
 

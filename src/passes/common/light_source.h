@@ -6,6 +6,7 @@
 namespace lightgrid {
 
 class ObjectLights;
+struct VoxelTextures;
 
 struct LightSource {
   std::vector<std::string> defines;  // for shaders/forward.frag: which loop, and its input
@@ -13,6 +14,7 @@ struct LightSource {
     GLuint unit, texture;
   };
   std::vector<Binding> textures;
+  GLuint voxel_block = 0;  // a uniform block that the loop reads; 0: none
   size_t bytes = 0;  // of the lists, for passes that count bytes read
 
   void bind(const RenderView& v) const;  // binds these textures, the lights and the view
@@ -26,6 +28,8 @@ LightSource from_grid(const RenderView& v, const GridTextures& grid);
 LightSource from_light_index(const RenderView& v, const LightIndexImages& index);
 // The lights of the current object (uniform lights_of_draw).
 LightSource from_objects(const RenderView& v, const ObjectLights& objects);
+// The light of a voxel light buffer (passes/build_voxels.h).
+LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels);
 // No point or spot light: ambient, emissive and directional light alone.
 LightSource base_lighting(const RenderView& v);
 

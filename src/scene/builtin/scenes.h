@@ -9,5 +9,6 @@ Scene make_hall();
 Scene make_spheres();
 Scene make_terrain();
 Scene make_street();
+Scene make_particles();
 
 }  // namespace lightgrid

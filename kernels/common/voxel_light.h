@@ -1,0 +1,145 @@
+// What a light adds to LANES samples of a voxel light buffer, which lie in one slice. docs/techniques/voxel_lights.md has the
+// reasons: a light's reach is grown so that the samples around each lit point get a part of it, and dimmed by as much.
+//
+// -DVOXEL_BITS  16 or 32: bits of a stored value (default 32)
+// -DSPOTS       some light has a cone
+// -DWINDOW_SMOOTH, -DWINDOW_NONE, -DLEAST_FALLOFF  shared/punctual_light.h
+// -DVOXELS_LOG  shared/voxel_volume.h
+#pragma once
+
+#include "shared/voxel_volume.h"
+
+#ifndef VOXEL_BITS
+#define VOXEL_BITS 32
+#endif
+
+#if VOXEL_BITS == 16
+typedef half voxel_t;
+#define STORE_VOXEL(value, to) vstore_half4(value, 0, to)
+#else
+typedef float voxel_t;
+#define STORE_VOXEL(value, to) vstore4(value, 0, to)
+#endif
+
+// Of one light at one sample, and of all of them on a sample that is written: finite in all products that shading makes.
+#define LARGEST_VOXEL 1e15f
+
+// Lights by groups of VOXEL_LIGHT_GROUP. What pads the last group is far away.
+typedef struct VoxelLights {
+  global const float* boxes;   // of groups, six planes of VOXEL_LIGHT_GROUP groups each: least and greatest x, y, z
+  global const float* places;  // of a group's lights: x, y, z and radius, VOXEL_LIGHT_GROUP each, along the volume's axes
+  global const float4* colors;  // radiant intensity, and the least 1 / distance^2
+#ifdef SPOTS
+  global const float8* cones;  // axis times scale, offset (shared/punctual_light.h), scale, 1 - cosine and squared sine of the half-angle
+#endif
+} VoxelLights;
+
+// Axis-aligned, along the volume's axes.
+typedef struct VoxelBox {
+  float low_x, low_y, low_z, high_x, high_y, high_z;
+} VoxelBox;
+
+// Of the samples [first, last] of a brick.
+static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSlice* slices, uint x, uint y, uint z) {
+  const float x0 = grid->origin_x + (float)x * grid->spacing_x, y0 = grid->origin_y + (float)y * grid->spacing_y;
+  const float x1 = grid->origin_x + (float)(x + VOXEL_BRICK_X - 1) * grid->spacing_x;
+  const float y1 = grid->origin_y + (float)(y + VOXEL_BRICK_Y - 1) * grid->spacing_y;
+  const float z0 = slices[z].place, z1 = slices[z + VOXEL_BRICK_Z - 1].place;
+  VoxelBox b = {x0, y0, z0, x1, y1, z1};
+#ifdef VOXELS_LOG
+  b.low_x = fmin(x0 * z0, x0 * z1), b.high_x = fmax(x1 * z0, x1 * z1);
+  b.low_y = fmin(y0 * z0, y0 * z1), b.high_y = fmax(y1 * z0, y1 * z1);
+  b.low_z = -z1, b.high_z = -z0;
+#endif
+  return b;
+}
+
+// Slightly more than the largest square that add_voxel_light adds to a light's squared radius in these slices, and what its
+// distances may be rounded by.
+static inline float grown_by(constant VoxelSlice* slices, uint z) {
+  float most = slices[z].half_diagonal_squared;
+  for (uint i = 1; i < VOXEL_BRICK_Z; ++i) most = fmax(most, slices[z + i].half_diagonal_squared);
+  return most;
+}
+
+static inline real outside(real low, real high, float from, float to) {
+  return lane_max(lane_max(REAL(from) - high, low - REAL(to)), REAL(0.0f));
+}
+
+// Lanes whose ball of this radius, grown, may hold a sample of the box.
+static inline mask_t may_light(real x, real y, real z, real radius, const VoxelBox* b, float grown) {
+  const real dx = outside(x, x, b->low_x, b->high_x), dy = outside(y, y, b->low_y, b->high_y);
+  const real dz = outside(z, z, b->low_z, b->high_z);
+  return dx * dx + dy * dy + dz * dz < (radius * radius + grown) * 1.0001f;
+}
+
+// Lanes whose box of balls, grown, meets the box.
+static inline mask_t may_meet(real low_x, real low_y, real low_z, real high_x, real high_y, real high_z, const VoxelBox* b,
+                              float grown) {
+  const real dx = outside(low_x, high_x, b->low_x, b->high_x), dy = outside(low_y, high_y, b->low_y, b->high_y);
+  const real dz = outside(low_z, high_z, b->low_z, b->high_z);
+  return dx * dx + dy * dy + dz * dz <= REAL(grown * 1.0001f);
+}
+
+typedef struct VoxelSum {
+  Real3 irradiance, directions;
+  real weight, lights;
+} VoxelSum;
+
+static inline real luminance_of(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// place: x, y, z and radius of the light.
+static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float4 place,
+                                   const VoxelLights* lights, uint light) {
+  const Real3 d = real3(place.x - position.x, place.y - position.y, place.z - position.z);
+  const real squared = dot3(d, d);
+  const float reach_squared = place.w * place.w + slice->half_diagonal_squared;
+  const mask_t inside = squared < REAL(reach_squared);
+  if (!any_lane(inside)) return;
+  const float4 color = lights->colors[light];
+  // Over the ball of its reach a light's irradiance adds up to its intensity times the radius, whatever the window.
+  const float dimmed = place.w / sqrt(reach_squared);
+  const real ratio = squared / reach_squared;
+#ifdef WINDOW_NONE
+  real window = 1.0f;
+#else
+  real window = lane_max(1.0f - ratio * ratio, REAL(0.0f));
+#endif
+#ifdef WINDOW_SMOOTH
+  window = window * window;
+#endif
+  const real inverse_squared = 1.0f / lane_max(squared, REAL(1.2e-38f));
+  const real inverse = sqrt(inverse_squared);
+  real falloff = lane_min(inverse_squared, REAL(1.0f / slice->core_squared));
+#ifdef LEAST_FALLOFF
+  falloff = lane_max(falloff, REAL(color.w));
+#endif
+  real attenuation = window * falloff * dimmed;
+#ifdef SPOTS
+  // A cone's edge is rounded off over the angle that a cell fills, q its square. y (y - x) = soft^2 / 4.
+  const float8 cone = lights->cones[light];
+  const real q = lane_min(slice->half_diagonal_squared * inverse_squared, REAL(4.0f));
+  const real x = (cone.s0 * d.x + cone.s1 * d.y + cone.s2 * d.z) * inverse + cone.s3;
+  const real soft_squared = cone.s4 * cone.s4 * q * (cone.s6 + 0.25f * q);
+  const real root = lane_max(sqrt(x * x + soft_squared) + fabs(x), REAL(1e-30f));
+  const real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
+  const real angular = x < -4.0f * cone.s4 * sqrt(q) ? REAL(0.0f) : lane_min(y, REAL(1.0f));
+  attenuation = attenuation * (angular * angular) * (cone.s5 / (cone.s5 + 0.5f * q));
+#endif
+  attenuation = inside ? attenuation : REAL(0.0f);
+  const Real3 arrives = real3(lane_min(attenuation * color.x, REAL(LARGEST_VOXEL)), lane_min(attenuation * color.y, REAL(LARGEST_VOXEL)),
+                              lane_min(attenuation * color.z, REAL(LARGEST_VOXEL)));
+  const real weight = luminance_of(arrives), along_weight = weight * inverse;
+  sum->irradiance = add3(sum->irradiance, arrives);
+  sum->directions = add3(sum->directions, real3(along_weight * d.x, along_weight * d.y, along_weight * d.z));
+  sum->weight += weight;
+  sum->lights += attenuation > REAL(0.0f) ? REAL(1.0f) : REAL(0.0f);
+}
+
+// Scaled for storing.
+static inline VoxelSum as_stored(VoxelSum s, constant VoxelGrid* grid) {
+  const real brightest = lane_max(lane_max(s.irradiance.x, s.irradiance.y), lane_max(s.irradiance.z, s.weight));
+  const real scale = lane_min(REAL(grid->scale), grid->largest / lane_max(brightest, REAL(1e-30f)));
+  s.irradiance = scale3(s.irradiance, scale), s.directions = scale3(s.directions, scale), s.weight *= scale;
+  return s;
+}

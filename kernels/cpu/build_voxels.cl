@@ -1,0 +1,81 @@
+// Fills a voxel light buffer, for CPUs: a work-item takes a brick of samples, collects the lights that may reach it, and adds
+// them up, 4 x 4 samples of a slice at once. Each sample is the sum of its lights in their order, whatever the device.
+//
+// boxes, places, colors, cones  of lights by groups (kernels/common/voxel_light.h); cones only with -DSPOTS
+// grid, slices  where samples lie (shared/voxel_volume.h)
+// irradiance    out: four values a sample, x fastest: red, green, blue, number of lights
+// directions    out: the same: x, y, z of directions times weights along the volume's axes, and the weights
+// -D names of kernels/common/voxel_light.h
+#define FUSED  // shared/real.h
+#define LANES 16
+#include "kernels/common/pack.h"
+#include "kernels/common/voxel_light.h"
+
+#define COLUMNS (VOXEL_BRICK_X / 4)
+#define VECTORS (COLUMNS * (VOXEL_BRICK_Y / 4) * VOXEL_BRICK_Z)
+#define CHUNK 128u  // lights that are added at once
+#define LANE_OF(v, i) (((const float*)&(v))[i])
+
+static inline void add_lights(VoxelSum* sums, const uint* found, uint count, const VoxelLights* lights, constant VoxelGrid* grid,
+                              constant VoxelSlice* slices, uint x, uint y, uint z) {
+  for (uint v = 0; v < VECTORS; ++v) {
+    const uint column = v % COLUMNS * 4, row = v / COLUMNS % (VOXEL_BRICK_Y / 4) * 4;
+    constant VoxelSlice* slice = slices + z + v / (VECTORS / VOXEL_BRICK_Z);
+    Real3 position = real3(grid->origin_x + convert_float16((int)(x + column) + (LANE_INDEX & 3)) * grid->spacing_x,
+                           grid->origin_y + convert_float16((int)(y + row) + (LANE_INDEX >> 2)) * grid->spacing_y, REAL(slice->place));
+#ifdef VOXELS_LOG
+    position = real3(position.x * position.z, position.y * position.z, -position.z);
+#endif
+    VoxelSum sum = sums[v];
+    for (uint i = 0; i < count; ++i) {
+      const uint light = found[i];
+      global const float* at = lights->places + light / VOXEL_LIGHT_GROUP * (4 * VOXEL_LIGHT_GROUP) + light % VOXEL_LIGHT_GROUP;
+      add_voxel_light(&sum, position, slice,
+                      (float4)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP], at[3 * VOXEL_LIGHT_GROUP]), lights, light);
+    }
+    sums[v] = sum;
+  }
+}
+
+kernel void build_voxels(global const float* boxes, global const float* places, global const float4* colors,
+                         global const float8* cones, constant VoxelGrid* grid, constant VoxelSlice* slices,
+                         global voxel_t* irradiance, global voxel_t* directions) {
+  const uint x = get_global_id(0) * VOXEL_BRICK_X, y = get_global_id(1) * VOXEL_BRICK_Y, z = get_global_id(2) * VOXEL_BRICK_Z;
+#ifdef SPOTS
+  const VoxelLights lights = {boxes, places, colors, cones};
+#else
+  const VoxelLights lights = {boxes, places, colors};
+#endif
+  const VoxelBox box = box_of_samples(grid, slices, x, y, z);
+  const float grown = grown_by(slices, z);
+  VoxelSum sums[VECTORS];
+  const VoxelSum none = {{0}};
+  for (uint v = 0; v < VECTORS; ++v) sums[v] = none;
+  uint found[CHUNK + VOXEL_LIGHT_GROUP];
+  uint count = 0;
+  for (uint group = 0; group < grid->groups; group += 16) {
+    global const float* b = boxes + 6 * group;
+    const mask_t meets = may_meet(vload16(0, b), vload16(1, b), vload16(2, b), vload16(3, b), vload16(4, b), vload16(5, b), &box, grown);
+    for (uint met = mask_bits(meets); met != 0; met &= met - 1) {
+      const uint first = (group + lowest_bit(met)) * VOXEL_LIGHT_GROUP;
+      global const float* at = places + 4 * first;
+      const mask_t reach = may_light(vload16(0, at), vload16(1, at), vload16(2, at), vload16(3, at), &box, grown);
+      for (uint bits = mask_bits(reach); bits != 0; bits &= bits - 1) found[count++] = first + lowest_bit(bits);
+      if (count < CHUNK) continue;
+      add_lights(sums, found, count, &lights, grid, slices, x, y, z);
+      count = 0;
+    }
+  }
+  add_lights(sums, found, count, &lights, grid, slices, x, y, z);
+  for (uint v = 0; v < VECTORS; ++v) {
+    const VoxelSum s = as_stored(sums[v], grid);
+    const uint column = v % COLUMNS * 4, row = v / COLUMNS % (VOXEL_BRICK_Y / 4) * 4, slice = v / (VECTORS / VOXEL_BRICK_Z);
+    for (uint i = 0; i < 16; ++i) {
+      const size_t at = 4 * (((size_t)(z + slice) * grid->size_y + y + row + i / 4) * grid->size_x + x + column + i % 4);
+      STORE_VOXEL(((float4)(LANE_OF(s.irradiance.x, i), LANE_OF(s.irradiance.y, i), LANE_OF(s.irradiance.z, i), LANE_OF(s.lights, i))),
+                  irradiance + at);
+      STORE_VOXEL(((float4)(LANE_OF(s.directions.x, i), LANE_OF(s.directions.y, i), LANE_OF(s.directions.z, i), LANE_OF(s.weight, i))),
+                  directions + at);
+    }
+  }
+}

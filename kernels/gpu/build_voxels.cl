@@ -1,0 +1,81 @@
+// Fills a voxel light buffer, for GPUs: a work-group takes a brick, a work-item a sample. As cpu/build_voxels.cl, with the same
+// arguments.
+#define FUSED  // shared/real.h
+#define LANES 1
+#include "kernels/common/voxel_light.h"
+
+#define ITEMS (VOXEL_BRICK_X * VOXEL_BRICK_Y * VOXEL_BRICK_Z)
+#define WORDS (ITEMS / 32)
+
+// The bits of `flag` of all work-items, in words that all of them read afterwards.
+static inline void gather_flags(local uint* words, uint item, bool flag) {
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (item < WORDS) words[item] = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (flag) atomic_or(words + item / 32, 1u << item % 32);
+  barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+kernel __attribute__((reqd_work_group_size(VOXEL_BRICK_X, VOXEL_BRICK_Y, VOXEL_BRICK_Z))) void build_voxels(
+    global const float* boxes, global const float* places, global const float4* colors, global const float8* cones,
+    constant VoxelGrid* grid, constant VoxelSlice* slices, global voxel_t* irradiance, global voxel_t* directions) {
+  local uint words[WORDS], groups[ITEMS];
+  const uint ix = get_global_id(0), iy = get_global_id(1), iz = get_global_id(2);
+  const uint z = iz / VOXEL_BRICK_Z * VOXEL_BRICK_Z;
+  const uint item = (get_local_id(2) * VOXEL_BRICK_Y + get_local_id(1)) * VOXEL_BRICK_X + get_local_id(0);
+#ifdef SPOTS
+  const VoxelLights lights = {boxes, places, colors, cones};
+#else
+  const VoxelLights lights = {boxes, places, colors};
+#endif
+  const VoxelBox box = box_of_samples(grid, slices, ix / VOXEL_BRICK_X * VOXEL_BRICK_X, iy / VOXEL_BRICK_Y * VOXEL_BRICK_Y, z);
+  const float grown = grown_by(slices, z);
+  Real3 position = real3(grid->origin_x + (float)ix * grid->spacing_x, grid->origin_y + (float)iy * grid->spacing_y, slices[iz].place);
+#ifdef VOXELS_LOG
+  position = real3(position.x * position.z, position.y * position.z, -position.z);
+#endif
+  VoxelSum sum = {{0}};
+  for (uint first = 0; first < grid->groups; first += ITEMS) {
+    // The groups that meet the brick, in order.
+    const uint group = first + item;
+    bool meets = false;
+    if (group < grid->groups) {
+      global const float* b = boxes + group / 16 * 96 + group % 16;
+      meets = may_meet(b[0], b[16], b[32], b[48], b[64], b[80], &box, grown);
+    }
+    gather_flags(words, item, meets);
+    uint before = popcount(words[item / 32] & ((1u << item % 32) - 1u)), met = 0;
+    for (uint w = 0; w < WORDS; ++w) {
+      const uint bits = popcount(words[w]);
+      before += w < item / 32 ? bits : 0;
+      met += bits;
+    }
+    if (meets) groups[before] = group;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    // Their lights, ITEMS at once.
+    for (uint batch = 0; batch < met; batch += ITEMS / VOXEL_LIGHT_GROUP) {
+      const uint mine = batch + item / VOXEL_LIGHT_GROUP;
+      bool reaches = false;
+      if (mine < met) {
+        global const float* at = places + groups[mine] * (4 * VOXEL_LIGHT_GROUP) + item % VOXEL_LIGHT_GROUP;
+        reaches = may_light(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP], at[3 * VOXEL_LIGHT_GROUP], &box, grown);
+      }
+      gather_flags(words, item, reaches);
+      for (uint w = 0; w < WORDS; ++w) {
+        for (uint bits = words[w]; bits != 0; bits &= bits - 1) {
+          const uint i = w * 32 + lowest_bit(bits), in_group = i % VOXEL_LIGHT_GROUP;
+          const uint of = groups[batch + i / VOXEL_LIGHT_GROUP];
+          global const float* at = places + of * (4 * VOXEL_LIGHT_GROUP) + in_group;
+          add_voxel_light(&sum, position, slices + iz,
+                          (float4)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP], at[3 * VOXEL_LIGHT_GROUP]), &lights,
+                          of * VOXEL_LIGHT_GROUP + in_group);
+        }
+      }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  const VoxelSum s = as_stored(sum, grid);
+  const size_t at = 4 * (((size_t)iz * grid->size_y + iy) * grid->size_x + ix);
+  STORE_VOXEL(((float4)(s.irradiance.x, s.irradiance.y, s.irradiance.z, s.lights)), irradiance + at);
+  STORE_VOXEL(((float4)(s.directions.x, s.directions.y, s.directions.z, s.weight)), directions + at);
+}

@@ -1,0 +1,113 @@
+// The voxel light buffer: a volume of samples, each with the irradiance that arrives there and the sum of its directions.
+// How kernels fill it, and where a point lies in it. Geldreich on Halo Wars (2009); docs/techniques/voxel_lights.md.
+//   VOXELS_LOG: samples in the view's own projection: x / distance, y / distance and log(distance). Without: along three axes.
+#pragma once
+
+#include "shared/brdf.h"
+
+// A work-item or work-group fills a brick of samples. Sizes of volumes are multiples of it.
+#define VOXEL_BRICK_X 8
+#define VOXEL_BRICK_Y 8
+#define VOXEL_BRICK_Z 4
+// Lights that are neighbours in space share a box.
+#define VOXEL_LIGHT_GROUP 16
+
+#if defined(LIGHTGRID_GLSL)
+#define VOXELS(member) voxel_lookup.member
+#define VOXEL_ARGUMENT
+#elif defined(__OPENCL_VERSION__)
+#define VOXELS(member) voxels->member
+#define VOXEL_ARGUMENT , constant VoxelLookup* voxels
+#else
+#define VOXELS(member) voxels.member
+#define VOXEL_ARGUMENT , const VoxelLookup& voxels
+namespace lightgrid {
+#endif
+
+#ifndef LIGHTGRID_GLSL
+// The samples. Metres along the volume's axes; with VOXELS_LOG x and y are x / distance and y / distance. What a slice of
+// equal z shares is in a table, VoxelSlice each.
+typedef struct VoxelGrid {
+  uint size_x, size_y, size_z;  // samples
+  uint groups;                  // of lights, VOXEL_LIGHT_GROUP each
+  float origin_x, origin_y;     // of sample (0, 0)
+  float spacing_x, spacing_y;
+  float scale;    // of what is stored
+  float largest;  // value that is stored; a brighter sample keeps its colour and direction
+} VoxelGrid;
+
+// Metres and their squares.
+typedef struct VoxelSlice {
+  float place;                 // along the volume's z axis; with VOXELS_LOG the distance
+  float half_diagonal_squared; // of the cells between samples
+  float core_squared;          // nearer than this a light counts as if it were this far away
+  float unused;
+} VoxelSlice;
+#endif
+
+// From view space to the volume. A place is counted in samples: 0 is the first one.
+#ifdef LIGHTGRID_GLSL
+layout(std140, binding = 4) uniform VoxelLookupBlock {
+#else
+typedef struct VoxelLookup {
+#endif
+  // Place along each axis: the sum of x, y and z times these, and the fourth.
+  float x_from_x, x_from_y, x_from_z, x_from_1;
+  float y_from_x, y_from_y, y_from_z, y_from_1;
+  float z_from_x, z_from_y, z_from_z, z_from_1;
+  // Directions in view space from those along the volume's axes.
+  float view_x_from_x, view_x_from_y, view_x_from_z;
+  float view_y_from_x, view_y_from_y, view_y_from_z;
+  float view_z_from_x, view_z_from_y, view_z_from_z;
+  float last_x, last_y, last_z;  // places of the last samples: sizes less 1
+  float inverse_scale;           // of what is stored
+#ifdef LIGHTGRID_GLSL
+} voxel_lookup;
+#else
+} VoxelLookup;
+#endif
+
+// Clamped to the volume.
+SHARED_FUNCTION Real3 voxel_place(Real3 position VOXEL_ARGUMENT) {
+#ifdef VOXELS_LOG
+  real distance = max_real(-position.z, REAL(1e-30f));
+  Real3 q = real3(position.x / distance, position.y / distance, log_real(distance));
+#else
+  Real3 q = position;
+#endif
+  real x = mad_real(VOXELS(x_from_x), q.x, mad_real(VOXELS(x_from_y), q.y, mad_real(VOXELS(x_from_z), q.z, VOXELS(x_from_1))));
+  real y = mad_real(VOXELS(y_from_x), q.x, mad_real(VOXELS(y_from_y), q.y, mad_real(VOXELS(y_from_z), q.z, VOXELS(y_from_1))));
+  real z = mad_real(VOXELS(z_from_x), q.x, mad_real(VOXELS(z_from_y), q.y, mad_real(VOXELS(z_from_z), q.z, VOXELS(z_from_1))));
+  return real3(min_real(max_real(x, REAL(0.0f)), REAL(VOXELS(last_x))),
+               min_real(max_real(y, REAL(0.0f)), REAL(VOXELS(last_y))),
+               min_real(max_real(z, REAL(0.0f)), REAL(VOXELS(last_z))));
+}
+
+// What a volume holds at a point, interpolated: irradiance on a surface that faces each light, and the sum of the directions to
+// the lights, along the volume's axes, weighted by luminance, with the sum of the weights.
+SHARED_STRUCT(VoxelLight) {
+  Real3 irradiance, directions;
+  real weight;
+};
+
+// The light that a surface reflects of it: the part in which directions agree as a light from their mean, the rest as if it
+// came from all sides. Over all normals of a diffuse surface its mean and first moments are those of the lights.
+SHARED_FUNCTION Real3 radiance_of_voxels(ShadingPoint p, VoxelLight light VOXEL_ARGUMENT) {
+  Real3 d = light.directions;
+  real squared = max_real(dot3(d, d), REAL(1.2e-38f));
+  real inverse = inverse_sqrt_real(squared);
+  real agreement = min_real(squared * inverse / max_real(light.weight, REAL(1.2e-38f)), REAL(1.0f));
+  d = scale3(d, inverse);
+  Real3 to_light = real3(VOXELS(view_x_from_x) * d.x + VOXELS(view_x_from_y) * d.y + VOXELS(view_x_from_z) * d.z,
+                         VOXELS(view_y_from_x) * d.x + VOXELS(view_y_from_y) * d.y + VOXELS(view_y_from_z) * d.z,
+                         VOXELS(view_z_from_x) * d.x + VOXELS(view_z_from_y) * d.y + VOXELS(view_z_from_z) * d.z);
+  real around = (1.0f - agreement) * (0.25f / SHADING_PI);  // radiance a unit of irradiance
+  Real3 all_sides = AMBIENT_REFLECTANCE(p);
+  Real3 back = add3(scale3(reflected(p, to_light), agreement), scale3(all_sides, around));
+  Real3 irradiance = scale3(light.irradiance, REAL(VOXELS(inverse_scale)));
+  return real3(back.x * irradiance.x, back.y * irradiance.y, back.z * irradiance.z);
+}
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
+#endif

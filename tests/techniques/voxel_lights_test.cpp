@@ -1,0 +1,414 @@
+// voxel_lights: the volume against formulas in double, its picture against forward's, and where it must hold.
+#include "passes/build_voxels.h"
+#include "scene/random.h"
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr VoxelSize coarse = VoxelSize::s16x16x4;
+
+// What the documentation says of a sample (docs/techniques/voxel_lights.md), in double.
+struct OracleSample {
+  glm::dvec3 irradiance{0}, directions{0};  // directions: along the world's axes
+  double weight = 0, lights = 0;
+};
+
+double luminance(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+
+// spacing: of the samples, metres, where the volume divides the world.
+OracleSample oracle_sample(const Scene& scene, const glm::dvec3& at, const glm::dvec3& spacing) {
+  const double grown = glm::dot(spacing, spacing) / 4;
+  const double ball = std::cbrt(spacing.x * spacing.y * spacing.z * 3 / (4 * pi));
+  OracleSample s;
+  for (const Light& light : scene.lights) {
+    if (light.type == LightType::directional || light.radius_m <= 0) continue;
+    const double radius = std::min(double(light.radius_m), 7e18);
+    const glm::dvec3 d = light.position - at;
+    const double squared = glm::dot(d, d), reach = radius * radius + grown;
+    if (squared >= reach) continue;
+    double attenuation = (1 - squared / reach * (squared / reach)) *
+                         std::min(1 / squared, 3 / (ball * ball)) * radius / std::sqrt(reach);
+    if (light.type == LightType::spot) {
+      const double q = std::min(grown / squared, 4.0), outer = std::cos(double(light.outer_cone_rad));
+      const double inner = std::max(std::cos(double(light.inner_cone_rad)), outer + 0.001);
+      const double x = -glm::dot(glm::normalize(glm::dvec3(light.direction)), d) / std::sqrt(squared) - outer;
+      const double soft = std::sqrt((1 - outer * outer) * q + q * q / 4);
+      const double y = x > 0 ? (x + std::hypot(x, soft)) / 2 : soft * soft / (2 * (std::hypot(x, soft) - x));
+      const double angular = x < -4 * std::sqrt(q) ? 0 : std::min(y / (inner - outer), 1.0);
+      attenuation *= angular * angular * (1 - outer) / (1 - outer + 0.5 * q);
+    }
+    const glm::dvec3 arrives =
+        glm::min(attenuation * glm::dvec3(light.color) * double(light.intensity), 1e15);
+    s.irradiance += arrives;
+    s.weight += luminance(arrives);
+    s.lights += attenuation > 0;
+    if (squared > 0) s.directions += luminance(arrives) * d / std::sqrt(squared);
+  }
+  return s;
+}
+
+// A volume of the world, and where its samples are.
+struct Volume {
+  explicit Volume(RenderView& v) : read(read_voxels(v)) {
+    const VoxelGrid& g = read.placed.grid;
+    spacing = {g.spacing_x, read.placed.slices[1].place - read.placed.slices[0].place, g.spacing_y};
+    first = read.axes.origin + glm::dvec3(g.origin_x, read.placed.slices[0].place, g.origin_y);
+  }
+  size_t index(glm::ivec3 i) const {  // along x, z and y of the world
+    return (size_t(i.z) * read.placed.grid.size_y + size_t(i.y)) * read.placed.grid.size_x + size_t(i.x);
+  }
+  glm::dvec3 position(glm::ivec3 i) const { return first + spacing * glm::dvec3(i.x, i.z, i.y); }
+  // Along the world's axes.
+  glm::dvec3 directions(size_t i) const {
+    return glm::dvec3(read.directions[i].x, read.directions[i].z, read.directions[i].y);
+  }
+  glm::ivec3 size() const {
+    return {read.placed.grid.size_x, read.placed.grid.size_y, read.placed.grid.size_z};
+  }
+
+  ReadVoxels read;
+  glm::dvec3 spacing, first;  // world, metres
+};
+
+// Every sample within rounding of the oracle: positions and distances to 1e-6 m, of which 1 / distance^2
+// makes more near a light; at the rim of a light's reach or of a cone a part of its greatest value.
+void expect_oracles(const Scene& scene, const Volume& volume, const char* what) {
+  double brightest = 0;
+  for (const glm::vec4& value : volume.read.irradiance)
+    brightest = std::max({brightest, double(value.x), double(value.y), double(value.z)});
+  size_t wrong = 0;
+  for (int z = 0; z < volume.size().z; ++z) {
+    for (int y = 0; y < volume.size().y; ++y) {
+      for (int x = 0; x < volume.size().x; ++x) {
+        const size_t i = volume.index({x, y, z});
+        const OracleSample expected = oracle_sample(scene, volume.position({x, y, z}), volume.spacing);
+        const glm::dvec3 e(volume.read.irradiance[i]);
+        const double allowed = 1e-5 * brightest + 1e-3 * luminance(expected.irradiance);
+        const double apart = glm::length(e - expected.irradiance) +
+                             glm::length(volume.directions(i) - expected.directions) +
+                             std::abs(double(volume.read.directions[i].w) - expected.weight);
+        if (!(apart <= allowed) && ++wrong == 1) {
+          ADD_FAILURE() << what << ": sample " << x << ' ' << y << ' ' << z << " irradiance " << e.r << " of "
+                        << expected.irradiance.r << ", weight " << volume.read.directions[i].w << " of "
+                        << expected.weight << ", apart by " << apart;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(wrong, 0u) << what;
+}
+
+Settings sized(VoxelSize size, VoxelSpace space = VoxelSpace::world) {
+  Settings settings;
+  settings.voxel_size = size, settings.voxel_space = space;
+  return settings;
+}
+
+struct Drawn {
+  Image image;
+  LitPairs pairs;
+};
+
+Drawn drawn(const Scene& scene, const View& view, const Settings& settings) {
+  TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
+  run.run_frame();
+  return {run.image(), count_listed_pairs(run, read_depth(run))};
+}
+
+// A lamp of 10 cd and 8 m on a sample, seen from the next one: 10 / spacing^2 (1 - (spacing / 8)^4), but for
+// the growth of its reach; at its own sample the mean of 1 / distance^2 over a ball as large as a voxel.
+TEST(VoxelLights, EnergyOfOneLightByHand) {
+  SmallScene s = small_scene(false);
+  s.scene.ambient = glm::vec3(0);
+  const View view = small_view(33, 21);
+  TechniqueRun run(test_devices(), s.scene, view, sized(coarse), find_technique("voxel_lights"));
+  add_point(s.scene, "lamp", {0, 0, -3}, {1, 1, 1}, 10, 8);
+  TechniqueRun first(test_devices(), s.scene, view, sized(coarse), find_technique("voxel_lights"));
+  first.run_frame();
+  const Volume placed(first.view());
+  s.scene.lights[0].position = placed.position({8, 8, 2});  // the box does not depend on lights
+  TechniqueRun second(test_devices(), s.scene, view, sized(coarse), find_technique("voxel_lights"));
+  second.run_frame();
+  const Volume volume(second.view());
+  ASSERT_EQ(volume.first, placed.first);
+  const double h = volume.spacing.x, voxel = volume.spacing.x * volume.spacing.y * volume.spacing.z;
+  const double reach_squared = 64 + glm::dot(volume.spacing, volume.spacing) / 4,
+               dimmed = 8 / std::sqrt(reach_squared);
+  const double beside = 10 * dimmed / (h * h) * (1 - std::pow(h * h / reach_squared, 2));
+  EXPECT_NEAR(volume.read.irradiance[volume.index({9, 8, 2})].r, beside, 1e-5 * beside);
+  EXPECT_NEAR(volume.directions(volume.index({9, 8, 2})).x, -beside, 1e-5 * beside);
+  const double own = 10 * dimmed * 3 / std::pow(voxel * 3 / (4 * pi), 2.0 / 3);
+  EXPECT_NEAR(volume.read.irradiance[volume.index({8, 8, 2})].r, own, 1e-5 * own);
+  EXPECT_EQ(volume.directions(volume.index({8, 8, 2})), glm::dvec3(0));
+  EXPECT_NEAR(volume.read.directions[volume.index({8, 8, 2})].w, own, 1e-5 * own);
+  EXPECT_EQ(volume.read.irradiance[volume.index({8, 8, 2})].w, 1);
+}
+
+// A part of a case, and what must hold in both spaces: no NaN, no light lost. In the world also the oracle's
+// volume.
+struct VoxelCase {
+  const char* name;
+  std::function<void(SmallScene&)> change;
+  glm::dvec3 eye{0}, target{0, 0, -1};
+};
+
+TEST(VoxelLights, HardCasesHold) {
+  const auto at = [](glm::vec3 position, float candela, float radius) {
+    return [=](SmallScene& s) { add_point(s.scene, "lamp", position, {1, 0.8f, 0.6f}, candela, radius); };
+  };
+  const std::vector<VoxelCase> cases = {
+      {"without lights", [](SmallScene&) {}},
+      {"in the eye", at({0, 0, 0}, 5, 6)},
+      {"on a corner of the world's lattice", at({0, 0, -4}, 5, 6)},
+      {"far larger than the volume", at({0, 50, -4}, 9e4f, 1e4f)},
+      {"without an end", at({1, 1, -2}, 5, std::numeric_limits<float>::infinity())},
+      {"much smaller than a voxel", at({0.301f, 0.011f, -3.999f}, 0.1f, 0.01f)},
+      {"of no radius", at({0, 0, -3}, 5, 0)},
+      {"as bright as floats go", at({0, 0, -3}, 3e38f, 5)},
+      {"a million candela on a surface", at({0.3f, -0.2f, -4}, 1e6f, 3)},
+      {"100,000 in one place",
+       [](SmallScene& s) {
+         s.scene.lights.resize(100000,
+                               add_point(s.scene, "lamp", {0.5f, 0.4f, -3.3f}, {1, 1, 1}, 1e-4f, 1.5f));
+       }},
+      {"a thin cone",
+       [](SmallScene& s) {
+         add_spot(s.scene, "ray", {0, 0, 0}, {0.3f, 0.2f, -4}, {1, 1, 1}, 50, 9, 0, 0.05f);
+       }},
+      {"a half space of a cone",
+       [](SmallScene& s) {
+         add_spot(s.scene, "wide", {0, 1, -3}, {0, 0, -3}, {1, 1, 1}, 5, 6, 20, 89.9f);
+       }},
+      {"the eye looks away", at({0, 0, -3}, 5, 6), {0, 0, 2}, {0, 0, 3}},
+      {"a million metres from the origin",
+       [](SmallScene& s) {
+         add_point(s.scene, "lamp", {0.2f, 0.1f, -3}, {1, 1, 1}, 5, 3);
+         for (Instance& i : s.scene.instances) i.world_from_object[3] += glm::dvec4(1e6, -2e6, 3e6, 0);
+         s.scene.lights[0].position += glm::dvec3(1e6, -2e6, 3e6);
+       },
+       {1e6, -2e6, 3e6},
+       {1e6, -2e6, 3e6 - 1}},
+  };
+  for (const VoxelCase& c : cases) {
+    SCOPED_TRACE(c.name);
+    SmallScene s = small_scene(false);
+    c.change(s);
+    const View view = make_view(look_at(c.eye, c.target), 40, 25);
+    for (const VoxelSpace space : {VoxelSpace::world, VoxelSpace::view}) {
+      TechniqueRun run(test_devices(), s.scene, view, sized(coarse, space), find_technique("voxel_lights"));
+      run.run_frame();
+      EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+      EXPECT_EQ(count_inf_pixels(run.image()), 0u);
+      const LitPairs pairs = count_listed_pairs(run, read_depth(run));
+      EXPECT_EQ(pairs.wrong, 0u);
+      EXPECT_EQ(pairs.lost, 0u);
+      if (space == VoxelSpace::world && !s.scene.lights.empty() && s.scene.lights.size() < 1000)
+        expect_oracles(s.scene, Volume(run.view()), c.name);
+      const Image before = run.image();
+      run.run_frame();
+      EXPECT_TRUE(identical(run.image(), before)) << "the next frame";
+    }
+  }
+}
+
+Scene fuzzed(uint64_t seed) {
+  Random random(seed);
+  SmallScene s = small_scene(false);
+  for (int i = 0; i < 150; ++i) {
+    const glm::vec3 at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-6, 0));
+    const float radius = 0.05f * std::exp2(random.uniform(0, 7));
+    const glm::vec3 color(random.uniform(), random.uniform(), random.uniform());
+    if (i % 4 != 0) {
+      add_point(s.scene, "lamp", at, color, radius * radius, radius);
+      continue;
+    }
+    const glm::vec3 target = at + glm::vec3(any_direction(random));
+    const float outer = random.uniform(2, 80);
+    add_spot(s.scene, "torch", at, target, color, radius * radius, radius, random.uniform(0, outer), outer);
+  }
+  return s.scene;
+}
+
+TEST(VoxelLights, FuzzedVolumesAreTheOracles) {
+  for (const uint64_t seed : {1, 2, 3}) {
+    const Scene scene = fuzzed(seed);
+    const View view = make_view(look_at({0.3 * double(seed), 0.2, 0.5}, {0, 0, -4}), 31, 23);
+    TechniqueRun run(test_devices(), scene, view, sized(VoxelSize::s32x32x8), find_technique("voxel_lights"));
+    run.run_frame();
+    expect_oracles(scene, Volume(run.view()), "fuzzed");
+  }
+}
+
+// Kernels for CPUs and GPUs, and fewer bits.
+TEST(VoxelLights, BothShapesFillTheSameBytes) {
+  const Scene scene = fuzzed(4);
+  const View view = small_view(31, 23);
+  Settings settings = sized(VoxelSize::s32x32x8);
+  const auto volume = [&](KernelShape shape, int bits) {
+    settings.kernel_shape = shape, settings.voxel_bits = bits;
+    TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
+    run.run_frame();
+    return read_voxels(run.view());
+  };
+  const ReadVoxels lanes = volume(KernelShape::lanes, 32), group = volume(KernelShape::group, 32),
+                   half = volume(KernelShape::lanes, 16);
+  float brightest = 0;
+  size_t differ = 0;
+  double apart = 0;
+  for (size_t i = 0; i < lanes.irradiance.size(); ++i) {
+    differ += lanes.irradiance[i] != group.irradiance[i] || lanes.directions[i] != group.directions[i];
+    brightest = std::max(brightest, lanes.irradiance[i].r);
+    apart = std::max(apart, std::abs(double(lanes.irradiance[i].r) - half.irradiance[i].r) /
+                                std::max(double(lanes.irradiance[i].r), 1e-3));
+  }
+  EXPECT_EQ(differ, 0u);
+  EXPECT_GT(brightest, 1);
+  EXPECT_GT(apart, 0);
+  EXPECT_LE(apart, 0x1p-11 * 1.01);
+}
+
+// docs/techniques/voxel_lights.md#how-it-converges: one light, a diffuse wall, and the bound of the
+// interpolation.
+TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
+  SmallScene s = small_scene(false);
+  s.scene.instances.resize(1);  // the wall alone
+  s.scene.ambient = glm::vec3(0);
+  const double candela = 12, radius = 6;
+  const glm::dvec3 lamp(0.2, 0.3, -2.2);
+  add_point(s.scene, "lamp", glm::vec3(lamp), {1, 1, 1}, float(candela), float(radius));
+  const View view = make_view(look_at({1.4, 0.9, 0}, {0.2, 0, -4}), 61, 43);
+  Settings settings;
+  settings.brdf = Brdf::lambert;
+  const Image forward = render(s.scene, view, "forward", settings);
+  double last = 1e9;
+  for (const VoxelSize size : {coarse, VoxelSize::s32x32x8, VoxelSize::s64x64x16, VoxelSize::s128x128x32}) {
+    settings.voxel_size = size;
+    TechniqueRun run(test_devices(), s.scene, view, settings, find_technique("voxel_lights"));
+    run.run_frame();
+    const Volume volume(run.view());
+    const glm::dvec3 h = volume.spacing;
+    // Of irradiance on a surface that faces the light, and of it times the direction: the largest second
+    // differences over the cells that the wall is in. The second is taken as a vector, which bounds its part
+    // along the normal.
+    const auto field = [&](const glm::dvec3& at) {
+      const glm::dvec3 d = lamp - at;
+      const double r2 = glm::dot(d, d), e = candela / r2 * std::max(1 - r2 * r2 / std::pow(radius, 4), 0.0);
+      return glm::dvec4(d / std::sqrt(r2) * e, e);
+    };
+    double of_vector = 0, of_weight = 0, brightest = 0;
+    for (double x = -1.8; x <= 2.2; x += 0.1) {
+      for (double y = -2; y <= 2; y += 0.1) {
+        for (const double z : {-4 - h.z, -4.0, -4 + h.z}) {
+          double vector = 0, weight = 0;
+          for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 step(0);
+            step[axis] = 0.01;
+            const glm::dvec4 second = (field({x + step.x, y + step.y, z + step.z}) - 2.0 * field({x, y, z}) +
+                                       field({x - step.x, y - step.y, z - step.z})) /
+                                      1e-4;
+            vector += h[axis] * h[axis] / 8 * glm::length(glm::dvec3(second)),
+                weight += h[axis] * h[axis] / 8 * std::abs(second.w);
+          }
+          of_vector = std::max(of_vector, vector), of_weight = std::max(of_weight, weight);
+          brightest = std::max(brightest, field({x, y, z}).w);
+        }
+      }
+    }
+    const double grown = glm::dot(h, h) / 4 / (radius * radius);
+    const double of_reach =
+        brightest * (0.5 + 2) * grown;  // dimmed by sqrt(1 + grown), and a window that ends later
+    const double bound = 0.7 / pi * (of_vector + (of_vector + of_weight) / 4 + of_reach) + 1e-5;
+    const double error = compare_images(run.image(), forward).max_abs;
+    RecordProperty(fmt::format("error_{}", volume.size().x), fmt::format("{} of {}", error, bound));
+    EXPECT_LT(error, bound) << volume.size().x;
+    EXPECT_GT(error, bound / 30) << "a bound that says nothing: " << volume.size().x;
+    EXPECT_LT(error, 0.5 * last) << volume.size().x;
+    last = error;
+  }
+}
+
+// Six lamps around a ball before a wall: the picture comes near, never there, and less leaks beyond the
+// lamps' ranges.
+TEST(VoxelLights, AreNearForwardAndLeakIsCounted) {
+  const Scene scene = small_scene().scene;
+  const View view = small_view(61, 43);
+  Settings settings;
+  settings.brdf = Brdf::lambert;
+  const Image forward = render(scene, view, "forward", settings);
+  double last = 1e9;
+  uint64_t leaked = ~uint64_t(0);
+  for (const VoxelSize size : {coarse, VoxelSize::s64x64x16}) {
+    settings.voxel_size = size;
+    const Drawn d = drawn(scene, view, settings);
+    EXPECT_EQ(d.pairs.lost, 0u);
+    EXPECT_LT(d.pairs.listed - d.pairs.lit, leaked);
+    EXPECT_GT(d.pairs.listed, d.pairs.lit) << "nothing leaks";
+    leaked = d.pairs.listed - d.pairs.lit;
+    const double error = compare_images(d.image, forward).rmse;
+    EXPECT_LT(error, 0.7 * last);
+    last = error;
+  }
+  Scene dark = scene;
+  dark.lights.clear();
+  EXPECT_LT(last, 0.2 * compare_images(render(dark, view, "forward", settings), forward).rmse)
+      << "little better than no lights";
+}
+
+// Directional lights, unlit and emissive surfaces and glass are as in forward but for the light of points:
+// with lights that reach nothing, the picture is forward's.
+TEST(VoxelLights, EverythingElseIsForwards) {
+  for (const char* name : {"blend", "unlit", "directional"}) {
+    SmallScene s = small_scene();
+    effect(name).add(s);
+    for (Light& light : s.scene.lights) {
+      if (light.type != LightType::directional) light.position.y += 1000;
+    }
+    const View view = small_view(31, 23);
+    EXPECT_LT(
+        compare_images(render(s.scene, view, "voxel_lights", sized(coarse)), render(s.scene, view, "forward"))
+            .max_rel,
+        1e-6)
+        << name;
+  }
+}
+
+TEST(VoxelLights, ReuseShowsTheSameAndFillsAfterAChange) {
+  SmallScene s = small_scene();
+  Settings settings = sized(coarse), keeping = settings;
+  keeping.voxel_reuse = true;
+  GpuScene gpu(test_devices(), s.scene);
+  TechniqueRun run(test_devices(), gpu, small_view(31, 23), keeping, find_technique("voxel_lights"));
+  const auto fills = [&] {
+    run.view().timer.clear();
+    run.view().timer.enabled = true;
+    run.run_frame();
+    run.view().timer.enabled = false;
+    return std::ranges::count(run.view().timer.records(), std::string("build_voxels"), &PassRecord::name);
+  };
+  EXPECT_EQ(fills(), 1);
+  EXPECT_EQ(fills(), 0);
+  EXPECT_TRUE(identical(run.image(), render(s.scene, small_view(31, 23), "voxel_lights", settings)));
+  s.scene.lights[2].position.x += 0.25;
+  run.look(small_view(31, 23), {.lights = {2}});
+  EXPECT_EQ(fills(), 1);
+  EXPECT_TRUE(identical(run.image(), render(s.scene, small_view(31, 23), "voxel_lights", settings)));
+}
+
+// Triangles and surfaces of OpenCL, opaque and blended: the same light.
+TEST(VoxelLights, RasterOfOpenClShowsTheSame) {
+  SmallScene s = small_scene();
+  effect("blend").add(s);
+  const View view = small_view(61, 43);
+  Settings settings = sized(VoxelSize::s32x32x8, VoxelSpace::view);
+  const Image opengl = render(s.scene, view, "voxel_lights", settings);
+  settings.raster = RasterApi::opencl;
+  const Drawn opencl = drawn(s.scene, view, settings);
+  expect_near(opencl.image, opengl);
+  EXPECT_EQ(opencl.pairs.lost, 0u);
+}
+
+}  // namespace
+}  // namespace lightgrid
