@@ -2,6 +2,8 @@
 // lays them out, with OpenGL's wrap modes, magnification and minification filters (OpenGL 4.6, 8.14). The
 // level of detail comes from exact derivatives, not from differences between pixels. Arithmetic is IEEE's
 // alone, and so the same on every device.
+//
+// -DSMALL_TEXELS  packed texels have 8 bits a channel, not 16, and of base colours their square roots
 #pragma once
 
 #include "kernels/common/pack.h"
@@ -152,9 +154,31 @@ typedef ushort unaligned_ushorts_8 __attribute__((ext_vector_type(8), aligned(2)
 #define TEXELS_8(p) convert_float8(vload8(0, p))
 #endif
 
+// Two packed texels (renderer/surface_texels.h), and what a step of a channel is then worth.
+#ifdef SMALL_TEXELS
+typedef uchar packed_t;
+#define PACKED_STEP (1.0f / 255.0f)
+static inline float16 packed_texels(global const uchar* at) {
+#if defined(AVX512) && LANES == 16
+  typedef uchar unaligned_uchars __attribute__((ext_vector_type(16), aligned(1)));
+  const float16 t = convert_float16(*(global const unaligned_uchars*)at);
+#else
+  const float16 t = convert_float16(vload16(0, at));
+#endif
+  const float s = PACKED_STEP;
+  const float16 of_colors = (float16)(s, s, s, 0, 0, 0, 0, 0, s, s, s, 0, 0, 0, 0, 0);
+  const float16 of_others = (float16)(0, 0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1);
+  return t * fma(t, of_colors, of_others);
+}
+#else
+typedef ushort packed_t;
+#define PACKED_STEP TEXEL_STEP
+#define packed_texels(at) TEXELS_16(at)
+#endif
+
 // x and x + 1 lie side by side.
-static inline float8 bilinear_8(global const ushort* at, size_t pitch, float x, float y) {
-  const float16 low = TEXELS_16(at), high = TEXELS_16(at + 8 * pitch);
+static inline float8 bilinear_8(global const packed_t* at, size_t pitch, float x, float y) {
+  const float16 low = packed_texels(at), high = packed_texels(at + 8 * pitch);
   const float16 row = fma(high - low, (float16)(y), low);
   return fma(row.hi - row.lo, (float8)(x), row.lo);
 }
@@ -174,7 +198,7 @@ static inline float4 bilinear_4(global const ushort* at, size_t pitch, float x, 
 #define INDEX_LANE(v, i) ((size_t)(uint)(v))
 #endif
 
-static inline float8 trilinear_8(global const ushort* texels, const Footprint* f, uint i) {
+static inline float8 trilinear_8(global const packed_t* texels, const Footprint* f, uint i) {
   const float8 fine = bilinear_8(texels + 8 * INDEX_LANE(f->fine.first, i), INDEX_LANE(f->fine.pitch, i),
                                  LANE(f->fine.x, i), LANE(f->fine.y, i));
   const float8 coarse =
@@ -228,7 +252,7 @@ static inline Texels4 filtered_4(global const ushort* texels, global const Surfa
 static inline Texels8 filtered_8(global const ushort* texels, global const SurfaceMap* map,
                                  TexturePlace place) {
   const Footprint f = footprint_of(map, place);
-  global const ushort* chain = texels + 8 * (size_t)map->base;
+  global const packed_t* chain = (global const packed_t*)texels + 8 * (size_t)map->base;
   Texels8 t;
 #if LANES == 1
   const float8 p = trilinear_8(chain, &f, 0);
@@ -251,7 +275,7 @@ static inline Texels8 filtered_8(global const ushort* texels, global const Surfa
   t.c[5] = (float16)(odd[0].s26ae, odd[1].s26ae, odd[2].s26ae, odd[3].s26ae);
   t.c[7] = (float16)(odd[0].s37bf, odd[1].s37bf, odd[2].s37bf, odd[3].s37bf);
 #endif
-  for (uint i = 0; i < 8; ++i) t.c[i] *= TEXEL_STEP;
+  for (uint i = 0; i < 8; ++i) t.c[i] *= PACKED_STEP;
   return t;
 }
 

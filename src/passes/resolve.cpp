@@ -88,6 +88,7 @@ class Resolving : public PassState {
     if (v.plan.directional) defines += " -DDIRECTIONAL";
     if (v.plan.light_grid && v.plan.slices > 1) defines += " -DSLICES";
     const uint32_t of_scene = v.plan.settings.everything_on ? feature_all : scene(v).features();
+    if (v.plan.settings.texels == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
     const uint32_t features = features_read(of_scene, v.plan.settings.brdf);
     for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
                                       {feature_uv1, " -DUV1"},

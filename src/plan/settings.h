@@ -27,7 +27,7 @@ enum class LidrOrder { priority, scene };
 enum class RasterApi { opengl, opencl };
 
 // How the resolve passes keep a material's maps (renderer/surface_texels.h), and which lights it adds up.
-enum class TexelLayout { packed, separate };
+enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
 enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a light's ball: docs/light_volumes.md

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -14,8 +15,9 @@ namespace {
 constexpr int packable = 3;  // base colour, metallic-roughness, normal
 
 std::array<const TextureSlot*, SURFACE_MAPS> maps_of(const Material& m) {
-  return {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map, &m.occlusion_map, &m.emissive_map,
-          &m.clearcoat_map, &m.clearcoat_roughness_map, &m.clearcoat_normal_map};
+  return {&m.base_color_map,          &m.metallic_roughness_map, &m.normal_map,
+          &m.occlusion_map,           &m.emissive_map,           &m.clearcoat_map,
+          &m.clearcoat_roughness_map, &m.clearcoat_normal_map};
 }
 
 bool has_mips(const Texture& texture) {
@@ -51,7 +53,8 @@ class TexelWriter {
     // What lighting needs, an unlit surface does not.
     const int count = m.unlit ? 1 : m.clearcoat > 0 ? SURFACE_MAPS : SURFACE_COAT;
     // A packed texel has no alpha, which blending takes from the base colour.
-    const bool packed = !m.unlit && m.alpha_mode != AlphaMode::blend && layout_ == TexelLayout::packed && can_pack(m);
+    const bool packed =
+        !m.unlit && m.alpha_mode != AlphaMode::blend && layout_ != TexelLayout::separate && can_pack(m);
     for (int i = 0; i < count; ++i) {
       if (maps[i]->texture < 0) continue;
       record.flags |= 1u << i;
@@ -114,6 +117,26 @@ class TexelWriter {
     return {uint(first), std::move(chain)};
   }
 
+  // Packed chains as bytes.
+  static PlacedChain append_small(TexelChain chain, std::vector<uint8_t>& to) {
+    static const std::vector<uint8_t> roots = [] {
+      std::vector<uint8_t> bytes(65536);
+      for (size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = uint8_t(std::lround(255 * std::sqrt(double(i) / 65535)));
+      return bytes;
+    }();
+    const size_t first = to.size() / 8;
+    if (first + chain.values.size() / 8 > 0x7fffffffu)
+      throw machine_error("textures: more than 2^31 texels for the resolve pass");
+    to.reserve(to.size() + chain.values.size());
+    for (size_t i = 0; i < chain.values.size(); ++i) {
+      const uint16_t value = chain.values[i];
+      to.push_back(i % 8 < 3 ? roots[value] : uint8_t((value + 128) / 257));
+    }
+    chain.values.clear();
+    return {uint(first), std::move(chain)};
+  }
+
   TexelChain make_texture_chain(int texture) const {
     const Texture& t = scene_.textures[texture];
     return make_chain(linear_texels(scene_.bitmaps[t.bitmap], t.srgb), t.wrap_u, t.wrap_v, has_mips(t));
@@ -146,7 +169,10 @@ class TexelWriter {
     put(m.metallic_roughness_map, {{1, 6}, {2, 7}});
     const Texture& t = texture_of(first);
     TexelChain chain = make_chain(std::move(image), t.wrap_u, t.wrap_v, has_mips(t));
-    return packed_.emplace(key, append(std::move(chain), 8, out_.texels_8)).first->second;
+    return packed_
+        .emplace(key, layout_ == TexelLayout::packed_8 ? append_small(std::move(chain), out_.small_texels_8)
+                                                       : append(std::move(chain), 8, out_.texels_8))
+        .first->second;
   }
 
   // Its levels lie as those of the base colour map, packed or not.

@@ -15,11 +15,13 @@ struct SurfaceTexels {
   // Chains of 8 channels, all maps of a material in one texel: base colour (3), normal (3), roughness,
   // metalness. A map that the material lacks is 1 everywhere, and its factor alone counts.
   std::vector<uint16_t> texels_8;
+  // The same with TexelLayout::packed_8: bytes, of base colours their square roots, whose steps the eye sees alike.
+  std::vector<uint8_t> small_texels_8;
   std::vector<uint32_t> alphas;  // chains of alpha_quads, of masked materials
 };
 
 // Textures that no used material has are left out. A texture or a set of packed ones is there once, however
-// many materials share it. Maps are packed, with TexelLayout::packed, where a material has two or more of
+// many materials share it. Maps are packed, unless TexelLayout::separate, where a material has two or more of
 // base colour, metallic-roughness and normal map, of one size, with one sampler and one set of texture
 // coordinates, and is not blended: a packed texel has no alpha.
 SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials, TexelLayout layout);

@@ -156,5 +156,25 @@ TEST(ResolveGbuffer, RoundsTo16And8BitsAsTheLayoutSays) {
   expect_rounded<uint8_t>(scene, 8, 127, 255, 0.96);
 }
 
+// Half a step of a square root whose slope is at most 2; what is no color has the source's own bytes, magnified.
+TEST(ResolveGbuffer, TexelsOf8BytesAreOffByHalfAStepOfAColorsRoot) {
+  SmallScene s = small_scene();
+  for (const char* name : {"base_color_map", "metallic_roughness_map", "normal_map"}) effect(name).add(s);
+  const Filled exact = filled(s.scene, odd_view(), {.texels = TexelLayout::separate});
+  const Filled small = filled(s.scene, odd_view(), {.texels = TexelLayout::packed_8});
+  double largest = 0;
+  for (size_t i = 0; i < exact.depth.size(); ++i) {
+    const glm::dvec4 a = exact.texel<float>(1, i), b = small.texel<float>(1, i);
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_LE(std::abs(a[c] - b[c]), std::sqrt(a[c]) / 255 + 0.25 / (255 * 255) + 1e-6) << i;
+      largest = std::max(largest, std::abs(a[c] - b[c]));
+    }
+    ASSERT_NEAR(a.w, b.w, 1e-6) << i;
+    const glm::dvec4 apart = glm::abs(exact.texel<float>(0, i) - small.texel<float>(0, i));
+    ASSERT_LE(std::max({apart.x, apart.y, apart.z, apart.w}), 2e-6) << i;
+  }
+  EXPECT_GT(largest, 1e-4) << "else texels were not packed";
+}
+
 }  // namespace
 }  // namespace lightgrid

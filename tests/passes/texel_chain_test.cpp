@@ -82,6 +82,13 @@ TEST(SurfaceTexels, PackMapsOfOneSizeAndShareThem) {
   EXPECT_EQ(packed.texels_8.size(), 8u * 4);  // a texel, its column and its row, once
   EXPECT_THAT(std::vector<uint16_t>(packed.texels_8.begin(), packed.texels_8.begin() + 8),
               ElementsAre(65535, 65535, 65535, 51 * 257, 51 * 257, 51 * 257, 65535, 65535));
+  const SurfaceTexels small = surface_texels(scene, {true, true, true}, TexelLayout::packed_8);
+  EXPECT_TRUE(small.texels_8.empty());
+  ASSERT_EQ(small.small_texels_8.size(), packed.texels_8.size());
+  for (size_t i = 0; i < 8; ++i) {
+    const double value = packed.texels_8[i] / 65535.0;
+    EXPECT_EQ(small.small_texels_8[i], std::lround(255 * (i < 3 ? std::sqrt(value) : value))) << i;
+  }
   const SurfaceTexels separate = surface_texels(scene, {true, true, true}, TexelLayout::separate);
   EXPECT_TRUE(separate.texels_8.empty());
   EXPECT_FALSE(separate.materials[0].flags & SURFACE_PACKED);
