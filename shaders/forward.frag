@@ -10,7 +10,7 @@
 #include "shared/brdf.h"
 #ifdef LIGHTS
 #include "shaders/lights/punctual.glsl"
-#if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS)
+#if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS) || defined(VOXEL_EXACT)
 #include "shaders/lights/cell.glsl"
 #include "shaders/lights/z_bins.glsl"
 #endif

@@ -4,6 +4,8 @@
 // -DDIRECTIONAL  there are directional lights
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DVOXELS       point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
+// -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only the rest comes from
+//                the volume
 // -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT  as kernels/common/shade_pixels.h says
 #pragma once
 
@@ -12,6 +14,9 @@
 #include "shared/light_grid.h"
 #ifdef VOXELS
 #include "kernels/common/voxel_lookup.h"
+#ifdef VOXEL_EXACT
+#include "shared/voxel_exact.h"
+#endif
 #define VOXEL_ARGUMENTS \
   , global const stored_voxel_t *irradiance, global const stored_voxel_t *directions, constant VoxelLookup *voxels
 #define GIVEN_VOXELS , irradiance, directions, voxels
@@ -87,6 +92,40 @@ static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth,
 }
 #endif
 
+#ifdef VOXEL_EXACT
+static inline real importance_at(const ShadingPoint* p, mask_t lit, PunctualLight light) {
+  return lit ? voxel_importance(arrival_at(p->position, light), light) : REAL(0.0f);
+}
+
+// Shades the lights of the list that matter most at each pixel, and takes them out of the rest.
+static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, const ResolveLights* l, VoxelLight* rest) {
+  real greatest[VOXEL_EXACT];
+  for (uint k = 0; k < VOXEL_EXACT; ++k) greatest[k] = 0.0f;
+  for (uint i = 0; i < l->count; ++i) {
+    const PunctualLight light = light_at(&l->lights, l->list ? l->list[i] : i);
+    if (!any_lane(lit & in_range(p->position, light))) continue;
+    real value = importance_at(p, lit, light);
+    for (uint k = 0; k < VOXEL_EXACT; ++k) {
+      const real larger = lane_max(greatest[k], value);
+      value = lane_min(greatest[k], value);
+      greatest[k] = larger;
+    }
+  }
+  for (uint i = 0; i < l->count; ++i) {
+    const PunctualLight light = light_at(&l->lights, l->list ? l->list[i] : i);
+    if (!any_lane(lit & in_range(p->position, light))) continue;
+    const real value = importance_at(p, lit, light);
+    const mask_t chosen = (value > REAL(0.0f)) & (value >= greatest[VOXEL_EXACT - 1]);
+    if (!any_lane(chosen)) continue;
+    const Real3 own = radiance_from(*p, light);
+    sum = real3(sum.x + (chosen ? own.x : REAL(0.0f)), sum.y + (chosen ? own.y : REAL(0.0f)), sum.z + (chosen ? own.z : REAL(0.0f)));
+    *rest = without_light(*rest, p->position, light, chosen ? REAL(1.0f) : REAL(0.0f), l->voxels);
+  }
+  *rest = at_least_nothing(*rest);
+  return sum;
+}
+#endif
+
 static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
                               constant ViewParams* view) {
   const Real3 ambient =
@@ -128,7 +167,11 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
   const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
   Real3 sum = own_light(&p, s, l, view);
 #ifdef VOXELS
-  sum = add3(sum, radiance_of_voxels(p, voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels), l->voxels));
+  VoxelLight of_voxels = voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels);
+#ifdef VOXEL_EXACT
+  sum = exact_light(sum, &p, lit, l, &of_voxels);
+#endif
+  sum = add3(sum, radiance_of_voxels(p, of_voxels));
 #elif defined(SLICES)
   sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);
 #else

@@ -36,7 +36,7 @@ static inline float4 between_voxels(global const stored_voxel_t* at, size_t row,
 #define VOXEL_INDEX(v, i) (v)
 #endif
 
-// Of lanes that are not `lit`: zeros.
+// In view space. Of lanes that are not `lit`: zeros.
 static inline VoxelLight voxel_light_at(Real3 position, mask_t lit, global const stored_voxel_t* irradiance,
                                         global const stored_voxel_t* directions, constant VoxelLookup* voxels) {
   const Real3 place = voxel_place(position, voxels);
@@ -62,5 +62,5 @@ static inline VoxelLight voxel_light_at(Real3 position, mask_t lit, global const
     VOXEL_LANE(light.directions.x, i) = d.x, VOXEL_LANE(light.directions.y, i) = d.y, VOXEL_LANE(light.directions.z, i) = d.z;
     VOXEL_LANE(light.weight, i) = d.w;
   }
-  return light;
+  return voxel_light_in_view(light, voxels);
 }

@@ -89,6 +89,7 @@ class VoxelBuffers : public PassState {
   std::optional<FilledWith> filled;  // the volume holds this
   GlTexture irradiance_texture, directions_texture;
   GlBuffer lookup_block;
+  bool texture_stale = true;  // the volume was filled since the textures were
   size_t texture_bytes = 0;
 
  private:
@@ -150,8 +151,7 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
       v.plan.settings.raster == RasterApi::opencl ? BridgeKind::none : v.renderer.bridge;
   if (!s.irradiance) s.irradiance.emplace(*v.renderer.cl, bridge, bytes);
   if (!s.directions) s.directions.emplace(*v.renderer.cl, bridge, bytes);
-  VoxelVolume volume{&*s.irradiance,      &*s.directions, s.lookup.buffer(),
-                     s.lookup_defines(v), 2 * bytes,      false};
+  VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(v), 2 * bytes};
   FilledWith needed{s.placed.grid, s.placed.slices, s.lights.version()};
   if (v.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
   auto pass = v.timer.pass("build_voxels", "cl");
@@ -165,7 +165,7 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
          s.lights.colors.buffer(), v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(),
          s.slices.buffer(), s.irradiance->cl_buffer(), s.directions->cl_buffer());
   s.filled = std::move(needed);
-  volume.filled = true;
+  s.texture_stale = true;
   pass.moves(s.lights.memory_bytes(), volume.bytes);
   return volume;
 }
@@ -183,7 +183,7 @@ VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
     s.texture_bytes = volume.bytes;
   }
   glNamedBufferSubData(s.lookup_block.name(), 0, sizeof(VoxelLookup), &s.placed.lookup);
-  if (volume.filled || first) {
+  if (s.texture_stale) {
     const GLuint textures[2] = {s.irradiance_texture.name(), s.directions_texture.name()};
     SharedBuffer* buffers[2] = {volume.irradiance, volume.directions};
     for (int i = 0; i < 2; ++i) {
@@ -193,6 +193,7 @@ VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
                           GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT, nullptr);
     }
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    s.texture_stale = false;
     pass.moves(volume.bytes, volume.bytes);
   }
   return {s.irradiance_texture.name(), s.directions_texture.name(), s.lookup_block.name(), s.axes.log_depth,

@@ -15,7 +15,6 @@ struct VoxelVolume {
   cl::Buffer lookup;           // VoxelLookup
   std::string kernel_defines;  // of kernels that read it
   size_t bytes = 0;            // of both
-  bool filled = false;         // in this frame; else it is the last frame's
 };
 
 // The same for OpenGL: two 3D textures, interpolated between samples, and a uniform block.

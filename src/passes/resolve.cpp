@@ -118,18 +118,21 @@ void with_voxels(const GridInCl& in, const Arguments& arguments, const Launch& l
                                                           in.voxels->lookup)));
 }
 
-std::string light_kernel_defines(const GridInCl& in) { return in.voxels ? " -DVOXELS" + in.voxels->kernel_defines : ""; }
+std::string light_kernel_defines(const RenderView& v, const GridInCl& in) {
+  if (!in.voxels) return "";
+  const std::string exact = in.grid ? fmt::format(" -DVOXEL_EXACT={}", v.plan.settings.voxel_lights_exact) : "";
+  return " -DVOXELS" + in.voxels->kernel_defines + exact;
+}
 
 size_t grid_bytes(const GridInCl& in) {
-  if (in.voxels) return in.voxels->bytes;
-  return in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0;
+  return (in.voxels ? in.voxels->bytes : 0) + (in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0);
 }
 
 }  // namespace
 
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
-  cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(lights));
+  cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("resolve", "cl");
   with_voxels(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
     launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle, visible.image.depth, shared...,
@@ -160,7 +163,7 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
                     const GridInCl& lights) {
   Resolving& r = v.state<Resolving>();
-  cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(lights));
+  cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("blend_resolved", "cl");
   with_voxels(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
     launch(*v.renderer.cl, "blend_resolved", kernel,

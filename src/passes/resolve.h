@@ -8,7 +8,8 @@ namespace lightgrid {
 
 struct VoxelVolume;
 
-// A light grid and where it lies; null: every light is added. Or, in place of all lists, a voxel light buffer.
+// A light grid and where it lies; null: every light is added. Or a voxel light buffer, of which the lights of
+// the grid that matter most are taken out.
 struct GridInCl {
   const LightGrid* grid = nullptr;
   SharedGridStorage* storage = nullptr;

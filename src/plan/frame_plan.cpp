@@ -165,6 +165,7 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
 }
 
 bool reads_light_grid(const TechniqueNeeds& needs, const Settings& settings) {
+  if (needs.exact_lights && settings.voxel_lights_exact == 0) return false;
   return needs.light_grid && !(needs.chosen_lights && settings.lights == ShadedLights::all);
 }
 
@@ -238,6 +239,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.blend_grid = plan.light_grid && plan.blend && bounded;
   plan.decisions.push_back({"light grid", plan.light_grid,
                             !needs.light_grid                        ? "the technique reads none"
+                            : needs.exact_lights && !reads_light_grid(needs, settings) ? "voxel-lights-exact=0"
                             : !reads_light_grid(needs, settings) ? "lights=all"
                             : !plan.local_lights ? "no light has a place"
                                                  : light_witness(scene, plan.local[0])});

@@ -59,6 +59,7 @@ struct TechniqueNeeds {
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
   bool opengl = true;               // draws with OpenGL; false: OpenCL alone
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
+  bool exact_lights = false;  // whose light grid is read only with voxel-lights-exact
   bool chosen_lights = false;  // whose light grid is left out by the setting lights=all
 };
 

@@ -65,6 +65,7 @@ struct Settings {
   VoxelSize voxel_size = VoxelSize::s128x128x16;
   VoxelSpace voxel_space = VoxelSpace::world;
   int voxel_bits = 32;         // of a stored value: 16 or 32
+  int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   bool portable = false;       // kernels without the builtins of one kind of CPU
   int group_size = 0;          // work-items of the group shape that cull a block of tiles; 0: the culler's own choice

@@ -61,6 +61,8 @@ typedef struct VoxelLookup {
   float view_z_from_x, view_z_from_y, view_z_from_z;
   float last_x, last_y, last_z;  // places of the last samples: sizes less 1
   float inverse_scale;           // of what is stored
+  float spacing_x, spacing_y, spacing_z;  // metres, along the volume's axes
+  float half_diagonal_squared, core_squared;  // of VoxelSlice; with VOXELS_LOG at distance 1, of whose square they are multiples
 #ifdef LIGHTGRID_GLSL
 } voxel_lookup;
 #else
@@ -84,28 +86,47 @@ SHARED_FUNCTION Real3 voxel_place(Real3 position VOXEL_ARGUMENT) {
 }
 
 // What a volume holds at a point, interpolated: irradiance on a surface that faces each light, and the sum of the directions to
-// the lights, along the volume's axes, weighted by luminance, with the sum of the weights.
+// the lights weighted by luminance, with the sum of the weights.
 SHARED_STRUCT(VoxelLight) {
   Real3 irradiance, directions;
   real weight;
 };
 
-// The light that a surface reflects of it: the part in which directions agree as a light from their mean, the rest as if it
-// came from all sides. Over all normals of a diffuse surface its mean and first moments are those of the lights.
-SHARED_FUNCTION Real3 radiance_of_voxels(ShadingPoint p, VoxelLight light VOXEL_ARGUMENT) {
-  Real3 d = light.directions;
-  real squared = max_real(dot3(d, d), REAL(1.2e-38f));
+// From the volume's axes to view space.
+SHARED_FUNCTION Real3 turned_to_view(Real3 d VOXEL_ARGUMENT) {
+  return real3(VOXELS(view_x_from_x) * d.x + VOXELS(view_x_from_y) * d.y + VOXELS(view_x_from_z) * d.z,
+               VOXELS(view_y_from_x) * d.x + VOXELS(view_y_from_y) * d.y + VOXELS(view_y_from_z) * d.z,
+               VOXELS(view_z_from_x) * d.x + VOXELS(view_z_from_y) * d.y + VOXELS(view_z_from_z) * d.z);
+}
+
+// Of what is stored, without its scale and in view space.
+#ifdef __OPENCL_VERSION__
+#define GIVEN_LOOKUP , voxels
+#elif defined(LIGHTGRID_GLSL)
+#define GIVEN_LOOKUP
+#else
+#define GIVEN_LOOKUP , voxels
+#endif
+SHARED_FUNCTION VoxelLight voxel_light_in_view(VoxelLight stored VOXEL_ARGUMENT) {
+  real scale = REAL(VOXELS(inverse_scale));
+  VoxelLight light;
+  light.irradiance = scale3(stored.irradiance, scale);
+  light.directions = scale3(turned_to_view(stored.directions GIVEN_LOOKUP), scale);
+  light.weight = stored.weight * scale;
+  return light;
+}
+
+// What a surface reflects of light in view space: the part in which directions agree as a light from their mean, the rest as if
+// it came from all sides. Over all normals of a diffuse surface its mean and first moments are those of the lights.
+SHARED_FUNCTION Real3 radiance_of_voxels(ShadingPoint p, VoxelLight light) {
+  real squared = max_real(dot3(light.directions, light.directions), REAL(1.2e-38f));
   real inverse = inverse_sqrt_real(squared);
   real agreement = min_real(squared * inverse / max_real(light.weight, REAL(1.2e-38f)), REAL(1.0f));
-  d = scale3(d, inverse);
-  Real3 to_light = real3(VOXELS(view_x_from_x) * d.x + VOXELS(view_x_from_y) * d.y + VOXELS(view_x_from_z) * d.z,
-                         VOXELS(view_y_from_x) * d.x + VOXELS(view_y_from_y) * d.y + VOXELS(view_y_from_z) * d.z,
-                         VOXELS(view_z_from_x) * d.x + VOXELS(view_z_from_y) * d.y + VOXELS(view_z_from_z) * d.z);
+  Real3 to_light = scale3(light.directions, inverse);
   real around = (1.0f - agreement) * (0.25f / SHADING_PI);  // radiance a unit of irradiance
   Real3 all_sides = AMBIENT_REFLECTANCE(p);
   Real3 back = add3(scale3(reflected(p, to_light), agreement), scale3(all_sides, around));
-  Real3 irradiance = scale3(light.irradiance, REAL(VOXELS(inverse_scale)));
-  return real3(back.x * irradiance.x, back.y * irradiance.y, back.z * irradiance.z);
+  return real3(back.x * light.irradiance.x, back.y * light.irradiance.y, back.z * light.irradiance.z);
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

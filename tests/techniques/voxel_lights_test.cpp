@@ -244,7 +244,8 @@ TEST(VoxelLights, FuzzedVolumesAreTheOracles) {
 
 // Kernels for CPUs and GPUs, and fewer bits.
 TEST(VoxelLights, BothShapesFillTheSameBytes) {
-  const Scene scene = fuzzed(4);
+  Scene scene = fuzzed(4);
+  std::erase_if(scene.lights, [](const Light& light) { return light.type == LightType::spot; });
   const View view = small_view(31, 23);
   Settings settings = sized(VoxelSize::s32x32x8);
   const auto volume = [&](KernelShape shape, int bits) {
@@ -376,6 +377,38 @@ TEST(VoxelLights, EverythingElseIsForwards) {
   }
 }
 
+// One lamp that reaches all that is seen, shaded by itself: nothing of it is left in the volume, in either
+// space, as spot or point; of six lamps, more of them by themselves come nearer to forward.
+TEST(VoxelLights, ExactLightsLeaveNothingOfThemselves) {
+  const View view = small_view(31, 23);
+  for (const bool spot : {false, true}) {
+    SmallScene s = small_scene(false);
+    if (spot) {
+      add_spot(s.scene, "torch", {0.2f, 0.1f, 1}, {0.1f, 0, -4}, {1, 0.8f, 0.6f}, 30, 25, 50, 85);
+    } else {
+      add_point(s.scene, "lamp", {0.2f, 0.3f, -1}, {1, 0.8f, 0.6f}, 30, 25);
+    }
+    const Image forward = render(s.scene, view, "forward");
+    for (const VoxelSpace space : {VoxelSpace::world, VoxelSpace::view}) {
+      Settings settings = sized(coarse, space);
+      EXPECT_GT(compare_images(render(s.scene, view, "voxel_lights", settings), forward).max_rel, 1e-3);
+      settings.voxel_lights_exact = 1;
+      EXPECT_LT(compare_images(render(s.scene, view, "voxel_lights", settings), forward).max_rel, 1e-4)
+          << spot << ' ' << int(space);
+    }
+  }
+  const Scene six = small_scene().scene;
+  const Image forward = render(six, view, "forward");
+  double last = 1e9;
+  for (const int exact : {0, 1, 4}) {
+    Settings settings = sized(VoxelSize::s32x32x8);
+    settings.voxel_lights_exact = exact;
+    const double error = compare_images(render(six, view, "voxel_lights", settings), forward).rmse;
+    EXPECT_LT(error, last) << exact;
+    last = error;
+  }
+}
+
 TEST(VoxelLights, ReuseShowsTheSameAndFillsAfterAChange) {
   SmallScene s = small_scene();
   Settings settings = sized(coarse), keeping = settings;
@@ -404,6 +437,7 @@ TEST(VoxelLights, RasterOfOpenClShowsTheSame) {
   effect("blend").add(s);
   const View view = small_view(61, 43);
   Settings settings = sized(VoxelSize::s32x32x8, VoxelSpace::view);
+  settings.voxel_lights_exact = 1;
   const Image opengl = render(s.scene, view, "voxel_lights", settings);
   settings.raster = RasterApi::opencl;
   const Drawn opencl = drawn(s.scene, view, settings);

@@ -60,13 +60,18 @@ LightSource from_objects(const RenderView& v, const ObjectLights& objects) {
   return source;
 }
 
-LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels) {
+LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels, const GridTextures& grid) {
   LightSource source = with_lights(v);
   source.defines.emplace_back("LIGHTS_VOXELS");
   if (voxels.log_depth) source.defines.emplace_back("VOXELS_LOG");
-  source.textures = {{12, voxels.irradiance}, {13, voxels.directions}};
+  source.textures = {{14, voxels.irradiance}, {15, voxels.directions}};
+  if (v.plan.light_grid) {
+    source.defines.emplace_back("VOXEL_EXACT " + std::to_string(v.plan.settings.voxel_lights_exact));
+    source.textures.push_back({12, grid.cells});
+    source.textures.push_back({13, grid.indices});
+  }
   source.voxel_block = voxels.lookup;
-  source.bytes = voxels.bytes;
+  source.bytes = voxels.bytes + grid.bytes;
   return source;
 }
 

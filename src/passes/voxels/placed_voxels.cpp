@@ -126,6 +126,10 @@ void place_boxes(PlacedVoxels& placed, const VoxelAxes& axes, const View& view, 
       volume_from_view = axes.from_world * glm::transpose(view_from_world);
   const glm::dvec3 eye = axes.from_world * (view.eye - axes.origin);
   set_places(placed.lookup, scaled_rows(1.0 / spacing, volume_from_view), (eye - first) / spacing);
+  VoxelLookup& l = placed.lookup;
+  l.spacing_x = float(spacing.x), l.spacing_y = float(spacing.y), l.spacing_z = float(spacing.z);
+  l.half_diagonal_squared = placed.slices[0].half_diagonal_squared,
+  l.core_squared = placed.slices[0].core_squared;
   set_directions(placed.lookup, glm::transpose(volume_from_view));
 }
 
@@ -169,6 +173,8 @@ void place_in_projection(PlacedVoxels& placed, const RenderView& v, const Visibl
   }
   set_places(placed.lookup, scaled_rows({1 / spacing.x, 1 / spacing.y, 1 / step}, glm::dmat3(1)),
              {-low.x / spacing.x, -low.y / spacing.y, -std::log(near) / step});
+  placed.lookup.half_diagonal_squared = float(placed.slices[0].half_diagonal_squared / (near * near));
+  placed.lookup.core_squared = float(placed.slices[0].core_squared / (near * near));
   set_directions(placed.lookup, glm::dmat3(1));
 }
 
