@@ -8,6 +8,7 @@
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
 #include "shared/brdf.h"
+#include "shaders/common/point_of_surface.glsl"
 #ifdef LIGHTS
 #include "shaders/lights/punctual.glsl"
 #if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS) || defined(VOXEL_EXACT)
@@ -48,11 +49,7 @@ void main() {
 #ifdef UNLIT
   if (!s.unlit) {
 #endif
-    vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
-    ShadingPoint p = shading_point(position, direction_to_viewer(position), s.normal, s.base_color, s.metallic, s.roughness);
-#ifdef CLEARCOAT
-    p = with_coat(p, s.coat_normal, s.coat, s.coat_roughness);
-#endif
+    ShadingPoint p = point_of_surface(s);
 #ifndef ADDED
     color = base_lighting(s, p);
 #endif

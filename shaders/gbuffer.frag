@@ -11,6 +11,7 @@ layout(location = 1) out vec4 base_color_lit;
 #ifdef BASE_LIGHTING
 #include "shaders/common/position.glsl"
 #include "shared/brdf.h"
+#include "shaders/common/point_of_surface.glsl"
 #include "shaders/common/base_lighting.glsl"
 
 layout(location = 2) out vec4 radiance;
@@ -19,13 +20,7 @@ vec3 light_of(Surface s) {
 #ifdef UNLIT
   if (s.unlit) return s.base_color;
 #endif
-  vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
-  vec3 to_viewer = direction_to_viewer(position);
-  ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
-#ifdef CLEARCOAT
-  p = with_coat(p, s.coat_normal, s.coat, s.coat_roughness);
-#endif
-  return base_lighting(s, p);
+  return base_lighting(s, point_of_surface(s));
 }
 #endif
 
@@ -42,7 +37,12 @@ void main() {
 #ifdef MASK
   if (has(MATERIAL_MASK) && s.alpha < material.alpha_cutoff) discard;
 #endif
-  GBufferTexels texels = gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit));
+#if defined(SKIN) || defined(MINNAERT)
+  int model = int(material.model);
+#else
+  int model = 0;
+#endif
+  GBufferTexels texels = gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit, model));
   normal_roughness_metallic = texels.normal_roughness_metallic;
   base_color_lit = texels.base_color_lit;
 #ifdef COATS

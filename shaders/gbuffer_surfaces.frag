@@ -1,6 +1,6 @@
 // Surfaces as light passes read them from the geometry buffer, in 32-bit float, for comparison with
 // surfaces.frag.
-//   GBUFFER_8, GBUFFER_16, CLEARCOAT: the layout (common/gbuffer.glsl)
+//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 
 layout(location = 0) out vec4 normal_roughness;
@@ -11,12 +11,22 @@ layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit; emiss
 layout(location = 3) out vec4 coat_normal_roughness;
 layout(location = 4) out vec4 coat_factor;
 #endif
+#if defined(SKIN) || defined(MINNAERT)
+#ifdef CLEARCOAT
+layout(location = 5) out vec4 model;  // red: its number
+#else
+layout(location = 3) out vec4 model;
+#endif
+#endif
 
 void main() {
   LitSurface s = surface_of_pixel(ivec2(gl_FragCoord.xy));
   normal_roughness = vec4(s.normal, s.roughness);
   base_color_metallic = vec4(s.base_color, s.metallic);
   emissive_occlusion = vec4(vec3(0.0), s.lit ? 1.0 : -1.0);
+#if defined(SKIN) || defined(MINNAERT)
+  model = vec4(float(s.model), vec3(0.0));
+#endif
 #ifdef CLEARCOAT
   Coat coat = coat_of_pixel(ivec2(gl_FragCoord.xy), s.normal);
   coat_normal_roughness = vec4(coat.normal, coat.roughness);

@@ -9,12 +9,26 @@ layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit
 layout(location = 3) out vec4 coat_normal_roughness;
 layout(location = 4) out vec4 coat_factor;  // red; 0: none
 #endif
+#ifdef MODELS  // some material in view has a model other than Lambert's
+#ifdef COATS
+layout(location = 5) out vec4 model;  // red: its number
+#else
+layout(location = 3) out vec4 model;
+#endif
+#endif
 
 void main() {
   Surface s = surface_here();
   normal_roughness = vec4(s.normal, s.roughness);
   base_color_metallic = vec4(s.base_color, s.metallic);
   emissive_occlusion = vec4(s.emissive, s.unlit ? -1.0 : s.occlusion);
+#ifdef MODELS
+#if defined(SKIN) || defined(MINNAERT)
+  model = vec4(material.model, vec3(0.0));
+#else
+  model = vec4(0.0);
+#endif
+#endif
 #ifdef COATS
 #ifdef CLEARCOAT
   coat_normal_roughness = vec4(s.coat_normal, s.coat_roughness);

@@ -1,11 +1,17 @@
 // The surface of LANES pixels, read from the geometry buffer and written to it (src/passes/common/gbuffer.h).
 //
 // -DCLEARCOAT    with a third image, of coats
+// -DSKIN, -DMINNAERT  some surface has that model: its number is in the second image
 // -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
 #pragma once
 
 #include "shared/brdf.h"
+#include "shared/model_records.h"
 #include "shared/octahedral.h"
+
+#if defined(SKIN) || defined(MINNAERT)
+#define MODELS
+#endif
 
 #ifndef BUFFER_BITS
 #define BUFFER_BITS 32
@@ -56,10 +62,52 @@ static inline Texels load_texel(global const channel_t* at) {
 #define OF_NORMAL(x) (((x) - 128.0f) / 127.0f)
 #endif
 
+#ifdef MODELS
+// The model's number in the second image, 0 where it is Lambert's, no surface or not lit. Never past the table.
+static inline real number_of_texel(Texels second) {
+#if BUFFER_BITS == 32
+  const real number = floor((second.w - 1.0f) * 0.5f);
+#else
+  const real none = 0.0f, number = OF_ONE(second.w) < REAL(1.0f) ? second.w : none;
+#endif
+  return min_real(max_real(number, REAL(0.0f)), REAL((float)MOST_MODELS));
+}
+
+static inline ShadingPoint modelled_point(ShadingPoint p, Real3 to_viewer, real number,
+                                          global const MaterialModelRecord* models) {
+#if LANES == 16
+  float values[5][16];
+  for (uint i = 0; i < 16; ++i) {
+    global const MaterialModelRecord* m = models + (uint)((const float*)&number)[i];
+    values[0][i] = m->subsurface[0], values[1][i] = m->subsurface[1], values[2][i] = m->subsurface[2];
+    values[3][i] = m->roll_off, values[4][i] = m->minnaert_k;
+  }
+  const real red = vload16(0, values[0]), green = vload16(0, values[1]), blue = vload16(0, values[2]);
+  const real roll_off = vload16(0, values[3]), k = vload16(0, values[4]);
+#else
+  global const MaterialModelRecord* m = models + (uint)number;
+  const float red = m->subsurface[0], green = m->subsurface[1], blue = m->subsurface[2];
+  const float roll_off = m->roll_off, k = m->minnaert_k;
+#endif
+#ifdef SKIN
+  p = with_skin(p, real3(red, green, blue), roll_off);
+#endif
+#ifdef MINNAERT
+  p = with_minnaert(p, to_viewer, k);
+#endif
+  return p;
+}
+#endif
+
 static inline ShadingPoint point_of_texels(Real3 position, Real3 to_viewer, Texels first, Texels second) {
 #if BUFFER_BITS == 32
   const Real3 normal = real3(first.x, first.y, first.z);
-  const real roughness = first.w, metallic = second.w - 1.0f;
+  const real roughness = first.w;
+#ifdef MODELS
+  const real metallic = second.w - 1.0f - 2.0f * number_of_texel(second);
+#else
+  const real metallic = second.w - 1.0f;
+#endif
 #else
   const Real3 normal = normal_of_octahedral(OF_NORMAL(first.x), OF_NORMAL(first.y));
   const real roughness = OF_ONE(first.z), metallic = OF_ONE(first.w);
@@ -116,12 +164,13 @@ static inline Texels covered_texels(Texels t, mask_t covered) {
   return here;
 }
 
+// number: of the model.
 static inline void texels_of_surface(Texels* first, Texels* second, Real3 normal, Real3 color, real metallic,
-                                     real roughness, mask_t unlit, mask_t covered) {
+                                     real roughness, real number, mask_t unlit, mask_t covered) {
 #if BUFFER_BITS == 32
   const Texels a = {normal.x, normal.y, normal.z, roughness};
-  const real lit = 1.0f + metallic;
-  const Texels b = {color.x, color.y, color.z, unlit ? -lit : lit};
+  const real lit = 2.0f * number + 1.0f + metallic;
+  const Texels b = {color.x, color.y, color.z, unlit ? -1.0f - metallic : lit};
 #else
 #if BUFFER_BITS == 8
   color = real3(sqrt(color.x), sqrt(color.y), sqrt(color.z));
@@ -130,7 +179,7 @@ static inline void texels_of_surface(Texels* first, Texels* second, Real3 normal
   octahedral(normal, &u, &v);
   const Texels a = {STORED_NORMAL(u), STORED_NORMAL(v), roughness * STORED_ONE, metallic * STORED_ONE};
   const Texels b = {color.x * STORED_ONE, color.y * STORED_ONE, color.z * STORED_ONE,
-                    unlit ? REAL(0.0f) : REAL(STORED_ONE)};
+                    unlit ? REAL(0.0f) : number > REAL(0.0f) ? number : REAL(STORED_ONE)};
 #endif
   *first = covered_texels(a, covered), *second = covered_texels(b, covered);
 }

@@ -2,8 +2,8 @@
 // material at a time. Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading"
 // (JCGT 2013).
 //
-// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT  some surface of the scene has
-// these; without, their code is not there
+// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSKIN, -DMINNAERT  some surface
+// of the scene has these; without, their code is not there
 #pragma once
 
 #include "kernels/common/surface_attributes.h"
@@ -109,6 +109,16 @@ typedef struct Surface {
   Real3 base_color, emissive;
   real alpha, metallic, roughness, occlusion;
   mask_t unlit;
+#ifdef SKIN
+  Real3 subsurface;
+  real roll_off;
+#endif
+#ifdef MINNAERT
+  real minnaert_k;
+#endif
+#if defined(SKIN) || defined(MINNAERT)
+  real model;  // its number
+#endif
 #ifdef NORMAL_MAP
   Real3 mapped;  // in tangent space, scaled
   mask_t has_map;
@@ -215,6 +225,16 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   KEEP(surface->coat, coat);
   KEEP(surface->coat_roughness, coat_roughness);
 #endif
+#ifdef SKIN
+  KEEP3(surface->subsurface, real3(REAL(m->subsurface[0]), REAL(m->subsurface[1]), REAL(m->subsurface[2])));
+  KEEP(surface->roll_off, REAL(m->roll_off));
+#endif
+#ifdef MINNAERT
+  KEEP(surface->minnaert_k, REAL(m->minnaert_k));
+#endif
+#if defined(SKIN) || defined(MINNAERT)
+  KEEP(surface->model, REAL(m->model));
+#endif
 #ifdef VERTEX_COLOR
   color = real3(color.x * a->red, color.y * a->green, color.z * a->blue);
   alpha *= a->alpha;
@@ -251,6 +271,15 @@ static inline Real3 shading_normal(const Attributes* a, const Surface* s) {
   n = bent_normal(a, n, s->mapped, s->has_map);
 #endif
   return scale3(n, a->side);
+}
+
+// Of the material's model.
+static inline real number_of(const Surface* s) {
+#if defined(SKIN) || defined(MINNAERT)
+  return s->model;
+#else
+  return REAL(0.0f);
+#endif
 }
 
 #ifdef CLEARCOAT

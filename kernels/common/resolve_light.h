@@ -6,7 +6,7 @@
 // -DVOXELS       point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only the rest comes from
 //                the volume
-// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT  as kernels/common/shade_pixels.h says
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT  as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"
@@ -153,8 +153,14 @@ static inline Real3 base_light(const ShadingPoint* p, const Surface* s, const Re
 static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s, real x, real y, real depth,
                                           mask_t covered, constant ViewParams* view) {
   const Real3 position = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
-  ShadingPoint p = shading_point(position, direction_to_viewer(position), shading_normal(a, s), s->base_color,
-                                 s->metallic, s->roughness);
+  const Real3 to_viewer = direction_to_viewer(position);
+  ShadingPoint p = shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
+#ifdef SKIN
+  p = with_skin(p, s->subsurface, s->roll_off);
+#endif
+#ifdef MINNAERT
+  p = with_minnaert(p, to_viewer, s->minnaert_k);
+#endif
 #ifdef CLEARCOAT
   p = with_coat(p, coat_normal(a, s), s->coat, s->coat_roughness);
 #endif

@@ -7,6 +7,7 @@
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 // -DLAMBERT   there is none: shared/brdf_lambert.h
 // -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
+// -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
 #pragma once
 
 #include "kernels/common/gbuffer.h"
@@ -74,7 +75,11 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   const PunctualLight light = light_at(lights, index);
   if (!any_lane(lit & in_range(p->position, light))) return sum;
   const Arrival arrival = arrival_at(p->position, light);
+#ifdef SKIN
+  mask_t facing = dot3(p->normal, arrival.to_light) > -p->roll_off;
+#else
   mask_t facing = dot3(p->normal, arrival.to_light) > REAL(0.0f);
+#endif
 #ifdef CLEARCOAT
   facing |= dot3(p->coat_normal, arrival.to_light) > REAL(0.0f);
 #endif

@@ -64,7 +64,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
       add_surfaces(&a, &s, &scene, triangle, covered, x, y);
       const Real3 n = shading_normal(&a, &s);
       Texels normal, color;
-      texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, s.unlit, covered);
+      texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit, covered);
       store_texels(first, normal, x, y, width, height);
       store_texels(second, color, x, y, width, height);
 #ifdef CLEARCOAT

@@ -3,12 +3,13 @@
 //
 // first, second, coats  geometry buffer (coats: with -DCLEARCOAT alone), and depth: row 0 at the bottom (kernels/common/gbuffer.h)
 // positions, colors, cones  of lights (shared/punctual_light.h)
+// models  of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with -DZ_BINS alone
 // image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show without these lights, which are added
 // background      of pixels without a surface; without -DBASE_LIGHTING alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
-// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DORTHOGRAPHIC  as the headers say
+// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT, -DORTHOGRAPHIC  as the headers say
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16
@@ -56,7 +57,7 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
 }
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const channel_t* coats,
-                        global const float* depth,
+                        global const MaterialModelRecord* models, global const float* depth,
                         global const float4* positions, global const float4* colors, global const float4* cones,
                         global const uint2* cells, global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
@@ -82,7 +83,11 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
       const real px = (real)((float)x + pixel_offsets(), (float)x2 + pixel_offsets());
       const real py = (real)((float8)((float)y + 0.5f), (float8)((float)y2 + 0.5f));
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
-      ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+      const Real3 to_viewer = direction_to_viewer(position);
+      ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef MODELS
+      p = modelled_point(p, to_viewer, number_of_texel(color), models);
+#endif
 #ifdef CLEARCOAT
       p = coated_point(p, load_texels(coats + 4 * at, coats + 4 * at2));
 #endif

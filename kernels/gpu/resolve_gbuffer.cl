@@ -34,7 +34,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
                  (float)(y & 3u));
     add_material(&s, &a, &scene, (uint)a.material, 1);
     const Real3 n = shading_normal(&a, &s);
-    texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, s.unlit, 1);
+    texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit, 1);
 #ifdef CLEARCOAT
     coat = texels_of_coat(coat_normal(&a, &s), n, s.coat, s.coat_roughness, 1);
 #endif

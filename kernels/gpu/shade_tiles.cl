@@ -5,7 +5,7 @@
 #include "shared/light_grid.h"
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const channel_t* coats,
-                        global const float* depth,
+                        global const MaterialModelRecord* models, global const float* depth,
                         global const float4* positions, global const float4* colors, global const float4* cones,
                         global const uint2* cells, global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
@@ -20,7 +20,11 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
   if (lit) {
     const Lights lights = {positions, colors, cones, light_bins};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
-    ShadingPoint p = point_of_texels(position, direction_to_viewer(position), normal, color);
+    const Real3 to_viewer = direction_to_viewer(position);
+    ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef MODELS
+    p = modelled_point(p, to_viewer, number_of_texel(color), models);
+#endif
 #ifdef CLEARCOAT
     p = coated_point(p, load_texel(coats + 4 * at));
 #endif

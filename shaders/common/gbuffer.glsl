@@ -1,9 +1,12 @@
 // The geometry buffer: two images of four channels, the position left to depth (src/passes/common/gbuffer.h).
 //   GBUFFER_8, GBUFFER_16: channels of 0 to 1 in that many bits; else 32-bit float
 //   8 and 16 bits  first   octahedral normal (2), perceptual roughness, metallic
-//                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is
+//                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is. Where the
+//                          material's model has a number above 0: that number as the stored integer, at most 254
 //   32 bits        first   normal (3), perceptual roughness
-//                  second  base color (3), 1 + metallic; negative for unlit surfaces, 0 where nothing is
+//                  second  base color (3), 1 + metallic + 2 * the model's number; -1 - metallic for unlit surfaces, 0
+//                          where nothing is
+//   MODELS         some surface has a model other than Lambert's (scene/material_model.h)
 //   With coats in view, a third image:
 //   CLEARCOAT      coat    octahedral normal (2), perceptual roughness, factor; in 32 bits a factor below 0: its normal is
 //                          that of the first image
@@ -12,11 +15,13 @@
 
 #include "shared/octahedral.h"
 
-// Steps of a normal's channel on either side of 0. 0 is itself a step: axis-aligned walls keep their normals.
+// LARGEST: the stored integer of 1. Steps of a normal's channel on either side of 0. 0 is itself a step: axis-aligned walls keep their normals.
 #if defined(GBUFFER_8)
 #define NORMAL_STEPS 127.0
+#define LARGEST 255.0
 #elif defined(GBUFFER_16)
 #define NORMAL_STEPS 32767.0
+#define LARGEST 65535.0
 #endif
 
 struct GBufferTexels {
@@ -29,6 +34,7 @@ struct LitSurface {
   vec3 base_color;
   float metallic, roughness;
   bool lit;
+  int model;  // of shaders/common/read_gbuffer.glsl; 0: Lambert
 };
 
 struct Coat {
@@ -55,12 +61,18 @@ Coat coat_of_texel(vec4 t, vec3 base) {
 }
 
 GBufferTexels gbuffer_texels(LitSurface s) {
-  return GBufferTexels(vec4(s.normal, s.roughness), vec4(s.base_color, (s.lit ? 1.0 : -1.0) * (1.0 + s.metallic)));
+  float model_metallic = 2.0 * float(s.model) + 1.0 + s.metallic;
+  return GBufferTexels(vec4(s.normal, s.roughness), vec4(s.base_color, s.lit ? model_metallic : -1.0 - s.metallic));
 }
 
 LitSurface lit_surface(GBufferTexels t) {
-  return LitSurface(t.normal_roughness_metallic.xyz, t.base_color_lit.rgb, max(abs(t.base_color_lit.a) - 1.0, 0.0),
-                    t.normal_roughness_metallic.w, t.base_color_lit.a > 0.5);
+  int model = 0;
+#ifdef MODELS
+  model = max(int(floor((t.base_color_lit.a - 1.0) * 0.5)), 0);
+#endif
+  float metallic = max(abs(t.base_color_lit.a) - 1.0 - 2.0 * float(model), 0.0);
+  return LitSurface(t.normal_roughness_metallic.xyz, t.base_color_lit.rgb, metallic, t.normal_roughness_metallic.w,
+                    t.base_color_lit.a > 0.5, model);
 }
 #else
 // Rounded here: drivers differ in their conversion to fixed point.
@@ -83,7 +95,8 @@ GBufferTexels gbuffer_texels(LitSurface s) {
 #ifdef GBUFFER_8
   color = sqrt(color);  // distributes the 256 steps perceptually
 #endif
-  return GBufferTexels(vec4(normal, s.roughness, s.metallic), vec4(color, s.lit ? 1.0 : 0.0));
+  float lit = s.model == 0 ? 1.0 : float(s.model) / LARGEST;
+  return GBufferTexels(vec4(normal, s.roughness, s.metallic), vec4(color, s.lit ? lit : 0.0));
 }
 
 LitSurface lit_surface(GBufferTexels t) {
@@ -91,7 +104,12 @@ LitSurface lit_surface(GBufferTexels t) {
 #ifdef GBUFFER_8
   color *= color;
 #endif
-  return LitSurface(normal_of_stored(t.normal_roughness_metallic.xy), color, t.normal_roughness_metallic.w, t.normal_roughness_metallic.z,
-                    t.base_color_lit.a > 0.5);
+  int model = 0;
+  bool lit = t.base_color_lit.a > 0.0;
+#ifdef MODELS
+  model = t.base_color_lit.a < 1.0 ? int(t.base_color_lit.a * LARGEST + 0.5) : 0;
+#endif
+  return LitSurface(normal_of_stored(t.normal_roughness_metallic.xy), color, t.normal_roughness_metallic.w,
+                    t.normal_roughness_metallic.z, lit, model);
 }
 #endif

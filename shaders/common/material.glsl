@@ -2,7 +2,8 @@
 // define. A program made for exactly the effects of its materials needs no tests; one with every effect on
 // (EVERYTHING_ON) tests each material's flags and gives the same bits.
 //   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP,
-//   EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP, CLEARCOAT_NORMAL_MAP
+//   EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP, CLEARCOAT_NORMAL_MAP,
+//   SKIN, MINNAERT
 
 #include "shared/material_params.h"
 

@@ -1,4 +1,8 @@
 // Reads a pixel's surface from the geometry buffer and the depth image.
+//   SKIN, MINNAERT: some surface has that model (scene/material_model.h)
+#if defined(SKIN) || defined(MINNAERT)
+#define MODELS
+#endif
 #include "shaders/common/gbuffer.glsl"
 #include "shaders/common/position.glsl"
 
@@ -17,4 +21,8 @@ LitSurface surface_of_pixel(ivec2 pixel) {
 #ifdef CLEARCOAT
 // base: the normal of surface_of_pixel.
 Coat coat_of_pixel(ivec2 pixel, vec3 base) { return coat_of_texel(texelFetch(gbuffer_coat, pixel, 0), base); }
+#endif
+
+#ifdef MODELS
+#include "shared/model_records.h"
 #endif

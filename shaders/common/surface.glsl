@@ -17,6 +17,13 @@ struct Surface {
   vec3 emissive;
   float occlusion;  // 1: open
   bool unlit;
+#ifdef SKIN
+  vec3 subsurface;
+  float roll_off;  // 0: no skin
+#endif
+#ifdef MINNAERT
+  float minnaert_k;  // 1: Lambert
+#endif
 #ifdef CLEARCOAT
   vec3 coat_normal;  // as normal
   float coat, coat_roughness;
@@ -97,6 +104,13 @@ Surface surface_here() {
   s.unlit = false;
 #ifdef UNLIT
   s.unlit = has(MATERIAL_UNLIT);
+#endif
+#ifdef SKIN
+  s.subsurface = material.subsurface.rgb;
+  s.roll_off = material.subsurface.a;
+#endif
+#ifdef MINNAERT
+  s.minnaert_k = material.minnaert_k;
 #endif
 #ifdef CLEARCOAT
   add_coat(s);

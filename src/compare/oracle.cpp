@@ -58,6 +58,10 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   surface.emissive = s.emissive_occlusion.pixels[pixel];
   surface.occlusion = s.emissive_occlusion.pixels[pixel].w;
   surface.unlit = surface.occlusion < 0;
+  if (!s.model.pixels.empty()) {
+    const MaterialModel& model = s.models.at(size_t(s.model.pixels[pixel].r));
+    surface.subsurface_color = model.subsurface_color, surface.roll_off = model.roll_off, surface.minnaert_k = model.minnaert_k;
+  }
   if (s.coat_factor.pixels.empty() || s.coat_factor.pixels[pixel].r == 0) return surface;
   surface.coat = s.coat_factor.pixels[pixel].r;
   surface.coat_roughness = s.coat_normal_roughness.pixels[pixel].w;

@@ -94,7 +94,9 @@ class Resolving : public PassState {
                                       {feature_uv1, " -DUV1"},
                                       {feature_vertex_color, " -DVERTEX_COLOR"},
                                       {feature_normal_map | feature_clearcoat_normal_map, " -DNORMAL_MAP"},
-                                      {feature_clearcoat, " -DCLEARCOAT"}}) {
+                                      {feature_clearcoat, " -DCLEARCOAT"},
+                                      {feature_skin, " -DSKIN"},
+                                      {feature_minnaert, " -DMINNAERT"}}) {
       if (features & bit) defines += define;
     }
     return defines;

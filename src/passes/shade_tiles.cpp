@@ -2,6 +2,7 @@
 
 #include "cl/launch.h"
 #include "renderer/cl_lights.h"
+#include "renderer/model_records.h"
 
 namespace lightgrid {
 namespace {
@@ -16,6 +17,7 @@ class TileShading : public PassState {
       : lanes(shades_in_lanes(v)),
         defines_(defines_of_view(v)) {
     lights.upload(v);
+    if (v.plan.skin || v.plan.minnaert) models.put(*v.renderer.cl, "uploading models of materials", model_records(v.scene));
   }
 
   // Another camera at the same size, or moved lights; kernels are rebuilt only if the plan changed.
@@ -29,7 +31,7 @@ class TileShading : public PassState {
     return true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes(); }
+  size_t memory_bytes() const override { return lights.memory_bytes() + models.bytes(); }
 
   // Built at first use.
   cl::Kernel& kernel(RenderView& v, const GBufferInCl& gbuffer) {
@@ -43,10 +45,13 @@ class TileShading : public PassState {
 
   const bool lanes;
   ClLights lights;
+  UploadedBuffer models;  // MaterialModelRecord each
 
  private:
   std::string defines_of_view(RenderView& v) const {
-    return light_defines(v, lanes) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
+    std::string defines = light_defines(v, lanes) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
+    for (const char* define : model_defines(v.plan)) defines += fmt::format(" -D{}", define);
+    return defines;
   }
 
   std::string defines_;    // of the view and its plan
@@ -100,7 +105,7 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(), gbuffer.surfaces[1]->cl_buffer(),
          gbuffer.coats ? gbuffer.surfaces[2]->cl_buffer() : cl::Buffer(),
-         depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
+         s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
          v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(), gbuffer.image->cl_buffer(),
          cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());
   const size_t pixels = v.pixels();

@@ -31,6 +31,8 @@ constexpr FeatureName feature_names[] = {
     {feature_clearcoat_map, "CLEARCOAT_MAP", "clearcoat maps"},
     {feature_clearcoat_roughness_map, "CLEARCOAT_ROUGHNESS_MAP", "clearcoat roughness maps"},
     {feature_clearcoat_normal_map, "CLEARCOAT_NORMAL_MAP", "clearcoat normal maps"},
+    {feature_skin, "SKIN", "skin"},
+    {feature_minnaert, "MINNAERT", "Minnaert"},
 };
 
 std::string instance_witness(const Scene& scene, int instance) {
@@ -61,6 +63,15 @@ void plan_base_lighting(const Scene& scene, FramePlan& plan) {
                             plan.directional ? light_witness(scene, plan.directional_lights[0])
                             : plan.base_lighting ? instance_witness(scene, *first)
                                              : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});
+}
+
+void plan_models(const Scene& scene, FramePlan& plan) {
+  for (const Instance& instance : scene.instances) {
+    const Material& m = scene.materials[scene.meshes[instance.mesh].material];
+    if (m.unlit || m.alpha_mode == AlphaMode::blend) continue;
+    plan.skin = plan.skin || m.model.skin();
+    plan.minnaert = plan.minnaert || m.model.minnaert();
+  }
 }
 
 // Collects what the instances in view need, each need with its first witness.
@@ -175,6 +186,7 @@ void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;
+  plan.skin = plan.minnaert = true;
   for (int i : plan.opaque) plan.features_of_instance[i] = plan.features;
   for (int i : plan.blended) plan.features_of_instance[i] = plan.features;
 }
@@ -212,6 +224,8 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   use(m.normal_map, feature_normal_map);
   use(m.occlusion_map, feature_occlusion_map);
   use(m.emissive_map, feature_emissive_map);
+  if (m.model.skin()) features |= feature_skin;
+  if (m.model.minnaert()) features |= feature_minnaert;
   if (m.clearcoat == 0) return features;
   features |= feature_clearcoat;
   use(m.clearcoat_map, feature_clearcoat_map);
@@ -232,6 +246,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.stencil = needs.stencil || (needs.light_volumes && settings.volume_culling == VolumeCulling::stencil);
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   plan_surfaces(scene, view, instances, plan);
+  plan_models(scene, plan);
   plan_lights(scene, view, plan);
   plan_base_lighting(scene, plan);
   plan.light_grid = reads_light_grid(needs, settings) && plan.local_lights;

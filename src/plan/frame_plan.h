@@ -30,7 +30,9 @@ enum MaterialFeature : uint32_t {
   feature_clearcoat_map = 4096,
   feature_clearcoat_roughness_map = 8192,
   feature_clearcoat_normal_map = 16384,
-  feature_all = 32767,
+  feature_skin = 32768,
+  feature_minnaert = 65536,
+  feature_all = 131071,
 };
 
 // Of the features those that shading with this BRDF reads: Lambert has no coat.
@@ -82,6 +84,9 @@ struct FramePlan {
   bool base_lighting = false;      // an opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
   bool clearcoat = false;      // an opaque surface has a coat
+  // An opaque surface of the scene, in view or not, is skin or Minnaert's: what light passes over all surfaces are built
+  // for, so that a camera that turns builds nothing.
+  bool skin = false, minnaert = false;
   bool stencil = false;        // 8 bits beside depth
   bool reversed_triangles = false;
   int index_bits = 16;

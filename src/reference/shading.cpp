@@ -23,10 +23,43 @@ Reflectance fresnel(const Reflectance& f0, double v_dot_h) {
   return f0 + (1.0 - f0) * std::pow(1 - std::abs(v_dot_h), 5);
 }
 
+// V.N^(1 - k), floored: docs/material_models.md#energy.
+double minnaert_of_viewer(const Surface& s, const dvec3& to_eye) {
+  return std::pow(std::clamp(glm::dot(s.normal, to_eye), 1.0 / 16, 1.0), 1 - s.minnaert_k);
+}
+
+// Engel, ShaderX7, appendix of 8.5: N.L^k V.N^(1 - k). Over N.L, since callers multiply by it.
+dvec3 diffuse_of(const Surface& s, const dvec3& to_eye, const dvec3& to_light) {
+  const dvec3 lambert = s.base_color / std::numbers::pi;
+  if (s.minnaert_k == 1) return lambert;
+  const double n_dot_l = std::clamp(glm::dot(s.normal, to_light), 0.0, 1.0);
+  if (n_dot_l == 0) return dvec3(0);
+  return lambert * (std::pow(n_dot_l, s.minnaert_k) * minnaert_of_viewer(s, to_eye) / n_dot_l);
+}
+
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// The same appendix, after lambSkin of NVIDIA's SDK 9.5: Subsurface, over pi as all diffuse light is here.
+dvec3 subsurface_of(const Surface& s, const dvec3& to_light) {
+  const double ldn = glm::dot(s.normal, to_light);
+  const double sub_lamb = smoothstep(-s.roll_off, 1, ldn) - smoothstep(0, 1, ldn);
+  return s.subsurface_color * (std::max(0.0, sub_lamb) / std::numbers::pi);
+}
+
+// Reflection of constant radiance by the diffuse part: the integral of N.L^k over the hemisphere is 2 pi / (k + 1). That
+// of skin's term is pi R.
+dvec3 diffuse_ambient(const Surface& s, const dvec3& to_eye) {
+  return s.base_color * (2 / (s.minnaert_k + 1) * minnaert_of_viewer(s, to_eye));
+}
+
 // Reflection of constant radiance from all sides: this program's own simplification, without Fresnel.
-dvec3 ambient_reflectance(const Surface& s, Brdf lobe) {
-  if (lobe == Brdf::lambert) return s.base_color;
-  return s.base_color * (1 - s.metallic) + glm::mix(dvec3(dielectric_f0), s.base_color, s.metallic);
+dvec3 ambient_reflectance(const Surface& s, const dvec3& to_eye, Brdf lobe) {
+  const dvec3 diffuse = diffuse_ambient(s, to_eye), subsurface = s.subsurface_color * s.roll_off;
+  if (lobe == Brdf::lambert) return diffuse + subsurface;
+  return diffuse * (1 - s.metallic) + subsurface + glm::mix(dvec3(dielectric_f0), s.base_color, s.metallic);
 }
 
 // GGX (Walter et al. 2007) with |N x H|^2 in place of 1 - (N.H)^2, which cancels at small roughness.
@@ -85,12 +118,12 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
 }  // namespace
 
 dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
-  if (lobe == Brdf::lambert) return surface.base_color / std::numbers::pi;
+  if (lobe == Brdf::lambert) return diffuse_of(surface, to_eye, to_light);
   if (are_opposite(to_eye, to_light)) return dvec3(0);
   const double specular = specular_of(surface.normal, surface.roughness, to_eye, to_light, lobe);
   // The form of the specification: a mix of two materials.
   const double v_dot_h = glm::dot(to_eye, glm::normalize(to_eye + to_light));
-  const dvec3 diffuse = surface.base_color * std::numbers::inv_pi;
+  const dvec3 diffuse = diffuse_of(surface, to_eye, to_light);
   const dvec3 dielectric = glm::mix(diffuse, dvec3(specular), fresnel(dielectric_f0, v_dot_h));
   const dvec3 metal = fresnel(surface.base_color, v_dot_h) * specular;
   return glm::mix(dielectric, metal, surface.metallic);
@@ -98,7 +131,8 @@ dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, B
 
 dvec3 reflected(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
   const double n_dot_l = std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
-  const dvec3 base = n_dot_l == 0 ? dvec3(0) : brdf(surface, to_eye, to_light, lobe) * n_dot_l;
+  const dvec3 own = n_dot_l == 0 ? dvec3(0) : brdf(surface, to_eye, to_light, lobe) * n_dot_l;
+  const dvec3 base = own + subsurface_of(surface, to_light);
   const double share = coat_share(surface, to_eye, lobe);
   if (share == 0) return base;
   const double coat_n_dot_l = std::clamp(glm::dot(surface.coat_normal, to_light), 0.0, 1.0);
@@ -114,7 +148,7 @@ dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
   const dvec3 to_eye = orthographic ? dvec3(0, 0, 1) : glm::normalize(-position);
   // The coat reflects ambient light as the base's lobes do, whole, and lies over what the surface emits.
   const dvec3 ambient = settings.ambient * surface.occlusion;
-  dvec3 radiance = ambient * ambient_reflectance(surface, settings.brdf);
+  dvec3 radiance = ambient * ambient_reflectance(surface, to_eye, settings.brdf);
   radiance = glm::mix(radiance + surface.emissive, ambient, coat_share(surface, to_eye, settings.brdf));
   for (const ViewLight& light : lights) {
     radiance += light_radiance(surface, position, to_eye, light, settings);

@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "plan/frame_plan.h"
 #include "renderer/clusters.h"
+#include "renderer/model_records.h"
 #include "renderer/shown_meshes.h"
 #include "scene/rig.h"
 
@@ -31,7 +32,7 @@ constexpr MaterialMap material_maps[MATERIAL_MAPS] = {
     {feature_clearcoat_normal_map, MATERIAL_CLEARCOAT_NORMAL_MAP, &Material::clearcoat_normal_map},
 };
 
-MaterialParams material_params(const Material& m) {
+MaterialParams material_params(const Material& m, int model) {
   MaterialParams p{};
   std::memcpy(p.base_color, &m.base_color, sizeof p.base_color);
   std::memcpy(p.emissive, &m.emissive, sizeof m.emissive);
@@ -40,6 +41,8 @@ MaterialParams material_params(const Material& m) {
   p.alpha_cutoff = m.alpha_cutoff;
   p.clearcoat = m.clearcoat, p.clearcoat_roughness = m.clearcoat_roughness;
   p.clearcoat_normal_scale = m.clearcoat_normal_scale;
+  std::memcpy(p.subsurface, &m.model.subsurface_color, sizeof m.model.subsurface_color);
+  p.subsurface[3] = m.model.roll_off, p.minnaert_k = m.model.minnaert_k, p.model = float(model);
   if (m.clearcoat > 0) p.flags |= MATERIAL_CLEARCOAT;
   if (m.alpha_mode == AlphaMode::mask) p.flags |= MATERIAL_MASK;
   if (m.unlit) p.flags |= MATERIAL_UNLIT;
@@ -228,8 +231,10 @@ void GlScene::upload_materials(const std::vector<bool>& used_meshes) {
   material_stride_ = (sizeof(MaterialParams) + alignment - 1) / alignment * alignment;
   std::vector<char> bytes(material_stride_ * scene_.materials.size());
   slots_.resize(scene_.materials.size());
+  const std::vector<MaterialModel> models = material_models(scene_);
   for (size_t i = 0; i < scene_.materials.size(); ++i) {
-    const MaterialParams params = material_params(scene_.materials[i]);
+    const Material& m = scene_.materials[i];
+    const MaterialParams params = material_params(m, m.unlit ? 0 : model_number(models, m.model));
     std::memcpy(bytes.data() + i * material_stride_, &params, sizeof params);
     for (int s = 0; s < MATERIAL_MAPS; ++s) slots_[i].texture[s] = (scene_.materials[i].*material_maps[s].slot).texture;
   }
@@ -242,6 +247,14 @@ void GlScene::upload_materials(const std::vector<bool>& used_meshes) {
       if (texture >= 0 && !textures_[texture]) upload_texture(texture);
     }
   }
+}
+
+GLuint GlScene::model_records() {
+  if (!model_records_) {
+    const std::vector<MaterialModelRecord> records = lightgrid::model_records(scene_);
+    model_records_ = make_buffer(records.size() * sizeof records[0], records.data());
+  }
+  return model_records_.name();
 }
 
 void GlScene::upload_texture(int index) {

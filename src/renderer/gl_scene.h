@@ -49,6 +49,9 @@ class GlScene {
   // Binds the material's uniform block and the textures of `features` (MaterialFeature).
   void bind_material(int material, uint32_t features) const;
 
+  // The models of materials by number, as shared/model_records.h lays them out; uploaded at the first call.
+  GLuint model_records();
+
   // Appends all triangles to the index buffer once more, last to first, each with its corners in the same
   // order. The indices [a, b) are repeated at [2 index_count() - b, 2 index_count() - a).
   void add_reversed_triangles();
@@ -73,7 +76,7 @@ class GlScene {
   std::vector<GlBuffer> streams_;
   GLuint stream_of_[6] = {};                        // by attribute location; 0: no material reads it
   std::map<int, std::vector<uint32_t>> deforming_;  // meshes that deform: their indices, cluster by cluster
-  GlBuffer indices_, materials_, absent_;           // absent_: zeros, then -1s, for streams that no mesh has
+  GlBuffer indices_, materials_, model_records_, absent_;           // absent_: zeros, then -1s, for streams that no mesh has
   GlVertexArray positions_only_, all_streams_;
   size_t material_stride_ = 0;
   struct Slots {

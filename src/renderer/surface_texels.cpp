@@ -193,7 +193,7 @@ class TexelWriter {
   std::map<int, uint> alphas_;                               // by texture
 };
 
-SurfaceMaterial factors_of(const Material& m) {
+SurfaceMaterial factors_of(const Material& m, int model) {
   SurfaceMaterial record{};
   std::memcpy(record.base_color, &m.base_color, sizeof record.base_color);
   std::memcpy(record.emissive, &m.emissive, sizeof record.emissive);
@@ -202,6 +202,8 @@ SurfaceMaterial factors_of(const Material& m) {
   record.alpha_cutoff = m.alpha_cutoff;
   record.coat = m.clearcoat, record.coat_roughness = m.clearcoat_roughness;
   record.coat_normal_scale = m.clearcoat_normal_scale;
+  std::memcpy(record.subsurface, &m.model.subsurface_color, sizeof record.subsurface);
+  record.roll_off = m.model.roll_off, record.minnaert_k = m.model.minnaert_k, record.model = float(model);
   if (m.unlit) record.flags |= SURFACE_UNLIT;
   if (m.double_sided) record.flags |= SURFACE_DOUBLE_SIDED;
   return record;
@@ -213,8 +215,10 @@ SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_m
                              TexelLayout layout) {
   SurfaceTexels texels;
   TexelWriter writer(scene, layout, texels);
+  const std::vector<MaterialModel> models = material_models(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    texels.materials.push_back(factors_of(scene.materials[i]));
+    const Material& m = scene.materials[i];
+    texels.materials.push_back(factors_of(m, m.unlit ? 0 : model_number(models, m.model)));
     if (used_materials[i]) writer.add_textures(scene.materials[i], texels.materials.back());
   }
   return texels;

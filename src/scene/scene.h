@@ -11,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/material_model.h"
+
 namespace lightgrid {
 
 struct Aabb {
@@ -82,6 +84,7 @@ struct Material {
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;  // KHR_materials_unlit
+  MaterialModel model;  // of the diffuse part; an unlit material has none
 };
 
 struct Instance {

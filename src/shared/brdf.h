@@ -5,6 +5,7 @@
 #pragma once
 
 #include "shared/shading_point.h"
+#include "shared/material_models.h"
 #ifdef LAMBERT
 #include "shared/brdf_lambert.h"
 #else

@@ -3,7 +3,7 @@
 // diffuse part has it, would turn them black, and a light that a list loses would not show on them.
 #pragma once
 
-#include "shared/shading_point.h"
+#include "shared/material_models.h"
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 namespace lightgrid {
@@ -21,11 +21,20 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
 
 // Macros, as in brdf_microfacet.h.
 #define UNDER_COAT(p, light) (light)
-#define AMBIENT_REFLECTANCE(p) scale3((p).diffuse, REAL(SHADING_PI))
+#ifdef SKIN
+#define AMBIENT_REFLECTANCE(p) add3(DIFFUSE_INTEGRAL(p, SHADING_PI), SUBSURFACE_REFLECTANCE(p))
+#else
+#define AMBIENT_REFLECTANCE(p) DIFFUSE_INTEGRAL(p, SHADING_PI)
+#endif
 
 // BRDF times the cosine at the surface. to_light is a unit vector.
 SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
-  return scale3(p.diffuse, min_real(max_real(dot3(p.normal, to_light), REAL(0.0f)), REAL(1.0f)));
+  real n_dot_l = min_real(max_real(dot3(p.normal, to_light), REAL(0.0f)), REAL(1.0f));
+  Real3 diffuse = scale3(DIFFUSE_AT(p, n_dot_l), n_dot_l);
+#ifdef SKIN
+  diffuse = add3(diffuse, subsurface_of(p, to_light));
+#endif
+  return diffuse;
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

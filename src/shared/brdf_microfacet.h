@@ -3,9 +3,10 @@
 // Fresnel.
 //   BLINN: Blinn-Phong in place of GGX.
 //   CLEARCOAT: under a coat where with_coat adds one.
+//   SKIN, MINNAERT: shared/material_models.h.
 #pragma once
 
-#include "shared/shading_point.h"
+#include "shared/material_models.h"
 #ifdef BLINN
 #include "shared/brdf_blinn.h"
 #else
@@ -58,7 +59,12 @@ SHARED_FUNCTION ShadingPoint with_coat(ShadingPoint p, Real3 coat_normal, real c
 
 // Reflection of constant radiance from all sides; what is left of light that the surface emits. Macros, so
 // that they take part in what the caller declares precise.
-#define BASE_REFLECTANCE(p) add3(scale3((p).diffuse, REAL(SHADING_PI / (1.0f - DIELECTRIC_F0))), (p).f0)
+#define LOBES_REFLECTANCE(p) add3(DIFFUSE_INTEGRAL(p, SHADING_PI / (1.0f - DIELECTRIC_F0)), (p).f0)
+#ifdef SKIN
+#define BASE_REFLECTANCE(p) add3(LOBES_REFLECTANCE(p), SUBSURFACE_REFLECTANCE(p))
+#else
+#define BASE_REFLECTANCE(p) LOBES_REFLECTANCE(p)
+#endif
 #ifdef CLEARCOAT
 #define UNDER_COAT(p, light) scale3(light, 1.0f - (p).coat)
 #define AMBIENT_REFLECTANCE(p) add3(UNDER_COAT(p, BASE_REFLECTANCE(p)), real3((p).coat, (p).coat, (p).coat))
@@ -95,9 +101,13 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   // 0.96 g) = 0.96 (1 - g); p.diffuse contains the 0.96. Both share the factor 1 - g.
   real facing = n_dot_l * (1.0f - grazing5);
   real rim = n_dot_l * grazing5 * specular;
-  Real3 base = real3(mad_real(mad_real(p.f0.x, specular, p.diffuse.x), facing, rim),
-                     mad_real(mad_real(p.f0.y, specular, p.diffuse.y), facing, rim),
-                     mad_real(mad_real(p.f0.z, specular, p.diffuse.z), facing, rim));
+  Real3 diffuse = DIFFUSE_AT(p, n_dot_l);
+  Real3 base = real3(mad_real(mad_real(p.f0.x, specular, diffuse.x), facing, rim),
+                     mad_real(mad_real(p.f0.y, specular, diffuse.y), facing, rim),
+                     mad_real(mad_real(p.f0.z, specular, diffuse.z), facing, rim));
+#ifdef SKIN
+  base = add3(base, subsurface_of(p, to_light));
+#endif
 #ifdef CLEARCOAT
   // The coat's normal may face a light that the base's does not.
   real coat_n_dot_l = cosine_of(p.coat_normal, to_light);

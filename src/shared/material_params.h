@@ -22,10 +22,13 @@
 layout(std140, binding = 1) uniform MaterialParamsBlock {
   vec4 base_color;
   vec4 emissive;
+  vec4 subsurface;  // colour; roll-off, 0: no skin
   float metallic, roughness, normal_scale, occlusion_strength;
   float alpha_cutoff;
   uint flags;
   float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
+  float minnaert_k;  // 1: Lambert
+  float model;       // its number (scene/material_model.h)
   vec4 uv_linear[MATERIAL_MAPS];  // column by column: u axis, v axis
   vec4 uv_offset[MATERIAL_MAPS];
 } material;
@@ -34,14 +37,16 @@ namespace lightgrid {
 struct MaterialParams {
   float base_color[4];
   float emissive[4];
+  float subsurface[4];
   float metallic, roughness, normal_scale, occlusion_strength;
   float alpha_cutoff;
   uint flags;
   float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
-  float padding[3];  // a vec4 starts at a multiple of 16 bytes
+  float minnaert_k, model;
+  float padding[1];  // a vec4 starts at a multiple of 16 bytes
   float uv_linear[MATERIAL_MAPS][4];
   float uv_offset[MATERIAL_MAPS][4];
 };
-static_assert(sizeof(MaterialParams) == 336);
+static_assert(sizeof(MaterialParams) == 352);
 }  // namespace lightgrid
 #endif

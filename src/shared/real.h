@@ -37,6 +37,18 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define inverse_sqrt_real(x) (1.0f / sqrt(x))
 #define exp_real exp
 #define log_real log
+#define floor_real floor
+#define Whole whole
+#define WHOLE(x) ((whole)(x))
+#if LANES == 16
+#define bits_of_real(x) as_int16(x)
+#define real_of_bits(x) as_float16(x)
+#else
+#define bits_of_real(x) as_int(x)
+#define real_of_bits(x) as_float(x)
+#endif
+#define real_of_whole TO_REAL
+#define whole_of_real TO_WHOLE
 #else
 #define SHARED_STRUCT(name) struct name
 #define REAL(x) real(x)
@@ -55,8 +67,16 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define inverse_sqrt_real inversesqrt
 #define exp_real exp
 #define log_real log
+#define floor_real floor
+#define Whole int
+#define WHOLE(x) int(x)
+#define bits_of_real floatBitsToInt
+#define real_of_bits intBitsToFloat
+#define real_of_whole float
+#define whole_of_real int
 #else
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/glm.hpp>
 #define EXACTLY
@@ -73,7 +93,14 @@ inline real sqrt_real(real x) { return std::sqrt(x); }
 inline real inverse_sqrt_real(real x) { return 1 / std::sqrt(x); }
 inline real exp_real(real x) { return std::exp(x); }
 inline real log_real(real x) { return std::log(x); }
+inline real floor_real(real x) { return std::floor(x); }
+using Whole = int;
+inline Whole bits_of_real(real x) { return std::bit_cast<Whole>(x); }
+inline real real_of_bits(Whole x) { return std::bit_cast<real>(x); }
+inline real real_of_whole(Whole x) { return real(x); }
+inline Whole whole_of_real(real x) { return Whole(x); }
 }  // namespace lightgrid
+#define WHOLE(x) Whole(x)
 #endif
 #define add3(a, b) ((a) + (b))
 #define scale3(v, s) ((v) * (s))

@@ -2,6 +2,7 @@
 // (specification, appendix B) seen from one side. View space.
 //   LAMBERT: a diffuse surface, without what only specular lobes read.
 //   CLEARCOAT: a second lobe may lie over the first (KHR_materials_clearcoat).
+//   SKIN, MINNAERT: a diffuse part other than Lambert's may be there (shared/material_models.h).
 #pragma once
 
 #include "shared/real.h"
@@ -24,7 +25,14 @@ SHARED_STRUCT(Lobe) {
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal;
   Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
-                  // with LAMBERT base colour / pi
+                  // with LAMBERT base colour / pi; with MINNAERT times (n.v)^(1 - k)
+#ifdef SKIN
+  Real3 subsurface;           // colour / pi
+  real roll_off, roll_scale;  // and 1 / (1 + roll_off)
+#endif
+#ifdef MINNAERT
+  real minnaert_k, minnaert_ambient;
+#endif
 #ifndef LAMBERT
   Real3 to_viewer;
   Real3 f0;  // mix(0.04, base colour, metallic)

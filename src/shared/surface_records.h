@@ -69,7 +69,9 @@ typedef struct SurfaceMaterial {
   uint flags;
   uint alpha_base;  // of a masked base colour map: the first texel of its chain of alphas
   float coat, coat_roughness, coat_normal_scale;  // KHR_materials_clearcoat
-  uint spare[3];
+  float subsurface[3], roll_off, minnaert_k;      // scene/material_model.h
+  float model;                                    // its number
+  uint spare[1];
   SurfaceMap maps[SURFACE_MAPS];
 } SurfaceMaterial;
 

@@ -9,6 +9,7 @@
 #include "passes/depth_bounds.h"
 #include "passes/depth_prepass.h"
 #include "passes/read_outs/surfaces.h"
+#include "shared/model_records.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 
@@ -120,6 +121,37 @@ TEST(FillGbuffer, KeepsNormalsAlongAxesAsTheyAre) {
       }
     }
   }
+}
+
+// A model's number is stored exactly, in every layout and up to the last: its parameters are those of the material.
+TEST(FillGbuffer, KeepsTheNumbersOfModels) {
+  Scene scene = wall_of_all_normals(16);
+  for (int i = 0; i < MOST_MODELS; ++i) {
+    Material& m = scene.materials.emplace_back(scene.materials[0]);
+    m.model.minnaert_k = 0.003f * float(i + 1);
+  }
+  for (const int number : {1, 2, 127, MOST_MODELS}) {
+    scene.meshes[0].material = number;
+    for (const int bits : {8, 16, 32}) {
+      const Surfaces s = surfaces_of(scene, wide_view(9, 9), bits);
+      for (size_t i = 0; i < s.kept.model.pixels.size(); ++i) {
+        ASSERT_EQ(s.drawn.model.pixels[i].r, number);
+        ASSERT_EQ(s.kept.model.pixels[i].r, number) << bits;
+        ASSERT_NEAR(s.kept.base_color_metallic.pixels[i].a, 0.6, bits == 8 ? 0.51 / 255 : 2e-5) << bits << ": beside it";
+        ASSERT_GT(s.kept.emissive_occlusion.pixels[i].a, 0) << "lit";
+      }
+    }
+  }
+  scene.materials.emplace_back(scene.materials[0]).model.minnaert_k = 1.5f;
+  const auto refusal = [&] {
+    try {
+      surfaces_of(scene, wide_view(9, 9), 8);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_NE(refusal().find("255 models of skin and Minnaert; a geometry buffer numbers at most 254"), std::string::npos) << refusal();
 }
 
 // Half a step of the stored value, in 8 bits of a square root, whose slope is at most 2; plus float's

@@ -71,6 +71,10 @@ glm::dvec3 normal_of(const glm::dvec4& stored, double steps) {
   return glm::normalize(n);
 }
 
+// The model's number in the last channel of 32 bits, and the metalness.
+double number_of(double model_metallic) { return std::floor((model_metallic - 1) / 2); }
+double metallic_of(double w) { return w < 0 ? -w - 1 : w - 1 - 2 * number_of(w); }
+
 // Textures are magnified: float's rounding of attributes and filters alone, as in resolve_test.
 TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
   const Scene scene = scene_of_all_effects();
@@ -78,7 +82,7 @@ TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
   double_surfaces::Surfaces oracle(scene, odd_view(), f.opaque);
   std::vector<uint32_t> pixels;
   std::vector<Surface> surfaces(f.depth.size());
-  size_t unlit = 0, background = 0;
+  size_t unlit = 0, background = 0, modelled = 0;
   double normal = 0, material = 0, base = 0;
   for (uint32_t i = 0; i < f.depth.size(); ++i) {
     const glm::dvec4 a = f.texel<float>(0, i), b = f.texel<float>(1, i);
@@ -96,11 +100,14 @@ TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
     material = std::max(material, largest_of(glm::dvec3(b) - s.base_color));
     if (s.unlit) continue;  // the oracle computes nothing else of it
     normal = std::max(normal, largest_of(glm::dvec3(a) - s.normal));
-    material = std::max({material, std::abs(a.w - s.roughness), std::abs(b.w - 1 - s.metallic)});
+    material = std::max({material, std::abs(a.w - s.roughness), std::abs(metallic_of(b.w) - s.metallic)});
+    EXPECT_EQ(number_of(b.w), s.roll_off > 0 ? 1 : 0);  // the wall's
+    modelled += number_of(b.w) > 0;
   }
   EXPECT_GT(pixels.size(), f.depth.size() / 4);
   EXPECT_GT(unlit, 100u);
   EXPECT_GT(background, 100u);
+  EXPECT_GT(modelled, 100u);
   std::vector<ViewLight> directional = lights_in_view(scene, odd_view());
   std::erase_if(directional, [](const ViewLight& light) { return light.type != LightType::directional; });
   ASSERT_EQ(directional.size(), 1u);
@@ -135,7 +142,7 @@ void expect_rounded(const Scene& scene, int bits, double steps, double one, doub
   for (size_t i = 0; i < exact.depth.size(); ++i) {
     const glm::dvec4 a = exact.texel<float>(0, i), b = exact.texel<float>(1, i);
     const glm::dvec4 p = rounded.texel<Channel>(0, i), q = rounded.texel<Channel>(1, i);
-    ASSERT_EQ(q.w, b.w > 0 ? one : 0) << i;
+    ASSERT_EQ(q.w, b.w <= 0 ? 0 : number_of(b.w) > 0 ? number_of(b.w) : one) << i;
     if (b.w == 0) {
       ASSERT_EQ(p, glm::dvec4(0)) << i;
       continue;
@@ -143,7 +150,7 @@ void expect_rounded(const Scene& scene, int bits, double steps, double one, doub
     const glm::dvec3 n = normal_of(p, steps);
     largest = std::max(largest, glm::degrees(std::atan2(glm::length(glm::cross(n, glm::dvec3(a))), glm::dot(n, glm::dvec3(a)))));
     ASSERT_NEAR(p.z / one, a.w, half) << i;
-    ASSERT_NEAR(p.w / one, std::abs(b.w) - 1, half) << i;
+    ASSERT_NEAR(p.w / one, metallic_of(b.w), half) << i;
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(q[c] / one, bits == 8 ? std::sqrt(b[c]) : b[c], half) << i;
   }
   EXPECT_LE(largest, angle_deg);

@@ -1,5 +1,5 @@
 // The shading code of shaders and kernels, compiled as C++, against the reference in double. Included once with BLINN,
-// once with LAMBERT, once with CLEARCOAT and once without any.
+// once with LAMBERT, once with CLEARCOAT, once with SKIN and MINNAERT, and once without any.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,6 +34,11 @@ static double largest_error(Brdf lobe, double least_roughness) {
     surface.coat_normal = random_direction(random);
     if (glm::dot(surface.coat_normal, -position) < 0) surface.coat_normal = -surface.coat_normal;
 #endif
+#ifdef MINNAERT
+    surface.subsurface_color = {uniform(random), uniform(random), uniform(random)};
+    surface.roll_off = i % 8 == 0 ? 0 : float(uniform(random));
+    surface.minnaert_k = i % 8 == 1 ? 1 : float(0.3 + 1.2 * uniform(random));
+#endif
     ViewLight light{.type = i % 2 ? LightType::spot : LightType::point, .position = position + random_direction(random),
                     .direction = random_direction(random), .radiant_intensity = glm::dvec3(3, 2, 1), .radius_m = 2,
                     .cos_inner = 0.9, .cos_outer = 0.1};
@@ -43,6 +48,10 @@ static double largest_error(Brdf lobe, double least_roughness) {
                                i % 2 ? glm::vec4(light.direction * scale, -light.cos_outer * scale) : glm::vec4(0, 0, 0, 1)};
     ShadingPoint p = shading_point(position, glm::normalize(-position), surface.normal, surface.base_color,
                                    real(surface.metallic), real(surface.roughness));
+#ifdef MINNAERT
+    p = with_skin(p, surface.subsurface_color, real(surface.roll_off));
+    p = with_minnaert(p, glm::normalize(-position), real(surface.minnaert_k));
+#endif
 #ifdef CLEARCOAT
     p = with_coat(p, surface.coat_normal, real(surface.coat), real(surface.coat_roughness));
 #endif

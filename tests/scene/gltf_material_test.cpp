@@ -127,6 +127,38 @@ TEST(GltfMaterial, a_clear_coat_is_read_with_its_maps) {
   EXPECT_TRUE(none.bitmaps.empty()) << "without a coat its maps are not decoded";
 }
 
+TEST(GltfMaterial, a_model_is_read_from_the_extras) {
+  const auto model_of = [](const json& model) {
+    return load_material({{"extras", {{"lightgrid", model}, {"other", 1}}}}).model;
+  };
+  EXPECT_EQ(load_material({{"extras", {{"other", {{"model", "skin"}}}}}}).model, MaterialModel());
+  EXPECT_EQ(load_material({{"extras", "lightgrid"}}).model, MaterialModel());
+  EXPECT_EQ(model_of({{"model", "skin"}, {"subsurfaceColor", {0.5, 0.25, 1}}, {"rollOff", 0.75}}),
+            (MaterialModel{.subsurface_color = {0.5f, 0.25f, 1}, .roll_off = 0.75f}));
+  EXPECT_EQ(model_of({{"model", "skin"}}), (MaterialModel{.subsurface_color = {1, 0.2f, 0.2f}, .roll_off = 0.2f}));
+  EXPECT_EQ(model_of({{"model", "minnaert"}, {"k", 0.5}}), (MaterialModel{.minnaert_k = 0.5f}));
+}
+
+TEST(GltfMaterial, impossible_models_are_refused_by_name) {
+  const std::pair<json, const char*> cases[] = {
+      {"skin", "materials[0].extras.lightgrid is not an object"},
+      {{{"model", 3}}, "materials[0].extras.lightgrid.model is not a string"},
+      {{{"model", "wax"}}, "material 0: extras.lightgrid: model is \"wax\"; models are skin and minnaert"},
+      {{{"model", "skin"}, {"rolloff", 0.1}}, "extras.lightgrid.rolloff: unknown key"},
+      {{{"model", "skin"}, {"rollOff", 1.5}}, "extras.lightgrid: rollOff is 1.5, outside 0 to 1"},
+      {{{"model", "skin"}, {"rollOff", "much"}}, "rollOff is not a number"},
+      {{{"model", "skin"}, {"subsurfaceColor", {1, 2}}}, "subsurfaceColor is not three numbers"},
+      {{{"model", "skin"}, {"subsurfaceColor", {1, 2, 1}}}, "subsurfaceColor is 2, outside 0 to 1"},
+      {{{"model", "skin"}, {"k", 1}}, "k is given, but the model is skin"},
+      {{{"model", "minnaert"}}, "k is missing"},
+      {{{"model", "minnaert"}, {"k", 0}}, "k is 0; it is above 0 and at most 2"},
+      {{{"model", "minnaert"}, {"k", 2.5}}, "k is 2.5; it is above 0"},
+      {{{"model", "minnaert"}, {"k", 1}, {"rollOff", 0.1}}, "rollOff is given, but the model is minnaert"},
+  };
+  for (const auto& [model, message] : cases)
+    EXPECT_THAT(with_material({{"extras", {{"lightgrid", model}}}}).refusal(), HasSubstr(message)) << model;
+}
+
 TEST(GltfMaterial, impossible_values_are_refused_by_name) {
   const std::pair<json, const char*> cases[] = {
       {{{"alphaMode", "GLASS"}}, "material 0: alphaMode is \"GLASS\""},

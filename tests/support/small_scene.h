@@ -133,6 +133,16 @@ inline const std::vector<Effect>& effects() {
          Material& m = s.scene.materials[s.wall_material];
          m.clearcoat = 1, m.clearcoat_roughness = 0.7f, m.clearcoat_normal_scale = 0.4f;
        }},
+      {"skin", "skin", "SKIN", on_wall,
+       [](SmallScene& s) {
+         MaterialModel& model = s.scene.materials[s.wall_material].model;
+         model.subsurface_color = {0.9f, 0.3f, 0.2f}, model.roll_off = 0.4f;
+       }},
+      {"minnaert", "Minnaert", "MINNAERT", on_wall,  // with skin: a material may have both
+       [](SmallScene& s) {
+         MaterialModel& model = s.scene.materials[s.wall_material].model;
+         model = {.subsurface_color = {0.9f, 0.3f, 0.2f}, .roll_off = 0.4f, .minnaert_k = 0.6f};
+       }},
       {"unlit", "unlit materials", "UNLIT", on_ball,
        [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},
       {"spot", "spot cones", "", "light 6 \"torch\"",

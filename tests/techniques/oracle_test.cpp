@@ -167,5 +167,50 @@ TEST(CoatShading, LambertHasNone) {
 
 TEST(PolishedBlinnPhong, EveryTechniqueIsAsExactAsForward) { expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {.brdf = Brdf::blinn}); }
 
+// Skin, Minnaert's of k below and above 1, one under a coat, and Lambert's.
+Scene balls_of_all_models() {
+  Scene scene;
+  scene.ambient = glm::vec3(0.05f);
+  Mesh ball;
+  shapes::add_sphere(ball, {0, 0, 0}, 1, 16);
+  const MaterialModel models[] = {{},
+                                  {.subsurface_color = {1, 0.2f, 0.2f}, .roll_off = 0.4f},
+                                  {.minnaert_k = 0.5f},
+                                  {.minnaert_k = 1.6f},
+                                  {.subsurface_color = {0.2f, 0.6f, 0.3f}, .roll_off = 0.9f}};
+  for (int i = 0; i < 5; ++i) {
+    const int material = add_material(scene, "ball", {0.7f, 0.6f, 0.5f}, 0.1f, 0.5f);
+    scene.materials[size_t(material)].model = models[i];
+    if (i == 4) scene.materials[size_t(material)].clearcoat = 1, scene.materials[size_t(material)].clearcoat_roughness = 0.3f;
+    add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
+                 placed({2.1 * i - 4.2, i % 2 ? 0.8 : -0.8, -7 - 0.4 * i}));
+  }
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec3 at{random.uniform(-5, 5), random.uniform(-4, 4), random.uniform(-5, -2)};  // in front
+    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1, random.uniform(3, 7));
+  }
+  return scene;
+}
+
+// Lambert's and every other model, the fewest terms.
+TEST(ModelShading, WithLambertOfEveryTechniqueIsAsExactAsForwards) {
+  expect_each_exact(balls_of_all_models(), view_at(1, 160, 90), {.brdf = Brdf::lambert});
+}
+
+TEST(ModelShading, InFloatIsTheOraclesWithinItsRounding) {
+  const Scene scene = balls_of_all_models();
+  const View view = view_at(1, 160, 90);
+  TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
+  run.run_frame();
+  EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
+  EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
+  Scene bare = scene;
+  for (Material& m : bare.materials) m.model = {};
+  EXPECT_GT(compare_images(run.image(), render(bare, view, "forward")).max_rel, 0.1) << "the models are seen";
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -103,6 +103,8 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"emissive_map", mapped_material},
       {"clearcoat", program},
       {"clearcoat_maps", mapped_material + vertex_array + material_map + material_map},
+      {"skin", program},
+      {"minnaert", program},
       {"vertex_color", program + vertex_array},
       {"uv1", mapped_material + vertex_array},
       {"uv_transform", mapped_material},

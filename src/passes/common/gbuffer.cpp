@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+#include "shared/model_records.h"
+
 namespace lightgrid {
 
 const GBufferLayout& gbuffer_layout(const Settings& settings) {
@@ -9,7 +12,28 @@ const GBufferLayout& gbuffer_layout(const Settings& settings) {
                        [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
 }
 
+std::vector<const char*> model_defines(const FramePlan& plan) {
+  std::vector<const char*> defines;
+  if (plan.skin) defines.push_back("SKIN");
+  if (plan.minnaert) defines.push_back("MINNAERT");
+  return defines;
+}
+
+namespace {
+
+void require_numbers(const RenderView& v) {
+  if (!v.plan.skin && !v.plan.minnaert) return;
+  const size_t models = material_models(v.scene).size() - 1;
+  if (models <= MOST_MODELS) return;
+  throw input_error("scene \"{}\": {} models of skin and Minnaert; a geometry buffer numbers at most {}: forward techniques "
+                    "and visibility take any number",
+                    v.scene.name, models, MOST_MODELS);
+}
+
+}  // namespace
+
 GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use) {
+  require_numbers(v);
   constexpr const char* names[] = {"gbuffer 0", "gbuffer 1", "gbuffer 2"};
   GBufferInCl g{.base_lighting = base_lighting, .layout = &gbuffer_layout(v.plan.settings), .coats = v.plan.clearcoat};
   for (size_t i = 0; i < g.images(); ++i) g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
@@ -18,7 +42,10 @@ GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUs
 }
 
 GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
+  require_numbers(v);
   GBuffer g;
+  g.models = model_defines(v.plan);
+  if (!g.models.empty()) g.model_records = v.gpu.in_gl().model_records();
   g.base_lighting = base_lighting;
   g.layout = &gbuffer_layout(v.plan.settings);
   g.coats = v.plan.clearcoat;
@@ -41,6 +68,7 @@ std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
   std::vector<std::string> defines;
   if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
   if (gbuffer.coats) defines.emplace_back("CLEARCOAT");
+  defines.insert(defines.end(), gbuffer.models.begin(), gbuffer.models.end());
   return defines;
 }
 
@@ -49,6 +77,7 @@ void bind_gbuffer(const GBuffer& gbuffer) {
   glBindTextureUnit(1, gbuffer.textures[1]);
   glBindTextureUnit(2, gbuffer.depth);
   if (gbuffer.coats) glBindTextureUnit(3, gbuffer.textures[2]);
+  if (gbuffer.model_records) glBindBufferBase(GL_UNIFORM_BUFFER, 5, gbuffer.model_records);
 }
 
 }  // namespace lightgrid

@@ -19,13 +19,16 @@ struct GBufferImage {
 // Channels, in both orders of bits (shaders/common/gbuffer.glsl):
 //   8 and 16 bits
 //   [0]  octahedral normal u, v in view space; perceptual roughness; metallic
-//   [1]  base color red, green, blue, as their square roots in 8 bits; 1 where lights reach, else 0
+//   [1]  base color red, green, blue, as their square roots in 8 bits; 1 where lights reach, else 0. Where the material's
+//        model has a number above 0 (scene/material_model.h), that number, 1 to 254, is the stored integer
 //   32 bits
 //   [0]  normal x, y, z in view space; perceptual roughness
-//   [1]  base color red, green, blue; 1 + metallic, negative for unlit surfaces, 0 where nothing is
+//   [1]  base color red, green, blue; 1 + metallic + 2 * the model's number, -1 - metallic for unlit surfaces, 0 where
+//        nothing is
 // With FramePlan::clearcoat a third image:
 //   [2]  of the coat: octahedral normal u, v in view space; perceptual roughness; factor, 0 where there is none. In 32 bits
 //        a negative factor: the normal is that of [0], stored without loss
+// Of a model only the number is stored: its parameters are exact at any number of bits.
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
 struct GBufferLayout {
@@ -73,13 +76,19 @@ struct GBufferInCl {
 // That of buffer-bits.
 const GBufferLayout& gbuffer_layout(const Settings& settings);
 
-// The view's buffers, written or not. use: gbuffer where they are no copies.
+// What light passes that read a geometry buffer are compiled with: SKIN, MINNAERT.
+std::vector<const char*> model_defines(const FramePlan& plan);
+
+// The view's buffers, written or not. Both throw Error(input) where the scene has more models than a channel of 8 bits can
+// number. use: gbuffer where they are no copies.
 GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use);
 
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
   bool coats = false;      // there is a third image
+  std::vector<const char*> models;  // defines; empty: Lambert's alone
+  GLuint model_records = 0;         // MaterialModelRecord each; 0 without
   GLuint framebuffer = 0;  // the first two images, for base lighting the image, then that of coats; over depth
   std::array<GLuint, 3> textures{};
   GLuint depth = 0;

@@ -13,11 +13,11 @@ Image read_image(int attachment, int width, int height) {
   return image;
 }
 
-// Images over the frame's depth, cleared and bound: three, and two of coats.
+// Images over the frame's depth, cleared and bound: three, two of coats, one of models.
 struct SurfaceTargets {
-  SurfaceTargets(RenderView& v, bool coats) : width(v.view.width), height(v.view.height) {
+  SurfaceTargets(RenderView& v, bool coats, bool models) : width(v.view.width), height(v.view.height) {
     std::vector<GLuint> names;
-    for (int i = 0; i < (coats ? 5 : 3); ++i) {
+    for (int i = 0; i < 3 + (coats ? 2 : 0) + (models ? 1 : 0); ++i) {
       textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
       names.push_back(textures.back().name());
     }
@@ -32,12 +32,11 @@ struct SurfaceTargets {
     const float nothing[4] = {0, 0, 0, 0};
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, i, nothing);
   }
-  // An image that is not there is empty.
-  Image read(size_t i) { return i < textures.size() ? read_image(int(i), width, height) : Image(); }
+  Image read(size_t i) { return read_image(int(i), width, height); }
   // The target is freed: nothing is drawn into it afterwards.
   Image take(size_t i) {
     Image image = read(i);
-    if (i < textures.size()) textures[i] = GlTexture();
+    textures[i] = GlTexture();
     return image;
   }
 
@@ -46,19 +45,31 @@ struct SurfaceTargets {
   GlFramebuffer framebuffer;
 };
 
+// read: the image of a number, in the order of SurfaceTargets.
+template <typename Read>
+SurfaceImages images_of(bool coats, bool models, const Read& read) {
+  SurfaceImages s{.normal_roughness = read(0), .base_color_metallic = read(1), .emissive_occlusion = read(2)};
+  if (coats) s.coat_normal_roughness = read(3), s.coat_factor = read(4);
+  if (models) s.model = read(coats ? 5 : 3);
+  return s;
+}
+
 }  // namespace
 
 SurfaceImages read_surfaces(RenderView& v) {
   const bool coats = v.plan.features & feature_clearcoat;
-  SurfaceTargets targets(v, coats);
+  const bool models = v.plan.features & (feature_skin | feature_minnaert);
+  SurfaceTargets targets(v, coats, models);
   glEnable(GL_DEPTH_TEST);
   std::vector<std::string> defines;
   if (coats) defines.emplace_back("COATS");
+  if (models) defines.emplace_back("MODELS");
   ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", defines});
   glDepthFunc(GL_EQUAL);
   draw_list(v, v.opaque, DrawStreams::all, programs);
   const auto read = [&](size_t i) { return v.plan.blended.empty() ? targets.take(i) : targets.read(i); };
-  SurfaceImages surfaces{read(0), read(1), read(2), read(3), read(4), {}};
+  SurfaceImages surfaces = images_of(coats, models, read);
+  surfaces.models = material_models(v.scene);
   // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
   if (!v.plan.blended.empty()) {
@@ -73,13 +84,16 @@ SurfaceImages read_surfaces(RenderView& v) {
 }
 
 SurfaceImages read_gbuffer_surfaces(RenderView& v) {
-  SurfaceTargets targets(v, v.plan.clearcoat);
+  const bool models = v.plan.skin || v.plan.minnaert;
+  SurfaceTargets targets(v, v.plan.clearcoat, models);
   const GBuffer gbuffer = gbuffer_of(v);
   v.bind_lights();
   bind_gbuffer(gbuffer);
   glDisable(GL_DEPTH_TEST);
   draw_screen(v.program("shaders/screen.vert", "shaders/gbuffer_surfaces.frag", gbuffer_defines(gbuffer)));
-  return {targets.read(0), targets.read(1), targets.read(2), targets.read(3), targets.read(4), {}};
+  SurfaceImages surfaces = images_of(v.plan.clearcoat, models, [&](size_t i) { return targets.read(i); });
+  surfaces.models = material_models(v.scene);
+  return surfaces;
 }
 
 }  // namespace lightgrid

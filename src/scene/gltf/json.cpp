@@ -172,9 +172,9 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
     for (size_t i = 0; i < root[name].size(); ++i)
       if (!root[name][i].is_object()) throw report.error("{}[{}] is not an object", name, i);
   }
-  Tidier(report).tidy_object(root, true);
-
   PreparedJson out;
+  out.models = take_models(report, root);
+  Tidier(report).tidy_object(root, true);
   out.buffers = take_buffers(report, root);
   out.images = take_images(report, root);
   out.animations = take_animations(report, root);

@@ -36,11 +36,20 @@ struct AnimationEntry {
   std::vector<Channel> channels;
 };
 
+// extras.lightgrid of a material.
+struct ModelEntry {
+  int material = 0;
+  std::string model;
+  std::vector<double> subsurface_color;  // empty: absent
+  std::optional<double> roll_off, k;
+};
+
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
+  std::vector<ModelEntry> models;
   // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;
@@ -55,6 +64,9 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text);
 
 // Moves the animations out of the JSON. Errors: wrong types, and indices that are not non-negative integers.
 std::vector<AnimationEntry> take_animations(const Reporter& report, nlohmann::json& root);
+
+// Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of a wrong type.
+std::vector<ModelEntry> take_models(const Reporter& report, nlohmann::json& root);
 
 bool is_supported_extension(std::string_view name);
 

@@ -104,6 +104,30 @@ void read_clearcoat(Document& doc, const tinygltf::Value& in, const std::string&
   if (out.clearcoat == 0) out.clearcoat_map = out.clearcoat_roughness_map = out.clearcoat_normal_map = {};  // not decoded
 }
 
+// Of NVIDIA's lambSkin where the file names none.
+constexpr glm::vec3 default_subsurface_color(1, 0.2f, 0.2f);
+constexpr double default_roll_off = 0.2;
+
+MaterialModel read_model(const Document& doc, const ModelEntry& in, const std::string& place) {
+  MaterialModel out;
+  if (in.model == "skin") {
+    if (in.k) throw doc.error("{}: k is given, but the model is skin", place);
+    out.subsurface_color = default_subsurface_color;
+    for (size_t i = 0; i < in.subsurface_color.size(); ++i)
+      out.subsurface_color[int(i)] = in_unit(doc, in.subsurface_color[i], place, "subsurfaceColor");
+    out.roll_off = in_unit(doc, in.roll_off.value_or(default_roll_off), place, "rollOff");
+    return out;
+  }
+  if (in.model != "minnaert")
+    throw doc.error("{}: model is \"{}\"; models are skin and minnaert", place, in.model);
+  if (!in.subsurface_color.empty() || in.roll_off)
+    throw doc.error("{}: subsurfaceColor or rollOff is given, but the model is minnaert", place);
+  if (!in.k) throw doc.error("{}: k is missing", place);
+  out.minnaert_k = finite(doc, *in.k, place, "k");
+  if (!(out.minnaert_k > 0 && out.minnaert_k <= 2)) throw doc.error("{}: k is {}; it is above 0 and at most 2", place, *in.k);
+  return out;
+}
+
 AlphaMode read_alpha_mode(const Document& doc, const std::string& mode, const std::string& place) {
   if (mode == "OPAQUE") return AlphaMode::opaque;
   if (mode == "MASK") return AlphaMode::mask;
@@ -151,6 +175,10 @@ std::vector<Material> read_materials(Document& doc) {
   for (const tinygltf::Material& material : doc.model.materials)
     out.push_back(
         read_material(doc, material, label("material", static_cast<int>(out.size()), material.name)));
+  for (const ModelEntry& model : doc.models) {
+    const std::string place = label("material", model.material, out[size_t(model.material)].name) + ": extras.lightgrid";
+    out[size_t(model.material)].model = read_model(doc, model, place);
+  }
   out.push_back({.name = "default"});
   return out;
 }

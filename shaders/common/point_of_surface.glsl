@@ -1,0 +1,17 @@
+// From the surface at a fragment to the point that light is reflected at. After surface.glsl, position.glsl and
+// shared/brdf.h.
+ShadingPoint point_of_surface(Surface s) {
+  vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
+  vec3 to_viewer = direction_to_viewer(position);
+  ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
+#ifdef SKIN
+  p = with_skin(p, s.subsurface, s.roll_off);
+#endif
+#ifdef MINNAERT
+  p = with_minnaert(p, to_viewer, s.minnaert_k);
+#endif
+#ifdef CLEARCOAT
+  p = with_coat(p, s.coat_normal, s.coat, s.coat_roughness);
+#endif
+  return p;
+}
