@@ -88,18 +88,29 @@ typedef struct VoxelSum {
 
 static inline real luminance_of(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
-// place: x, y, z and radius of the light.
-static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float4 place,
+// What a light's radius is in a slice.
+typedef struct VoxelReach {
+  float squared, inverse_squared;
+  float dimmed;  // over the ball of its reach a light adds up to its intensity times the radius, whatever the window
+} VoxelReach;
+
+static inline VoxelReach voxel_reach(float radius, constant VoxelSlice* slice) {
+  VoxelReach r;
+  r.squared = radius * radius + slice->half_diagonal_squared;
+  r.inverse_squared = 1.0f / r.squared;
+  r.dimmed = radius * sqrt(r.inverse_squared);
+  return r;
+}
+
+// place: x, y and z of the light.
+static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float3 place, VoxelReach reach,
                                    const VoxelLights* lights, uint light) {
   const Real3 d = real3(place.x - position.x, place.y - position.y, place.z - position.z);
   const real squared = dot3(d, d);
-  const float reach_squared = place.w * place.w + slice->half_diagonal_squared;
-  const mask_t inside = squared < REAL(reach_squared);
+  const mask_t inside = squared < REAL(reach.squared);
   if (!any_lane(inside)) return;
   const float4 color = lights->colors[light];
-  // Over the ball of its reach a light's irradiance adds up to its intensity times the radius, whatever the window.
-  const float dimmed = place.w / sqrt(reach_squared);
-  const real ratio = squared / reach_squared;
+  const real ratio = squared * reach.inverse_squared;
 #ifdef WINDOW_NONE
   real window = 1.0f;
 #else
@@ -114,7 +125,7 @@ static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant Voxel
 #ifdef LEAST_FALLOFF
   falloff = lane_max(falloff, REAL(color.w));
 #endif
-  real attenuation = window * falloff * dimmed;
+  real attenuation = window * falloff * reach.dimmed;
 #ifdef SPOTS
   // A cone's edge is rounded off over the angle that a cell fills, q its square. y (y - x) = soft^2 / 4.
   const float8 cone = lights->cones[light];

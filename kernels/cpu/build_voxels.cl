@@ -18,21 +18,27 @@
 
 static inline void add_lights(VoxelSum* sums, const uint* found, uint count, const VoxelLights* lights, constant VoxelGrid* grid,
                               constant VoxelSlice* slices, uint x, uint y, uint z) {
+  float3 places[CHUNK + VOXEL_LIGHT_GROUP];
+  VoxelReach reaches[CHUNK + VOXEL_LIGHT_GROUP];
   for (uint v = 0; v < VECTORS; ++v) {
     const uint column = v % COLUMNS * 4, row = v / COLUMNS % (VOXEL_BRICK_Y / 4) * 4;
     constant VoxelSlice* slice = slices + z + v / (VECTORS / VOXEL_BRICK_Z);
+    if (v % (VECTORS / VOXEL_BRICK_Z) == 0) {
+      // Once a slice.
+      for (uint i = 0; i < count; ++i) {
+        global const float* at =
+            lights->places + found[i] / VOXEL_LIGHT_GROUP * (4 * VOXEL_LIGHT_GROUP) + found[i] % VOXEL_LIGHT_GROUP;
+        places[i] = (float3)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP]);
+        reaches[i] = voxel_reach(at[3 * VOXEL_LIGHT_GROUP], slice);
+      }
+    }
     Real3 position = real3(grid->origin_x + convert_float16((int)(x + column) + (LANE_INDEX & 3)) * grid->spacing_x,
                            grid->origin_y + convert_float16((int)(y + row) + (LANE_INDEX >> 2)) * grid->spacing_y, REAL(slice->place));
 #ifdef VOXELS_LOG
     position = real3(position.x * position.z, position.y * position.z, -position.z);
 #endif
     VoxelSum sum = sums[v];
-    for (uint i = 0; i < count; ++i) {
-      const uint light = found[i];
-      global const float* at = lights->places + light / VOXEL_LIGHT_GROUP * (4 * VOXEL_LIGHT_GROUP) + light % VOXEL_LIGHT_GROUP;
-      add_voxel_light(&sum, position, slice,
-                      (float4)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP], at[3 * VOXEL_LIGHT_GROUP]), lights, light);
-    }
+    for (uint i = 0; i < count; ++i) add_voxel_light(&sum, position, slice, places[i], reaches[i], lights, found[i]);
     sums[v] = sum;
   }
 }

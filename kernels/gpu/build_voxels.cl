@@ -67,7 +67,8 @@ kernel __attribute__((reqd_work_group_size(VOXEL_BRICK_X, VOXEL_BRICK_Y, VOXEL_B
           const uint of = groups[batch + i / VOXEL_LIGHT_GROUP];
           global const float* at = places + of * (4 * VOXEL_LIGHT_GROUP) + in_group;
           add_voxel_light(&sum, position, slices + iz,
-                          (float4)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP], at[3 * VOXEL_LIGHT_GROUP]), &lights,
+                          (float3)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP]),
+                          voxel_reach(at[3 * VOXEL_LIGHT_GROUP], slices + iz), &lights,
                           of * VOXEL_LIGHT_GROUP + in_group);
         }
       }
