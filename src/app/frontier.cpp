@@ -36,7 +36,7 @@ struct FrontierCommand {
   bool no_growth = false;
 };
 
-const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street"};
+const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street", "gallery"};
 
 struct Shard {
   int index = 0, count = 1;

@@ -13,6 +13,7 @@ const std::vector<BuiltinScene>& builtin_scenes() {
       {"terrain", "hills under 255 small coloured lights, seen from above", make_terrain},
       {"street", "a wet street 360 m long at night: shops, lamp posts, cars, garlands", make_street},
       {"particles", "a yard at night full of smoke: blended puffs that face the camera, lit by sparks", make_particles},
+      {"gallery", "busts of skin, wax and stone between velvet: materials that are not Lambert's", make_gallery},
   };
   return scenes;
 }

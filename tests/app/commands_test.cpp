@@ -221,7 +221,7 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
 TEST(ScenesCommand, ListsTheBuiltInScenes) {
   const ProgramRun run = run_program({"scenes"});
   EXPECT_EQ(run.status, 0);
-  for (const char* name : {"hall", "spheres", "terrain", "street", "particles"}) EXPECT_THAT(run.out, HasSubstr(name));
+  for (const char* name : {"hall", "spheres", "terrain", "street", "particles", "gallery"}) EXPECT_THAT(run.out, HasSubstr(name));
 }
 
 TEST(Help, GoesToStdoutAndEndsWithZero) {

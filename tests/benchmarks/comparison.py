@@ -13,7 +13,7 @@ import time
 BUILD, MORE = sys.argv[1], sys.argv[2:]
 PROGRAM = os.path.join(BUILD, "src", "lightgrid")
 FRAMES = os.environ.get("LIGHTGRID_FRAMES", "3")
-SCENES = ["hall", "spheres", "terrain", "street"]
+SCENES = ["hall", "spheres", "terrain", "street", "gallery"]
 SIZE = os.environ.get("LIGHTGRID_SIZE", "1280x720")
 RESULTS = "docs/results/comparison"
 EXACT = 1e-5  # of the brightest channel: src/report/report.h

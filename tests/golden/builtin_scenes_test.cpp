@@ -120,7 +120,7 @@ TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, GoldenImage,
-                         testing::Combine(testing::Values("hall", "spheres", "terrain", "street"),
+                         testing::Combine(testing::Values("hall", "spheres", "terrain", "street", "gallery"),
                                           testing::Values("forward_plus", "visibility")),
                          [](const auto& info) {
                            return std::get<0>(info.param) + std::string("_") + std::get<1>(info.param);

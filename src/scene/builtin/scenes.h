@@ -10,5 +10,6 @@ Scene make_spheres();
 Scene make_terrain();
 Scene make_street();
 Scene make_particles();
+Scene make_gallery();
 
 }  // namespace lightgrid

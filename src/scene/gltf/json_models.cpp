@@ -44,7 +44,8 @@ std::vector<ModelEntry> take_models(const Reporter& report, json& root) {
   for (json& material : root["materials"]) {
     const json::json_pointer model("/extras/lightgrid");
     if (material.contains(model)) {
-      out.push_back(read_model_entry(report, material[model], fmt::format("materials[{}].extras.lightgrid", number)));
+      out.push_back(
+          read_model_entry(report, material[model], fmt::format("materials[{}].extras.lightgrid", number)));
       out.back().material = number;
       material["extras"].erase("lightgrid");
     }
