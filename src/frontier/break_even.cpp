@@ -11,7 +11,7 @@ namespace {
 constexpr double ns_per_ms = 1e6;
 constexpr const char* cull_pass = "cull_lights";
 constexpr const char* shading_passes[] = {"shade_forward", "shade_tiles", "resolve", "shade_objects",
-                                          "shade_light_volumes"};
+                                          "shade_light_volumes", "fill_light_buffer"};
 const std::vector<std::string> cull_test_alone = {"cull_test"};
 const std::vector<std::string> bounds_and_test = {"cull_test", "depth_bounds"};
 

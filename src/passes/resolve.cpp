@@ -41,7 +41,7 @@ class Resolving : public PassState {
 
   size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
 
-  // "resolve", "resolve_gbuffer" or "blend", built at first use.
+  // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
   cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
     cl::Kernel& kernel = kernels_[stem + more_defines];
     if (!kernel()) {
@@ -107,6 +107,11 @@ class Resolving : public PassState {
   size_t scene_bytes_ = 0;
 };
 
+std::string specular_define(const Settings& settings) {
+  const char* define = prepass_define(settings);
+  return define ? fmt::format(" -D{}", define) : "";
+}
+
 cl_float4 background(const RenderView& v) {
   const glm::vec3& background = v.scene.background;
   return {{background.r, background.g, background.b, 1}};
@@ -160,6 +165,39 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
   pass.moves(v.pixels() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
              v.pixels() * (g.bytes() + (image ? 16 : 0)));
   return g;
+}
+
+NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
+  Resolving& r = v.state<Resolving>();
+  const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
+  const char* define = normals.layout->define;
+  cl::Kernel& kernel = r.kernel(v, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
+  auto pass = v.timer.pass("resolve_normals", "cl");
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "resolve_normals", kernel, r.items(v), r.group(), visible.image.triangle, shared...,
+               normals.image->cl_buffer());
+      },
+      r.arguments(v, visible.raster, visible.surfaces, {}));
+  pass.moves(v.pixels() * 4 + r.scene(v).memory_bytes(), v.pixels() * normals.layout->image.bytes);
+  return normals;
+}
+
+ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, const LightBufferInCl& sums) {
+  Resolving& r = v.state<Resolving>();
+  const Settings& s = v.plan.settings;
+  cl::Kernel& kernel = r.kernel(v, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
+  auto pass = v.timer.pass("resolve_materials", "cl");
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "resolve_materials", kernel, r.items(v), r.group(), visible.image.triangle,
+               visible.image.depth, shared..., background(v), sums.first->cl_buffer(),
+               sums.second ? sums.second->cl_buffer() : cl::Buffer(), cl_float(stored_scale(v)),
+               cl_float(s.prepass_shininess), cl_float(reference_light(v.scene, v.plan)), r.image.cl_buffer());
+      },
+      r.arguments(v, visible.raster, visible.surfaces, {}));
+  pass.moves(v.pixels() * (8 + sums.bytes()) + r.scene(v).memory_bytes(), v.pixels() * 16);
+  return {0, &r.image};
 }
 
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passes/common/gbuffer.h"
+#include "passes/common/light_buffer.h"
 #include "passes/rasterize.h"
 
 namespace lightgrid {
@@ -22,6 +23,12 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
 // The surface of every pixel into a geometry buffer of the layout of buffer-bits, as fill_gbuffer does with OpenGL. With
 // BaseLighting::in_image it writes the image too.
 GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, BaseLighting base_lighting);
+
+// The normal of every pixel in the format of the setting normals, as fill_normals does with OpenGL.
+NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible);
+
+// Every pixel's material under its sums of light: the material pass of light_prepass. The image stays in OpenCL's memory.
+ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, const LightBufferInCl& sums);
 
 // Lays blended surfaces over the image of resolve() or of a light pass in OpenCL, where they are in front of the opaque ones.
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,

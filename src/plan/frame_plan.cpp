@@ -177,6 +177,7 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
 
 bool reads_light_grid(const TechniqueNeeds& needs, const Settings& settings) {
   if (needs.exact_lights && settings.voxel_lights_exact == 0) return false;
+  if (needs.prepass_lights && draws_light_volumes(needs, settings)) return false;
   return needs.light_grid && !(needs.chosen_lights && settings.lights == ShadedLights::all);
 }
 
@@ -234,6 +235,10 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   return features;
 }
 
+bool draws_light_volumes(const TechniqueNeeds& needs, const Settings& settings) {
+  return needs.light_volumes || (needs.prepass_lights && settings.prepass_lights == PrepassLights::volumes);
+}
+
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings) {
   return needs.opengl && !(needs.chosen_raster && settings.raster == RasterApi::opencl);
 }
@@ -243,7 +248,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   FramePlan plan;
   plan.settings = settings;
   plan.reversed_triangles = needs.reversed_triangles;
-  plan.stencil = needs.stencil || (needs.light_volumes && settings.volume_culling == VolumeCulling::stencil);
+  plan.stencil = needs.stencil || (draws_light_volumes(needs, settings) && settings.volume_culling == VolumeCulling::stencil);
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
@@ -255,6 +260,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.decisions.push_back({"light grid", plan.light_grid,
                             !needs.light_grid                        ? "the technique reads none"
                             : needs.exact_lights && !reads_light_grid(needs, settings) ? "voxel-lights-exact=0"
+                            : needs.prepass_lights && !reads_light_grid(needs, settings) ? "prepass-lights=volumes"
                             : !reads_light_grid(needs, settings) ? "lights=all"
                             : !plan.local_lights ? "no light has a place"
                                                  : light_witness(scene, plan.local[0])});

@@ -58,12 +58,16 @@ struct TechniqueNeeds {
   bool lists = false;    // light code reads lists only, not masks
   bool z_bins = false;   // shading skips lights by z-bins, if the setting z-bins says so
   bool light_volumes = false;  // lights are drawn one by one; with stencil if volume-culling uses it
+  bool prepass_lights = false;  // the setting prepass-lights chooses between light_grid and light_volumes
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
   bool opengl = true;               // draws with OpenGL; false: OpenCL alone
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool exact_lights = false;  // whose light grid is read only with voxel-lights-exact
   bool chosen_lights = false;  // whose light grid is left out by the setting lights=all
 };
+
+// Whether a technique with these settings draws lights one by one.
+bool draws_light_volumes(const TechniqueNeeds& needs, const Settings& settings);
 
 // Whether a technique with these settings draws with OpenGL.
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);

@@ -30,6 +30,12 @@ enum class RasterApi { opengl, opencl };
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
+// Light pre-pass (docs/techniques/light_prepass.md): who adds up the light buffer, the specular term that it keeps, and
+// the format of the image of normals.
+enum class PrepassLights { tiles, volumes };
+enum class PrepassSpecular { plain, fifth_term, luminance, bent };
+enum class NormalFormat { floats, octahedral, spheremap, xyz8 };
+
 enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a light's ball: docs/light_volumes.md
 
 // The voxel light buffer (docs/techniques/voxel_lights.md): which space its samples divide, and when it is filled.
@@ -47,7 +53,7 @@ struct Settings {
   SliceSpacing slice_spacing = SliceSpacing::exponential;
   int z_bins = 1;  // 1 (off), 16, 64 or 256
   GridLists grid_lists = GridLists::lists;
-  int buffer_bits = 32;  // a channel of geometry buffers: 8, 16 or 32
+  int buffer_bits = 32;  // a channel of geometry buffers and of light buffers: 8, 16 or 32
   VolumeCulling volume_culling = VolumeCulling::back_faces;
   KernelShape kernel_shape = KernelShape::automatic;
   LidrPacking lidr_packing = LidrPacking::bitshift;
@@ -59,6 +65,10 @@ struct Settings {
   LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrOrder lidr_order = LidrOrder::priority;
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
+  PrepassLights prepass_lights = PrepassLights::tiles;
+  PrepassSpecular prepass_specular = PrepassSpecular::plain;
+  int prepass_shininess = 32;  // the lights' specular exponent: 2, 8, 32, 128 or 512
+  NormalFormat normals = NormalFormat::floats;
   RasterApi raster = RasterApi::opengl;
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;

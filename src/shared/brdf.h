@@ -4,6 +4,8 @@
 // Each has shading_point, AMBIENT_REFLECTANCE(p), UNDER_COAT(p, light) and reflected.
 #pragma once
 
+// Here, since a text is included once, and those below only under conditions.
+#include "shared/power_of_cosine.h"
 #include "shared/shading_point.h"
 #include "shared/material_models.h"
 #ifdef LAMBERT

@@ -2,6 +2,7 @@
 // cos^n. The exponent n = 2 / alpha^2 - 2 gives the width of GGX's lobe (Walter et al. 2007).
 #pragma once
 
+#include "shared/power_of_cosine.h"
 #include "shared/shading_point.h"
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
@@ -14,14 +15,7 @@ SHARED_FUNCTION real viewer_term(Lobe l) { return 2.0f / l.alpha_squared - 2.0f;
 // D V, 1 / sr. h is the unnormalised half vector; the others are |h|^2, n.h (a cosine times |h|) and sine^2
 // times |h|^2.
 SHARED_FUNCTION real specular_lobe(Lobe l, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
-  // log cos^2 = log(1 - sin^2). The rounding of 1 - sin^2 would grow to n / 2 roundings (exponents reach half
-  // a million), so the lost part is added again (Kahan's log1p).
-  real sine2 = min_real(across_squared / h_squared, REAL(1.0f));
-  EXACTLY real cosine2 = max_real(1.0f - sine2, REAL(1e-30f));
-  EXACTLY real rounded = 1.0f - cosine2;
-  real log_cosine2 = log_real(cosine2) * (sine2 / max_real(rounded, REAL(1e-30f)));
-  log_cosine2 = rounded > REAL(0.0f) ? log_cosine2 : -sine2;
-  real lobe = (l.viewer + 2.0f) * (0.125f / SHADING_PI) * exp_real(0.5f * l.viewer * log_cosine2);
+  real lobe = (l.viewer + 2.0f) * (0.125f / SHADING_PI) * power_of_cosine(l.viewer, h_squared, across_squared);
   return n_dot_h * n_dot_l > REAL(0.0f) ? lobe : REAL(0.0f);
 }
 

@@ -17,8 +17,8 @@ struct Technique {
   TechniqueNeeds needs;
   std::vector<const char*> settings;  // keys of the settings that it reads (plan/settings.h)
   Frame (*render)(RenderView& v);
-  // The lights that the last frame used at each pixel of opaque surfaces. Null: those of the frame's light
-  // grid or, without one, every light.
+  // The lights that the last frame used at each pixel of opaque surfaces, if the frame has no light grid. Null: every
+  // light.
   ListedLights (*listed)(RenderView& v) = nullptr;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;

@@ -132,8 +132,9 @@ TEST(RasterInOpenCl, DrawsTheSameBytesWithoutOpenGl) {
 // compare counts the pixels whose triangle is not OpenGL's apart: only of techniques that draw without it.
 TEST(RasterInOpenCl, HasSurfacesOfItsOwnOnlyWhereItIsChosen) {
   for (const Technique* technique : techniques()) {
-    const bool chooses = technique->name == std::string("deferred_tiled") || technique->name == std::string("forward_plus_compute") ||
-                         technique->name == std::string("voxel_lights");
+    const std::string name = technique->name;
+    const bool chooses = name == "deferred_tiled" || name == "forward_plus_compute" || name == "light_prepass" ||
+                         name == "voxel_lights";
     const bool visibility = technique->name == std::string("visibility");
     EXPECT_EQ(own_surfaces(*technique, {}), visibility) << technique->name;
     EXPECT_EQ(own_surfaces(*technique, opencl), chooses || visibility) << technique->name;

@@ -1,0 +1,50 @@
+// The normal of every pixel of a visibility buffer, for the light buffer of light_prepass, for CPUs: a
+// work-item takes a tile, block after block of 4 x 4 pixels.
+//
+// triangles   a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE
+// RESOLVE_ARGUMENTS  kernels/common/resolve_light.h; no lights are read
+// normals     out: a pixel each (shared/stored_normal.h)
+// -DTILE      pixels a side, a multiple of 8 (default 16)
+// -DNORMALS_…, and what kernels/common/resolve.h names
+#define FUSED  // shared/real.h
+#define LANES 16
+#include "kernels/common/image_blocks.h"
+#include "kernels/common/resolve_block.h"
+#include "kernels/common/resolve_light.h"
+#include "kernels/common/stored_normals.h"
+
+#ifndef TILE
+#define TILE 16
+#endif
+
+static inline void store_normals(global normal_t* to, Real3 n, uint x, uint y, uint width, uint height) {
+#ifdef NORMAL_CHANNEL_STEPS
+  const uint16 packed = packed_normal(n);
+  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
+  for (uint line = 0; line < lines; ++line) {
+    for (uint i = 0; i < columns; ++i)
+      to[(size_t)(y + line) * width + x + i] = ((const uint*)&packed)[4 * line + i];
+  }
+#else
+  store_block((global float*)to, n, REAL(0.0f), x, y, width, height);
+#endif
+}
+
+kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS, global normal_t* normals) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const ResolveScene scene = RESOLVE_SCENE;
+  const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
+  for (uint y = tile_y * TILE; y < y_end; y += 4) {
+    for (uint x = tile_x * TILE; x < x_end; x += 4) {
+      const uint16 triangle = load_block(triangles, x, y, width, height);
+      const mask_t covered = triangle != (uint16)(SURFACE_NONE);
+      Attributes a = {0};
+      Surface s = {0};
+      add_surfaces(&a, &s, &scene, triangle, covered, x, y);
+      const Real3 n = shading_normal(&a, &s);
+      const real none = 0.0f;
+      store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
+                    y, width, height);
+    }
+  }
+}

@@ -1,0 +1,52 @@
+// One light's part in the light buffer, to be added to it: light_prepass with prepass-lights=volumes.
+//   LIGHT_VOLUME, DEPTH_BOUNDS: as in deferred_light.frag
+//   NORMALS_…: the format of normals; LIGHT_EXPONENT: the lights' shininess (shared/light_buffer.h)
+//   LIGHT_SCALE: a sum of this size is stored as 1
+//   PREPASS_FIFTH_TERM: there is a second image
+#include "shaders/common/position.glsl"
+#include "shared/light_buffer.h"
+#include "shared/stored_normal.h"
+#include "shaders/lights/punctual.glsl"
+
+layout(binding = 0) uniform sampler2D normals;
+layout(binding = 2) uniform sampler2D depth_image;
+#ifdef LIGHT_VOLUME
+flat in uint light;
+#else
+uniform uint light;
+#endif
+#ifdef DEPTH_BOUNDS
+uniform vec2 depth_bounds;
+#endif
+
+layout(location = 0) out vec4 diffuse_specular;
+#ifdef PREPASS_FIFTH_TERM
+layout(location = 1) out vec2 weight_rim;
+#endif
+
+vec3 normal_of_pixel(ivec2 pixel) {
+  vec3 stored = texelFetch(normals, pixel, 0).xyz;
+#ifdef NORMAL_CHANNEL_STEPS
+  return normal_of_steps(floor(stored * NORMAL_CHANNEL_STEPS + 0.5));
+#else
+  return stored;
+#endif
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = texelFetch(depth_image, pixel, 0).r;
+#ifdef DEPTH_BOUNDS
+  if (depth < depth_bounds.x || depth > depth_bounds.y) discard;
+#endif
+  if (!(depth > 0.0)) discard;
+  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
+  PunctualLight from = light_at(int(light));
+  Arrival arrival = arrival_at(position, from);
+  if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
+  LightTerms terms = light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
+  diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);
+#ifdef PREPASS_FIFTH_TERM
+  weight_rim = vec2(terms.weight, terms.rim) * (1.0 / LIGHT_SCALE);
+#endif
+}

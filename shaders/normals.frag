@@ -1,0 +1,17 @@
+// The prepass of light_prepass: depth, and the normal that lights meet.
+//   NORMALS_OCTAHEDRAL, NORMALS_SPHEREMAP, NORMALS_XYZ8: the format (shared/stored_normal.h); without, floats
+#include "shaders/common/surface.glsl"
+#include "shared/stored_normal.h"
+
+layout(location = 0) out vec4 stored;
+
+void main() {
+#ifdef MASK
+  if (has(MATERIAL_MASK) && material_base_color().a < material.alpha_cutoff) discard;
+#endif
+  vec3 normal = shading_normal();
+#ifdef NORMAL_CHANNEL_STEPS
+  normal = steps_of_normal(normal) / NORMAL_CHANNEL_STEPS;
+#endif
+  stored = vec4(normal, 0.0);
+}

@@ -1,0 +1,102 @@
+#include "passes/common/light_buffer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/light_ranges.h"
+
+namespace lightgrid {
+
+const NormalLayout& normal_layout(const Settings& settings) {
+  return *std::ranges::find(normal_layouts, settings.normals, &NormalLayout::format);
+}
+
+const LightBufferLayout& light_buffer_layout(const Settings& settings) {
+  return *std::ranges::find(light_buffer_layouts, settings.buffer_bits, &LightBufferLayout::bits);
+}
+
+const char* prepass_define(const Settings& settings) {
+  if (settings.brdf == Brdf::lambert) return nullptr;
+  switch (settings.prepass_specular) {
+    case PrepassSpecular::plain:
+      return nullptr;
+    case PrepassSpecular::fifth_term:
+      return "PREPASS_FIFTH_TERM";
+    case PrepassSpecular::luminance:
+      return "PREPASS_LUMINANCE";
+    case PrepassSpecular::bent:
+      return "PREPASS_BENT";
+  }
+  return nullptr;
+}
+
+bool has_fifth_term(const Settings& settings) {
+  return settings.prepass_specular == PrepassSpecular::fifth_term && settings.brdf != Brdf::lambert;
+}
+
+double reference_light(const Scene& scene, const FramePlan& plan) {
+  double brightest = 0;
+  for (const int i : plan.local) {
+    const Light& light = scene.lights[size_t(i)];
+    const double range = range_of(light, size_t(i), plan.settings.ranges);
+    const double from = std::isfinite(range) && range > 0 ? range / 8 : 1;
+    const double irradiance = brightest_intensity(light) / (from * from);
+    if (std::isfinite(irradiance)) brightest = std::max(brightest, irradiance);
+  }
+  const double rounded = brightest > 0 ? std::exp2(std::ceil(std::log2(brightest))) : 1;
+  return std::clamp(rounded, 0x1p-60, 0x1p60);
+}
+
+double stored_scale(const RenderView& v) {
+  return v.plan.settings.buffer_bits == 32 ? 1 : reference_light(v.scene, v.plan);
+}
+
+std::vector<std::string> light_buffer_defines(const RenderView& v) {
+  const Settings& s = v.plan.settings;
+  std::vector<std::string> defines = {fmt::format("LIGHT_EXPONENT {:.1f}", double(s.prepass_shininess)),
+                                      fmt::format("LIGHT_SCALE {:.17e}", stored_scale(v))};
+  if (const char* define = prepass_define(s)) defines.emplace_back(define);
+  return defines;
+}
+
+NormalImage normal_image_of(RenderView& v) {
+  NormalImage n;
+  n.layout = &normal_layout(v.plan.settings);
+  n.texture = v.targets.texture(n.layout->image.name, n.layout->image.format, TargetUse::gbuffer);
+  n.framebuffer = v.targets.framebuffer({n.texture}, v.targets.depth());
+  n.depth = {v.depth_framebuffer()};
+  return n;
+}
+
+NormalsInCl normals_in_cl_of(RenderView& v, TargetUse use) {
+  const NormalLayout& layout = normal_layout(v.plan.settings);
+  return {&layout, &v.shared_pixels("normals", layout.image.bytes, use)};
+}
+
+LightBuffer light_buffer_of(RenderView& v) {
+  LightBuffer b;
+  b.layout = &light_buffer_layout(v.plan.settings);
+  b.first = v.targets.texture(b.layout->first.name, b.layout->first.format, TargetUse::gbuffer);
+  if (has_fifth_term(v.plan.settings))
+    b.second = v.targets.texture(b.layout->second.name, b.layout->second.format, TargetUse::gbuffer);
+  return b;
+}
+
+LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer) {
+  LightSource source = base_lighting(v);
+  source.defines.emplace_back("LIGHTS");
+  source.defines.emplace_back("LIGHTS_BUFFER");
+  for (std::string& define : light_buffer_defines(v)) source.defines.push_back(std::move(define));
+  // Where nothing reads it, lights of another brightness need no other program.
+  const bool bent = v.plan.settings.prepass_specular == PrepassSpecular::bent;
+  source.defines.push_back(
+      fmt::format("LIGHT_REFERENCE {:.17e}", bent ? reference_light(v.scene, v.plan) : 1.0));
+  source.textures = {{12, buffer.first}};
+  if (buffer.second) source.textures.push_back({13, buffer.second});
+  source.bytes = v.pixels() * buffer.bytes();
+  return source;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,19 @@
+// The light buffer of light_prepass from the light lists of tiles, in OpenCL.
+#pragma once
+
+#include "passes/common/light_buffer.h"
+
+namespace lightgrid {
+
+// A copy of OpenGL's image.
+NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals);
+
+// The sums over the lights of each tile's list (in the view's storage of opaque surfaces), rounded once. use:
+// gbuffer where it is not copied to OpenGL afterwards.
+LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, const DepthBuffer& depth,
+                                  const LightGrid& grid, TargetUse use);
+
+// A copy for OpenGL.
+LightBuffer light_buffer_to_gl(RenderView& v, const LightBufferInCl& buffer);
+
+}  // namespace lightgrid

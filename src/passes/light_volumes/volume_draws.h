@@ -1,0 +1,37 @@
+// Draws lights one after the other on the pixels that their volumes select: for passes that add what each
+// light does there.
+#pragma once
+
+#include "passes/light_volumes/light_volumes.h"
+
+namespace lightgrid {
+
+// The methods of the setting volume-culling (docs/techniques/deferred.md), for one fragment shader.
+class VolumeDraws {
+ public:
+  // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`) and DEPTH_BOUNDS
+  // (the uniform depth_bounds) besides `defines`.
+  VolumeDraws(RenderView& v, const char* fragment, std::vector<std::string> defines);
+
+  const GlProgram& program() const { return *program_; }
+
+  // Draws volumes first ... end - 1 of the view's LightVolumes into the bound framebuffer, which has the
+  // frame's depth.
+  void draw(size_t first, size_t end);
+
+ private:
+  bool drawn_as_volumes() const;
+  void draw_marked(size_t first, size_t end);
+  void draw_rectangles(size_t first, size_t end);
+
+  RenderView& v_;
+  VolumeCulling culling_;
+  LightVolumes& volumes_;
+  const GlProgram *program_ = nullptr, *marking_ = nullptr;
+};
+
+// Sets state for lights that add to the images of a framebuffer, which has the frame's depth. If volumes are
+// marked in its stencil, that is cleared.
+void begin_adding_lights(RenderView& v, GLuint framebuffer);
+
+}  // namespace lightgrid
