@@ -1,6 +1,7 @@
 // Forward shading. The light loop is an included file: LIGHTS_GRID for the light grid's lists, LIGHTS_MASKS
-// for its masks, LIGHTS_LIDR for light index images, LIGHTS_OBJECT for lights of the object, LIGHTS_VOXELS
-// for a voxel light buffer, LIGHTS_BUFFER for the sums of a light buffer, else every light.
+// for its masks, LIGHTS_LIDR for light index images, LIGHTS_WORLD for the world grid, LIGHTS_OBJECT for
+// lights of the object, LIGHTS_VOXELS for a voxel light buffer, LIGHTS_BUFFER for the sums of a light buffer,
+// else every light.
 // BLEND: output is multiplied by coverage, for blending over the image.
 // FIRST_OF_DRAWS, ADDED: the first of an object's draws, and a further one that only adds light. For the use
 // of alpha see src/passes/shade_objects.cpp.
@@ -21,6 +22,8 @@
 #include "shaders/lights/masks.glsl"
 #elif defined(LIGHTS_LIDR)
 #include "shaders/lights/lidr.glsl"
+#elif defined(LIGHTS_WORLD)
+#include "shaders/lights/world_grid.glsl"
 #elif defined(LIGHTS_OBJECT)
 #include "shaders/lights/object.glsl"
 #elif defined(LIGHTS_VOXELS)

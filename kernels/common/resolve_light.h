@@ -6,6 +6,7 @@
 // -DVOXELS       point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only the rest comes from
 //                the volume
+// -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
 // -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT  as kernels/common/shade_pixels.h says
 #pragma once
 
@@ -24,13 +25,26 @@
 #define VOXEL_ARGUMENTS
 #define GIVEN_VOXELS
 #endif
+#ifdef WORLD_GRID
+#include "shared/world_grid.h"
+#endif
 
 // What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
 // directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
 // pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth
-// keys between them; with -DSLICES the depth keys between slices.
+// keys between them; with -DSLICES the depth keys between slices; with -DWORLD_GRID the world
+// grid's own (shared/world_grid.h).
+#ifdef WORLD_GRID
+#define WORLD_ARGUMENTS                                                                                         \
+  , global const uint *world_buckets, global const uint2 *world_keys, constant WorldGridParams *world, constant \
+      WorldViewParams *world_view
+#define RESOLVE_WORLD , {world_buckets, world_keys, cells}, world, world_view
+#else
+#define WORLD_ARGUMENTS
+#define RESOLVE_WORLD
+#endif
 #define RESOLVE_ARGUMENTS                                                                            \
   global const uint *triangle_instance, global const RasterInstanceRecord *instances,                \
       global const uint *indices, global const float4 *clip, global const SurfaceInstance *surfaces, \
@@ -38,14 +52,14 @@
       global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
       global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
       global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
-      constant float *bin_edges, constant float *slice_edges, constant ViewParams *view VOXEL_ARGUMENTS
+      constant float *bin_edges, constant float *slice_edges, constant ViewParams *view VOXEL_ARGUMENTS WORLD_ARGUMENTS
 #define RESOLVE_SCENE                                                                               \
   {                                                                                                 \
     triangle_instance, instances, surfaces, indices, clip, vertices, materials, texels_4, texels_8, \
         (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                             \
   }
 #define RESOLVE_LIGHTS \
-  { {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, slice_edges GIVEN_VOXELS }
+  { {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, slice_edges GIVEN_VOXELS RESOLVE_WORLD }
 
 typedef struct ResolveLights {
   Lights lights;
@@ -59,12 +73,19 @@ typedef struct ResolveLights {
   global const stored_voxel_t *irradiance, *directions;
   constant VoxelLookup* voxels;
 #endif
+#ifdef WORLD_GRID  // `list` is then where all lists begin
+  WorldLists world_lists;
+  constant WorldGridParams* world;
+  constant WorldViewParams* world_view;
+#endif
 } ResolveLights;
 
 // The list of a tile's cell, or the cells that are one behind the other.
 static inline void take_list(ResolveLights* l, global const index_t* light_indices, global const uint2* cells,
                              uint cell, constant ViewParams* view) {
-#ifdef SLICES
+#ifdef WORLD_GRID
+  l->list = light_indices;
+#elif defined(SLICES)
   l->list = light_indices, l->cell = cell;
 #else
   l->list = cells ? light_indices + cells[cell].x : 0;
@@ -126,6 +147,66 @@ static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, co
 }
 #endif
 
+#ifdef WORLD_GRID
+// A cell's list and the lights of every list, merged: the order of the brute-force loop.
+static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t lit, uint2 range, const ResolveLights* l) {
+  uint i = range.x, other = l->world->everywhere_first;
+  const uint end = i + range.y, other_end = other + l->world->everywhere_count;
+  while (i < end || other < other_end) {
+    const uint light = i < end ? l->list[i] : UINT_MAX, everywhere = other < other_end ? l->list[other] : UINT_MAX;
+    if (light < everywhere) {
+      ++i;
+    } else {
+      ++other;
+    }
+    sum = with_light(sum, p, lit, min(light, everywhere), &l->lights);
+  }
+  return sum;
+}
+
+#if LANES == 16
+// The pixels' cells one after the other, each with its list. Neighbours are mostly in one cell.
+static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
+  constant WorldGridParams* const world = l->world;
+  const Real3 at = world_position(p->position, l->world_view);
+  const whole x = world_coordinate(at.x, world->least_x, world->most_x);
+  const whole y = world_coordinate(at.y, world->least_y, world->most_y);
+  const whole z = world_coordinate(at.z, world->least_z, world->most_z);
+  whole list = 0, count = 0;
+  uint2 ranges[LANES];
+  uint found = 0;
+  for (uint left = mask_bits(lit); left != 0; ++found) {
+    const uint one = lowest_bit(left);
+    const int cell_x = ((const int*)&x)[one], cell_y = ((const int*)&y)[one], cell_z = ((const int*)&z)[one];
+    const mask_t here = lit & (x == (whole)(cell_x)) & (y == (whole)(cell_y)) & (z == (whole)(cell_z));
+    left &= ~mask_bits(here);
+    ranges[found] = world_range((uint)cell_x, (uint)cell_y, (uint)cell_z, world, &l->world_lists);
+    list = here ? (whole)((int)ranges[found].x) : list, count = here ? (whole)((int)ranges[found].y) : count;
+  }
+  Real3 sum = own;
+  mask_t left = lit;
+  for (uint i = 0; i < found; ++i) {
+    // Small cells without lights of their own share a larger one's list.
+    const mask_t here = left & (list == (whole)((int)ranges[i].x)) & (count == (whole)((int)ranges[i].y));
+    if (!any_lane(here)) continue;
+    left &= ~here;
+    const Real3 with = sum_of_world_lists(own, p, here, ranges[i], l);
+    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+  }
+  return sum;
+}
+#else
+static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
+  constant WorldGridParams* const world = l->world;
+  const Real3 at = world_position(p->position, l->world_view);
+  const uint2 range = world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
+                                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
+                                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &l->world_lists);
+  return sum_of_world_lists(own, p, lit, range, l);
+}
+#endif
+#endif
+
 static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
                               constant ViewParams* view) {
   const Real3 ambient =
@@ -178,6 +259,8 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
   sum = exact_light(sum, &p, lit, l, &of_voxels);
 #endif
   sum = add3(sum, radiance_of_voxels(p, of_voxels));
+#elif defined(WORLD_GRID)
+  sum = light_of_world(sum, &p, lit, l);
 #elif defined(SLICES)
   sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);
 #else

@@ -104,6 +104,7 @@ std::vector<float> read_depth(TechniqueRun& run) {
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   RenderView& v = run.view();
   if (run.technique().listed && !run.frame().grid) return run.technique().listed(v);
+  if (run.technique().listed_at) return run.technique().listed_at(v, depth);
   if (!v.plan.light_grid) return list_every_light(uint32_t(v.plan.local.size()));
   const LightGrid& grid = *run.frame().grid;
   ListedLights lists;

@@ -25,6 +25,7 @@ constexpr FamilyMarker family_markers[] = {
     {"deferred", "M-4.5,-4.5h9v9h-9z"},
     {"clustered", "M0,-5.5L5.2,4.2H-5.2z"},
     {"lidr", "M0,-6L6,0L0,6L-6,0z"},
+    {"world", "M-6,-2.5h12v5h-12z"},
     {"voxel", "M-5,-3L0,-6L5,-3V3L0,6L-5,3z"},
     {"visibility", "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z"},
 };

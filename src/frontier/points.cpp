@@ -17,9 +17,9 @@ struct Star {
   int frames = 1;
 };
 
-// Each technique as it is, and voxel_lights in its sizes; then pairs and times of cull tests, bounds and tiles; precision of buffers;
-// capacity of lidr; model errors of ranges, windows and BRDFs. What does not depend on the technique is
-// varied on the fastest one.
+// Each technique as it is, voxel_lights in its sizes and world_grid in its shapes; then pairs and times of cull
+// tests, bounds and tiles; precision of buffers; capacity of lidr; model errors of ranges, windows and BRDFs. What
+// does not depend on the technique is varied on the fastest one.
 constexpr Star default_points[] = {
     {"forward", ""},
     {"forward_zprepass", ""},
@@ -41,6 +41,12 @@ constexpr Star default_points[] = {
     {"voxel_lights", "raster=opencl voxel-size=256x256x64"},
     {"voxel_lights", "raster=opencl voxel-bits=16"},
     {"voxel_lights", "raster=opencl voxel-space=view"},
+    {"world_grid", ""},
+    {"world_grid", "raster=opencl"},
+    {"world_grid", "raster=opencl world-cell=2"},
+    {"world_grid", "raster=opencl world-cell=0.5"},
+    {"world_grid", "raster=opencl world-grid=2d"},
+    {"world_grid", "raster=opencl world-grid=hashed"},
     {"forward_plus", "cull-test=sphere"},
     {"forward_plus", "cull-test=aabb"},
     {"forward_plus", "cull-test=exact"},

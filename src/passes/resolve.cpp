@@ -7,6 +7,7 @@
 
 #include "cl/launch.h"
 #include "passes/build_voxels.h"
+#include "passes/build_world_grid.h"
 #include "renderer/cl_lights.h"
 
 namespace lightgrid {
@@ -60,6 +61,7 @@ class Resolving : public PassState {
   auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces, const GridInCl& in) {
     const ClScene& s = scene(v);
     cl::Buffer cells, indices, light_bins;
+    if (in.world) cells = in.world->grid->cells(), indices = in.world->grid->indices();
     if (in.grid) {
       cells = in.storage->cells(in.grid->cell_bytes), indices = in.storage->indices(in.grid->index_bytes);
       if (in.grid->z_bin_bytes) light_bins = in.storage->z_bins(in.grid->z_bin_bytes);
@@ -119,19 +121,27 @@ cl_float4 background(const RenderView& v) {
 
 // Calls `launch` with the arguments of a kernel that adds these lights.
 template <typename Arguments, typename Launch>
-void with_voxels(const GridInCl& in, const Arguments& arguments, const Launch& launch) {
-  if (!in.voxels) return std::apply(launch, arguments);
-  std::apply(launch, std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(), in.voxels->directions->cl_buffer(),
-                                                          in.voxels->lookup)));
+void with_lights(const GridInCl& in, const Arguments& arguments, const Launch& launch) {
+  if (in.voxels) {
+    std::apply(launch, std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(), in.voxels->directions->cl_buffer(),
+                                                            in.voxels->lookup)));
+  } else if (in.world) {
+    WorldGrid& grid = *in.world->grid;
+    std::apply(launch, std::tuple_cat(arguments, std::tuple(grid.buckets(), grid.keys(), grid.params(), in.world->view)));
+  } else {
+    std::apply(launch, arguments);
+  }
 }
 
 std::string light_kernel_defines(const RenderView& v, const GridInCl& in) {
+  if (in.world) return " -DWORLD_GRID";
   if (!in.voxels) return "";
   const std::string exact = in.grid ? fmt::format(" -DVOXEL_EXACT={}", v.plan.settings.voxel_lights_exact) : "";
   return " -DVOXELS" + in.voxels->kernel_defines + exact;
 }
 
 size_t grid_bytes(const GridInCl& in) {
+  if (in.world) return in.world->grid->list_bytes();
   return (in.voxels ? in.voxels->bytes : 0) + (in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0);
 }
 
@@ -141,7 +151,7 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
   Resolving& r = v.state<Resolving>();
   cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("resolve", "cl");
-  with_voxels(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
+  with_lights(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
     launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle, visible.image.depth, shared...,
            background(v), r.image.cl_buffer());
   });
@@ -205,7 +215,7 @@ void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthB
   Resolving& r = v.state<Resolving>();
   cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("blend_resolved", "cl");
-  with_voxels(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
+  with_lights(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
     launch(*v.renderer.cl, "blend_resolved", kernel,
            r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
            r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records, blended.lists.tile_begin,

@@ -8,13 +8,15 @@
 namespace lightgrid {
 
 struct VoxelVolume;
+struct WorldGridInCl;
 
-// A light grid and where it lies; null: every light is added. Or a voxel light buffer, of which the lights of
-// the grid that matter most are taken out.
+// A light grid and where it lies; null: every light is added. Or the world grid; or a voxel light buffer, of which the
+// lights of the grid that matter most are taken out.
 struct GridInCl {
   const LightGrid* grid = nullptr;
   SharedGridStorage* storage = nullptr;
   const VoxelVolume* voxels = nullptr;
+  const WorldGridInCl* world = nullptr;
 };
 
 // Attributes, textures and light of every pixel in one pass. The image stays in OpenCL's memory.

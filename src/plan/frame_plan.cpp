@@ -183,6 +183,7 @@ bool reads_light_grid(const TechniqueNeeds& needs, const Settings& settings) {
 
 void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = reads_light_grid(needs, plan.settings);
+  plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
@@ -269,6 +270,11 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
                             : !plan.light_grid ? "no light grid"
                             : !plan.blend      ? "no blended material in view"
                                                : "without depth bounds, one grid serves all surfaces"});
+  plan.world_grid = needs.world_grid && plan.local_lights;
+  if (needs.world_grid) {
+    plan.decisions.push_back(
+        {"world grid", plan.world_grid, plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
+  }
   plan_slices(scene, view, needs, plan);
   plan.decisions.push_back({"shadows", false, "no light casts one: shadows are not part of any technique yet"});
   if (settings.everything_on) turn_everything_on(plan, needs);

@@ -64,6 +64,7 @@ struct TechniqueNeeds {
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool exact_lights = false;  // whose light grid is read only with voxel-lights-exact
   bool chosen_lights = false;  // whose light grid is left out by the setting lights=all
+  bool world_grid = false;     // light lists in cells of the world
 };
 
 // Whether a technique with these settings draws lights one by one.
@@ -80,6 +81,7 @@ struct FramePlan {
   std::vector<uint32_t> features_of_instance;  // one for each of the scene's instances; 0 if not in view
 
   bool light_grid = false;     // culling kernels and the grid's buffers
+  bool world_grid = false;     // lists in cells of the world
   bool local_lights = false;   // at least one point or spot light
   bool spots = false;          // compile cone code
   bool directional = false;

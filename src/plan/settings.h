@@ -42,6 +42,10 @@ enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a l
 enum class VoxelSpace { world, view };
 enum class VoxelSize { s16x16x4, s32x32x8, s64x64x16, s128x128x16, s128x128x32, s128x128x64, s256x256x64 };
 
+// How world_grid cuts the world into cells (docs/techniques/world_grid.md): columns over its ground, cubes of one size, or cubes
+// of sizes that suit each light.
+enum class WorldGridShape { columns, cubes, hashed };
+
 struct Settings {
   Brdf brdf = Brdf::ggx;
   LightRanges ranges;
@@ -77,6 +81,8 @@ struct Settings {
   int voxel_bits = 32;         // of a stored value: 16 or 32
   int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
+  WorldGridShape world_grid = WorldGridShape::cubes;
+  double world_cell = 1;       // a cell's edge over the radius of lights: 2, 1, 0.5 or 0.25
   bool portable = false;       // kernels without the builtins of one kind of CPU
   int group_size = 0;          // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against

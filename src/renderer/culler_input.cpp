@@ -1,6 +1,9 @@
 #include "renderer/culler_input.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "base/parallel.h"
 
 namespace lightgrid {
 
@@ -16,12 +19,21 @@ CullView cull_view(const View& view, const FramePlan& plan) {
 }
 
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges) {
-  std::vector<CullLight> lights;
-  lights.reserve(indices.size());
-  for (int i : indices) {
-    const Light& light = scene.lights[i];
-    lights.push_back({light.position, range_of(light, size_t(i), ranges), glm::normalize(glm::dvec3(light.direction)),
-                      light.type == LightType::spot ? std::cos(double(light.outer_cone_rad)) : -1.0});
+  std::vector<CullLight> lights(indices.size());
+  const auto convert = [&](size_t begin, size_t end) {
+    for (size_t at = begin; at < end; ++at) {
+      const Light& light = scene.lights[size_t(indices[at])];
+      lights[at] = {light.position, range_of(light, size_t(indices[at]), ranges), glm::normalize(glm::dvec3(light.direction)),
+                    light.type == LightType::spot ? std::cos(double(light.outer_cone_rad)) : -1.0};
+    }
+  };
+  // Below that a thread takes longer to start.
+  constexpr size_t part = 8192;
+  if (lights.size() <= part) {
+    convert(0, lights.size());
+  } else {
+    parallel_for(int((lights.size() + part - 1) / part),
+                 [&](int i) { convert(size_t(i) * part, std::min(size_t(i + 1) * part, lights.size())); });
   }
   return lights;
 }

@@ -6,6 +6,17 @@ void GpuScene::update(const SceneChanges& changes) {
   if (in_gl_) in_gl_->update(changes);
   for (const auto& [layout, scene] : in_cl_) scene->update(changes);
   shape_version_ += changes.meshes.empty() ? 0 : 1;
+  lights_version_ += changes.lights.empty() ? 0 : 1;
+}
+
+std::shared_ptr<WorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldGridKey& key) {
+  std::erase_if(world_grids_, [](const auto& held) { return held.second.expired(); });
+  for (const auto& [held_key, held] : world_grids_) {
+    if (held_key == key) return held.lock();
+  }
+  auto made = std::make_shared<WorldGrid>(renderer, key.shape, key.cell, key.index_bits);
+  world_grids_.emplace_back(key, made);
+  return made;
 }
 
 GlScene& GpuScene::in_gl() {

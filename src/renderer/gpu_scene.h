@@ -7,6 +7,7 @@
 
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
+#include "renderer/world_grid.h"
 
 namespace lightgrid {
 
@@ -27,15 +28,20 @@ class GpuScene {
   // Frees the copies in OpenCL's memory: in_cl() then makes them again. No view may hold it.
   void free_in_cl() { in_cl_.clear(); }
 
-  // Counts the updates that moved vertices, for whoever holds positions of its own.
+  // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
+  std::shared_ptr<WorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
+
+  // Count the updates that moved vertices and lights, for whoever holds positions of its own.
   int shape_version() const { return shape_version_; }
+  int lights_version() const { return lights_version_; }
 
  private:
   const Renderer& renderer_;
   const Scene& scene_;
   std::unique_ptr<GlScene> in_gl_;
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
-  int shape_version_ = 0;
+  std::vector<std::pair<WorldGridKey, std::weak_ptr<WorldGrid>>> world_grids_;
+  int shape_version_ = 0, lights_version_ = 0;
 };
 
 }  // namespace lightgrid

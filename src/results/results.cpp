@@ -117,6 +117,14 @@ json settings_json(const std::map<std::string, std::string>& settings) {
   return out;
 }
 
+// Of a pass whose result serves many frames: the frame's median, which is without it, with its share.
+static json build_json(const PassResult& pass, double frame_ms) {
+  const auto shared = [&](int frames) { return frame_ms + pass.median_ms / frames; };
+  return {{"pass", pass.name},
+          {"median_ms", pass.median_ms},
+          {"frame_ms_over", {{"1", shared(1)}, {"10", shared(10)}, {"100", shared(100)}}}};
+}
+
 json to_json(const RunResult& result) {
   json passes = json::array(), skipped = json::array();
   for (const auto& pass : result.passes) passes.push_back(to_json(pass));
@@ -133,6 +141,9 @@ json to_json(const RunResult& result) {
               {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},
               {"skipped", skipped}};
+  for (const auto& pass : result.passes) {
+    if (pass.name == "build_world_grid") out["build"] = build_json(pass, result.frame_ms.median);
+  }
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
   return out;

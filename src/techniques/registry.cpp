@@ -4,13 +4,13 @@
 namespace lightgrid {
 
 extern const Technique forward, forward_multipass, forward_zprepass, forward_plus, clustered, forward_plus_compute,
-    deferred, deferred_tiled, light_prepass, lidr, visibility, voxel_lights;
+    deferred, deferred_tiled, light_prepass, lidr, visibility, voxel_lights, world_grid;
 
 const std::vector<const Technique*>& techniques() {
   static const std::vector<const Technique*> all = {
       &forward, &forward_multipass, &forward_zprepass, &forward_plus, &clustered, &forward_plus_compute,
       &deferred, &deferred_tiled, &light_prepass, &lidr, &visibility,
-      &voxel_lights};
+      &voxel_lights, &world_grid};
   return all;
 }
 

@@ -20,6 +20,8 @@ struct Technique {
   // The lights that the last frame used at each pixel of opaque surfaces, if the frame has no light grid. Null: every
   // light.
   ListedLights (*listed)(RenderView& v) = nullptr;
+  // The same for techniques whose lists follow from a pixel's depth: that of the frame's surfaces, row 0 at the bottom.
+  ListedLights (*listed_at)(RenderView& v, const std::vector<float>& depth) = nullptr;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
   // Its picture is not forward's, by nature: lists and images need not be exact.

@@ -23,7 +23,7 @@ std::string name_of_device(const std::string& substring) {
 class DeviceEngine : public CullEngine {
  public:
   explicit DeviceEngine(const std::string& substring)
-      : device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
+      : substring_(substring), device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
 
   std::string name() const override { return name_; }
   bool is_the_library() const override { return true; }
@@ -55,6 +55,13 @@ class DeviceEngine : public CullEngine {
     const TileBounds bounds = bounds_from(culler, depth, blend);
     HostGrid grid = read_grid(device_, culler.cull(bounds, storage_), storage_);
     return KernelRun{culler.read_inputs(bounds), std::move(grid)};
+  }
+
+  WorldGrid* world_grid(WorldGridShape shape, double cell, int index_bits) override {
+    if (!renderer_) renderer_ = std::make_unique<Renderer>(substring_, GlBackend::none);
+    auto& grid = world_grids_[{shape, cell, index_bits}];
+    if (!grid) grid = std::make_unique<WorldGrid>(*renderer_, shape, cell, index_bits);
+    return grid.get();
   }
 
   std::optional<RasterImage> rasterize(const RasterOptions& options, const RasterInput& input) override {
@@ -111,12 +118,15 @@ class DeviceEngine : public CullEngine {
     return blend ? bounds.blend : bounds.opaque;
   }
 
+  std::string substring_;
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;
   std::string name_;
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
   std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Rasterizer>> rasterizers_;
+  std::unique_ptr<Renderer> renderer_;  // without OpenGL
+  std::map<std::tuple<WorldGridShape, double, int>, std::unique_ptr<WorldGrid>> world_grids_;
 };
 
 }  // namespace

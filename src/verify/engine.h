@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "culling/light_culler.h"
+#include "renderer/world_grid.h"
 #include "verify/raster_input.h"
 
 namespace lightgrid::verify {
@@ -55,6 +56,9 @@ class CullEngine {
                                               const DepthImage&, bool /*blend*/) {
     return {};
   }
+
+  // Lists of the world grid, to build; the same one each time. Null from an engine that only culls.
+  virtual WorldGrid* world_grid(WorldGridShape, double /*cell*/, int /*index_bits*/) { return nullptr; }
 
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }

@@ -12,7 +12,7 @@ namespace lightgrid::verify {
 class Check;
 
 struct HardCase {
-  const char* group;      // depth, camera, lights, lists, agreement, raster
+  const char* group;      // depth, camera, lights, lists, agreement, raster, world
   const char* name;
   const char* input;
   const char* breaks;     // the fault of naive code
@@ -33,6 +33,7 @@ std::vector<HardCase> light_place_cases();
 std::vector<HardCase> list_cases();
 std::vector<HardCase> agreement_cases();
 std::vector<HardCase> raster_cases();
+std::vector<HardCase> world_cases();
 
 enum class Verdict { pass, fail, skip };
 

@@ -134,7 +134,7 @@ TEST(RasterInOpenCl, HasSurfacesOfItsOwnOnlyWhereItIsChosen) {
   for (const Technique* technique : techniques()) {
     const std::string name = technique->name;
     const bool chooses = name == "deferred_tiled" || name == "forward_plus_compute" || name == "light_prepass" ||
-                         name == "voxel_lights";
+                         name == "voxel_lights" || name == "world_grid";
     const bool visibility = technique->name == std::string("visibility");
     EXPECT_EQ(own_surfaces(*technique, {}), visibility) << technique->name;
     EXPECT_EQ(own_surfaces(*technique, opencl), chooses || visibility) << technique->name;

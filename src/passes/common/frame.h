@@ -52,6 +52,7 @@ struct Frame {
   std::optional<LightGrid> grid;        // of opaque surfaces, in RenderView::opaque_grid()
   std::optional<LightGrid> blend_grid;  // of blended ones, in RenderView::blend_grid()
   size_t light_index_bytes = 0;         // of LightIndexImages
+  size_t world_grid_bytes = 0;          // of WorldGrid's lists
   std::optional<DepthBuffer> depth;     // of techniques that rasterise in OpenCL; else the depth image has it
   std::optional<TriangleBuffer> triangles;  // of the same techniques
 

@@ -20,6 +20,7 @@ void LightSource::bind(const RenderView& v) const {
   v.bind_lights();
   for (const Binding& binding : textures) glBindTextureUnit(binding.unit, binding.texture);
   if (voxel_block) glBindBufferBase(GL_UNIFORM_BUFFER, 4, voxel_block);
+  for (const Block& block : blocks) glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
 }
 
 LightSource base_lighting(const RenderView& v) {

@@ -15,6 +15,10 @@ struct LightSource {
   };
   std::vector<Binding> textures;
   GLuint voxel_block = 0;  // a uniform block that the loop reads; 0: none
+  struct Block {
+    GLuint binding, buffer;
+  };
+  std::vector<Block> blocks;  // uniform blocks besides the view's
   size_t bytes = 0;  // of the lists, for passes that count bytes read
 
   void bind(const RenderView& v) const;  // binds these textures, the lights and the view

@@ -1,0 +1,36 @@
+// The lights of the pixel's cell of the world grid, in the order of their indices: the sum has the bits of the brute-force
+// loop.
+//   WORLD_EVERYWHERE: some lights belong to every list; they are stored once, behind the cells' lists.
+
+layout(binding = 12) uniform usamplerBuffer world_cells;    // first, count
+layout(binding = 13) uniform usamplerBuffer world_indices;
+layout(binding = 14) uniform usamplerBuffer world_buckets;
+layout(binding = 15) uniform usamplerBuffer world_keys;
+#include "shared/world_grid.h"
+
+uvec2 world_range_at(vec3 position) {
+  vec3 at = world_position(position);
+  return world_range(uint(world_coordinate(at.x, world.least_x, world.most_x)),
+                     uint(world_coordinate(at.y, world.least_y, world.most_y)),
+                     uint(world_coordinate(at.z, world.least_z, world.most_z)));
+}
+
+vec3 light_sum(ShadingPoint p) {
+  uvec2 range = world_range_at(p.position);
+  uint i = range.x, end = range.x + range.y;
+  vec3 sum = vec3(0.0);
+#ifdef WORLD_EVERYWHERE
+  // Two sorted lists without a common light, merged.
+  uint other = world.everywhere_first, other_end = other + world.everywhere_count;
+  while (i < end || other < other_end) {
+    uint light = i < end ? texelFetch(world_indices, int(i)).r : 0xffffffffu;
+    uint everywhere = other < other_end ? texelFetch(world_indices, int(other)).r : 0xffffffffu;
+    if (light < everywhere) ++i;
+    else ++other;
+    sum += punctual_light(p, int(min(light, everywhere)));
+  }
+#else
+  for (; i < end; ++i) sum += punctual_light(p, int(texelFetch(world_indices, int(i)).r));
+#endif
+  return sum;
+}

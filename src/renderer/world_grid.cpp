@@ -1,0 +1,291 @@
+// Building: pairs of blocks and lights in the order of the lights, sorted stably by block, then each block's
+// lists. Each step counts in chunks, adds the counts up and writes, so that nothing is dropped and no place
+// depends on the order of threads.
+#include "renderer/world_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+#include "cl/avx512.h"
+#include "cl/launch.h"
+#include "cl/transfer.h"
+
+namespace lightgrid {
+namespace {
+
+// The device has a limit for one buffer, and entries are counted in 32 bits.
+void check_count(ClDevice& device, const char* what, uint64_t count, size_t bytes_each) {
+  const uint64_t most = device.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  if (count < std::numeric_limits<uint32_t>::max() && count * bytes_each <= most) return;
+  throw machine_error(
+      "world grid: {} {} take {} bytes, more than the {} that this device gives to one buffer; use larger "
+      "cells (world-cell), "
+      "smaller ranges or fewer lights",
+      count, what, count * bytes_each, most);
+}
+
+}  // namespace
+
+bool HostWorldGrid::operator==(const HostWorldGrid& other) const {
+  return std::equal(reinterpret_cast<const char*>(&params), reinterpret_cast<const char*>(&params + 1),
+                    reinterpret_cast<const char*>(&other.params)) &&
+         buckets == other.buckets && keys == other.keys && cells == other.cells && indices == other.indices;
+}
+
+glm::uvec2 HostWorldGrid::range_at(const glm::vec3& p) const {
+  return world_range(uint(world_coordinate(p.x, params.least_x, params.most_x)),
+                     uint(world_coordinate(p.y, params.least_y, params.most_y)),
+                     uint(world_coordinate(p.z, params.least_z, params.most_z)), params,
+                     {buckets.data(), keys.data(), cells.data()});
+}
+
+std::span<const uint32_t> HostWorldGrid::everywhere() const {
+  return std::span(indices).subspan(params.everywhere_first, params.everywhere_count);
+}
+
+WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits)
+    : renderer_(renderer), shape_(shape), cell_(cell), index_bits_(index_bits) {}
+
+bool WorldGrid::serves(const View& view, int lights_version) const {
+  return lights_version_ == lights_version && layout_.reach.holds(reach_of(view, layout_.middle));
+}
+
+cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
+  if (!shared.buffer || shared.buffer->size() < bytes) {
+    if (renderer_.gl) {
+      GLint texels = 0;
+      glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+      const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
+      if (bytes / texel_bytes > size_t(texels)) {
+        throw machine_error(
+            "world grid: {} bytes are more than the {} texels that a buffer texture may have in this OpenGL; "
+            "use larger cells "
+            "(world-cell), smaller ranges or fewer lights",
+            bytes, texels);
+      }
+    }
+    shared.texture = GlTexture();
+    shared.buffer.reset();  // freed first, so that both need not fit at once
+    shared.buffer.emplace(*renderer_.cl, renderer_.bridge, std::max<size_t>(bytes, 64));
+    if (renderer_.gl) shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
+  }
+  return shared.buffer->cl_buffer();
+}
+
+// Some chunks for each thread on a CPU, and thousands of them elsewhere.
+size_t WorldGrid::chunk_of(size_t count, size_t least) const {
+  const bool cpu = renderer_.cl->info().cpu;
+  const size_t items = cpu ? 32 : 8192;
+  return std::max((count + items - 1) / items, cpu ? least : least / 16);
+}
+
+void WorldGrid::run(const char* name, size_t items, const auto&... arguments) {
+  const std::string file = std::string("world_") + name;
+  std::string defines;
+  if (file == "world_lists") {
+    if (index_bits_ == 32) defines += " -DINDEX_32";
+    if (builds_avx512(*renderer_.cl, *renderer_.kernels)) defines += " -DAVX512";
+  }
+  cl::Kernel kernel = renderer_.kernels->kernel(file, defines);
+  const size_t group = renderer_.cl->info().cpu ? 1 : 64;
+  launch(*renderer_.cl, file, kernel, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group),
+         arguments...);
+}
+
+// Of totals_. Returns the sum of all, if it is read.
+uint64_t WorldGrid::scan(size_t count, bool read) {
+  cl::Kernel kernel = renderer_.kernels->kernel("world_scan", "");
+  const size_t group = renderer_.cl->info().cpu ? 1 : 256;
+  launch(*renderer_.cl, "world_scan", kernel, cl::NDRange(group), cl::NDRange(group), totals_.get(),
+         cl_uint(count), total_.at_least(*renderer_.cl, 8));
+  uint64_t total = 0;
+  if (read) read_buffer(*renderer_.cl, "reading the world grid's size", total_.get(), &total, sizeof total);
+  return total;
+}
+
+// From lights to pairs_[0], sorted by bucket.
+void WorldGrid::sort_pairs() {
+  ClDevice& device = *renderer_.cl;
+  check_count(device, "pairs of blocks and lights", layout_.pairs, 16);
+  pair_count_ = size_t(layout_.pairs);
+  if (pair_count_ == 0) return;
+  for (GrowingBuffer& buffer : pairs_) buffer.at_least(device, pair_count_ * 16);
+  const size_t lights = layout_.lights.size(), lights_chunk = chunk_of(lights, 64);
+  run("blocks", (lights + lights_chunk - 1) / lights_chunk, lights_.buffer(),
+      layout_.levels.empty() ? cl::Buffer() : levels_.buffer(), first_pairs_.buffer(), pairs_[0].get(),
+      cl_uint(lights), cl_uint(lights_chunk), params());
+  const size_t chunk = chunk_of(pair_count_, 2048), chunks = (pair_count_ + chunk - 1) / chunk;
+  const int most_bits = device.info().cpu ? 11 : 8;
+  const int passes = (layout_.bucket_bits + most_bits - 1) / most_bits,
+            bits = (layout_.bucket_bits + passes - 1) / passes;
+  const cl_uint digits = 1u << bits;
+  totals_.at_least(device, digits * chunks * 4);
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto step = [&](cl_uint write) {
+      run("sort", chunks, pairs_[0].get(), pairs_[1].get(), totals_.get(), cl_uint(pair_count_),
+          cl_uint(chunk), cl_uint(chunks), cl_uint(pass * bits), digits, write);
+    };
+    step(0);
+    scan(digits * chunks, false);
+    step(1);
+    std::swap(pairs_[0], pairs_[1]);
+  }
+  if (layout_.params.bucket_bits > 0) {
+    run("split", chunks, pairs_[0].get(), pairs_[1].get(), cl_uint(pair_count_), cl_uint(chunk));
+  }
+}
+
+// From sorted pairs to blocks, and the buckets that lead to them.
+void WorldGrid::find_blocks() {
+  ClDevice& device = *renderer_.cl;
+  const WorldGridParams& p = layout_.params;
+  const size_t buckets = p.bucket_bits > 0 ? size_t(1) << p.bucket_bits
+                                           : size_t(p.blocks_x) * p.blocks_y * (p.cells_z >> p.shift_z);
+  sizes_[0] = (buckets + 1) * 4;
+  grown(buckets_, sizes_[0], GL_R32UI);
+  blocks_ = 0;
+  if (pair_count_ == 0) {
+    fill_buffer(device, "clearing the world grid", this->buckets(), 0, sizes_[0]);
+    grown(keys_, 0, GL_RG32UI);
+    sizes_[1] = 0;
+    return;
+  }
+  const size_t chunk = chunk_of(pair_count_, 1024), chunks = (pair_count_ + chunk - 1) / chunk;
+  const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& keys,
+                        const cl::Buffer& members) {
+    run("entries", chunks, pairs_[0].get(), totals_.get(), first, keys, members, this->buckets(),
+        cl_uint(buckets), cl_uint(pair_count_), cl_uint(chunk), write);
+  };
+  totals_.at_least(device, chunks * 4);
+  step(0, {}, {}, {});
+  blocks_ = size_t(scan(chunks, true));
+  sizes_[1] = blocks_ * 8;
+  step(1, block_first_.at_least(device, (blocks_ + 1) * 4), grown(keys_, sizes_[1], GL_RG32UI),
+       members_.at_least(device, pair_count_ * 4));
+}
+
+// Of hashed grids with several levels: full_members_.
+void WorldGrid::inherit() {
+  ClDevice& device = *renderer_.cl;
+  const size_t chunk = chunk_of(blocks_, 16), chunks = (blocks_ + chunk - 1) / chunk;
+  totals_.at_least(device, chunks * 4);
+  const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& members) {
+    run("inherit", chunks, lights_.buffer(), block_first_.get(), members_.get(), keys(), buckets(),
+        totals_.get(), first, members, cl_uint(blocks_), cl_uint(chunk), write, params());
+  };
+  step(0, {}, {});
+  const uint64_t members = scan(chunks, true);
+  check_count(device, "pairs of blocks and lights", members, 8);
+  step(1, full_first_.at_least(device, (blocks_ + 1) * 4),
+       full_members_.at_least(device, size_t(members) * 4));
+  masks_.at_least(device, size_t(members) * 8);
+}
+
+void WorldGrid::write_lists() {
+  ClDevice& device = *renderer_.cl;
+  const size_t index_bytes = size_t(index_bits_) / 8;
+  const bool inherited = blocks_ > 0 && std::popcount(layout_.params.levels) > 1;
+  if (inherited) inherit();
+  sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
+  check_count(device, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
+  grown(cells_, sizes_[2], GL_RG32UI);
+  const size_t chunk = chunk_of(blocks_, 4), chunks = (blocks_ + chunk - 1) / chunk;
+  const auto step = [&](cl_uint write, const cl::Buffer& indices) {
+    if (blocks_ == 0) return;
+    run("lists", chunks, lights_.buffer(), layout_.cones.empty() ? cl::Buffer() : cones_.buffer(),
+        (inherited ? full_first_ : block_first_).get(), (inherited ? full_members_ : members_).get(), keys(),
+        masks_.get(), totals_.get(), cells(), indices, cl_uint(blocks_), cl_uint(chunk), write, params());
+  };
+  if (!inherited) masks_.at_least(device, pair_count_ * 8);
+  totals_.at_least(device, std::max<size_t>(chunks, 1) * 4);
+  step(0, {});
+  const uint64_t entries = blocks_ > 0 ? scan(chunks, true) : 0;
+  const size_t everywhere = layout_.everywhere.size();
+  check_count(device, "list entries", entries + everywhere, index_bytes);
+  entries_ = size_t(entries);
+  sizes_[3] = (entries_ + everywhere) * index_bytes;
+  const size_t spare = sizes_[3] / 4;  // for lights that move
+  grown(indices_,
+        indices_.buffer && indices_.buffer->size() >= sizes_[3] ? sizes_[3]
+                                                                : sizes_[3] + (builds_ > 0 ? spare : 0),
+        index_bits_ == 16 ? GL_R16UI : GL_R32UI);
+  step(1, indices());
+  if (index_bits_ == 16) {
+    const std::vector<uint16_t> narrow(layout_.everywhere.begin(), layout_.everywhere.end());
+    write_buffer(device, "uploading lights of every list", indices(), narrow.data(), everywhere * 2,
+                 entries_ * 2);
+  } else {
+    write_buffer(device, "uploading lights of every list", indices(), layout_.everywhere.data(),
+                 everywhere * 4, entries_ * 4);
+  }
+  layout_.params.everywhere_first = uint(entries_);
+}
+
+void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view,
+                      int lights_version) {
+  lights_version_ = -1;
+  ClDevice& device = *renderer_.cl;
+  layout_ = world_layout(lights, bounds, shape_, cell_, view);
+  constexpr const char* what = "uploading lights";
+  params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
+  lights_.put(device, what, layout_.lights);
+  cones_.put(device, what, layout_.cones);
+  levels_.put(device, what, layout_.levels);
+  first_pairs_.put(device, what, layout_.first_pairs);
+  pair_count_ = 0;
+  if (!lights.empty()) sort_pairs();
+  find_blocks();
+  write_lists();
+  params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
+  list_bytes_ = sizes_[0] + sizes_[1] + sizes_[2] + sizes_[3];
+  lights_version_ = lights_version, in_gl_ = false;
+  ++builds_;
+}
+
+void WorldGrid::hand_to_gl() {
+  if (in_gl_) return;
+  Shared* shared[] = {&buckets_, &keys_, &cells_, &indices_};
+  for (int i = 0; i < 4; ++i) {
+    if (sizes_[i] > 0) shared[i]->buffer->hand_to_gl(sizes_[i]);
+  }
+  block_ = make_buffer(sizeof layout_.params, &layout_.params);
+  in_gl_ = true;
+}
+
+size_t WorldGrid::memory_bytes() const {
+  size_t bytes = 0;
+  for (const Shared* shared : {&buckets_, &keys_, &cells_, &indices_})
+    bytes += shared->buffer ? shared->buffer->size() : 0;
+  for (const UploadedBuffer* uploaded : {&params_, &lights_, &cones_, &levels_, &first_pairs_})
+    bytes += uploaded->bytes();
+  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &block_first_, &members_,
+                                      &full_first_, &full_members_, &masks_}) {
+    bytes += buffer->bytes();
+  }
+  return bytes;
+}
+
+HostWorldGrid WorldGrid::read() {
+  ClDevice& device = *renderer_.cl;
+  HostWorldGrid host;
+  host.params = layout_.params;
+  constexpr const char* what = "reading the world grid";
+  host.buckets.resize(sizes_[0] / 4), host.keys.resize(sizes_[1] / 8), host.cells.resize(sizes_[2] / 8);
+  read_buffer(device, what, buckets(), host.buckets.data(), sizes_[0]);
+  read_buffer(device, what, keys(), host.keys.data(), sizes_[1]);
+  read_buffer(device, what, cells(), host.cells.data(), sizes_[2]);
+  if (index_bits_ == 32) {
+    host.indices.resize(sizes_[3] / 4);
+    read_buffer(device, what, indices(), host.indices.data(), sizes_[3]);
+  } else {
+    std::vector<uint16_t> narrow(sizes_[3] / 2);
+    read_buffer(device, what, indices(), narrow.data(), sizes_[3]);
+    host.indices.assign(narrow.begin(), narrow.end());
+  }
+  return host;
+}
+
+}  // namespace lightgrid

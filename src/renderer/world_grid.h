@@ -1,0 +1,102 @@
+// Light lists in cells of the world, on the device: built once for a scene's lights, read by any number of
+// views (docs/techniques/world_grid.md). GpuScene::world_grid shares them.
+#pragma once
+
+#include <optional>
+
+#include "cl/growing_buffer.h"
+#include "cl/uploaded_buffer.h"
+#include "renderer/renderer.h"
+#include "renderer/world_layout.h"
+
+namespace lightgrid {
+
+// Lists of the same key and lights are the same.
+struct WorldGridKey {
+  WorldGridShape shape;
+  double cell;
+  int index_bits;
+  LightRanges ranges;
+  bool operator==(const WorldGridKey&) const = default;
+};
+
+// The finished lists on the host, for the oracle and for tests.
+struct HostWorldGrid {
+  WorldGridParams params{};
+  std::vector<uint32_t> buckets, indices;
+  std::vector<glm::uvec2> keys, cells;
+  bool operator==(const HostWorldGrid& other) const;
+
+  // The cell of a position of world_position, as (first, count) in `indices`, as shading finds it.
+  glm::uvec2 range_at(const glm::vec3& position) const;
+  std::span<const uint32_t> everywhere() const;
+};
+
+class WorldGrid {
+ public:
+  WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits);
+
+  // Whether the lists are those of these lights (GpuScene::lights_version) and right for the view.
+  bool serves(const View& view, int lights_version) const;
+
+  // Builds them. The same bytes in both kernel shapes and with any number of threads. bounds: of the scene's
+  // surfaces; lists outside are right too, but cells there are not small. Throws Error(machine) that names
+  // the bytes if memory does not suffice; the grid then serves no view.
+  void build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view, int lights_version);
+
+  // Makes them visible to OpenGL, once a build.
+  void hand_to_gl();
+
+  const WorldLayout& layout() const { return layout_; }
+  const cl::Buffer& params() const { return params_.buffer(); }
+  cl::Buffer& buckets() { return buckets_.buffer->cl_buffer(); }
+  cl::Buffer& keys() { return keys_.buffer->cl_buffer(); }
+  cl::Buffer& cells() { return cells_.buffer->cl_buffer(); }
+  cl::Buffer& indices() { return indices_.buffer->cl_buffer(); }
+
+  // Buffer textures and the uniform block of the params, after hand_to_gl.
+  GLuint bucket_texture() const { return buckets_.texture.name(); }
+  GLuint key_texture() const { return keys_.texture.name(); }
+  GLuint cell_texture() const { return cells_.texture.name(); }
+  GLuint index_texture() const { return indices_.texture.name(); }
+  GLuint block() const { return block_.name(); }
+
+  size_t list_bytes() const { return list_bytes_; }  // in use
+  size_t memory_bytes() const;                       // of everything, with what only building needs
+  size_t blocks() const { return blocks_; }
+  size_t entries() const { return entries_; }  // of the cells' lists
+  int builds() const { return builds_; }
+
+  HostWorldGrid read();  // waits
+
+ private:
+  struct Shared {
+    std::optional<SharedBuffer> buffer;
+    GlTexture texture;
+  };
+  cl::Buffer& grown(Shared& shared, size_t bytes, GLenum format);
+  size_t chunk_of(size_t count, size_t least) const;
+  void run(const char* kernel, size_t items, const auto&... arguments);
+  uint64_t scan(size_t count, bool read);
+  void sort_pairs();
+  void find_blocks();
+  void inherit();
+  void write_lists();
+
+  Renderer& renderer_;
+  const WorldGridShape shape_;
+  const double cell_;
+  const int index_bits_;
+
+  WorldLayout layout_;
+  UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
+  GrowingBuffer pairs_[2], totals_, total_, block_first_, members_, full_first_, full_members_, masks_;
+  Shared buckets_, keys_, cells_, indices_;
+  GlBuffer block_;
+  size_t pair_count_ = 0, blocks_ = 0, entries_ = 0, list_bytes_ = 0;
+  size_t sizes_[4] = {};  // in use: of buckets, keys, cells, indices
+  int builds_ = 0, lights_version_ = -1;
+  bool in_gl_ = false;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,250 @@
+#include "renderer/world_layout.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double world_inf = std::numeric_limits<double>::infinity();
+// 96 units in the last place: docs/techniques/world_grid.md#slack.
+constexpr float slack_factor = 96.0f / 16777216.0f;
+constexpr uint32_t most_blocks = 1u << 20;       // of cubes and columns: a word each
+constexpr uint32_t most_blocks_of_light = 4096;  // a light that meets more is stored once, for every list
+constexpr double hashed_cells = 262144;          // along an axis
+constexpr float least_radius = 1e-18f;           // squares stay normal numbers
+
+// Lights in parts, so that threads share the work.
+template <typename Body>
+void for_each_light(size_t count, const Body& body) {
+  constexpr size_t part = 4096;
+  const auto run = [&](size_t begin) {
+    for (size_t i = begin; i < std::min(begin + part, count); ++i) body(i);
+  };
+  if (count <= part) return run(0);
+  parallel_for(int((count + part - 1) / part), [&](int i) { run(size_t(i) * part); });
+}
+
+bool is_local(const CullLight& light) {
+  const glm::dvec3& p = light.position;
+  return light.radius_m >= 0 && std::isfinite(light.radius_m) && std::isfinite(p.x) && std::isfinite(p.y) &&
+         std::isfinite(p.z);
+}
+
+// World axes in the grid's order: columns stand on x and z.
+glm::dvec3 in_grid(const glm::dvec3& v, bool columns) { return columns ? glm::dvec3(v.x, v.z, 0) : v; }
+
+struct Radii {
+  double least = 1, median = 1;
+};
+
+// The median is that of at most some thousand lights, evenly chosen.
+Radii radii_of(std::span<const CullLight> lights) {
+  constexpr size_t most = 4096;
+  const size_t step = lights.size() / most + 1;
+  std::vector<double> radii;
+  double least = world_inf;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (!is_local(lights[i]) || lights[i].radius_m == 0) continue;
+    least = std::min(least, lights[i].radius_m);
+    if (i % step == 0) radii.push_back(lights[i].radius_m);
+  }
+  if (least == world_inf) return {};
+  if (radii.empty()) radii.push_back(least);
+  const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  const double median = std::max(*middle, 1e-12);
+  return {std::max(least, median / 64), median};
+}
+
+// Where lights of ordinary size and surfaces are: elsewhere nothing needs small cells.
+WorldBox box_of(std::span<const CullLight> lights, const WorldBox& bounds, double most_radius) {
+  WorldBox box{glm::dvec3(world_inf), glm::dvec3(-world_inf)};
+  for (const CullLight& light : lights) {
+    if (!is_local(light) || light.radius_m > most_radius) continue;
+    box.min = glm::min(box.min, light.position - light.radius_m),
+    box.max = glm::max(box.max, light.position + light.radius_m);
+  }
+  if (box.empty()) return {glm::dvec3(0), glm::dvec3(0)};
+  const glm::dvec3 low = glm::max(box.min, bounds.min), high = glm::min(box.max, bounds.max);
+  return glm::all(glm::lessThanEqual(low, high)) ? WorldBox{low, high} : box;
+}
+
+struct Axis {
+  uint& cells;
+  uint shift;
+  float &least, &most;
+};
+
+void lay_axis(const Axis& axis, double cells) {
+  axis.cells = uint(cells);
+  axis.least = -float(axis.cells / 2);
+  axis.most = float(axis.cells - 1) + axis.least;
+}
+
+// A layer of cells beyond the box keeps what is far outside out of the cells inside it.
+double cells_across(double metres, double cell_m, uint shift) {
+  const double block = double(1u << shift);
+  return std::ceil((std::ceil(metres / cell_m) + 2) / block) * block;
+}
+
+void lay_cells(WorldLayout& layout, const glm::dvec3& extent) {
+  WorldGridParams& p = layout.params;
+  double x = 0, y = 0, z = 0;
+  for (;; layout.cell_m *= 2) {
+    x = cells_across(extent.x, layout.cell_m, p.shift_x),
+    y = cells_across(extent.y, layout.cell_m, p.shift_y);
+    z = layout.columns ? 1 : cells_across(extent.z, layout.cell_m, p.shift_z);
+    if (x * y * z <= most_blocks * double(WORLD_BLOCK_CELLS) && std::max({x, y, z}) <= hashed_cells) break;
+  }
+  lay_axis({p.cells_x, p.shift_x, p.least_x, p.most_x}, x);
+  lay_axis({p.cells_y, p.shift_y, p.least_y, p.most_y}, y);
+  lay_axis({p.cells_z, p.shift_z, p.least_z, p.most_z}, z);
+  p.blocks_x = p.cells_x >> p.shift_x, p.blocks_y = p.cells_y >> p.shift_y;
+  const uint blocks = p.blocks_x * p.blocks_y * std::max(p.cells_z >> p.shift_z, 1u);
+  layout.bucket_bits = std::max<int>(std::bit_width(blocks - 1), 1);
+  p.bucket_bits = 0;
+}
+
+void lay_hashed(WorldLayout& layout, size_t lights) {
+  WorldGridParams& p = layout.params;
+  lay_axis({p.cells_x, p.shift_x, p.least_x, p.most_x}, hashed_cells);
+  lay_axis({p.cells_y, p.shift_y, p.least_y, p.most_y}, hashed_cells);
+  lay_axis({p.cells_z, p.shift_z, p.least_z, p.most_z}, hashed_cells);
+  p.blocks_x = p.blocks_y = 0;
+  layout.bucket_bits = std::clamp<int>(std::bit_width(2 * lights), 4, 22);
+  p.bucket_bits = uint(layout.bucket_bits);
+}
+
+uint blocks_along(float at, float radius, uint level, uint shift, float least, float most) {
+  const uint first = uint(world_coordinate(at - radius, least, most)) >> level >> shift;
+  const uint last = uint(world_coordinate(at + radius, least, most)) >> level >> shift;
+  return last - first + 1;
+}
+
+uint64_t blocks_of(const glm::vec4& light, uint level, const WorldGridParams& p) {
+  return uint64_t(blocks_along(light.x, light.w, level, p.shift_x, p.least_x, p.most_x)) *
+         blocks_along(light.y, light.w, level, p.shift_y, p.least_y, p.most_y) *
+         blocks_along(light.z, light.w, level, p.shift_z, p.least_z, p.most_z);
+}
+
+glm::vec4 in_cells(const CullLight& light, const WorldLayout& layout) {
+  constexpr double most = 1e30;
+  const glm::dvec3 at =
+      glm::clamp(in_grid(light.position - layout.middle, layout.columns) / layout.cell_m, -most, most);
+  const double radius = std::min(light.radius_m / layout.cell_m, most);
+  const double sum = std::abs(at.x) + std::abs(at.y) + std::abs(at.z);
+  const double slack = double(layout.params.slack) * (double(layout.params.reach) + sum + radius);
+  return {glm::vec3(at), float(radius + slack) + least_radius};
+}
+
+constexpr uint32_t in_no_cell = ~0u, in_every_cell = ~1u;
+
+struct Placed {
+  uint32_t level = in_no_cell;
+  uint64_t blocks = 0;
+};
+
+// The light's level, the first that is large enough and needs few blocks.
+Placed place_of(const CullLight& light, const glm::vec4& in, double cell, const WorldLayout& layout) {
+  if (!(light.radius_m >= 0) || glm::any(glm::isnan(light.position)) || glm::any(glm::isinf(light.position)))
+    return {};
+  if (!is_local(light)) return {in_every_cell};
+  const uint levels = layout.params.bucket_bits > 0 ? WORLD_LEVELS : 1;
+  uint level = 0;
+  while (level + 1 < levels && std::ldexp(layout.cell_m, int(level)) < cell * light.radius_m) ++level;
+  uint64_t blocks = blocks_of(in, level, layout.params);
+  while (level + 1 < levels && blocks > most_blocks_of_light) blocks = blocks_of(in, ++level, layout.params);
+  if (blocks > most_blocks_of_light) return {in_every_cell};
+  return {level, blocks};
+}
+
+void add_lights(std::span<const CullLight> lights, double cell, WorldLayout& layout) {
+  const bool hashed = layout.params.bucket_bits > 0;
+  layout.lights.resize(lights.size());
+  std::vector<Placed> places(lights.size());
+  const bool cones =
+      !layout.columns && std::ranges::any_of(lights, [](const CullLight& l) { return l.cos_outer >= 0; });
+  if (cones) layout.cones.resize(lights.size());
+  for_each_light(lights.size(), [&](size_t i) {
+    layout.lights[i] = in_cells(lights[i], layout);
+    places[i] = place_of(lights[i], layout.lights[i], cell, layout);
+    if (places[i].blocks == 0) layout.lights[i].w = -1;
+    if (cones) layout.cones[i] = {glm::vec3(lights[i].direction), float(lights[i].cos_outer - 1e-6)};
+  });
+  layout.params.levels = hashed ? 0 : 1;
+  layout.first_pairs.resize(lights.size());
+  if (hashed) layout.levels.resize(lights.size());
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const auto& [level, blocks] = places[i];
+    layout.first_pairs[i] = uint32_t(layout.pairs);
+    layout.pairs += blocks;
+    if (level == in_every_cell) layout.everywhere.push_back(uint32_t(i));
+    if (level >= in_every_cell) continue;
+    layout.params.levels |= 1u << level;
+    if (hashed) layout.levels[i] = level;
+  }
+  layout.params.everywhere_count = uint(layout.everywhere.size());
+}
+
+double power_of_two_above(double x) { return std::exp2(std::ceil(std::log2(x))); }
+
+}  // namespace
+
+WorldReach reach_of(const View& view, const glm::dvec3& middle) {
+  const glm::dvec3 eye = glm::abs(view.eye - middle);
+  WorldReach reach{eye.x + eye.y + eye.z, 1};
+  const glm::dmat4& clip = view.clip_from_view;
+  if (view.orthographic) {
+    const double width = (1 + std::abs(clip[3][0])) / std::abs(clip[0][0]);
+    const double height = (1 + std::abs(clip[3][1])) / std::abs(clip[1][1]);
+    reach.distance_m += width + height + std::abs(view.near_m) + std::abs(view.far_m);
+  } else {
+    const double width = (1 + std::abs(clip[2][0])) / std::abs(clip[0][0]);
+    const double height = (1 + std::abs(clip[2][1])) / std::abs(clip[1][1]);
+    reach.spread = std::max(1.0, (width + height) / 4);
+  }
+  return reach;
+}
+
+WorldLayout world_layout(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
+                         double cell, const View& view) {
+  WorldLayout layout;
+  WorldGridParams& p = layout.params;
+  layout.columns = shape == WorldGridShape::columns;
+  p.shift_x = p.shift_y = layout.columns ? 3 : 2, p.shift_z = layout.columns ? 0 : 2;
+  const Radii radii = radii_of(lights);
+  const bool hashed = shape == WorldGridShape::hashed;
+  layout.cell_m = cell * (hashed ? radii.least : radii.median);
+  const WorldBox box = box_of(lights, bounds, 32 * cell * radii.median);
+  layout.middle = 0.5 * (box.min + box.max);
+  const glm::dvec3 extent = in_grid(box.max - box.min, layout.columns);
+  if (hashed) {
+    lay_hashed(layout, lights.size());
+  } else {
+    lay_cells(layout, extent);
+  }
+  const WorldReach needed = reach_of(view, layout.middle);
+  const double around = 2 * (extent.x + extent.y + extent.z) + layout.cell_m;
+  layout.reach = {power_of_two_above(std::max(needed.distance_m, around)), power_of_two_above(needed.spread)};
+  p.slack = slack_factor * float(layout.reach.spread);
+  p.reach = float(std::min(layout.reach.distance_m / layout.cell_m, 1e30));
+  add_lights(lights, cell, layout);
+  return layout;
+}
+
+WorldViewParams world_view_params(const WorldLayout& layout, const View& view) {
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+  const glm::dvec3 offset = in_grid(view.eye - layout.middle, layout.columns) / layout.cell_m;
+  const glm::dvec3 x = in_grid(world_from_view[0], layout.columns) / layout.cell_m;
+  const glm::dvec3 y = in_grid(world_from_view[1], layout.columns) / layout.cell_m;
+  const glm::dvec3 z = in_grid(world_from_view[2], layout.columns) / layout.cell_m;
+  const auto f = [](double v) { return float(v); };
+  return {f(x.x), f(y.x),      f(z.x), f(offset.x), f(x.y), f(y.y),
+          f(z.y), f(offset.y), f(x.z), f(y.z),      f(z.z), f(offset.z)};
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,54 @@
+// A world grid before its lists: where its cells lie, and the lights as the kernels read them. Host code
+// alone, in double.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "culling/light_culler.h"
+#include "plan/settings.h"
+#include "scene/camera.h"
+#include "shared/world_grid.h"
+
+namespace lightgrid {
+
+// The views that lists are right for: how far rounding may move a position that shading computes
+// (docs/techniques/world_grid.md#slack). Larger values make longer lists.
+struct WorldReach {
+  double distance_m =
+      0;  // of the eye from the grid's middle and, in orthographic views, of what is seen from the eye
+  double spread = 1;  // at least 1: steep slopes at the image's sides
+  bool holds(const WorldReach& other) const {
+    return other.distance_m <= distance_m && other.spread <= spread;
+  }
+};
+
+WorldReach reach_of(const View& view, const glm::dvec3& middle);
+
+struct WorldLayout {
+  WorldGridParams params{};  // but everywhere_first, which depends on the lists
+  glm::dvec3 middle{0};      // world, metres
+  double cell_m = 1;         // edge of the smallest cells
+  WorldReach reach;
+  int bucket_bits = 0;  // a sort key's, whether hashed or not
+  bool columns = false;
+
+  std::vector<glm::vec4>
+      lights;  // position and radius with slack, in cells from the middle; radius -1: in no cell
+  std::vector<glm::vec4>
+      cones;  // axis, and a cosine no larger than the outer half-angle's; below 0: none. Empty: no cones
+  std::vector<uint32_t> levels;       // of each light; empty: 0
+  std::vector<uint32_t> first_pairs;  // of each light, among all pairs of a block and a light
+  uint64_t pairs = 0;                 // may exceed 32 bits: first_pairs is then of no use
+  std::vector<uint32_t> everywhere;   // lights of every list, ascending
+};
+
+// cell: the setting world-cell. bounds: of the surfaces; cells cover where these and the lights are. reach:
+// of the first view; the layout's is larger, so that a moving camera rarely leaves it.
+WorldLayout world_layout(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
+                         double cell, const View& view);
+
+// The rows of a view.
+WorldViewParams world_view_params(const WorldLayout& layout, const View& view);
+
+}  // namespace lightgrid

@@ -1,0 +1,295 @@
+// Hard cases of the world grid (docs/techniques/world_grid.md): points that lights just reach, in double,
+// against the list that shading finds for the point's position in view space.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/random.h"
+#include "verify/check.h"
+#include "verify/views.h"
+
+namespace lightgrid::verify {
+namespace {
+
+struct WorldGridChoice {
+  WorldGridShape shape;
+  double cell;
+  const char* name;
+};
+constexpr WorldGridChoice world_grids[] = {{WorldGridShape::cubes, 1, "3d"},
+                                           {WorldGridShape::cubes, 0.25, "3d, a quarter"},
+                                           {WorldGridShape::columns, 1, "2d"},
+                                           {WorldGridShape::hashed, 1, "hashed"}};
+const WorldBox no_surfaces{glm::dvec3(no_end), glm::dvec3(-no_end)};
+
+View world_view(const glm::dvec3& eye, const glm::dvec3& target) {
+  return make_view(look_at(eye, target), 64, 48);
+}
+
+CullLight world_spot(const glm::dvec3& position, double radius, const glm::dvec3& direction,
+                     double cos_outer) {
+  return {position, radius, direction, cos_outer};
+}
+
+bool lights_point(const CullLight& light, const glm::dvec3& point) {
+  const glm::dvec3 from = point - light.position;
+  const double distance = glm::length(from);
+  if (!(distance < light.radius_m)) return false;
+  return light.cos_outer < 0 || glm::dot(from, light.direction) > distance * light.cos_outer;
+}
+
+// A point that a light just reaches, or lies well within.
+glm::dvec3 reached_point(const CullLight& light, Random& random) {
+  const glm::dvec3 any = any_direction(random);
+  glm::dvec3 direction = any;
+  if (light.cos_outer >= 0) {
+    const glm::dvec3 across = glm::normalize(any - light.direction * glm::dot(any, light.direction));
+    const double angle = std::acos(std::min(light.cos_outer, 1.0)) * (1 - 1e-6 * double(random.uniform()));
+    direction = light.direction * std::cos(angle) + across * std::sin(angle);
+  }
+  constexpr double inward[] = {1e-8, 1e-6, 1e-4, 0.5};
+  const double radius = std::isfinite(light.radius_m) ? light.radius_m : 100;
+  return light.position + direction * (radius * (1 - inward[random.next() % 4]));
+}
+
+// Each light that reaches a point's position, as shading computes it, is in the list that shading reads
+// there, once.
+void expect_listed(Check& c, const HostWorldGrid& lists, const WorldLayout& layout, const View& view,
+                   const std::vector<CullLight>& lights, std::span<const glm::dvec3> points,
+                   const char* name) {
+  const WorldViewParams rows = world_view_params(layout, view);
+  const glm::dmat3 rotation(view.view_from_world);
+  for (const glm::dvec3& point : points) {
+    const glm::vec3 in_view(rotation * (point - view.eye));
+    const glm::dvec3 shaded = glm::transpose(rotation) * glm::dvec3(in_view) + view.eye;
+    const glm::uvec2 range = lists.range_at(world_position(in_view, rows));
+    if (!c.that(uint64_t(range.x) + range.y <= lists.indices.size(), "{}: a list past the end", name))
+      continue;
+    const std::span<const uint32_t> list = std::span(lists.indices).subspan(range.x, range.y);
+    for (const auto part : {list, lists.everywhere()}) {
+      c.that(std::ranges::adjacent_find(part, std::greater_equal()) == part.end(), "{}: a list is not sorted",
+             name);
+      c.that(part.empty() || part.back() < lights.size(), "{}: no such light", name);
+    }
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+      const bool in_cell = std::ranges::binary_search(list, i),
+                 everywhere = std::ranges::binary_search(lists.everywhere(), i);
+      if (in_cell && everywhere) c.fail(fmt::format("{}: light {} is listed twice", name, i));
+      if (!lights_point(lights[i], shaded)) continue;
+      c.contacts(1), c.trials(1);
+      if (!in_cell && !everywhere)
+        c.lost("{}: light {} is lost at ({}, {}, {})", name, i, point.x, point.y, point.z);
+    }
+  }
+}
+
+std::vector<glm::dvec3> points_of(const std::vector<CullLight>& lights, size_t count, uint64_t seed) {
+  Random random(seed);
+  std::vector<glm::dvec3> points;
+  for (size_t i = 0; i < count && !lights.empty(); ++i)
+    points.push_back(reached_point(lights[random.next() % lights.size()], random));
+  return points;
+}
+
+// Lists of every shape, of one build or of builds one after the other.
+void hold(Check& c, const std::vector<CullLight>& lights, const View& view, size_t points,
+          uint64_t seed = 1) {
+  const std::vector<glm::dvec3> at = points_of(lights, points, seed);
+  for (const auto& [shape, cell, name] : world_grids) {
+    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
+    if (!grid) return c.skip("the engine has no world grid");
+    grid->build(lights, no_surfaces, view, 0);
+    expect_listed(c, grid->read(), grid->layout(), view, lights, at, name);
+  }
+}
+
+void on_a_corner(Check& c) {
+  std::vector<CullLight> lights;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        lights.push_back({{2 * x, 2 * y, 2 * z}, 2});
+        lights.push_back({{2 * x + 1e-7, 2 * y, 2 * z - 1e-7}, 1});
+      }
+    }
+  }
+  hold(c, lights, world_view({1, 2, 9}, {0, 0, 0}), 2000);
+}
+
+void eye_inside(Check& c) {
+  const glm::dvec3 eye(3, 1, 2);
+  hold(c, {{eye, 1}, {eye + 1e-6, 5}, world_spot(eye, 3, {0, 0, -1}, 0.8), {eye, 0.01}},
+       world_view(eye, {0, 0, 0}), 1000);
+}
+
+void larger_than_the_grid(Check& c) {
+  std::vector<CullLight> lights;
+  Random random(5);
+  for (int i = 0; i < 100; ++i) lights.push_back({any_direction(random) * 10.0, 0.5});
+  for (const double radius : {1e2, 1e4, 1e6, 1e12, no_end}) lights.push_back({{1, 2, 3}, radius});
+  hold(c, lights, world_view({0, 0, 12}, {0, 0, 0}), 2000);
+}
+
+void no_lights_at_all(Check& c) {
+  const View view = world_view({0, 0, 5}, {0, 0, 0});
+  for (const auto& [shape, cell, name] : world_grids) {
+    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
+    if (!grid) return c.skip("the engine has no world grid");
+    grid->build({}, no_surfaces, view, 0);
+    const HostWorldGrid lists = grid->read();
+    for (const glm::dvec3& point : {glm::dvec3(0), glm::dvec3(1e9, -5, 2)}) {
+      const glm::uvec2 range =
+          lists.range_at(world_position(glm::vec3(point), world_view_params(grid->layout(), view)));
+      c.that(range.y == 0 && lists.indices.empty(), "{}: {} lights of none", name, range.y);
+    }
+  }
+}
+
+// As many as the run's number of adversarial lights, up to a million.
+void many_in_one_cell(Check& c) {
+  const size_t count = std::min<size_t>(c.adversarial_lights, 1000000);
+  const std::vector<CullLight> lights(count, CullLight{{0.3, 0.2, 0.1}, 1});
+  const View view = world_view({0, 0, 5}, {0, 0, 0});
+  for (const auto& [shape, cell, name] : {WorldGridChoice{WorldGridShape::cubes, 2, "3d"},
+                                          WorldGridChoice{WorldGridShape::hashed, 2, "hashed"}}) {
+    WorldGrid* grid = c.engine.world_grid(shape, cell, 32);
+    if (!grid) return c.skip("the engine has no world grid");
+    grid->build(lights, no_surfaces, view, 0);
+    const HostWorldGrid lists = grid->read();
+    const glm::vec3 middle(glm::dmat3(view.view_from_world) * (glm::dvec3(0.3, 0.2, 0.1) - view.eye));
+    const glm::uvec2 range = lists.range_at(world_position(middle, world_view_params(grid->layout(), view)));
+    c.that(range.y == count, "{}: {} of {} lights", name, range.y, count);
+    const std::span<const uint32_t> list = std::span(lists.indices).subspan(range.x, range.y);
+    c.that(std::ranges::adjacent_find(list, std::greater_equal()) == list.end(), "{}: the list is not sorted",
+           name);
+    c.contacts(count);
+  }
+}
+
+std::vector<CullLight> cloud(const glm::dvec3& middle, double size, double radius, int count, uint64_t seed) {
+  Random random(seed);
+  std::vector<CullLight> lights;
+  for (int i = 0; i < count; ++i) {
+    CullLight light{middle + any_direction(random) * (size * double(random.uniform())),
+                    radius * double(0.5f + random.uniform())};
+    light.direction = any_direction(random);
+    if (i % 3 == 0) light.cos_outer = double(random.uniform());
+    lights.push_back(light);
+  }
+  return lights;
+}
+
+void eye_outside(Check& c) {
+  for (const double distance : {30.0, 1e3, 1e6, 1e9}) {
+    hold(c, cloud({0, 0, 0}, 10, 1, 100, 7), world_view({distance, distance / 3, -distance}, {0, 0, 0}), 500);
+  }
+}
+
+void thin_spots(Check& c) {
+  Random random(11);
+  std::vector<CullLight> lights;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = std::pow(10.0, -7 * double(random.uniform()));  // of a radian; some lower to 0
+    lights.push_back(
+        world_spot(any_direction(random) * 5.0, 4, any_direction(random), i % 20 ? std::cos(angle) : 1));
+  }
+  hold(c, lights, world_view({0, 0, 15}, {0, 0, 0}), 1000);
+}
+
+// Each build has another grid, in buffers that the one before has used.
+void moving_bounds(Check& c) {
+  for (const double size : {5.0, 500.0, 0.05, 20.0}) {
+    hold(c, cloud({size, -size, 3}, size, 1, 150, uint64_t(size * 100)), world_view({0, 0, size}, {0, 0, 0}),
+         300);
+  }
+}
+
+void invalid_numbers(Check& c) {
+  std::vector<CullLight> lights = cloud({0, 0, 0}, 5, 1, 60, 13);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  size_t at = 0;
+  for (const double bad : {nan, no_end, -no_end}) {
+    for (int axis = 0; axis < 3; ++axis) lights[at++].position[axis] = bad;
+  }
+  for (const double bad : {nan, -1.0, -no_end, 0.0, -0.0}) lights[at++].radius_m = bad;
+  std::vector<CullLight> good(lights.begin() + std::ptrdiff_t(at), lights.end());
+  const View view = world_view({0, 0, 8}, {0, 0, 0});
+  const std::vector<glm::dvec3> points = points_of(good, 500, 3);
+  for (const auto& [shape, cell, name] : world_grids) {
+    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
+    if (!grid) return c.skip("the engine has no world grid");
+    grid->build(lights, no_surfaces, view, 0);
+    const HostWorldGrid lists = grid->read();
+    expect_listed(c, lists, grid->layout(), view, lights, points, name);
+    c.that(std::ranges::none_of(lists.indices, [&](uint32_t i) { return i + 2 < at; }),
+           "{}: a light that is nowhere is listed", name);
+  }
+}
+
+void parked_far_away(Check& c) {
+  std::vector<CullLight> lights = cloud({0, 0, 0}, 10, 1, 200, 17);
+  const size_t near = lights.size();
+  for (const double far : {1e6, 1e19, 1e30, 3.4e38, 1e300}) lights.push_back({{far, -far, far / 2}, 1});
+  const View view = world_view({0, 0, 15}, {0, 0, 0});
+  const std::vector<glm::dvec3> points =
+      points_of(std::vector<CullLight>(lights.begin(), lights.begin() + std::ptrdiff_t(near)), 500, 3);
+  for (const auto& [shape, cell, name] : world_grids) {
+    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
+    if (!grid) return c.skip("the engine has no world grid");
+    grid->build(lights, {glm::dvec3(-12), glm::dvec3(12)}, view, 0);
+    const HostWorldGrid lists = grid->read();
+    expect_listed(c, lists, grid->layout(), view, lights, points, name);
+    c.that(lists.everywhere().empty(), "{}: {} parked lights in every list", name, lists.everywhere().size());
+  }
+}
+
+// Sizes over six decades: small cells have the lights of the large ones around them.
+void sizes_mixed(Check& c) {
+  Random random(23);
+  std::vector<CullLight> lights;
+  for (int i = 0; i < 300; ++i) {
+    const double radius = std::pow(10.0, 6 * double(random.uniform()) - 3);
+    lights.push_back({any_direction(random) * (100.0 * double(random.uniform())), radius});
+  }
+  hold(c, lights, world_view({0, 20, 150}, {0, 0, 0}), 2000);
+}
+
+void far_from_the_origin(Check& c) {
+  for (const double offset : {1e4, 1e7, 1e9}) {
+    const glm::dvec3 middle(offset, -offset, offset / 2);
+    hold(c, cloud(middle, 10, 1, 150, 29), world_view(middle + glm::dvec3(0, 3, 12), middle), 500);
+  }
+}
+
+}  // namespace
+
+std::vector<HardCase> world_cases() {
+  constexpr const char* g = "world";
+  return {
+      {g, "on_a_corner", "balls whose centres and ends lie on corners and faces of cells",
+       "floor on one side, ceil on the other", "every light that reaches is listed", on_a_corner},
+      {g, "eye_inside", "the eye in lights, and at their centres", "normalize(0)",
+       "every light that reaches is listed", eye_inside},
+      {g, "larger_than_the_grid", "radii of 10² m to infinity among lights of 0.5 m",
+       "a capacity of cells a light; inf - inf", "listed everywhere, once", larger_than_the_grid},
+      {g, "empty", "0 lights", "bounds of nothing; buffers of size 0", "every list empty",
+       no_lights_at_all},
+      {g, "many_in_one_cell", "10⁵ lights in one place (10⁶ with --nightly)",
+       "a limit a cell (PlayCanvas: 255) drops some", "all of them in the list", many_in_one_cell},
+      {g, "eye_outside", "the eye 30 m to 10⁹ m from a cloud of lights",
+       "positions rounded by more than slack", "every light that reaches is listed", eye_outside},
+      {g, "thin_spots", "half-angles of 1 to 10⁻⁷ radians, and 0", "the cone misses every cell's centre",
+       "every light that reaches is listed", thin_spots},
+      {g, "moving_bounds", "builds one after the other whose bounds grow and shrink",
+       "blocks or cells of the last build are read", "every light that reaches is listed", moving_bounds},
+      {g, "invalid_numbers", "positions NaN and ±∞; radii NaN, negative, 0",
+       "bounds of NaN; a cell number from NaN", "listed nowhere, others unharmed", invalid_numbers},
+      {g, "parked_far_away", "lights at 10⁶ to 10³⁰⁰ m", "bounds that make one cell of everything else",
+       "others unharmed; no list is longer", parked_far_away},
+      {g, "sizes_mixed", "radii of 10⁻³ to 10³ m", "a small cell lacks the large lights around it",
+       "every light that reaches is listed", sizes_mixed},
+      {g, "far_from_the_origin", "the world moved by 10⁴, 10⁷, 10⁹ m", "cells from world positions in float",
+       "every light that reaches is listed", far_from_the_origin},
+  };
+}
+
+}  // namespace lightgrid::verify

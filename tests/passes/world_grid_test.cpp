@@ -1,0 +1,190 @@
+// The lists of the world grid against lights that reach points, in double.
+#include "renderer/world_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scene/random.h"
+#include "support/devices.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+struct Lists {
+  WorldLayout layout;
+  HostWorldGrid lists;
+  size_t blocks = 0, entries = 0;
+};
+
+Lists lists_of(const std::vector<CullLight>& lights, const View& view, WorldGridShape shape, double cell = 1,
+               int index_bits = 16, const WorldBox& bounds = {glm::dvec3(endless), glm::dvec3(-endless)}) {
+  WorldGrid grid(test_devices(), shape, cell, index_bits);
+  grid.build(lights, bounds, view, 0);
+  EXPECT_TRUE(grid.serves(view, 0));
+  EXPECT_FALSE(grid.serves(view, 1)) << "lights have moved";
+  return {grid.layout(), grid.read(), grid.blocks(), grid.entries()};
+}
+
+View view_from(const glm::dvec3& eye, const glm::dvec3& target) {
+  return make_view(look_at(eye, target), 64, 48);
+}
+
+CullLight ball(const glm::dvec3& position, double radius) { return {position, radius}; }
+
+// The lights that a shader adds at a position that it computed in view space.
+std::vector<uint32_t> list_at(const Lists& grid, const View& view, const glm::vec3& in_view) {
+  const glm::uvec2 range = grid.lists.range_at(world_position(in_view, world_view_params(grid.layout, view)));
+  std::vector<uint32_t> list(grid.lists.indices.begin() + range.x,
+                             grid.lists.indices.begin() + range.x + range.y);
+  list.insert(list.end(), grid.lists.everywhere().begin(), grid.lists.everywhere().end());
+  std::ranges::sort(list);
+  return list;
+}
+
+glm::vec3 in_view(const View& view, const glm::dvec3& world) {
+  return glm::vec3(glm::dmat3(view.view_from_world) * (world - view.eye));
+}
+
+bool reaches(const CullLight& light, const View& view, const glm::vec3& point) {
+  const glm::dvec3 world = glm::transpose(glm::dmat3(view.view_from_world)) * glm::dvec3(point) + view.eye;
+  const glm::dvec3 from = world - light.position;
+  const double distance = glm::length(from);
+  if (!(distance < light.radius_m)) return false;
+  return light.cos_outer < 0 || glm::dot(from, light.direction) > distance * light.cos_outer;
+}
+
+// A point at the edge of what a light reaches, or next to it.
+glm::dvec3 at_the_edge(const CullLight& light, Random& random) {
+  const glm::dvec3 any = any_direction(random);
+  glm::dvec3 direction = any;
+  if (light.cos_outer >= 0) {
+    const glm::dvec3 across = glm::normalize(any - light.direction * glm::dot(any, light.direction));
+    const double angle =
+        std::acos(light.cos_outer) * (random.uniform() < 0.5f ? 1 - 1e-7 : double(random.uniform()));
+    direction = light.direction * std::cos(angle) + across * std::sin(angle);
+  }
+  const double inward[] = {1e-9, 1e-7, 1e-6, 1e-4, 0.3};
+  return light.position + direction * (light.radius_m * (1 - inward[random.next() % 5]));
+}
+
+struct World {
+  double size_m, offset_m, eye_m, radius_spread;
+};
+
+// Lists lose no light that reaches a point, and hold none that is more than a cell away.
+TEST(WorldGrid, ListsEveryLightThatReachesAPoint) {
+  const World worlds[] = {
+      {10, 0, 5, 4}, {300, 1e6, 20, 1}, {40, 1e5, 4e4, 1000}, {1e-3, 0, 1e-3, 20}, {2e5, 0, 1e3, 30}};
+  const struct {
+    WorldGridShape shape;
+    double cell;
+  } grids[] = {{WorldGridShape::cubes, 1},
+               {WorldGridShape::cubes, 0.25},
+               {WorldGridShape::columns, 0.5},
+               {WorldGridShape::hashed, 2},
+               {WorldGridShape::hashed, 0.5}};
+  uint64_t contacts = 0, lost = 0, listed = 0;
+  Random random(14);
+  for (const World& world : worlds) {
+    const glm::dvec3 centre(world.offset_m, -0.25 * world.offset_m, 0.5 * world.offset_m);
+    std::vector<CullLight> lights;
+    for (int i = 0; i < 400; ++i) {
+      CullLight light =
+          ball(centre + any_direction(random) * (world.size_m * std::cbrt(double(random.uniform()))),
+               world.size_m / 12 * std::pow(world.radius_spread, double(random.uniform()) - 0.5));
+      light.direction = any_direction(random);
+      if (i % 2) light.cos_outer = std::cos(std::pow(double(random.uniform()), 3) * 1.5);
+      lights.push_back(light);
+    }
+    const View view = view_from(centre + any_direction(random) * world.eye_m,
+                                centre + world.size_m * any_direction(random));
+    for (const auto& [shape, cell] : grids) {
+      const Lists grid = lists_of(lights, view, shape, cell);
+      for (int i = 0; i < 4000; ++i) {
+        const glm::vec3 point = in_view(view, at_the_edge(lights[random.next() % 400], random));
+        const std::vector<uint32_t> list = list_at(grid, view, point);
+        EXPECT_EQ(std::ranges::adjacent_find(list, std::greater_equal()), list.end())
+            << "not sorted, or a light twice";
+        listed += list.size();
+        for (uint32_t light = 0; light < lights.size(); ++light) {
+          if (!reaches(lights[light], view, point)) continue;
+          ++contacts;
+          lost += !std::ranges::binary_search(list, light);
+        }
+        if (shape != WorldGridShape::cubes) continue;
+        for (const uint32_t light : list) {
+          const glm::dvec3 at = glm::dvec3(world_position(point, world_view_params(grid.layout, view)));
+          const glm::dvec3 away = at - (lights[light].position - grid.layout.middle) / grid.layout.cell_m;
+          const bool everywhere = std::ranges::binary_search(grid.layout.everywhere, light);
+          EXPECT_TRUE(everywhere || glm::length(away) < double(grid.layout.lights[light].w) + 1.7321 * 1.001)
+              << "too far away";
+        }
+      }
+    }
+  }
+  EXPECT_EQ(lost, 0u) << "of " << contacts;
+  EXPECT_GT(contacts, 200000u);
+  fmt::print("{} contacts, {} listed\n", contacts, listed);
+}
+
+// By hand: three balls of radius 1 along a line, cells of edge 1 whose middle is the second's centre.
+TEST(WorldGrid, IsTheGridByHand) {
+  const std::vector<CullLight> lights = {ball({-4, 0, 0}, 1), ball({0, 0, 0}, 1), ball({4, 0, 0}, 1)};
+  const View view = view_from({0, 0, 0}, {0, 0, -1});
+  const Lists grid = lists_of(lights, view, WorldGridShape::cubes);
+  // The box is 10 x 2 x 2 m: with a layer of cells around it 12 x 4 x 4, which are whole blocks.
+  EXPECT_EQ(grid.lists.params.cells_x, 12u);
+  EXPECT_EQ(grid.lists.params.cells_y, 4u);
+  EXPECT_EQ(grid.layout.middle, glm::dvec3(0));
+  EXPECT_EQ(list_at(grid, view, {0.5f, 0.5f, 0.5f}), std::vector<uint32_t>{1});
+  EXPECT_EQ(list_at(grid, view, {4.5f, 0.5f, -0.5f}), std::vector<uint32_t>{2});
+  EXPECT_EQ(list_at(grid, view, {1.5f, 0.5f, 0.5f}), std::vector<uint32_t>{1});
+  EXPECT_EQ(list_at(grid, view, {1.5f, 1.5f, 0.5f}), std::vector<uint32_t>{});
+  // Each ball fills 8 cells around its centre and, because of slack, touches the four cells behind each of
+  // their six sides.
+  EXPECT_EQ(grid.entries, 3u * 32);
+}
+
+// Sums that grow past a chunk, and lists of other lights between: nothing stale, and no place that depends on
+// order.
+TEST(WorldGrid, HasTheSameBytesEachTime) {
+  Random random(3);
+  std::vector<CullLight> many;
+  for (int i = 0; i < 20000; ++i)
+    many.push_back(
+        ball(any_direction(random) * (50 * double(random.uniform())), 0.3 + 3 * double(random.uniform())));
+  const View view = view_from({1, 2, 3}, {0, 0, 0});
+  for (const WorldGridShape shape : {WorldGridShape::cubes, WorldGridShape::hashed}) {
+    WorldGrid grid(test_devices(), shape, 1, 16);
+    const WorldBox bounds{glm::dvec3(-60), glm::dvec3(60)};
+    grid.build(many, bounds, view, 0);
+    const HostWorldGrid first = grid.read();
+    grid.build(std::span(many).first(7), bounds, view, 1);
+    EXPECT_LT(grid.read().indices.size(), first.indices.size());
+    grid.build(many, bounds, view, 2);
+    EXPECT_TRUE(grid.read() == first);
+    EXPECT_GT(grid.entries(), many.size());
+  }
+}
+
+// The eye past what the slack of the lists is for: they serve that view no longer, and those built for it do.
+TEST(WorldGrid, ServesViewsWithinItsReach) {
+  const std::vector<CullLight> lights(50, ball({0, 0, 0}, 1));
+  WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
+  const View near = view_from({0, 0, 3}, {0, 0, 0}), far = view_from({0, 0, 1e5}, {0, 0, 0});
+  grid.build(lights, {glm::dvec3(-1), glm::dvec3(1)}, near, 0);
+  EXPECT_TRUE(grid.serves(near, 0));
+  EXPECT_TRUE(grid.serves(view_from({0, 1, 2}, {0, 5, 0}), 0));
+  EXPECT_FALSE(grid.serves(far, 0));
+  const float slack = grid.layout().lights[0].w;
+  grid.build(lights, {glm::dvec3(-1), glm::dvec3(1)}, far, 0);
+  EXPECT_TRUE(grid.serves(far, 0));
+  EXPECT_TRUE(grid.serves(near, 0));
+  EXPECT_GT(grid.layout().lights[0].w, slack);
+}
+
+}  // namespace
+}  // namespace lightgrid
