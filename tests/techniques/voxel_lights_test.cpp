@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double voxel_pi = 3.14159265358979323846;
 constexpr VoxelSize coarse = VoxelSize::s16x16x4;
 
 // What the documentation says of a sample (docs/techniques/voxel_lights.md), in double.
@@ -21,7 +21,7 @@ double luminance(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0
 // spacing: of the samples, metres, where the volume divides the world.
 OracleSample oracle_sample(const Scene& scene, const glm::dvec3& at, const glm::dvec3& spacing) {
   const double grown = glm::dot(spacing, spacing) / 4;
-  const double ball = std::cbrt(spacing.x * spacing.y * spacing.z * 3 / (4 * pi));
+  const double ball = std::cbrt(spacing.x * spacing.y * spacing.z * 3 / (4 * voxel_pi));
   OracleSample s;
   for (const Light& light : scene.lights) {
     if (light.type == LightType::directional || light.radius_m <= 0) continue;
@@ -107,12 +107,12 @@ Settings sized(VoxelSize size, VoxelSpace space = VoxelSpace::world) {
   return settings;
 }
 
-struct Drawn {
+struct DrawnVoxels {
   Image image;
   LitPairs pairs;
 };
 
-Drawn drawn(const Scene& scene, const View& view, const Settings& settings) {
+DrawnVoxels drawn(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
   run.run_frame();
   return {run.image(), count_listed_pairs(run, read_depth(run))};
@@ -140,7 +140,7 @@ TEST(VoxelLights, EnergyOfOneLightByHand) {
   const double beside = 10 * dimmed / (h * h) * (1 - std::pow(h * h / reach_squared, 2));
   EXPECT_NEAR(volume.read.irradiance[volume.index({9, 8, 2})].r, beside, 1e-5 * beside);
   EXPECT_NEAR(volume.directions(volume.index({9, 8, 2})).x, -beside, 1e-5 * beside);
-  const double own = 10 * dimmed * 3 / std::pow(voxel * 3 / (4 * pi), 2.0 / 3);
+  const double own = 10 * dimmed * 3 / std::pow(voxel * 3 / (4 * voxel_pi), 2.0 / 3);
   EXPECT_NEAR(volume.read.irradiance[volume.index({8, 8, 2})].r, own, 1e-5 * own);
   EXPECT_EQ(volume.directions(volume.index({8, 8, 2})), glm::dvec3(0));
   EXPECT_NEAR(volume.read.directions[volume.index({8, 8, 2})].w, own, 1e-5 * own);
@@ -321,7 +321,7 @@ TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
     const double grown = glm::dot(h, h) / 4 / (radius * radius);
     const double of_reach =
         brightest * (0.5 + 2) * grown;  // dimmed by sqrt(1 + grown), and a window that ends later
-    const double bound = 0.7 / pi * (of_vector + (of_vector + of_weight) / 4 + of_reach) + 1e-5;
+    const double bound = 0.7 / voxel_pi * (of_vector + (of_vector + of_weight) / 4 + of_reach) + 1e-5;
     const double error = compare_images(run.image(), forward).max_abs;
     RecordProperty(fmt::format("error_{}", volume.size().x), fmt::format("{} of {}", error, bound));
     EXPECT_LT(error, bound) << volume.size().x;
@@ -343,7 +343,7 @@ TEST(VoxelLights, AreNearForwardAndLeakIsCounted) {
   uint64_t leaked = ~uint64_t(0);
   for (const VoxelSize size : {coarse, VoxelSize::s64x64x16}) {
     settings.voxel_size = size;
-    const Drawn d = drawn(scene, view, settings);
+    const DrawnVoxels d = drawn(scene, view, settings);
     EXPECT_EQ(d.pairs.lost, 0u);
     EXPECT_LT(d.pairs.listed - d.pairs.lit, leaked);
     EXPECT_GT(d.pairs.listed, d.pairs.lit) << "nothing leaks";
@@ -440,7 +440,7 @@ TEST(VoxelLights, RasterOfOpenClShowsTheSame) {
   settings.voxel_lights_exact = 1;
   const Image opengl = render(s.scene, view, "voxel_lights", settings);
   settings.raster = RasterApi::opencl;
-  const Drawn opencl = drawn(s.scene, view, settings);
+  const DrawnVoxels opencl = drawn(s.scene, view, settings);
   expect_near(opencl.image, opengl);
   EXPECT_EQ(opencl.pairs.lost, 0u);
 }
