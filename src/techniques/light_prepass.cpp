@@ -69,14 +69,18 @@ static Frame in_cl(RenderView& v) {
 }
 
 // The sums hold Lambert's cosine of each light, not the light behind the terminator or another power of the cosine.
-static void refuse_models(const FramePlan& plan) {
-  if (!plan.local_lights || !(plan.skin || plan.minnaert)) return;
-  throw input_error("light_prepass: a material's model {} needs each light; its light buffer has only sums",
-                    plan.skin ? "skin" : "minnaert");
+static void refuse_models(const RenderView& v) {
+  if (!v.plan.local_lights) return;
+  for (const Material& m : v.scene.materials) {
+    if (m.alpha_mode == AlphaMode::blend || !(m.model.skin() || m.model.minnaert())) continue;
+    if (!v.plan.skin && !v.plan.minnaert) return;  // no surface has it
+    throw input_error("light_prepass: a material's model {} needs each light; its light buffer has only sums",
+                      m.model.skin() ? "skin" : "minnaert");
+  }
 }
 
 static Frame render(RenderView& v) {
-  refuse_models(v.plan);
+  refuse_models(v);
   if (v.plan.settings.raster == RasterApi::opencl) return in_cl(v);
   if (!v.plan.local_lights) return without_lights(v);
   return v.plan.settings.prepass_lights == PrepassLights::volumes ? from_volumes(v) : from_tiles(v);

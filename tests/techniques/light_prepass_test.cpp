@@ -365,5 +365,12 @@ TEST(LightPrepass, TakesTheMemoryThatItsPageSays) {
             pixels * 40 + (pixels + 16) * 40 + lights + sizeof(ViewParams));
 }
 
+// Also the code of skin and Minnaert, which no surface here has.
+TEST(LightPrepass, EverythingOnChangesNoByte) {
+  const Scene scene = small_scene().scene;
+  const View view = small_view(33, 19);
+  EXPECT_TRUE(identical(render(scene, view, "light_prepass", {.everything_on = true}), render(scene, view, "light_prepass")));
+}
+
 }  // namespace
 }  // namespace lightgrid
