@@ -2,9 +2,8 @@
 // to write. A list is sorted because its block's lights are.
 //
 // lights   as in world_blocks
-// cones    axis and cosine of the outer half-angle, lowered as docs/hard_cases.md#slack says; below 0: none.
-// Null:
-//          no light has a cone that is tested
+// cones    axis and cosine of the outer half-angle, lowered as docs/hard_cases.md#slack says; below 0: none. Null: no light
+//          has a cone that is tested
 // block_first, members, keys  of blocks
 // masks    a bit a cell for each member: out, and with `write` in
 // totals   a chunk's number of entries out; with `write` its first entry in

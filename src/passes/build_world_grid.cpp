@@ -64,7 +64,8 @@ LightSource from_world_grid(RenderView& v) {
     pass.moves(grid.list_bytes(), grid.list_bytes());
   }
   WorldGridOfView& state = v.state<WorldGridOfView>();
-  state.in_gl = make_buffer(sizeof state.params, &state.params);
+  if (!state.in_gl) state.in_gl = make_buffer(sizeof state.params, nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferSubData(state.in_gl.name(), 0, sizeof state.params, &state.params);
   LightSource source = every_light(v);
   source.defines.emplace_back("LIGHTS_WORLD");
   if (!grid.layout().everywhere.empty()) source.defines.emplace_back("WORLD_EVERYWHERE");

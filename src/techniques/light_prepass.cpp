@@ -70,10 +70,9 @@ static Frame in_cl(RenderView& v) {
 
 // The sums hold Lambert's cosine of each light, not the light behind the terminator or another power of the cosine.
 static void refuse_models(const RenderView& v) {
-  if (!v.plan.local_lights) return;
-  for (const Material& m : v.scene.materials) {
+  if (!v.plan.local_lights || !(v.plan.skin || v.plan.minnaert)) return;
+  for (const Material& m : v.scene.materials) {  // the plan names models also with everything on
     if (m.alpha_mode == AlphaMode::blend || !(m.model.skin() || m.model.minnaert())) continue;
-    if (!v.plan.skin && !v.plan.minnaert) return;  // no surface has it
     throw input_error("light_prepass: a material's model {} needs each light; its light buffer has only sums",
                       m.model.skin() ? "skin" : "minnaert");
   }

@@ -19,7 +19,6 @@ LightSource with_lights(const RenderView& v) {
 void LightSource::bind(const RenderView& v) const {
   v.bind_lights();
   for (const Binding& binding : textures) glBindTextureUnit(binding.unit, binding.texture);
-  if (voxel_block) glBindBufferBase(GL_UNIFORM_BUFFER, 4, voxel_block);
   for (const Block& block : blocks) glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
 }
 
@@ -71,7 +70,7 @@ LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels, const 
     source.textures.push_back({12, grid.cells});
     source.textures.push_back({13, grid.indices});
   }
-  source.voxel_block = voxels.lookup;
+  source.blocks = {{4, voxels.lookup}};
   source.bytes = voxels.bytes + grid.bytes;
   return source;
 }

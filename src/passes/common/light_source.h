@@ -14,7 +14,6 @@ struct LightSource {
     GLuint unit, texture;
   };
   std::vector<Binding> textures;
-  GLuint voxel_block = 0;  // a uniform block that the loop reads; 0: none
   struct Block {
     GLuint binding, buffer;
   };
