@@ -63,14 +63,14 @@ int hunt(const VerifyCommand& o) {
 verify::VerifyReport replay(const VerifyCommand& o, const std::vector<std::unique_ptr<verify::CullEngine>>& engines,
                             const CapturedFrame& frame) {
   const std::optional<FrameGrid> own = read_frame_grid(o.replay, frame);
-  return verify::replay_frame(engines, frame, {verify::replayed_views(frame, own, o.set), progress_bar()});
+  return verify::replay_frame(engines, frame, {verify::replayed_views(frame, own, o.set), o.nightly, progress_bar()});
 }
 
 int run(const VerifyCommand& o) {
   if (o.hunt.asked()) return hunt(o);
   const auto chosen = verify::chosen_cases(o.filter);
-  if (!o.replay.empty() && (o.nightly || o.list || !o.filter.empty()))
-    throw input_error("verify: --replay {} cannot be combined with --filter, --nightly or --list", o.replay);
+  if (!o.replay.empty() && (o.list || !o.filter.empty()))
+    throw input_error("verify: --replay {} cannot be combined with --filter or --list", o.replay);
   if (o.replay.empty() && !o.set.empty()) throw input_error("verify: --set {} requires --replay", o.set[0]);
   if (o.list) {
     for (const std::string& row : verify::catalogue_rows(chosen)) fmt::print("{}\n", row);
@@ -96,7 +96,7 @@ void add_verify(CommandLine& line) {
   command.option("--device", o->device, "only the OpenCL device whose platform and name contain this text; else all");
   command.option("--replay", o->replay, "a captured frame's folder instead: compares its lists with the oracle, and bit for bit with the float twin");
   command.list("--set", o->set, "with --replay: slices=N, z-bins=N, slice-spacing=… to replay beside the frame's own; may be repeated");
-  command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand");
+  command.flag("--nightly", o->nightly, "ten million adversarial lights instead of a hundred thousand; with --replay every combination of cull test and depth bounds");
   command.flag("--list", o->list, "prints the catalogue as a table and runs nothing");
   add_hunt_options(command, o->hunt);
   command.option("--json", o->json, "as JSON into a file, - for stdout");

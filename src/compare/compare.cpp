@@ -142,9 +142,10 @@ struct Reference {
   TechniqueRun* run = nullptr;
   std::vector<PixelBlock> blocks;  // empty: all pixels
   Image sampled_image;
+  const Image* in_report = nullptr;  // once the report has it: the run's image
 
   bool sampled() const { return !blocks.empty(); }
-  const Image& image() const { return sampled() ? sampled_image : run->image(); }
+  const Image& image() const { return sampled() ? sampled_image : in_report ? *in_report : run->image(); }
 };
 
 std::unique_ptr<TechniqueRun> make_reference_run(Renderer& renderer, GpuScene& gpu, const View& view,
@@ -204,7 +205,7 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
 
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more.
-void set_row(CompareReport& report, size_t place, TechniqueRun& run, const Reference& reference,
+void set_row(CompareReport& report, size_t place, TechniqueRun& run, Reference& reference,
              const std::vector<float>& depth, const std::optional<FlipExposures>& exposures,
              const std::optional<ShownTriangles>& shown) {
   const bool is_reference = &run == reference.run;
@@ -222,9 +223,9 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, const Refer
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
-  Image image = is_reference ? run.image() : run.take_image();
   report.rows[place] = std::move(row);
-  report.images[place] = std::move(image);
+  report.images[place] = run.take_image();
+  if (is_reference) reference.in_report = &report.images[place];
   report.listed[place] = std::move(pairs.listed_of_pixel);
   if (!run.frame().depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
 }
@@ -311,7 +312,8 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, 
     if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, every_light);
     reference.run = reference.own.get();
     reference.run->run_frame();
-    report.reference_image = reference.run->image();
+    report.reference_image = reference.run->take_image();
+    reference.in_report = &report.reference_image;
   }
 
   const std::vector<float> depth = read_depth(*reference.run);

@@ -16,10 +16,12 @@ namespace {
 
 const HardCase replayed{"replay", "float_twin", "a captured frame, under every test and every kind of bounds", "", "", nullptr};
 
-std::vector<CullerOptions> every_setting(int tile) {
+std::vector<CullerOptions> chosen_settings(int tile, bool every_combination) {
+  const CullerOptions usual;
   std::vector<CullerOptions> settings;
   for (const CullTestRow& test : cull_tests) {
     for (const DepthBoundsRow& bounds : depth_bounds_modes) {
+      if (!every_combination && test.test != usual.cull_test && bounds.mode != usual.depth_bounds) continue;
       CullerOptions options;
       options.tile = tile;
       options.cull_test = test.test;
@@ -64,7 +66,7 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
   const Replay replay{frame, cull_lights_of(frame), local_lights(frame), covered_depth(frame), {.values = frame.depth}};
   std::vector<CullView> views = {cull_view(frame.view)};
   views.insert(views.end(), options.more_views.begin(), options.more_views.end());
-  const std::vector<CullerOptions> settings = every_setting(frame.tile);
+  const std::vector<CullerOptions> settings = chosen_settings(frame.tile, options.every_combination);
   const double steps = double(engines.size() * views.size() * settings.size());
   double done = 0;
   VerifyReport report;
