@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -32,6 +33,7 @@ struct Found {
   int chosen_cl = -1, chosen_gl = -1;  // -1: none is usable, for the reason in `problems`
   TunedSizes tuned;                    // of the chosen OpenCL device
   std::string bridge;
+  std::string why_staged;              // of the bridge "staged", else empty
   std::vector<std::string> problems;
 };
 
@@ -53,6 +55,14 @@ void choose_gl(Found& found, GlBackend wanted) {
   }
 }
 
+void choose_bridge(Found& found, GlContext& gl) {
+  ClDevice cl("#" + std::to_string(found.chosen_cl));
+  gl.make_current();
+  const BridgeKind kind = choose_bridge(cl, gl);
+  found.bridge = to_string(kind);
+  if (kind == BridgeKind::staged) found.why_staged = std::getenv("LIGHTGRID_BRIDGE") ? "LIGHTGRID_BRIDGE=staged" : why_not_imported(cl, gl);
+}
+
 Found find_devices(const DeviceOptions& o) {
   const GlBackend wanted = parse_gl_backend(o.gl);
   Found found;
@@ -66,7 +76,7 @@ Found find_devices(const DeviceOptions& o) {
   for (const char* name : {"osmesa", "egl"}) found.gl.push_back(try_gl(name));
   if (wanted != GlBackend::none) choose_gl(found, wanted);
   if (found.chosen_cl >= 0 && found.chosen_gl >= 0) {
-    found.bridge = to_string(choose_bridge(ClDevice("#" + std::to_string(found.chosen_cl)), *found.gl[found.chosen_gl].context));
+    choose_bridge(found, *found.gl[found.chosen_gl].context);
   }
   return found;
 }
@@ -98,9 +108,8 @@ void print(const Found& found) {
       fmt::print("  {:<6} not available: {}\n", g.backend, g.why);
     }
   }
-  fmt::print("Bridge\n  {}\n", found.bridge.empty()
-                                   ? "none without both: the technique visibility draws in OpenCL alone"
-                                   : found.bridge);
+  const std::string bridge = found.bridge.empty() ? "none without both: the technique visibility draws in OpenCL alone" : found.bridge;
+  fmt::print("Bridge\n  {}{}\n", bridge, found.why_staged.empty() ? "" : ": " + found.why_staged);
 }
 
 nlohmann::ordered_json to_json(const Found& found) {
@@ -137,6 +146,7 @@ nlohmann::ordered_json to_json(const Found& found) {
     json["gl"].push_back(row);
   }
   if (!found.bridge.empty()) json["bridge"] = found.bridge;
+  if (!found.why_staged.empty()) json["why_staged"] = found.why_staged;
   json["tuned"] = {{"file", tuned_sizes_file().string()}, {"settings", found.tuned}};
   return json;
 }

@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "gl/errors.h"
+#include "gl/objects.h"
 
 namespace lightgrid {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 constexpr GLbitfield mapping =
     GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
 
-GLuint make_buffer(size_t bytes, GLbitfield flags) {
+GLuint make_shared(size_t bytes, GLbitfield flags) {
   check_gl("seen when a shared buffer was made");
   GLuint buffer = 0;
   glCreateBuffers(1, &buffer);
@@ -29,15 +31,55 @@ GLuint make_buffer(size_t bytes, GLbitfield flags) {
   return buffer;
 }
 
+// Words that differ everywhere, so that bytes of another place or time are detected.
+std::vector<cl_uint> trial_words(cl_uint seed) {
+  std::vector<cl_uint> words(3 * 1024 * 1024 / 4);
+  for (size_t i = 0; i < words.size(); ++i) words[i] = (cl_uint(i) + seed) * 2654435761u;
+  return words;
+}
+
+// Throws unless each API reads what the other wrote: a driver may accept an import and use other memory.
+void try_imported(ClDevice& cl) {
+  const std::vector<cl_uint> from_gl = trial_words(1), from_cl = trial_words(2);
+  const size_t bytes = from_gl.size() * sizeof from_gl[0];
+  std::vector<cl_uint> read(from_gl.size());
+  SharedBuffer buffer(cl, BridgeKind::imported, bytes);
+  const GlBuffer source = make_buffer(bytes, from_gl.data());
+  glCopyNamedBufferSubData(source.name(), buffer.gl_buffer(), 0, 0, GLsizeiptr(bytes));
+  buffer.hand_to_cl(bytes);
+  read_buffer(cl, "trial of imported memory", buffer.cl_buffer(), read.data(), bytes);
+  if (read != from_gl) throw machine_error("in a trial OpenCL did not read what OpenGL had written");
+  write_buffer(cl, "trial of imported memory", buffer.cl_buffer(), from_cl.data(), bytes);
+  buffer.hand_to_gl(bytes);
+  glGetNamedBufferSubData(buffer.gl_buffer(), 0, GLsizeiptr(bytes), read.data());
+  if (read != from_cl) throw machine_error("in a trial OpenGL did not read what OpenCL had written");
+  check_gl("seen in a trial of imported memory");
+}
+
 }  // namespace
 
-BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl) {
+BridgeKind choose_bridge(ClDevice& cl, const GlContext& gl) {
   if (const char* forced = std::getenv("LIGHTGRID_BRIDGE")) {
-    if (std::string_view(forced) != "staged")
-      throw input_error("LIGHTGRID_BRIDGE: \"{}\" is not \"staged\", the one value it takes", forced);
-    return BridgeKind::staged;
+    const std::string_view name = forced;
+    if (name == "staged") return BridgeKind::staged;
+    if (name != "imported") throw input_error("LIGHTGRID_BRIDGE: \"{}\" is not \"staged\" or \"imported\"", forced);
+    const std::string why = why_not_imported(cl, gl);
+    if (!why.empty()) throw machine_error("LIGHTGRID_BRIDGE=imported: {}", why);
+    return BridgeKind::imported;
   }
-  return may_share_memory(cl.info(), gl.software) ? BridgeKind::mapped : BridgeKind::staged;
+  if (may_share_memory(cl.info(), gl.software)) return BridgeKind::mapped;
+  return why_not_imported(cl, gl).empty() ? BridgeKind::imported : BridgeKind::staged;
+}
+
+std::string why_not_imported(ClDevice& cl, const GlContext& gl) {
+  if (gl.software) return fmt::format("OpenGL draws in software ({})", gl.renderer);
+  if (cl.info().cpu) return fmt::format("OpenCL's device is a CPU ({})", cl.info().name);
+  try {
+    try_imported(cl);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
 }
 
 bool may_share_memory(const ClDeviceInfo& cl, bool gl_is_software) {
@@ -45,7 +87,17 @@ bool may_share_memory(const ClDeviceInfo& cl, bool gl_is_software) {
 }
 
 const char* to_string(BridgeKind kind) {
-  return kind == BridgeKind::mapped ? "mapped" : kind == BridgeKind::staged ? "staged" : "none";
+  switch (kind) {
+    case BridgeKind::mapped:
+      return "mapped";
+    case BridgeKind::imported:
+      return "imported";
+    case BridgeKind::staged:
+      return "staged";
+    case BridgeKind::none:
+      break;
+  }
+  return "none";
 }
 
 SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
@@ -56,8 +108,14 @@ SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
       cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE, allocated);
       return;
     }
-    gl_buffer_ = make_buffer(allocated, kind == BridgeKind::mapped ? mapping : 0);
-    if (kind == BridgeKind::staged) staging_ = make_buffer(allocated, mapping);
+    if (kind == BridgeKind::imported) {
+      imported_ = std::make_unique<ImportedMemory>(cl, allocated);
+      gl_buffer_ = imported_->gl_buffer();
+      cl_buffer_ = imported_->cl_buffer();
+      return;
+    }
+    gl_buffer_ = make_shared(allocated, kind == BridgeKind::mapped ? mapping : 0);
+    if (kind == BridgeKind::staged) staging_ = make_shared(allocated, mapping);
     mapped_ = glMapNamedBufferRange(staging_ ? staging_ : gl_buffer_, 0, static_cast<GLsizeiptr>(allocated),
                                     mapping);
     if (!mapped_) throw machine_error("OpenGL could not map a buffer of {} bytes", bytes);
@@ -92,6 +150,8 @@ SharedBuffer& SharedBuffer::operator=(SharedBuffer&& other) noexcept {
   std::swap(mapped_, other.mapped_);
   std::swap(copied_, other.copied_);
   std::swap(cl_buffer_, other.cl_buffer_);
+  std::swap(imported_, other.imported_);
+  std::swap(in_cl_, other.in_cl_);
   return *this;
 }
 
@@ -102,6 +162,8 @@ void SharedBuffer::release() {
   cl_buffer_ = {};
   if (copied_) glDeleteSync(copied_);
   copied_ = nullptr;
+  if (imported_) gl_buffer_ = 0;
+  imported_.reset();
   for (GLuint buffer : {gl_buffer_, staging_})
     if (buffer) glDeleteBuffers(1, &buffer);  // unmaps as well
   cl_ = nullptr;
@@ -118,9 +180,38 @@ void SharedBuffer::wait_for_copy() {
   if (state == GL_WAIT_FAILED) throw machine_error("OpenGL could not wait for the copy of a shared buffer");
 }
 
+cl::Buffer& SharedBuffer::cl_buffer() {
+  if (imported_ && !in_cl_) take_for_cl();
+  return cl_buffer_;
+}
+
+GLuint SharedBuffer::gl_buffer() {
+  if (imported_ && in_cl_) take_for_gl();
+  return gl_buffer_;
+}
+
+void SharedBuffer::take_for_cl() {
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  glFinish();
+  imported_->acquire();
+  in_cl_ = true;
+}
+
+// The barrier discards what OpenGL's caches hold of the memory.
+void SharedBuffer::take_for_gl() {
+  imported_->release();
+  finish_queue(*cl_, "handing a buffer to OpenGL");
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  in_cl_ = false;
+}
+
 void SharedBuffer::hand_to_gl(size_t bytes) {
   assert(bytes <= bytes_ && kind_ != BridgeKind::none);
-  if (kind_ == BridgeKind::mapped || bytes == 0) {
+  if (imported_ && in_cl_) {
+    take_for_gl();
+    return;
+  }
+  if (kind_ != BridgeKind::staged || bytes == 0) {
     finish_queue(*cl_, "handing a buffer to OpenGL");
     return;
   }
@@ -136,6 +227,10 @@ void SharedBuffer::hand_to_gl(size_t bytes) {
 
 void SharedBuffer::hand_to_cl(size_t bytes) {
   assert(bytes <= bytes_ && kind_ != BridgeKind::none);
+  if (imported_) {
+    if (!in_cl_) take_for_cl();
+    return;
+  }
   if (kind_ == BridgeKind::staged && bytes > 0) {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glCopyNamedBufferSubData(gl_buffer_, staging_, 0, 0, static_cast<GLsizeiptr>(bytes));

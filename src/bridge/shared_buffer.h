@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
+#include "bridge/imported_memory.h"
 #include "cl/device.h"
 #include "gl/context.h"
 #include "gl/gl.h"
@@ -10,14 +12,21 @@
 namespace lightgrid {
 
 enum class BridgeKind {
-  mapped,  // one memory: a persistently mapped GL buffer is the OpenCL buffer's host pointer
-  staged,  // two memories: copied through the host at each hand-over
-  none,    // no OpenGL: OpenCL's memory alone, never handed over
+  mapped,    // one memory: a persistently mapped GL buffer is the OpenCL buffer's host pointer
+  imported,  // one memory of a GPU, imported by both
+  staged,    // two memories: copied through the host at each hand-over
+  none,      // no OpenGL: OpenCL's memory alone, never handed over
 };
 
-// The kind for these two devices: mapped on PoCL's CPU with a software GL.
-// LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison); any other value is an input error.
-BridgeKind choose_bridge(const ClDevice& cl, const GlContext& gl);
+// The kind for these two devices: mapped on PoCL's CPU with a software GL, imported where both drive one GPU and a trial
+// succeeds, else staged. LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison), LIGHTGRID_BRIDGE=imported throws
+// Error(machine), naming the missing step, where memory cannot be imported; any other value is an input error.
+// The context is current.
+BridgeKind choose_bridge(ClDevice& cl, const GlContext& gl);
+
+// The step that fails when both import one memory and each reads what the other wrote; empty if none does. The context is
+// current.
+std::string why_not_imported(ClDevice& cl, const GlContext& gl);
 
 // OpenCL guarantees nothing for host memory used without map and unmap, but PoCL's CPU device keeps only one
 // copy.
@@ -38,8 +47,9 @@ class SharedBuffer {
 
   size_t size() const { return bytes_; }
   BridgeKind kind() const { return kind_; }
-  cl::Buffer& cl_buffer() { return cl_buffer_; }
-  GLuint gl_buffer() const { return gl_buffer_; }  // 0: kind none
+  // For use by one API until the other one's is called. Imported: either waits for the other API, if that one had it.
+  cl::Buffer& cl_buffer();
+  GLuint gl_buffer();  // 0: kind none
 
   // After OpenCL wrote the first `bytes`: waits for the queue, and for GL's previous copy, and makes them
   // visible to GL.
@@ -50,6 +60,8 @@ class SharedBuffer {
  private:
   void release();
   void wait_for_copy();
+  void take_for_cl();
+  void take_for_gl();
 
   ClDevice* cl_ = nullptr;  // null after a move
   BridgeKind kind_ = BridgeKind::staged;
@@ -59,6 +71,8 @@ class SharedBuffer {
   void* mapped_ = nullptr;  // mapped: the GL buffer's memory; staged: that of `staging_`
   GLsync copied_ = nullptr; // staged: signalled when OpenGL has read the staging memory; null: already read
   cl::Buffer cl_buffer_;
+  std::unique_ptr<ImportedMemory> imported_;  // of kind imported; gl_buffer_ and cl_buffer_ are then its own
+  bool in_cl_ = false;                        // imported: OpenCL has acquired it
 };
 
 }  // namespace lightgrid

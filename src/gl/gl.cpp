@@ -6,6 +6,7 @@ namespace lightgrid {
 
 #define LIGHTGRID_GL_DEFINE(type, name) type name = nullptr;
 LIGHTGRID_GL_FUNCTIONS(LIGHTGRID_GL_DEFINE)
+LIGHTGRID_GL_MEMORY_FUNCTIONS(LIGHTGRID_GL_DEFINE)
 #undef LIGHTGRID_GL_DEFINE
 
 void load_gl_functions(void* (*get_proc_address)(const char*)) {
@@ -14,6 +15,19 @@ void load_gl_functions(void* (*get_proc_address)(const char*)) {
   if (!name) throw machine_error("OpenGL has no {}; lightgrid needs OpenGL 4.5 (Mesa 18 or later)", #name);
   LIGHTGRID_GL_FUNCTIONS(LIGHTGRID_GL_LOAD)
 #undef LIGHTGRID_GL_LOAD
+#define LIGHTGRID_GL_LOAD(type, name) name = reinterpret_cast<type>(get_proc_address(#name));
+  LIGHTGRID_GL_MEMORY_FUNCTIONS(LIGHTGRID_GL_LOAD)
+#undef LIGHTGRID_GL_LOAD
+}
+
+bool has_gl_extension(std::string_view name) {
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    const GLubyte* found = glGetStringi(GL_EXTENSIONS, GLuint(i));
+    if (found && name == reinterpret_cast<const char*>(found)) return true;
+  }
+  return false;
 }
 
 }  // namespace lightgrid

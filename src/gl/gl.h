@@ -4,6 +4,8 @@
 
 #include <GL/glcorearb.h>
 
+#include <string_view>
+
 // clang-format off
 #define LIGHTGRID_GL_FUNCTIONS(X) \
   X(PFNGLATTACHSHADERPROC, glAttachShader) X(PFNGLBEGINQUERYPROC, glBeginQuery) \
@@ -87,7 +89,30 @@ namespace lightgrid {
 LIGHTGRID_GL_FUNCTIONS(LIGHTGRID_GL_DECLARE)
 #undef LIGHTGRID_GL_DECLARE
 
-// Loads the functions of the current context. Throws Error(machine) naming the first that is missing.
+// GL_EXT_memory_object and GL_EXT_memory_object_fd: buffers over memory that another API allocated. glcorearb.h lacks
+// them. Null where the driver has none; some drivers return functions that they do not support, so has_gl_extension
+// decides.
+using CreateMemoryObjects = void(APIENTRYP)(GLsizei count, GLuint* objects);
+using DeleteMemoryObjects = void(APIENTRYP)(GLsizei count, const GLuint* objects);
+using MemoryObjectParameteriv = void(APIENTRYP)(GLuint object, GLenum parameter, const GLint* values);
+using ImportMemoryFd = void(APIENTRYP)(GLuint object, GLuint64 bytes, GLenum handle_type, GLint fd);
+using NamedBufferStorageMem = void(APIENTRYP)(GLuint buffer, GLsizeiptr bytes, GLuint object, GLuint64 offset);
+using GetUnsignedBytei_v = void(APIENTRYP)(GLenum name, GLuint index, GLubyte* bytes);
+inline constexpr GLenum dedicated_memory_object = 0x9581, handle_type_opaque_fd = 0x9586, num_device_uuids = 0x9596,
+                        device_uuid = 0x9597;
+#define LIGHTGRID_GL_MEMORY_FUNCTIONS(X) \
+  X(CreateMemoryObjects, glCreateMemoryObjectsEXT) X(DeleteMemoryObjects, glDeleteMemoryObjectsEXT) \
+  X(MemoryObjectParameteriv, glMemoryObjectParameterivEXT) X(ImportMemoryFd, glImportMemoryFdEXT) \
+  X(NamedBufferStorageMem, glNamedBufferStorageMemEXT) X(GetUnsignedBytei_v, glGetUnsignedBytei_vEXT)
+
+#define LIGHTGRID_GL_DECLARE(type, name) extern type name;
+LIGHTGRID_GL_MEMORY_FUNCTIONS(LIGHTGRID_GL_DECLARE)
+#undef LIGHTGRID_GL_DECLARE
+
+// Of the current context.
+bool has_gl_extension(std::string_view name);
+
+// Loads the functions of the current context. Throws Error(machine) naming the first of the core that is missing.
 void load_gl_functions(void* (*get_proc_address)(const char*));
 
 }  // namespace lightgrid

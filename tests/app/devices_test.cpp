@@ -46,7 +46,7 @@ TEST(DevicesCommand, ListsDevicesBackendsAndTheBridgeAndMarksOneOfEach) {
   for (const auto& backend : json["gl"]) gl_chosen += backend["chosen"].get<bool>();
   EXPECT_EQ(cl_chosen, 1);
   EXPECT_EQ(gl_chosen, 1);
-  EXPECT_THAT(json["bridge"], testing::AnyOf("mapped", "staged"));
+  EXPECT_THAT(json["bridge"], testing::AnyOf("mapped", "imported", "staged"));
   EXPECT_THAT(json["problems"], testing::IsEmpty());
   EXPECT_EQ(ran.err, "");
 }
@@ -54,6 +54,17 @@ TEST(DevicesCommand, ListsDevicesBackendsAndTheBridgeAndMarksOneOfEach) {
 TEST(DevicesCommand, MarksTheBackendThatWasAskedFor) {
   const auto json = nlohmann::json::parse(run_devices("--gl egl --json -").out);
   for (const auto& backend : json["gl"]) EXPECT_EQ(backend["chosen"], backend["backend"] == "egl");
+}
+
+TEST(DevicesCommand, SaysWhyTheBridgeIsStagedAndFailsWhereAForcedOneIsMissing) {
+  const Ran staged = run_devices("", "LIGHTGRID_BRIDGE=staged");
+  EXPECT_THAT(staged.out, HasSubstr("Bridge\n  staged: LIGHTGRID_BRIDGE=staged\n"));
+  const auto json = nlohmann::json::parse(run_devices("--json -", "LIGHTGRID_BRIDGE=staged").out);
+  EXPECT_EQ(json["bridge"], "staged");
+  EXPECT_EQ(json["why_staged"], "LIGHTGRID_BRIDGE=staged");
+  const Ran imported = run_devices("--gl osmesa", "LIGHTGRID_BRIDGE=imported");
+  EXPECT_EQ(imported.status, 3);
+  EXPECT_THAT(imported.err, HasSubstr("LIGHTGRID_BRIDGE=imported: OpenGL draws in software"));
 }
 
 TEST(DevicesCommand, StillListsTheRestWithoutAnyOpenClDeviceAndNamesThePackage) {

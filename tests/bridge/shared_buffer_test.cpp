@@ -15,7 +15,7 @@ namespace {
 
 using Parameters = std::tuple<GlBackend, BridgeKind>;
 
-// Every test runs with every backend and both kinds; a mapped buffer is tested only where it is allowed.
+// Every test runs with every backend and every kind that the machine allows.
 struct SharedBufferOf : testing::TestWithParam<Parameters> {
   ClDevice cl;
   std::unique_ptr<GlContext> gl;
@@ -27,6 +27,9 @@ struct SharedBufferOf : testing::TestWithParam<Parameters> {
       gl = GlContext::create(std::get<0>(GetParam()));
     } catch (const Error& error) {
       GTEST_SKIP() << error.what();
+    }
+    if (kind == BridgeKind::imported) {
+      if (const std::string why = why_not_imported(cl, *gl); !why.empty()) GTEST_SKIP() << "no imported memory: " << why;
     }
     if (kind == BridgeKind::mapped && choose_bridge(cl, *gl) != kind)
       GTEST_SKIP() << cl.info().name << " and " << gl->renderer << " do not share their memory";
@@ -82,7 +85,7 @@ GLuint compute_program(const char* source) {
 }
 
 // The values that a shader reads from `buffer`, bound as a texture buffer or as a storage buffer.
-std::vector<cl_uint> read_in_gl(const SharedBuffer& buffer, size_t count, const char* shader) {
+std::vector<cl_uint> read_in_gl(SharedBuffer& buffer, size_t count, const char* shader) {
   const GLuint program = compute_program(shader);
   GLuint out = 0, texture = 0;
   glCreateBuffers(1, &out);
@@ -264,14 +267,14 @@ TEST_P(SharedBufferOf, DoesNotTakeAnEarlierErrorForItsOwn) {
   SharedBuffer buffer(cl, kind, 64);
 }
 
+std::string pair_name(const testing::TestParamInfo<Parameters>& info) {
+  return std::string(std::get<0>(info.param) == GlBackend::osmesa ? "osmesa_" : "egl_") + to_string(std::get<1>(info.param));
+}
 INSTANTIATE_TEST_SUITE_P(Pairs, SharedBufferOf,
                          testing::Combine(testing::Values(GlBackend::osmesa, GlBackend::egl),
                                           testing::Values(BridgeKind::mapped, BridgeKind::staged)),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param) == GlBackend::osmesa ? "osmesa_"
-                                                                                           : "egl_") +
-                                  to_string(std::get<1>(info.param));
-                         });
+                         pair_name);
+INSTANTIATE_TEST_SUITE_P(Gpu, SharedBufferOf, testing::Values(Parameters(GlBackend::egl, BridgeKind::imported)), pair_name);
 
 struct BridgeChoice : testing::Test {
   void TearDown() override { unsetenv("LIGHTGRID_BRIDGE"); }
@@ -281,8 +284,14 @@ struct BridgeChoice : testing::Test {
 
 TEST_F(BridgeChoice, IsMappedExactlyWhereBothSidesAreTheCpu) {
   EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, may_share_memory(cl.info(), gl->software));
+}
+
+// Of a context in software that pretends to be a graphics card: on a CPU no import is tried, on a GPU it fails.
+TEST_F(BridgeChoice, IsStagedWhereNothingCanBeShared) {
+  if (!gl->software) GTEST_SKIP() << gl->renderer << " is no software";
   gl->software = false;
   EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
+  EXPECT_THAT(why_not_imported(cl, *gl), testing::HasSubstr(cl.info().name));
 }
 
 TEST(SharedMemory, IsForPoclsCpuBesideASoftwareGlAlone) {
@@ -297,6 +306,25 @@ TEST(SharedMemory, IsForPoclsCpuBesideASoftwareGlAlone) {
 TEST_F(BridgeChoice, CanBeForcedToStaged) {
   setenv("LIGHTGRID_BRIDGE", "staged", 1);
   EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
+}
+
+TEST_F(BridgeChoice, NamesTheMissingStepWhereImportedMemoryIsForced) {
+  if (why_not_imported(cl, *gl).empty()) GTEST_SKIP() << "memory can be imported here";
+  setenv("LIGHTGRID_BRIDGE", "imported", 1);
+  try {
+    choose_bridge(cl, *gl);
+    FAIL() << "chosen";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    EXPECT_EQ(error.what(), "LIGHTGRID_BRIDGE=imported: " + why_not_imported(cl, *gl));
+  }
+}
+
+// The trial's steps below the checks of devices, whose first is OpenGL's extensions.
+TEST_F(BridgeChoice, ThrowsWhereMemoryCannotBeImported) {
+  if (why_not_imported(cl, *gl).empty()) GTEST_SKIP() << "memory can be imported here";
+  EXPECT_THROW(SharedBuffer(cl, BridgeKind::imported, 64), Error);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
 TEST_F(BridgeChoice, RefusesAnUnknownName) {

@@ -1,0 +1,140 @@
+#include "bridge/imported_memory.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "cl/error.h"
+#include "gl/errors.h"
+
+namespace lightgrid {
+namespace {
+
+// Of cl_khr_device_uuid and cl_khr_external_memory_opaque_fd: headers of 2022 lack them.
+constexpr cl_device_info cl_device_uuid_khr = 0x106A;
+constexpr cl_ulong cl_handle_opaque_fd_khr = 0x2060;
+
+void require_extensions(ClDevice& cl) {
+  for (const char* name : {"GL_EXT_memory_object", "GL_EXT_memory_object_fd"}) {
+    if (!has_gl_extension(name)) throw machine_error("OpenGL has no {}", name);
+  }
+  const std::string extensions = cl.device().getInfo<CL_DEVICE_EXTENSIONS>();
+  for (const char* name :
+       {"cl_khr_device_uuid", "cl_khr_external_memory", "cl_khr_external_memory_opaque_fd"}) {
+    if ((" " + extensions + " ").find(" " + std::string(name) + " ") == std::string::npos)
+      throw machine_error("{} has no {}", cl.info().name, name);
+  }
+}
+
+DeviceUuid cl_uuid(ClDevice& cl) {
+  DeviceUuid uuid = {};
+  const cl_int code = clGetDeviceInfo(cl.device()(), cl_device_uuid_khr, uuid.size(), uuid.data(), nullptr);
+  if (code != CL_SUCCESS) throw cl_machine_error(cl::Error(code, "clGetDeviceInfo"), "CL_DEVICE_UUID_KHR");
+  return uuid;
+}
+
+// A context may span several devices.
+void require_same_device(const DeviceUuid& wanted) {
+  GLint count = 0;
+  glGetIntegerv(num_device_uuids, &count);
+  for (GLint i = 0; i < count; ++i) {
+    DeviceUuid uuid = {};
+    glGetUnsignedBytei_vEXT(device_uuid, GLuint(i), uuid.data());
+    if (uuid == wanted) return;
+  }
+  throw machine_error(
+      "OpenGL and OpenCL use different devices: none of OpenGL's {} UUIDs is that of the OpenCL device",
+      count);
+}
+
+template <typename Function>
+Function cl_extension_function(ClDevice& cl, const char* name) {
+  const cl::Platform platform(cl.device().getInfo<CL_DEVICE_PLATFORM>());
+  void* function = clGetExtensionFunctionAddressForPlatform(platform(), name);
+  if (!function) throw machine_error("OpenCL has no {}", name);
+  return reinterpret_cast<Function>(function);
+}
+
+}  // namespace
+
+ImportedMemory::ImportedMemory(ClDevice& cl, size_t bytes) : cl_(cl) {
+  check_gl("seen when memory was imported");
+  try {
+    require_extensions(cl);
+    const DeviceUuid uuid = cl_uuid(cl);
+    require_same_device(uuid);
+    acquire_ = cl_extension_function<HandOver>(cl, "clEnqueueAcquireExternalMemObjectsKHR");
+    release_ = cl_extension_function<HandOver>(cl, "clEnqueueReleaseExternalMemObjectsKHR");
+    memory_ = std::make_unique<CudaMemory>(uuid, bytes);
+    import_in_gl();
+    import_in_cl();
+  } catch (const cl::Error& error) {
+    free_all();
+    throw cl_machine_error(error, "imported memory");
+  } catch (...) {
+    free_all();
+    throw;
+  }
+}
+
+ImportedMemory::~ImportedMemory() { free_all(); }
+
+void ImportedMemory::free_all() {
+  cl_buffer_ = {};
+  if (gl_buffer_) glDeleteBuffers(1, &gl_buffer_);
+  if (memory_object_) glDeleteMemoryObjectsEXT(1, &memory_object_);
+  memory_.reset();
+}
+
+// The memory object is dedicated to the one buffer. Without this NVIDIA's OpenGL (580) reads and writes
+// elsewhere, and reports no error.
+void ImportedMemory::import_in_gl() {
+  const auto bytes = memory_->bytes();
+  glCreateMemoryObjectsEXT(1, &memory_object_);
+  const GLint yes = GL_TRUE;
+  glMemoryObjectParameterivEXT(memory_object_, dedicated_memory_object, &yes);
+  const int fd = memory_->export_fd();
+  glImportMemoryFdEXT(memory_object_, bytes, handle_type_opaque_fd, fd);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
+    close(fd);
+    throw machine_error("glImportMemoryFdEXT of {} bytes failed with {}", bytes, gl_error_name(error));
+  }
+  glCreateBuffers(1, &gl_buffer_);
+  glNamedBufferStorageMemEXT(gl_buffer_, GLsizeiptr(bytes), memory_object_, 0);
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    throw machine_error("glNamedBufferStorageMemEXT of {} bytes failed with {}", bytes, gl_error_name(error));
+}
+
+// The function is OpenCL 3's, this project's headers are those of 1.2 (cl/opencl.h), and older loaders lack
+// it.
+void ImportedMemory::import_in_cl() {
+  using Create =
+      cl_mem(CL_API_CALL*)(cl_context, const cl_ulong* properties, cl_mem_flags, size_t, void*, cl_int*);
+  const auto create = reinterpret_cast<Create>(dlsym(RTLD_DEFAULT, "clCreateBufferWithProperties"));
+  if (!create)
+    throw machine_error("the OpenCL loader has no clCreateBufferWithProperties, it is older than OpenCL 3.0");
+  const int fd = memory_->export_fd();
+  const cl_ulong properties[] = {cl_handle_opaque_fd_khr, cl_ulong(fd), 0};
+  cl_int code = CL_SUCCESS;
+  const cl_mem buffer =
+      create(cl_.context()(), properties, CL_MEM_READ_WRITE, memory_->bytes(), nullptr, &code);
+  if (code != CL_SUCCESS) {
+    close(fd);
+    throw machine_error("clCreateBufferWithProperties of {} bytes failed with {}", memory_->bytes(),
+                        cl_error_name(code));
+  }
+  cl_buffer_ = cl::Buffer(buffer);
+}
+
+void ImportedMemory::enqueue(HandOver call, const char* name) {
+  const cl_mem buffer = cl_buffer_();
+  const cl_int code = call(cl_.queue()(), 1, &buffer, 0, nullptr, nullptr);
+  if (code != CL_SUCCESS) throw machine_error("{} failed with {}", name, cl_error_name(code));
+}
+
+void ImportedMemory::acquire() { enqueue(acquire_, "clEnqueueAcquireExternalMemObjectsKHR"); }
+
+void ImportedMemory::release() { enqueue(release_, "clEnqueueReleaseExternalMemObjectsKHR"); }
+
+}  // namespace lightgrid

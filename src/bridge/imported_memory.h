@@ -1,0 +1,46 @@
+// One memory on a GPU, imported by OpenGL (GL_EXT_memory_object_fd) and by OpenCL (cl_khr_external_memory).
+#pragma once
+
+#include <memory>
+
+#include "bridge/cuda_memory.h"
+#include "cl/device.h"
+#include "gl/gl.h"
+
+namespace lightgrid {
+
+// Either API uses it in turn. The order of their commands is the caller's: glFinish before acquire(), and a
+// finished queue after release().
+class ImportedMemory {
+ public:
+  // At least `bytes`; contents undefined. The current context and `cl` are of one GPU. Throws Error(machine),
+  // naming the step that failed.
+  ImportedMemory(ClDevice& cl, size_t bytes);
+  // The context is current, and OpenCL's queue is finished.
+  ~ImportedMemory();
+  ImportedMemory(const ImportedMemory&) = delete;
+  ImportedMemory& operator=(const ImportedMemory&) = delete;
+
+  GLuint gl_buffer() const { return gl_buffer_; }
+  cl::Buffer& cl_buffer() { return cl_buffer_; }
+
+  // Enqueue the hand-over; OpenCL uses the memory only between the two.
+  void acquire();
+  void release();
+
+ private:
+  using HandOver = cl_int(CL_API_CALL*)(cl_command_queue, cl_uint, const cl_mem*, cl_uint, const cl_event*,
+                                        cl_event*);
+  void import_in_gl();
+  void import_in_cl();
+  void enqueue(HandOver call, const char* name);
+  void free_all();
+
+  ClDevice& cl_;
+  HandOver acquire_ = nullptr, release_ = nullptr;
+  std::unique_ptr<CudaMemory> memory_;
+  GLuint memory_object_ = 0, gl_buffer_ = 0;
+  cl::Buffer cl_buffer_;
+};
+
+}  // namespace lightgrid
