@@ -42,6 +42,17 @@ GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, con
   compile(fragment_shader, fragment, defines);
   glAttachShader(name(), vertex_shader.name);
   glAttachShader(name(), fragment_shader.name);
+  link(vertex + " and " + fragment);
+}
+
+GlProgram::GlProgram(const std::string& compute, const std::vector<std::string>& defines) : object_(glCreateProgram()) {
+  const Shader shader(GL_COMPUTE_SHADER);
+  compile(shader, compute, defines);
+  glAttachShader(name(), shader.name);
+  link(compute);
+}
+
+void GlProgram::link(const std::string& files) const {
   glLinkProgram(name());
   GLint linked = 0;
   glGetProgramiv(name(), GL_LINK_STATUS, &linked);
@@ -50,7 +61,7 @@ GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, con
     GLsizei length = 0;
     glGetProgramInfoLog(name(), GLsizei(log.size()), &length, log.data());
     log.resize(length);
-    throw machine_error("OpenGL: {} and {} do not link on this driver:\n{}", vertex, fragment, log);
+    throw machine_error("OpenGL: linking {} failed on this driver:\n{}", files, log);
   }
 }
 

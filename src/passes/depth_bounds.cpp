@@ -7,10 +7,8 @@ DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth) {
   const size_t bytes = v.pixels() * 4;
   auto pass = v.timer.pass("depth_to_cl", "gl");
   SharedBuffer& copy = v.shared_pixels("depth", 4);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, depth.framebuffer);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, copy.gl_buffer());
-  glReadPixels(0, 0, v.view.width, v.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  v.renderer.pixel_copies.to_buffer({depth.framebuffer, GL_DEPTH_ATTACHMENT, v.targets.depth()}, GL_DEPTH_COMPONENT, GL_FLOAT,
+                                    v.view.width, v.view.height, copy.gl_buffer());
   copy.hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return {copy.cl_buffer()};

@@ -54,11 +54,9 @@ class LightSums : public PassState {
 
 void sums_to_gl(RenderView& v, const PrepassImage& image, SharedBuffer& from, GLuint to) {
   from.hand_to_gl(v.pixels() * image.bytes);
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, from.gl_buffer());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);  // rows of two bytes a pixel
-  glTextureSubImage2D(to, 0, 0, 0, v.view.width, v.view.height, image.pixel, image.type, nullptr);
+  v.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, v.view.width, v.view.height, to);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
 }  // namespace
@@ -68,11 +66,8 @@ NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals) {
   const size_t bytes = v.pixels() * image.bytes;
   const NormalsInCl in_cl = normals_in_cl_of(v, TargetUse::image);
   auto pass = v.timer.pass("normals_to_cl", "gl");
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, normals.framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, in_cl.image->gl_buffer());
-  glReadPixels(0, 0, v.view.width, v.view.height, image.pixel, image.type, nullptr);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  v.renderer.pixel_copies.to_buffer({normals.framebuffer, GL_COLOR_ATTACHMENT0, normals.texture}, image.pixel, image.type,
+                                    v.view.width, v.view.height, in_cl.image->gl_buffer());
   in_cl.image->hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return in_cl;

@@ -58,11 +58,9 @@ class TileShading : public PassState {
   cl::Kernel kernels_[2];  // by holds_base_lighting
 };
 
-void copy_attachment(RenderView& v, int attachment, GLenum type, SharedBuffer& to) {
-  glReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(attachment));
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, to.gl_buffer());
-  glReadPixels(0, 0, v.view.width, v.view.height, GL_RGBA, type, nullptr);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+void copy_attachment(RenderView& v, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type, SharedBuffer& to) {
+  v.renderer.pixel_copies.to_buffer({gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture}, GL_RGBA, type,
+                                    v.view.width, v.view.height, to.gl_buffer());
 }
 
 GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
@@ -70,10 +68,11 @@ GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
   const GBufferInCl in_cl = gbuffer_in_cl_of(v, gbuffer.base_lighting, TargetUse::image);
   const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, gbuffer.framebuffer);
-  for (size_t i = 0; i < 2; ++i) copy_attachment(v, int(i), gbuffer.layout->images[i].type, *in_cl.surfaces[i]);
-  if (base_lighting) copy_attachment(v, 2, GL_FLOAT, *in_cl.image);
-  if (gbuffer.coats) copy_attachment(v, gbuffer.coats_attachment(), gbuffer.layout->images[2].type, *in_cl.surfaces[2]);
+  for (size_t i = 0; i < in_cl.images(); ++i) {
+    copy_attachment(v, gbuffer, i < 2 ? int(i) : gbuffer.coats_attachment(), gbuffer.textures[i], gbuffer.layout->images[i].type,
+                    *in_cl.surfaces[i]);
+  }
+  if (base_lighting) copy_attachment(v, gbuffer, 2, v.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
   for (size_t i = 0; i < in_cl.images(); ++i) in_cl.surfaces[i]->hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
   if (base_lighting) in_cl.image->hand_to_cl(pixels * 16);
   const size_t bytes = pixels * (gbuffer.bytes() + (base_lighting ? 16 : 0));
@@ -85,10 +84,8 @@ void image_to_gl(RenderView& v, SharedBuffer& image) {
   const size_t bytes = v.pixels() * 16;
   auto pass = v.timer.pass("image_to_gl", "gl");
   image.hand_to_gl(bytes);
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, image.gl_buffer());
-  glTextureSubImage2D(v.targets.texture("color", GL_RGBA32F), 0, 0, 0, v.view.width, v.view.height, GL_RGBA, GL_FLOAT,
-                      nullptr);
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  v.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, v.view.width, v.view.height,
+                                     v.targets.texture("color", GL_RGBA32F));
   pass.moves(bytes, bytes);
 }
 

@@ -25,10 +25,11 @@ Renderer::Renderer(const std::string& cl_substring, OpenGl opened)
       cl(std::make_unique<ClDevice>(cl_substring)),
       kernels(std::make_unique<ProgramCache>(*cl)),
       bridge(gl ? choose_bridge(*cl, *gl) : BridgeKind::none),
+      pixel_copies(bridge == BridgeKind::imported),
       tuned(read_tuned_sizes(cl->info())) {}
 
 Renderer::~Renderer() {
-  if (gl && !programs_.empty()) gl->make_current();
+  if (gl && programs_.size() + size_t(pixel_copies.programs()) > 0) gl->make_current();
 }
 
 void Renderer::require_gl() const {
@@ -46,7 +47,7 @@ const GlProgram& Renderer::program(const std::string& vertex, const std::string&
 
 RendererCounts Renderer::counts() const {
   const ProgramCache::Counts& built = kernels->counts();
-  return {int(programs_.size()), built.built + built.from_disk, scene_bytes_};
+  return {int(programs_.size()) + pixel_copies.programs(), built.built + built.from_disk, scene_bytes_};
 }
 
 }  // namespace lightgrid

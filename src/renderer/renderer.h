@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bridge/pixel_copies.h"
 #include "bridge/shared_buffer.h"
 #include "cl/program_cache.h"
 #include "cl/tuned_sizes.h"
@@ -40,6 +41,7 @@ class Renderer {
   std::unique_ptr<ClDevice> cl;
   std::unique_ptr<ProgramCache> kernels;
   BridgeKind bridge = BridgeKind::none;
+  PixelCopies pixel_copies;  // by shader where the bridge is imported memory
   TunedSizes tuned{};  // of settings that are not given
 
   // A GLSL program, compiled at first use: embedded shader files, each after one "#define" per name.

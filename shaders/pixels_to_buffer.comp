@@ -1,0 +1,32 @@
+// Copies an image into a buffer as glReadPixels does: rows from the bottom, without padding. One invocation a pixel.
+//   image   at texture unit 0
+//   Pixels  storage buffer 0
+//   one of  FLOAT_1 (its first channel, or depth), FLOAT_4: 32 bits a channel
+//           UNORM8_4, UNORM16_2, UNORM16_4: the integers that the image stores
+layout(local_size_x = 32, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D image;
+
+#if defined(FLOAT_1)
+#define PIXEL uint
+PIXEL pixel_of(vec4 texel) { return floatBitsToUint(texel.r); }
+#elif defined(FLOAT_4)
+#define PIXEL uvec4
+PIXEL pixel_of(vec4 texel) { return floatBitsToUint(texel); }
+#elif defined(UNORM8_4)
+#define PIXEL uint
+PIXEL pixel_of(vec4 texel) { return packUnorm4x8(texel); }
+#elif defined(UNORM16_2)
+#define PIXEL uint
+PIXEL pixel_of(vec4 texel) { return packUnorm2x16(texel.rg); }
+#else  // UNORM16_4
+#define PIXEL uvec2
+PIXEL pixel_of(vec4 texel) { return uvec2(packUnorm2x16(texel.rg), packUnorm2x16(texel.ba)); }
+#endif
+
+layout(std430, binding = 0) writeonly buffer Pixels { PIXEL pixels[]; };
+
+void main() {
+  ivec2 size = textureSize(image, 0), at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, size))) return;
+  pixels[at.y * size.x + at.x] = pixel_of(texelFetch(image, at, 0));
+}
