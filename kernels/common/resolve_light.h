@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
-// -DVOXELS       point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
+// -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only the rest comes from
 //                the volume
 // -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
@@ -13,7 +13,7 @@
 #include "kernels/common/resolve.h"
 #include "kernels/common/shade_pixels.h"
 #include "shared/light_grid.h"
-#ifdef VOXELS
+#ifdef LIGHTS_VOXELS
 #include "kernels/common/voxel_lookup.h"
 #ifdef VOXEL_EXACT
 #include "shared/voxel_exact.h"
@@ -69,7 +69,7 @@ typedef struct ResolveLights {
   global const uint2* cells;  // with -DSLICES: of all tiles; `list` is then where all lists begin
   uint cell;                  // the tile's in slice 0
   constant float* slice_edges;
-#ifdef VOXELS
+#ifdef LIGHTS_VOXELS
   global const stored_voxel_t *irradiance, *directions;
   constant VoxelLookup* voxels;
 #endif
@@ -253,7 +253,7 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
                              const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
   const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
   Real3 sum = own_light(&p, s, l, view);
-#ifdef VOXELS
+#ifdef LIGHTS_VOXELS
   VoxelLight of_voxels = voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels);
 #ifdef VOXEL_EXACT
   sum = exact_light(sum, &p, lit, l, &of_voxels);

@@ -10,9 +10,8 @@ namespace {
 
 std::string defines_of_light_buffer(RenderView& v, bool lanes) {
   const Settings& s = v.plan.settings;
-  std::string defines = light_defines(v, lanes);
   // The same kernel for both BRDFs with a specular lobe.
-  if (const size_t at = defines.find(" -DBLINN"); at != std::string::npos) defines.erase(at, 8);
+  std::string defines = light_defines(v, lanes, s.brdf == Brdf::lambert ? Brdf::lambert : Brdf::ggx);
   defines += fmt::format(" -DBUFFER_BITS={}", s.buffer_bits);
   if (normal_layout(s).define) defines += fmt::format(" -D{}", normal_layout(s).define);
   if (has_fifth_term(s)) defines += " -DPREPASS_FIFTH_TERM";

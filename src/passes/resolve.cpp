@@ -86,7 +86,7 @@ class Resolving : public PassState {
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
   std::string resolve_defines(RenderView& v) {
-    std::string defines = light_defines(v, lanes);
+    std::string defines = light_defines(v, lanes, v.plan.settings.brdf);
     if (v.plan.directional) defines += " -DDIRECTIONAL";
     if (v.plan.light_grid && v.plan.slices > 1) defines += " -DSLICES";
     const uint32_t of_scene = v.plan.settings.everything_on ? feature_all : scene(v).features();
@@ -137,7 +137,7 @@ std::string light_kernel_defines(const RenderView& v, const GridInCl& in) {
   if (in.world) return " -DWORLD_GRID";
   if (!in.voxels) return "";
   const std::string exact = in.grid ? fmt::format(" -DVOXEL_EXACT={}", v.plan.settings.voxel_lights_exact) : "";
-  return " -DVOXELS" + in.voxels->kernel_defines + exact;
+  return " -DLIGHTS_VOXELS" + in.voxels->kernel_defines + exact;
 }
 
 size_t grid_bytes(const GridInCl& in) {

@@ -49,7 +49,7 @@ class TileShading : public PassState {
 
  private:
   std::string defines_of_view(RenderView& v) const {
-    std::string defines = light_defines(v, lanes) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
+    std::string defines = light_defines(v, lanes, v.plan.settings.brdf) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
     for (const char* define : model_defines(v.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }

@@ -37,7 +37,7 @@ size_t ClLights::memory_bytes() const {
   return bytes;
 }
 
-std::string light_defines(const RenderView& v, bool lanes) {
+std::string light_defines(const RenderView& v, bool lanes, Brdf brdf) {
   std::string defines;
   if (lanes) defines += fmt::format(" -DTILE={}", v.plan.settings.tile);
   if (lanes && !v.plan.settings.portable && builds_avx512(*v.renderer.cl, *v.renderer.kernels))
@@ -45,8 +45,8 @@ std::string light_defines(const RenderView& v, bool lanes) {
   if (v.plan.index_bits == 32) defines += " -DINDEX_32";
   if (v.plan.z_bins > 1) defines += " -DZ_BINS";
   if (v.plan.spots) defines += " -DSPOTS";
-  if (v.plan.settings.brdf == Brdf::blinn) defines += " -DBLINN";
-  if (v.plan.settings.brdf == Brdf::lambert) defines += " -DLAMBERT";
+  if (brdf == Brdf::blinn) defines += " -DBLINN";
+  if (brdf == Brdf::lambert) defines += " -DLAMBERT";
   for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
   if (v.view.orthographic) defines += " -DORTHOGRAPHIC";
   return defines;

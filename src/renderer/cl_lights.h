@@ -16,8 +16,8 @@ class ClLights {
 };
 
 // The -D names that light loops in OpenCL take of a view and its plan (kernels/common/shade_pixels.h).
-// `lanes`: those of kernels that take a tile.
-std::string light_defines(const RenderView& v, bool lanes);
+// `lanes`: those of kernels that take a tile. brdf: of the kernel, which may serve several of the setting's.
+std::string light_defines(const RenderView& v, bool lanes, Brdf brdf);
 
 // Whether kernels that shade pixels take the shape for CPUs.
 bool shades_in_lanes(const RenderView& v);
