@@ -4,6 +4,8 @@
 //   LAMBERT: no specular term.
 //   PREPASS_FIFTH_TERM, PREPASS_LUMINANCE, PREPASS_BENT: how the material's shininess takes part
 //   (prepass-specular); without any of them it does not.
+//   SKIN, MINNAERT: materials of these models take the luminance of the sums for the cosine, as the article's
+//   appendix has it (docs/techniques/light_prepass.md#skin-and-minnaert).
 #pragma once
 
 #include "shared/power_of_cosine.h"
@@ -88,6 +90,40 @@ SHARED_FUNCTION LightTerms finite_terms(LightTerms t) {
   return f;
 }
 
+#ifdef PREPASS_LUMINANCE
+#define READS_LUMINANCE
+#elif defined(SKIN) || defined(MINNAERT)
+#define READS_LUMINANCE
+#endif
+#ifdef READS_LUMINANCE
+SHARED_FUNCTION real luminance_of_terms(LightTerms t) {
+  return 0.2126f * t.diffuse.x + 0.7152f * t.diffuse.y + 0.0722f * t.diffuse.z;
+}
+#endif
+
+// The light that the models of the appendix take for a cosine of 1, of the reference light: as bright as the brightest
+// light is at half its range, not at an eighth.
+#define LIGHT_OF_COSINE_1 0.0625f
+
+// What a surface reflects diffusely of finite sums, without a coat over it.
+#if defined(SKIN) || defined(MINNAERT)
+SHARED_FUNCTION Real3 diffuse_of_terms(ShadingPoint p, LightTerms t, LightBufferParams of) {
+  real cosine = min_real(luminance_of_terms(t) / (LIGHT_OF_COSINE_1 * of.reference), REAL(1.0f));
+  Real3 reflectance = DIFFUSE_AT(p, cosine);
+#ifdef SKIN
+  // The article's term is not 0 at a luminance of 0. At most the light that arrives leaves elsewhere.
+  real rolled = smooth_step_of((cosine + p.roll_off) * p.roll_scale) - smooth_step_of(cosine);
+  real share = min_real(max_real(rolled, REAL(0.0f)) / max_real(cosine, REAL(1e-30f)), REAL(1.0f));
+  reflectance = add3(reflectance, scale3(p.subsurface, share));
+#endif
+  return real3(reflectance.x * t.diffuse.x, reflectance.y * t.diffuse.y, reflectance.z * t.diffuse.z);
+}
+#else
+SHARED_FUNCTION Real3 diffuse_of_terms(ShadingPoint p, LightTerms t, LightBufferParams of) {
+  return real3(p.diffuse.x * t.diffuse.x, p.diffuse.y * t.diffuse.y, p.diffuse.z * t.diffuse.z);
+}
+#endif
+
 #ifndef LAMBERT
 SHARED_FUNCTION real shininess_of(real alpha_squared) { return 2.0f / alpha_squared - 2.0f; }
 
@@ -103,7 +139,7 @@ SHARED_FUNCTION real highlight_of(LightTerms t, real alpha_squared, LightBufferP
   real highlight =
       t.weight * power_of_unit(t.specular / max_real(t.weight, REAL(1e-30f)), shininess / of.exponent);
 #elif defined(PREPASS_LUMINANCE)
-  real luminance = 0.2126f * t.diffuse.x + 0.7152f * t.diffuse.y + 0.0722f * t.diffuse.z;
+  real luminance = luminance_of_terms(t);
   real highlight =
       luminance * power_of_unit(t.specular / max_real(luminance, REAL(1e-30f)), shininess / of.exponent);
 #elif defined(PREPASS_BENT)
@@ -120,8 +156,9 @@ SHARED_FUNCTION real highlight_of(LightTerms t, real alpha_squared, LightBufferP
 // Radiance of a surface without base lighting. The terms are sums of light_terms.
 SHARED_FUNCTION Real3 light_of_terms(ShadingPoint p, LightTerms sums, LightBufferParams of) {
   LightTerms t = finite_terms(sums);
+  Real3 diffuse = diffuse_of_terms(p, t, of);
 #ifdef LAMBERT
-  return real3(p.diffuse.x * t.diffuse.x, p.diffuse.y * t.diffuse.y, p.diffuse.z * t.diffuse.z);
+  return diffuse;
 #else
   real highlight = highlight_of(t, p.lobe.alpha_squared, of);
   // Schlick's term: the mean over the highlight, or that of a half vector along the normal.
@@ -132,9 +169,8 @@ SHARED_FUNCTION Real3 light_of_terms(ShadingPoint p, LightTerms sums, LightBuffe
   real share = grazing * grazing * grazing * grazing * grazing;
 #endif
   real rim = highlight * share, facing = highlight * (1.0f - share);
-  Real3 base = real3(p.diffuse.x * t.diffuse.x + p.f0.x * facing + rim,
-                     p.diffuse.y * t.diffuse.y + p.f0.y * facing + rim,
-                     p.diffuse.z * t.diffuse.z + p.f0.z * facing + rim);
+  Real3 base = real3(diffuse.x + p.f0.x * facing + rim, diffuse.y + p.f0.y * facing + rim,
+                     diffuse.z + p.f0.z * facing + rim);
 #ifdef CLEARCOAT
   // The coat reflects about the base's normal, the only one that the light buffer has.
   real coat = p.coat * highlight_of(t, p.coat_lobe.alpha_squared, of);

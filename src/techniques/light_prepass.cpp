@@ -68,18 +68,7 @@ static Frame in_cl(RenderView& v) {
   return frame;
 }
 
-// The sums hold Lambert's cosine of each light, not the light behind the terminator or another power of the cosine.
-static void refuse_models(const RenderView& v) {
-  if (!v.plan.local_lights || !(v.plan.skin || v.plan.minnaert)) return;
-  for (const Material& m : v.scene.materials) {  // the plan names models also with everything on
-    if (m.alpha_mode == AlphaMode::blend || !(m.model.skin() || m.model.minnaert())) continue;
-    throw input_error("light_prepass: a material's model {} needs each light; its light buffer has only sums",
-                      m.model.skin() ? "skin" : "minnaert");
-  }
-}
-
 static Frame render(RenderView& v) {
-  refuse_models(v);
   if (v.plan.settings.raster == RasterApi::opencl) return in_cl(v);
   if (!v.plan.local_lights) return without_lights(v);
   return v.plan.settings.prepass_lights == PrepassLights::volumes ? from_volumes(v) : from_tiles(v);
