@@ -159,6 +159,7 @@ void place_in_projection(PlacedVoxels& placed, const RenderView& v, const Visibl
   const glm::dvec3 a = at_pixel(v.params, 0, 0, 1),
                    b = at_pixel(v.params, v.params.width, v.params.height, 1);
   const glm::dvec3 low = glm::min(a, b), spacing = (glm::max(a, b) - low) / (size - 1.0);
+  const glm::dvec3 slope = glm::max(glm::abs(a), glm::abs(b));
   const double near = rounded_down(std::max(box.nearest_m, 1e-6)),
                far = std::max(rounded_up(box.farthest_m), near * 1.01);
   const double step = std::log(far / near) / (size.z - 1);
@@ -167,8 +168,9 @@ void place_in_projection(PlacedVoxels& placed, const RenderView& v, const Visibl
   g.spacing_y = float(spacing.y);
   for (uint k = 0; k < g.size_z; ++k) {
     const double place = near * std::exp(k * step), next = near * std::exp((k + 1) * step);
-    // Of the cell behind it, which is the larger one.
-    const glm::dvec3 cell(spacing.x * next, spacing.y * next, next - place);
+    // The box around the cell behind it, which is the larger one. Cells are sheared, most at the image's corners.
+    const glm::dvec3 cell(spacing.x * next + slope.x * (next - place), spacing.y * next + slope.y * (next - place),
+                          next - place);
     placed.slices.push_back(slice_of(place, cell, spacing.x * spacing.y * place * place * (step * place)));
   }
   set_places(placed.lookup, scaled_rows({1 / spacing.x, 1 / spacing.y, 1 / step}, glm::dmat3(1)),
