@@ -303,7 +303,8 @@ const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases;
     for (const auto& group : {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
-                              light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases(), world_cases()})
+                              light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases(), world_cases(),
+                              prepass_cases(), voxel_cases()})
       cases.insert(cases.end(), group.begin(), group.end());
     return cases;
   }();

@@ -57,11 +57,17 @@ class DeviceEngine : public CullEngine {
     return KernelRun{culler.read_inputs(bounds), std::move(grid)};
   }
 
-  WorldGrid* world_grid(WorldGridShape shape, double cell, int index_bits) override {
+  std::optional<WorldLists> world_lists(const WorldListsOf& of, std::span<const CullLight> lights, const WorldBox& bounds,
+                                        const View& view) override {
+    auto& grid = world_grids_[of];
+    if (!grid) grid = std::make_unique<WorldGrid>(*renderer(), of.shape, of.cell, of.index_bits);
+    grid->build(lights, bounds, view, 0);
+    return WorldLists{grid->layout(), grid->read()};
+  }
+
+  Renderer* renderer() override {
     if (!renderer_) renderer_ = std::make_unique<Renderer>(substring_, GlBackend::none);
-    auto& grid = world_grids_[{shape, cell, index_bits}];
-    if (!grid) grid = std::make_unique<WorldGrid>(*renderer_, shape, cell, index_bits);
-    return grid.get();
+    return renderer_.get();
   }
 
   std::optional<RasterImage> rasterize(const RasterOptions& options, const RasterInput& input) override {
@@ -126,7 +132,7 @@ class DeviceEngine : public CullEngine {
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
   std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Rasterizer>> rasterizers_;
   std::unique_ptr<Renderer> renderer_;  // without OpenGL
-  std::map<std::tuple<WorldGridShape, double, int>, std::unique_ptr<WorldGrid>> world_grids_;
+  std::map<WorldListsOf, std::unique_ptr<WorldGrid>> world_grids_;
 };
 
 }  // namespace

@@ -26,6 +26,18 @@ struct DepthImage {
   std::vector<double> distances{};
 };
 
+// Cells of the world and the list of each (docs/techniques/world_grid.md).
+struct WorldListsOf {
+  WorldGridShape shape;
+  double cell;  // the setting world-cell
+  int index_bits;
+  auto operator<=>(const WorldListsOf&) const = default;
+};
+struct WorldLists {
+  WorldLayout layout;
+  HostWorldGrid grid;
+};
+
 // A cull from depth with all of its inputs, for the float twin.
 struct KernelRun {
   CullInputs inputs;
@@ -57,8 +69,15 @@ class CullEngine {
     return {};
   }
 
-  // Lists of the world grid, to build; the same one each time. Null from an engine that only culls.
-  virtual WorldGrid* world_grid(WorldGridShape, double /*cell*/, int /*index_bits*/) { return nullptr; }
+  // Lists of the world grid as WorldGrid::build makes them, in the buffers that the last build of these settings used.
+  // Nothing from an engine that only culls.
+  virtual std::optional<WorldLists> world_lists(const WorldListsOf&, std::span<const CullLight>, const WorldBox& /*bounds*/,
+                                                const View&) {
+    return {};
+  }
+
+  // For passes of OpenCL alone. Null from an engine that only culls.
+  virtual Renderer* renderer() { return nullptr; }
 
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }

@@ -12,7 +12,7 @@ namespace lightgrid::verify {
 class Check;
 
 struct HardCase {
-  const char* group;      // depth, camera, lights, lists, agreement, raster, world
+  const char* group;      // depth, camera, lights, lists, agreement, raster, world, prepass, voxels
   const char* name;
   const char* input;
   const char* breaks;     // the fault of naive code
@@ -34,6 +34,8 @@ std::vector<HardCase> list_cases();
 std::vector<HardCase> agreement_cases();
 std::vector<HardCase> raster_cases();
 std::vector<HardCase> world_cases();
+std::vector<HardCase> prepass_cases();
+std::vector<HardCase> voxel_cases();
 
 enum class Verdict { pass, fail, skip };
 

@@ -53,10 +53,10 @@ glm::dvec3 reached_point(const CullLight& light, Random& random) {
 
 // Each light that reaches a point's position, as shading computes it, is in the list that shading reads
 // there, once.
-void expect_listed(Check& c, const HostWorldGrid& lists, const WorldLayout& layout, const View& view,
-                   const std::vector<CullLight>& lights, std::span<const glm::dvec3> points,
-                   const char* name) {
-  const WorldViewParams rows = world_view_params(layout, view);
+void expect_listed(Check& c, const WorldLists& built, const View& view, const std::vector<CullLight>& lights,
+                   std::span<const glm::dvec3> points, const char* name) {
+  const HostWorldGrid& lists = built.grid;
+  const WorldViewParams rows = world_view_params(built.layout, view);
   const glm::dmat3 rotation(view.view_from_world);
   for (const glm::dvec3& point : points) {
     const glm::vec3 in_view(rotation * (point - view.eye));
@@ -95,10 +95,9 @@ void hold(Check& c, const std::vector<CullLight>& lights, const View& view, size
           uint64_t seed = 1) {
   const std::vector<glm::dvec3> at = points_of(lights, points, seed);
   for (const auto& [shape, cell, name] : world_grids) {
-    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
-    if (!grid) return c.skip("the engine has no world grid");
-    grid->build(lights, no_surfaces, view, 0);
-    expect_listed(c, grid->read(), grid->layout(), view, lights, at, name);
+    const auto built = c.engine.world_lists({shape, cell, 16}, lights, no_surfaces, view);
+    if (!built) return c.skip("the engine has no world grid");
+    expect_listed(c, *built, view, lights, at, name);
   }
 }
 
@@ -113,6 +112,30 @@ void on_a_corner(Check& c) {
     }
   }
   hold(c, lights, world_view({1, 2, 9}, {0, 0, 0}), 2000);
+}
+
+// Cells have corners at whole metres from the origin, or at a quarter of them: balls of 1 m around it make
+// the grid's box. Each other ball ends a nanometre past the corner, the edge or the face of a cell that is
+// nearest to it.
+void tangent_to_cells(Check& c) {
+  Random random(41);
+  std::vector<CullLight> lights = {{glm::dvec3(-20), 1}, {glm::dvec3(20), 1}};
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 300; ++i) {
+    glm::dvec3 away = glm::abs(any_direction(random)), point;
+    for (int axis = 0; axis < 3; ++axis) {
+      point[axis] = double(random.next() % 31) - 15;
+      if (axis >= 3 - i % 3) away[axis] = 0, point[axis] += 0.125;  // between two corners
+    }
+    points.push_back(point);
+    lights.push_back({point - glm::normalize(away) * (1 - 1e-9), 1});
+  }
+  const View view = world_view({0, 0, 5}, {0, 0, 0});
+  for (const auto& [shape, cell, name] : world_grids) {
+    const auto built = c.engine.world_lists({shape, cell, 16}, lights, no_surfaces, view);
+    if (!built) return c.skip("the engine has no world grid");
+    expect_listed(c, *built, view, lights, points, name);
+  }
 }
 
 void eye_inside(Check& c) {
@@ -132,13 +155,12 @@ void larger_than_the_grid(Check& c) {
 void no_lights_at_all(Check& c) {
   const View view = world_view({0, 0, 5}, {0, 0, 0});
   for (const auto& [shape, cell, name] : world_grids) {
-    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
-    if (!grid) return c.skip("the engine has no world grid");
-    grid->build({}, no_surfaces, view, 0);
-    const HostWorldGrid lists = grid->read();
+    const auto built = c.engine.world_lists({shape, cell, 16}, {}, no_surfaces, view);
+    if (!built) return c.skip("the engine has no world grid");
+    const HostWorldGrid& lists = built->grid;
     for (const glm::dvec3& point : {glm::dvec3(0), glm::dvec3(1e9, -5, 2)}) {
       const glm::uvec2 range =
-          lists.range_at(world_position(glm::vec3(point), world_view_params(grid->layout(), view)));
+          lists.range_at(world_position(glm::vec3(point), world_view_params(built->layout, view)));
       c.that(range.y == 0 && lists.indices.empty(), "{}: {} lights of none", name, range.y);
     }
   }
@@ -151,12 +173,11 @@ void many_in_one_cell(Check& c) {
   const View view = world_view({0, 0, 5}, {0, 0, 0});
   for (const auto& [shape, cell, name] : {WorldGridChoice{WorldGridShape::cubes, 2, "3d"},
                                           WorldGridChoice{WorldGridShape::hashed, 2, "hashed"}}) {
-    WorldGrid* grid = c.engine.world_grid(shape, cell, 32);
-    if (!grid) return c.skip("the engine has no world grid");
-    grid->build(lights, no_surfaces, view, 0);
-    const HostWorldGrid lists = grid->read();
+    const auto built = c.engine.world_lists({shape, cell, 32}, lights, no_surfaces, view);
+    if (!built) return c.skip("the engine has no world grid");
+    const HostWorldGrid& lists = built->grid;
     const glm::vec3 middle(glm::dmat3(view.view_from_world) * (glm::dvec3(0.3, 0.2, 0.1) - view.eye));
-    const glm::uvec2 range = lists.range_at(world_position(middle, world_view_params(grid->layout(), view)));
+    const glm::uvec2 range = lists.range_at(world_position(middle, world_view_params(built->layout, view)));
     c.that(range.y == count, "{}: {} of {} lights", name, range.y, count);
     const std::span<const uint32_t> list = std::span(lists.indices).subspan(range.x, range.y);
     c.that(std::ranges::adjacent_find(list, std::greater_equal()) == list.end(), "{}: the list is not sorted",
@@ -215,11 +236,10 @@ void invalid_numbers(Check& c) {
   const View view = world_view({0, 0, 8}, {0, 0, 0});
   const std::vector<glm::dvec3> points = points_of(good, 500, 3);
   for (const auto& [shape, cell, name] : world_grids) {
-    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
-    if (!grid) return c.skip("the engine has no world grid");
-    grid->build(lights, no_surfaces, view, 0);
-    const HostWorldGrid lists = grid->read();
-    expect_listed(c, lists, grid->layout(), view, lights, points, name);
+    const auto built = c.engine.world_lists({shape, cell, 16}, lights, no_surfaces, view);
+    if (!built) return c.skip("the engine has no world grid");
+    const HostWorldGrid& lists = built->grid;
+    expect_listed(c, *built, view, lights, points, name);
     c.that(std::ranges::none_of(lists.indices, [&](uint32_t i) { return i + 2 < at; }),
            "{}: a light that is nowhere is listed", name);
   }
@@ -233,11 +253,11 @@ void parked_far_away(Check& c) {
   const std::vector<glm::dvec3> points =
       points_of(std::vector<CullLight>(lights.begin(), lights.begin() + std::ptrdiff_t(near)), 500, 3);
   for (const auto& [shape, cell, name] : world_grids) {
-    WorldGrid* grid = c.engine.world_grid(shape, cell, 16);
-    if (!grid) return c.skip("the engine has no world grid");
-    grid->build(lights, {glm::dvec3(-12), glm::dvec3(12)}, view, 0);
-    const HostWorldGrid lists = grid->read();
-    expect_listed(c, lists, grid->layout(), view, lights, points, name);
+    const auto built =
+        c.engine.world_lists({shape, cell, 16}, lights, {glm::dvec3(-12), glm::dvec3(12)}, view);
+    if (!built) return c.skip("the engine has no world grid");
+    const HostWorldGrid& lists = built->grid;
+    expect_listed(c, *built, view, lights, points, name);
     c.that(lists.everywhere().empty(), "{}: {} parked lights in every list", name, lists.everywhere().size());
   }
 }
@@ -267,12 +287,13 @@ std::vector<HardCase> world_cases() {
   return {
       {g, "on_a_corner", "balls whose centres and ends lie on corners and faces of cells",
        "floor on one side, ceil on the other", "every light that reaches is listed", on_a_corner},
+      {g, "tangent_to_cells", "balls that end 1 nm past a cell's corner, edge or face",
+       "a light's place and radius are rounded", "every light that reaches is listed", tangent_to_cells},
       {g, "eye_inside", "the eye in lights, and at their centres", "normalize(0)",
        "every light that reaches is listed", eye_inside},
       {g, "larger_than_the_grid", "radii of 10² m to infinity among lights of 0.5 m",
        "a capacity of cells a light; inf - inf", "listed everywhere, once", larger_than_the_grid},
-      {g, "empty", "0 lights", "bounds of nothing; buffers of size 0", "every list empty",
-       no_lights_at_all},
+      {g, "empty", "0 lights", "bounds of nothing; buffers of size 0", "every list empty", no_lights_at_all},
       {g, "many_in_one_cell", "10⁵ lights in one place (10⁶ with --nightly)",
        "a limit a cell (PlayCanvas: 255) drops some", "all of them in the list", many_in_one_cell},
       {g, "eye_outside", "the eye 30 m to 10⁹ m from a cloud of lights",

@@ -30,13 +30,13 @@ TEST_P(HardCasesOf, Hold) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf, testing::Values("depth", "camera", "lights", "lists", "agreement", "raster", "world"),
+INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf, testing::Values("depth", "camera", "lights", "lists", "agreement", "raster", "world", "prepass", "voxels"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 // HardCases.AreThoseOfTheDocument checks their number.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
-  const std::set<std::string> groups = {"depth", "camera", "lights", "lists", "agreement", "raster", "world"};
+  const std::set<std::string> groups = {"depth", "camera", "lights", "lists", "agreement", "raster", "world", "prepass", "voxels"};
   std::set<std::string> names, used;
   for (const HardCase& c : hard_cases()) {
     EXPECT_TRUE(names.insert(c.name).second) << c.name;
