@@ -9,6 +9,7 @@
 // totals   a chunk's number of entries out; with `write` its first entry in
 // cells    out: 64 a block: first entry and number
 // indices  out with `write`
+// -DCOLUMNS   blocks are 8 x 8 columns, not 4 x 4 x 4 cubes
 // -DINDEX_32  indices are 32 bits, not 16
 // -DAVX512    with that instruction set's builtins
 #define LANES 16
@@ -22,6 +23,7 @@ typedef ushort index_t;
 #endif
 
 #define PARTS (WORLD_BLOCK_CELLS / LANES)  // of a block, whose cells are tested together
+#define BATCH 16u                          // lights
 
 // Lower and upper sides of a block's cells along each axis, in lanes: cubes have 4 along x, then 4 along y
 // and 4 along z; columns 8 along x, then 8 along y. The outer cells have no end.
@@ -30,28 +32,31 @@ typedef struct BlockSides {
   float edge;
   mask_t outer[PARTS];                // cells without an end
   real x[PARTS], y[PARTS], z[PARTS];  // centres
-  bool columns;
 } BlockSides;
 
 // Of the cells of one part, from lanes as above.
-#define SPREAD_X(v) (columns ? (v).s0123456701234567 : (v).s0123012301230123)
+#ifdef COLUMNS
+#define SPREAD_X(v) (v).s0123456701234567
 #define SPREAD_Y(v, part)                \
-  (!columns      ? (v).s4444555566667777 \
-   : (part) == 0 ? (v).s8888888899999999 \
+  ((part) == 0   ? (v).s8888888899999999 \
    : (part) == 1 ? (v).saaaaaaaabbbbbbbb \
    : (part) == 2 ? (v).sccccccccdddddddd \
                  : (v).seeeeeeeeffffffff)
+#define ALONG_X 8
+#else
+#define SPREAD_X(v) (v).s0123012301230123
+#define SPREAD_Y(v, part) (v).s4444555566667777
+#define ALONG_X 4
+#endif
 #define SPREAD_Z(v, part) ((part) == 0 ? (v).s8 : (part) == 1 ? (v).s9 : (part) == 2 ? (v).sa : (v).sb)
 
 static inline BlockSides block_sides(uint2 key, constant WorldGridParams* world) {
   const uint level = key.y >> 16, x0 = (key.x & 0xffffu) << world->shift_x,
              y0 = key.x >> 16 << world->shift_y;
   const uint z0 = (key.y & 0xffffu) << world->shift_z;
-  const bool columns = world->shift_z == 0;
   const whole of_x = LANE_INDEX + (int)x0;
-  const whole of_y = (LANE_INDEX & (columns ? 7 : 3)) + (int)y0, of_z = (LANE_INDEX & 3) + (int)z0;
-  const mask_t is_x = LANE_INDEX < (whole)(columns ? 8 : 4),
-               is_z = LANE_INDEX >= (whole)(columns ? LANES : 8);
+  const whole of_y = (LANE_INDEX & (ALONG_X - 1)) + (int)y0, of_z = (LANE_INDEX & 3) + (int)z0;
+  const mask_t is_x = LANE_INDEX < (whole)(ALONG_X), is_z = LANE_INDEX >= (whole)(2 * ALONG_X);
   const whole cell = is_x ? of_x : is_z ? of_z : of_y;
   const whole cells = is_x   ? (whole)((int)world->cells_x)
                       : is_z ? (whole)((int)world->cells_z)
@@ -62,7 +67,6 @@ static inline BlockSides block_sides(uint2 key, constant WorldGridParams* world)
   BlockSides s;
   s.low = first ? REAL(-INFINITY) : low, s.high = last ? REAL(INFINITY) : high;
   s.edge = (float)(1u << level);
-  s.columns = columns;
   const real centre = low + 0.5f * s.edge;
   const mask_t outer = first | last;
   for (uint part = 0; part < PARTS; ++part) {
@@ -84,22 +88,29 @@ static inline mask_t meets_cone(float4 light, float4 cone, const BlockSides* s, 
 }
 
 // The cells that a light may reach, a bit each. Adds one for each of them to `counts`.
-static inline ulong mask_of_cells(float4 light, global const float4* cone, const BlockSides* s, whole* counts,
+static inline ulong mask_of_cells(float4 light, float4 axis, const BlockSides* s, whole* counts,
                                   constant WorldGridParams* world) {
-  const bool columns = s->columns;
-  const real at = columns ? (real)((float8)(light.x), (float8)(light.y))
-                          : (real)((float4)(light.x), (float4)(light.y), (float8)(light.z));
+#ifdef COLUMNS
+  const real at = (real)((float8)(light.x), (float8)(light.y));
+#else
+  const real at = (real)((float4)(light.x), (float4)(light.y), (float8)(light.z));
+#endif
   const real away = max_real(max_real(s->low - at, at - s->high), REAL(0.0f)), square = away * away;
-  // The ball around a cell, rounded up, and slack for both the light and the test's own rounding.
-  const float4 axis = cone ? *cone : (float4)(-2.0f);
-  const float far = fabs(light.x) + fabs(light.y) + fabs(light.z);
-  const float radius = 0.866026f * s->edge + 2.0f * world_slack(far, light.w, world);
   const real most = light.w * light.w;
+  float radius = 0.0f;
+  if (axis.w >= 0.0f) {
+    // The ball around a cell, rounded up, and slack for both the light and the test's own rounding.
+    const float far = fabs(light.x) + fabs(light.y) + fabs(light.z);
+    radius = 0.866026f * s->edge + 2.0f * world_slack(far, light.w, world);
+  }
   ulong mask = 0;
 #pragma unroll
   for (uint part = 0; part < PARTS; ++part) {
-    const real z = columns ? REAL(0.0f) : (real)(SPREAD_Z(square, part));
-    mask_t meets = SPREAD_X(square) + SPREAD_Y(square, part) + z <= most;
+#ifdef COLUMNS
+    mask_t meets = SPREAD_X(square) + SPREAD_Y(square, part) <= most;
+#else
+    mask_t meets = SPREAD_X(square) + SPREAD_Y(square, part) + (real)(SPREAD_Z(square, part)) <= most;
+#endif
     if (axis.w >= 0.0f) meets &= meets_cone(light, axis, s, part, radius);
     counts[part] -= meets;
     mask |= (ulong)mask_bits(meets) << part * LANES;
@@ -124,9 +135,13 @@ kernel void world_lists(global const float4* lights, global const float4* cones,
     if (!write) {
       const BlockSides sides = block_sides(keys[block], world);
       whole counts[PARTS] = {0, 0, 0, 0};
-      for (uint m = first; m < end; ++m) {
-        const uint light = members[m];
-        masks[m] = mask_of_cells(lights[light], cones ? cones + light : 0, &sides, counts, world);
+      // Lights of a block are anywhere in memory: a batch of them is loaded at once, so that its cache misses overlap.
+      for (uint m = first; m < end; m += BATCH) {
+        float4 balls[BATCH], axes[BATCH];
+        const uint batch = min(end - m, BATCH);
+        for (uint i = 0; i < batch; ++i) balls[i] = lights[members[m + i]];
+        for (uint i = 0; i < batch; ++i) axes[i] = cones ? cones[members[m + i]] : (float4)(-2.0f);
+        for (uint i = 0; i < batch; ++i) masks[m + i] = mask_of_cells(balls[i], axes[i], &sides, counts, world);
       }
       for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) own[i].y = ((const uint*)counts)[i], at += own[i].y;
     } else {

@@ -25,6 +25,7 @@ class WorldGridOfView : public PassState {
   }
 
   std::shared_ptr<WorldGrid> grid;
+  std::vector<CullLight> lights;  // of the last build, for their memory
   WorldViewParams params{};
   UploadedBuffer in_cl;
   GlBuffer in_gl;
@@ -48,8 +49,8 @@ WorldGridInCl build_world_grid(RenderView& v) {
   WorldGrid& grid = *state.grid;
   if (v.timer.enabled || !grid.serves(v.view, v.gpu.lights_version())) {
     auto pass = v.timer.pass("build_world_grid", "cl");
-    grid.build(cull_lights_of(v.scene, v.plan.local, v.plan.settings.ranges), world_box(v.scene), v.view,
-               v.gpu.lights_version());
+    cull_lights_of(v.scene, v.plan.local, v.plan.settings.ranges, state.lights);
+    grid.build(state.lights, world_box(v.scene), v.view, v.gpu.lights_version());
     pass.moves(v.plan.local.size() * 16, grid.list_bytes());
   }
   state.put_view(v);

@@ -19,7 +19,13 @@ CullView cull_view(const View& view, const FramePlan& plan) {
 }
 
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges) {
-  std::vector<CullLight> lights(indices.size());
+  std::vector<CullLight> lights;
+  cull_lights_of(scene, indices, ranges, lights);
+  return lights;
+}
+
+void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges, std::vector<CullLight>& lights) {
+  lights.resize(indices.size());
   const auto convert = [&](size_t begin, size_t end) {
     for (size_t at = begin; at < end; ++at) {
       const Light& light = scene.lights[size_t(indices[at])];
@@ -35,7 +41,6 @@ std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> i
     parallel_for(int((lights.size() + part - 1) / part),
                  [&](int i) { convert(size_t(i) * part, std::min(size_t(i + 1) * part, lights.size())); });
   }
-  return lights;
 }
 
 CullerOptions culler_options(const FramePlan& plan) {

@@ -1,6 +1,7 @@
-// Building: pairs of blocks and lights in the order of the lights, sorted stably by block, then each block's
-// lists. Each step counts in chunks, adds the counts up and writes, so that nothing is dropped and no place
-// depends on the order of threads.
+// Building: each block's lights, then each block's lists. A CPU counts the lights in blocks if there are few;
+// otherwise pairs of blocks and lights in the order of the lights are sorted stably by block. Each step
+// counts in chunks, adds the counts up and writes, so that nothing is dropped and no place depends on the
+// order of threads.
 #include "renderer/world_grid.h"
 
 #include <fmt/format.h>
@@ -86,6 +87,7 @@ void WorldGrid::run(const char* name, size_t items, const auto&... arguments) {
   const std::string file = std::string("world_") + name;
   std::string defines;
   if (file == "world_lists") {
+    if (shape_ == WorldGridShape::columns) defines += " -DCOLUMNS";
     if (index_bits_ == 32) defines += " -DINDEX_32";
     if (builds_avx512(*renderer_.cl, *renderer_.kernels)) defines += " -DAVX512";
   }
@@ -104,6 +106,45 @@ uint64_t WorldGrid::scan(size_t count, bool read) {
   uint64_t total = 0;
   if (read) read_buffer(*renderer_.cl, "reading the world grid's size", total_.get(), &total, sizeof total);
   return total;
+}
+
+size_t WorldGrid::bucket_count() const {
+  const WorldGridParams& p = layout_.params;
+  return p.bucket_bits > 0 ? size_t(1) << p.bucket_bits
+                           : size_t(p.blocks_x) * p.blocks_y * std::max(p.cells_z >> p.shift_z, 1u);
+}
+
+// Each chunk of lights has a number for each block: where these are few, counting is cheaper than sorting.
+bool WorldGrid::has_few_blocks() const {
+  const size_t lights = layout_.lights.size(), chunk = chunk_of(lights, 64);
+  return renderer_.cl->info().cpu && layout_.params.bucket_bits == 0 &&
+         bucket_count() * ((lights + chunk - 1) / chunk) <= 4 * layout_.pairs + 65536;
+}
+
+// In place of sort_pairs and find_blocks.
+void WorldGrid::count_blocks() {
+  ClDevice& device = *renderer_.cl;
+  check_count(device, "pairs of blocks and lights", layout_.pairs, 8);
+  pair_count_ = size_t(layout_.pairs);
+  const size_t lights = layout_.lights.size(), chunk = chunk_of(lights, 64),
+               chunks = (lights + chunk - 1) / chunk;
+  const size_t blocks = bucket_count();
+  counts_.at_least(device, chunks * blocks * 4);
+  fill_buffer(device, "clearing the world grid", counts_.get(), 0, chunks * blocks * 4);
+  const auto step = [&](cl_uint write, const cl::Buffer& members) {
+    run("count", chunks, lights_.buffer(), counts_.get(), members, cl_uint(lights), cl_uint(chunk),
+        cl_uint(blocks), write, params());
+  };
+  step(0, {});
+  sizes_[0] = (blocks + 1) * 4;
+  run("places", 1, counts_.get(), block_first_.at_least(device, (blocks + 1) * 4),
+      grown(keys_, blocks * 8, GL_RG32UI), grown(buckets_, sizes_[0], GL_R32UI), total_.at_least(device, 8),
+      cl_uint(chunks), cl_uint(blocks), params());
+  step(1, members_.at_least(device, pair_count_ * 4));
+  uint64_t stored = 0;
+  read_buffer(device, "reading the world grid's size", total_.get(), &stored, sizeof stored);
+  blocks_ = size_t(stored);
+  sizes_[1] = blocks_ * 8;
 }
 
 // From lights to pairs_[0], sorted by bucket.
@@ -141,9 +182,7 @@ void WorldGrid::sort_pairs() {
 // From sorted pairs to blocks, and the buckets that lead to them.
 void WorldGrid::find_blocks() {
   ClDevice& device = *renderer_.cl;
-  const WorldGridParams& p = layout_.params;
-  const size_t buckets = p.bucket_bits > 0 ? size_t(1) << p.bucket_bits
-                                           : size_t(p.blocks_x) * p.blocks_y * (p.cells_z >> p.shift_z);
+  const size_t buckets = bucket_count();
   sizes_[0] = (buckets + 1) * 4;
   grown(buckets_, sizes_[0], GL_R32UI);
   blocks_ = 0;
@@ -228,16 +267,20 @@ void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds,
                       int lights_version) {
   lights_version_ = -1;
   ClDevice& device = *renderer_.cl;
-  layout_ = world_layout(lights, bounds, shape_, cell_, view);
+  lay_out_world(lights, bounds, shape_, cell_, view, layout_);
   constexpr const char* what = "uploading lights";
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
   lights_.put(device, what, layout_.lights);
   cones_.put(device, what, layout_.cones);
   levels_.put(device, what, layout_.levels);
-  first_pairs_.put(device, what, layout_.first_pairs);
   pair_count_ = 0;
-  if (!lights.empty()) sort_pairs();
-  find_blocks();
+  if (layout_.pairs > 0 && has_few_blocks()) {
+    count_blocks();
+  } else {
+    first_pairs_.put(device, what, layout_.first_pairs);
+    if (!lights.empty()) sort_pairs();
+    find_blocks();
+  }
   write_lists();
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
   list_bytes_ = sizes_[0] + sizes_[1] + sizes_[2] + sizes_[3];
@@ -261,8 +304,8 @@ size_t WorldGrid::memory_bytes() const {
     bytes += shared->buffer ? shared->buffer->size() : 0;
   for (const UploadedBuffer* uploaded : {&params_, &lights_, &cones_, &levels_, &first_pairs_})
     bytes += uploaded->bytes();
-  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &block_first_, &members_,
-                                      &full_first_, &full_members_, &masks_}) {
+  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &counts_, &block_first_,
+                                      &members_, &full_first_, &full_members_, &masks_}) {
     bytes += buffer->bytes();
   }
   return bytes;

@@ -76,8 +76,11 @@ class WorldGrid {
   };
   cl::Buffer& grown(Shared& shared, size_t bytes, GLenum format);
   size_t chunk_of(size_t count, size_t least) const;
+  size_t bucket_count() const;
   void run(const char* kernel, size_t items, const auto&... arguments);
   uint64_t scan(size_t count, bool read);
+  bool has_few_blocks() const;
+  void count_blocks();
   void sort_pairs();
   void find_blocks();
   void inherit();
@@ -90,7 +93,7 @@ class WorldGrid {
 
   WorldLayout layout_;
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
-  GrowingBuffer pairs_[2], totals_, total_, block_first_, members_, full_first_, full_members_, masks_;
+  GrowingBuffer pairs_[2], totals_, total_, counts_, block_first_, members_, full_first_, full_members_, masks_;
   Shared buckets_, keys_, cells_, indices_;
   GlBuffer block_;
   size_t pair_count_ = 0, blocks_ = 0, entries_ = 0, list_bytes_ = 0;

@@ -17,15 +17,19 @@ constexpr uint32_t most_blocks_of_light = 4096;  // a light that meets more is s
 constexpr double hashed_cells = 262144;          // along an axis
 constexpr float least_radius = 1e-18f;           // squares stay normal numbers
 
-// Lights in parts, so that threads share the work.
+constexpr size_t lights_part = 4096;  // that a thread takes at once
+
+size_t parts_of(size_t lights) { return (lights + lights_part - 1) / lights_part; }
+
+// body(part, begin, end) for each part of the lights, on all cores.
 template <typename Body>
-void for_each_light(size_t count, const Body& body) {
-  constexpr size_t part = 4096;
-  const auto run = [&](size_t begin) {
-    for (size_t i = begin; i < std::min(begin + part, count); ++i) body(i);
+void for_each_part(size_t count, const Body& body) {
+  const auto run = [&](int i) {
+    body(size_t(i), size_t(i) * lights_part, std::min(size_t(i + 1) * lights_part, count));
   };
-  if (count <= part) return run(0);
-  parallel_for(int((count + part - 1) / part), [&](int i) { run(size_t(i) * part); });
+  const int parts = int(parts_of(count));
+  if (parts == 1) return run(0);
+  parallel_for(parts, run);
 }
 
 bool is_local(const CullLight& light) {
@@ -37,37 +41,51 @@ bool is_local(const CullLight& light) {
 // World axes in the grid's order: columns stand on x and z.
 glm::dvec3 in_grid(const glm::dvec3& v, bool columns) { return columns ? glm::dvec3(v.x, v.z, 0) : v; }
 
-struct Radii {
-  double least = 1, median = 1;
-};
-
-// The median is that of at most some thousand lights, evenly chosen.
-Radii radii_of(std::span<const CullLight> lights) {
+// 0: no light has one. Of at most some thousand lights, evenly chosen.
+double median_radius(std::span<const CullLight> lights) {
   constexpr size_t most = 4096;
   const size_t step = lights.size() / most + 1;
   std::vector<double> radii;
-  double least = world_inf;
-  for (size_t i = 0; i < lights.size(); ++i) {
-    if (!is_local(lights[i]) || lights[i].radius_m == 0) continue;
-    least = std::min(least, lights[i].radius_m);
-    if (i % step == 0) radii.push_back(lights[i].radius_m);
-  }
-  if (least == world_inf) return {};
-  if (radii.empty()) radii.push_back(least);
+  for (size_t i = 0; i < lights.size(); i += step)
+    if (is_local(lights[i]) && lights[i].radius_m > 0) radii.push_back(lights[i].radius_m);
+  if (radii.empty()) return 0;
   const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
-  const double median = std::max(*middle, 1e-12);
-  return {std::max(least, median / 64), median};
+  return std::max(*middle, 1e-12);
+}
+
+// Of all lights: the least radius above 0, and the box of those with at most `most_radius`.
+struct LightExtent {
+  double least = world_inf;
+  WorldBox box{glm::dvec3(world_inf), glm::dvec3(-world_inf)};
+
+  void add(const CullLight& light, double most_radius) {
+    if (!is_local(light)) return;
+    if (light.radius_m > 0) least = std::min(least, light.radius_m);
+    if (light.radius_m > most_radius) return;
+    box.min = glm::min(box.min, light.position - light.radius_m);
+    box.max = glm::max(box.max, light.position + light.radius_m);
+  }
+  void add(const LightExtent& other) {
+    least = std::min(least, other.least);
+    box.min = glm::min(box.min, other.box.min), box.max = glm::max(box.max, other.box.max);
+  }
+};
+
+LightExtent extent_of(std::span<const CullLight> lights, double most_radius) {
+  std::vector<LightExtent> parts(parts_of(lights.size()));
+  for_each_part(lights.size(), [&](size_t part, size_t begin, size_t end) {
+    LightExtent extent;
+    for (size_t i = begin; i < end; ++i) extent.add(lights[i], most_radius);
+    parts[part] = extent;
+  });
+  LightExtent all;
+  for (const LightExtent& part : parts) all.add(part);
+  return all;
 }
 
 // Where lights of ordinary size and surfaces are: elsewhere nothing needs small cells.
-WorldBox box_of(std::span<const CullLight> lights, const WorldBox& bounds, double most_radius) {
-  WorldBox box{glm::dvec3(world_inf), glm::dvec3(-world_inf)};
-  for (const CullLight& light : lights) {
-    if (!is_local(light) || light.radius_m > most_radius) continue;
-    box.min = glm::min(box.min, light.position - light.radius_m),
-    box.max = glm::max(box.max, light.position + light.radius_m);
-  }
+WorldBox ordinary_box(const WorldBox& box, const WorldBox& bounds) {
   if (box.empty()) return {glm::dvec3(0), glm::dvec3(0)};
   const glm::dvec3 low = glm::max(box.min, bounds.min), high = glm::min(box.max, bounds.max);
   return glm::all(glm::lessThanEqual(low, high)) ? WorldBox{low, high} : box;
@@ -119,9 +137,16 @@ void lay_hashed(WorldLayout& layout, size_t lights) {
   p.bucket_bits = uint(layout.bucket_bits);
 }
 
+// world_coordinate without a branch: which side of 0 a light is on cannot be predicted.
+int coordinate_of(float at, float least, float most) {
+  const float clamped = std::min(std::max(at, least), most);
+  const int whole = int(clamped);
+  return whole - int(float(whole) > clamped) - int(least);
+}
+
 uint blocks_along(float at, float radius, uint level, uint shift, float least, float most) {
-  const uint first = uint(world_coordinate(at - radius, least, most)) >> level >> shift;
-  const uint last = uint(world_coordinate(at + radius, least, most)) >> level >> shift;
+  const uint first = uint(coordinate_of(at - radius, least, most)) >> level >> shift;
+  const uint last = uint(coordinate_of(at + radius, least, most)) >> level >> shift;
   return last - first + 1;
 }
 
@@ -164,28 +189,44 @@ Placed place_of(const CullLight& light, const glm::vec4& in, double cell, const 
 
 void add_lights(std::span<const CullLight> lights, double cell, WorldLayout& layout) {
   const bool hashed = layout.params.bucket_bits > 0;
-  layout.lights.resize(lights.size());
-  std::vector<Placed> places(lights.size());
   const bool cones =
       !layout.columns && std::ranges::any_of(lights, [](const CullLight& l) { return l.cos_outer >= 0; });
-  if (cones) layout.cones.resize(lights.size());
-  for_each_light(lights.size(), [&](size_t i) {
-    layout.lights[i] = in_cells(lights[i], layout);
-    places[i] = place_of(lights[i], layout.lights[i], cell, layout);
-    if (places[i].blocks == 0) layout.lights[i].w = -1;
-    if (cones) layout.cones[i] = {glm::vec3(lights[i].direction), float(lights[i].cos_outer - 1e-6)};
+  layout.lights.resize(lights.size());
+  layout.cones.resize(cones ? lights.size() : 0);
+  layout.first_pairs.resize(lights.size());
+  layout.levels.resize(hashed ? lights.size() : 0);
+  struct Part {
+    uint64_t pairs = 0;
+    uint32_t levels = 0;
+    std::vector<uint32_t> everywhere;
+  };
+  std::vector<Part> parts(parts_of(lights.size()));
+  for_each_part(lights.size(), [&](size_t at, size_t begin, size_t end) {
+    Part& part = parts[at];
+    for (size_t i = begin; i < end; ++i) {
+      layout.lights[i] = in_cells(lights[i], layout);
+      const Placed placed = place_of(lights[i], layout.lights[i], cell, layout);
+      if (placed.blocks == 0) layout.lights[i].w = -1;
+      if (cones) layout.cones[i] = {glm::vec3(lights[i].direction), float(lights[i].cos_outer - 1e-6)};
+      layout.first_pairs[i] = uint32_t(part.pairs);
+      part.pairs += placed.blocks;
+      if (placed.level == in_every_cell) part.everywhere.push_back(uint32_t(i));
+      if (hashed) layout.levels[i] = placed.level < in_every_cell ? placed.level : 0;
+      if (placed.level < in_every_cell) part.levels |= 1u << placed.level;
+    }
   });
   layout.params.levels = hashed ? 0 : 1;
-  layout.first_pairs.resize(lights.size());
-  if (hashed) layout.levels.resize(lights.size());
-  for (size_t i = 0; i < lights.size(); ++i) {
-    const auto& [level, blocks] = places[i];
-    layout.first_pairs[i] = uint32_t(layout.pairs);
-    layout.pairs += blocks;
-    if (level == in_every_cell) layout.everywhere.push_back(uint32_t(i));
-    if (level >= in_every_cell) continue;
-    layout.params.levels |= 1u << level;
-    if (hashed) layout.levels[i] = level;
+  layout.pairs = 0;
+  layout.everywhere.clear();
+  for (size_t at = 0; at < parts.size(); ++at) {
+    const Part& part = parts[at];
+    if (layout.pairs > 0) {
+      const size_t end = std::min((at + 1) * lights_part, lights.size());
+      for (size_t i = at * lights_part; i < end; ++i) layout.first_pairs[i] += uint32_t(layout.pairs);
+    }
+    layout.pairs += part.pairs;
+    layout.params.levels |= part.levels;
+    layout.everywhere.insert(layout.everywhere.end(), part.everywhere.begin(), part.everywhere.end());
   }
   layout.params.everywhere_count = uint(layout.everywhere.size());
 }
@@ -210,16 +251,21 @@ WorldReach reach_of(const View& view, const glm::dvec3& middle) {
   return reach;
 }
 
-WorldLayout world_layout(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                         double cell, const View& view) {
-  WorldLayout layout;
-  WorldGridParams& p = layout.params;
+void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
+                   double cell, const View& view, WorldLayout& layout) {
+  WorldGridParams& p = layout.params = {};
   layout.columns = shape == WorldGridShape::columns;
   p.shift_x = p.shift_y = layout.columns ? 3 : 2, p.shift_z = layout.columns ? 0 : 2;
-  const Radii radii = radii_of(lights);
+  double median = median_radius(lights);
+  if (median == 0) {
+    const double least = extent_of(lights, world_inf).least;
+    median = least < world_inf ? std::max(least, 1e-12) : 1;
+  }
+  const LightExtent lit = extent_of(lights, 32 * cell * median);
   const bool hashed = shape == WorldGridShape::hashed;
-  layout.cell_m = cell * (hashed ? radii.least : radii.median);
-  const WorldBox box = box_of(lights, bounds, 32 * cell * radii.median);
+  const double least = lit.least < world_inf ? std::max(lit.least, median / 64) : median;
+  layout.cell_m = cell * (hashed ? least : median);
+  const WorldBox box = ordinary_box(lit.box, bounds);
   layout.middle = 0.5 * (box.min + box.max);
   const glm::dvec3 extent = in_grid(box.max - box.min, layout.columns);
   if (hashed) {
@@ -233,7 +279,6 @@ WorldLayout world_layout(std::span<const CullLight> lights, const WorldBox& boun
   p.slack = slack_factor * float(layout.reach.spread);
   p.reach = float(std::min(layout.reach.distance_m / layout.cell_m, 1e30));
   add_lights(lights, cell, layout);
-  return layout;
 }
 
 WorldViewParams world_view_params(const WorldLayout& layout, const View& view) {

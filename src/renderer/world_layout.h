@@ -43,10 +43,10 @@ struct WorldLayout {
   std::vector<uint32_t> everywhere;   // lights of every list, ascending
 };
 
-// cell: the setting world-cell. bounds: of the surfaces; cells cover where these and the lights are. reach:
-// of the first view; the layout's is larger, so that a moving camera rarely leaves it.
-WorldLayout world_layout(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                         double cell, const View& view);
+// Replaces `layout`, whose arrays keep their memory. cell: the setting world-cell. bounds: of the surfaces; cells cover where
+// these and the lights are. view: the first one; the layout's reach is larger, so that a moving camera rarely leaves it.
+void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape, double cell,
+                   const View& view, WorldLayout& layout);
 
 // The rows of a view.
 WorldViewParams world_view_params(const WorldLayout& layout, const View& view);

@@ -1,0 +1,96 @@
+// What the size of the world grid's cells costs (docs/techniques/world_grid.md#cell-sizes): for each
+// world-grid and world-cell the pairs that pixels read, memory, and processor time, which other work on the
+// machine changes less than elapsed time.
+//
+//     world_cells [SCENE [LIGHTS [WIDTHxHEIGHT [FRAMES]]]]    LIGHTS 0: the scene's own
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "capture/grid_lists.h"
+#include "compare/oracle.h"
+#include "compare/run_technique.h"
+#include "renderer/culler_input.h"
+#include "scene/builtin.h"
+#include "scene/light_rigs.h"
+
+using namespace lightgrid;
+
+namespace {
+
+constexpr int builds = 20;
+
+// User and system time of all threads.
+double processor_ms() {
+  rusage used;
+  getrusage(RUSAGE_SELF, &used);
+  const auto ms = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
+  return ms(used.ru_utime) + ms(used.ru_stime);
+}
+
+double elapsed_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape shape, const char* name,
+             double cell, int frames) {
+  Settings settings;
+  settings.world_grid = shape, settings.world_cell = cell;
+  TechniqueRun run(renderer, gpu, view, settings, find_technique("world_grid"));
+  run.run_frame(true);
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run));
+  const double before = processor_ms();
+  for (int i = 0; i < frames; ++i) run.run_frame();
+  const double frame = (processor_ms() - before) / frames;
+  const FramePlan& plan = run.view().plan;
+  const std::shared_ptr<WorldGrid> grid =
+      gpu.world_grid(renderer, {shape, cell, plan.index_bits, plan.settings.ranges});
+  const WorldBox bounds = world_box(gpu.scene());
+  const double start = processor_ms();
+  std::vector<double> elapsed;
+  for (int i = 0; i < builds; ++i) {
+    const double from = elapsed_ms();
+    grid->build(cull_lights_of(gpu.scene(), plan.local), bounds, view, gpu.lights_version());
+    renderer.cl->queue().finish();
+    elapsed.push_back(elapsed_ms() - from);
+  }
+  const double build = (processor_ms() - start) / builds;
+  std::ranges::sort(elapsed);
+  fmt::print("| `{}` | {} | {:.1f} | {} | {} | {:.2f} | {:.1f} | {:.1f} | {:.0f} |\n", name, cell,
+             double(pairs.listed) / double(view.width * view.height), grid->blocks(), grid->entries(),
+             double(grid->list_bytes()) * 1e-6, build, elapsed[builds / 2], frame);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const std::string name = count > 1 ? words[1] : "hall";
+  const int lights = count > 2 ? std::atoi(words[2]) : 0;
+  int width = 640, height = 360;
+  if (count > 3) std::sscanf(words[3], "%dx%d", &width, &height);
+  const int frames = count > 4 ? std::atoi(words[4]) : 3;
+  const BuiltinScene* builtin = find_builtin_scene(name);
+  if (!builtin) return std::fprintf(stderr, "no scene %s\n", name.c_str()), 2;
+  Scene scene = builtin->make();
+  ScatterSettings scatter;
+  scatter.count = lights;
+  if (lights > 0) scene.lights = scatter_lights(scene, scatter);
+  Renderer renderer("", GlBackend::automatic);
+  GpuScene gpu(renderer, scene);
+  const View view = make_view(scene.cameras.at(0), width, height);
+  fmt::print(
+      "| `world-grid` | `world-cell` | listed a pixel | blocks | entries | MB | build, CPU ms | build, ms | "
+      "frame, CPU ms |\n");
+  fmt::print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+  for (const double cell : {2.0, 1.0, 0.5, 0.25}) {
+    measure(renderer, gpu, view, WorldGridShape::cubes, "3d", cell, frames);
+    measure(renderer, gpu, view, WorldGridShape::columns, "2d", cell, frames);
+    measure(renderer, gpu, view, WorldGridShape::hashed, "hashed", cell, frames);
+  }
+}
