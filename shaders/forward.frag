@@ -12,6 +12,7 @@
 #include "shaders/common/point_of_surface.glsl"
 #ifdef LIGHTS
 #include "shaders/lights/punctual.glsl"
+#include "shaders/lights/loops.glsl"
 #if defined(LIGHTS_GRID) || defined(LIGHTS_MASKS) || defined(VOXEL_EXACT)
 #include "shaders/lights/cell.glsl"
 #include "shaders/lights/z_bins.glsl"
@@ -32,6 +33,9 @@
 #include "shaders/lights/buffer.glsl"
 #else
 #include "shaders/lights/all.glsl"
+#endif
+#ifdef LIGHT_ENTRIES
+#include "shaders/lights/blocks.glsl"
 #endif
 #endif
 #include "shaders/common/base_lighting.glsl"

@@ -4,10 +4,17 @@
 layout(binding = 12) uniform usamplerBuffer grid_cells;    // first, count
 layout(binding = 13) uniform usamplerBuffer grid_indices;
 
+uint light_of_entry(uint entry) { return texelFetch(grid_indices, int(entry)).r; }
+
+#ifdef LONG_LOOPS
+bool entry_is_read(uint light) { return reaches_bin(light, z_bin_here()); }
+uvec2 entries_at(ShadingPoint p) { return texelFetch(grid_cells, int(cell_here())).xy; }
+#define LIGHT_ENTRIES
+#else
 // The first entry from i on whose light reaches the bin. A separate loop, so that neighbouring pixels process
 // different lights, and none waits while another one is shaded.
 uint next_entry(uint i, uint end, uint bin) {
-  while (i < end && !reaches_bin(texelFetch(grid_indices, int(i)).r, bin)) ++i;
+  while (i < end && !reaches_bin(light_of_entry(i), bin)) ++i;
   return i;
 }
 
@@ -16,7 +23,8 @@ vec3 light_sum(ShadingPoint p) {
   uint end = range.x + range.y, bin = z_bin_here();
   vec3 sum = vec3(0.0);
   for (uint i = next_entry(range.x, end, bin); i < end; i = next_entry(i + 1u, end, bin)) {
-    sum += punctual_light(p, int(texelFetch(grid_indices, int(i)).r));
+    sum += punctual_light(p, int(light_of_entry(i)));
   }
   return sum;
 }
+#endif

@@ -13,12 +13,14 @@ vec3 light_sum(ShadingPoint p) {
   int words = int((view.light_count + 31u) / 32u), first = int(cell_here()) * words;
   uint bin = z_bin_here();
   vec3 sum = vec3(0.0);
-  for (int w = 0; w < words; ++w) {
+  uint bits = 0u;
+  int w = 0;
+  for (; w < words; ++w) {
     uint light = uint(w) * 32u;
-    for (uint bits = next_bits(texelFetch(grid_masks, first + w).r, light, bin); bits != 0u;
+    for (bits = next_bits(texelFetch(grid_masks, first + w).r, light, bin); bits != 0u;
          bits = next_bits(bits & (bits - 1u), light, bin)) {
       sum += punctual_light(p, w * 32 + findLSB(bits));
     }
   }
-  return sum;
+  return sum_if(w >= words && bits == 0u, sum);
 }

@@ -37,14 +37,15 @@ vec3 light_sum(ShadingPoint p) {
     }
   }
   vec3 sum = vec3(0.0);
-  for (uint i = range.x; i < range.x + range.y; ++i) {
+  uint i = range.x;
+  for (; i < range.x + range.y; ++i) {
     PunctualLight light = light_at(int(texelFetch(grid_indices, int(i)).r));
     float value = voxel_importance(arrival_at(p.position, light), light);
     if (value <= 0.0 || value < greatest[VOXEL_EXACT - 1]) continue;
     sum += radiance_from(p, light);
     rest = without_light(rest, p.position, light, 1.0);
   }
-  return sum + radiance_of_voxels(p, at_least_nothing(rest));
+  return sum_if(i >= range.x + range.y, sum + radiance_of_voxels(p, at_least_nothing(rest)));
 }
 #else
 vec3 light_sum(ShadingPoint p) { return radiance_of_voxels(p, voxel_light_at(p.position)); }

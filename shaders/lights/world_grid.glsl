@@ -15,6 +15,12 @@ uvec2 world_range_at(vec3 position) {
                      uint(world_coordinate(at.z, world.least_z, world.most_z)));
 }
 
+#if defined(LONG_LOOPS) && !defined(WORLD_EVERYWHERE)
+uint light_of_entry(uint entry) { return texelFetch(world_indices, int(entry)).r; }
+bool entry_is_read(uint light) { return true; }
+uvec2 entries_at(ShadingPoint p) { return world_range_at(p.position); }
+#define LIGHT_ENTRIES
+#else
 vec3 light_sum(ShadingPoint p) {
   uvec2 range = world_range_at(p.position);
   uint i = range.x, end = range.x + range.y;
@@ -29,8 +35,10 @@ vec3 light_sum(ShadingPoint p) {
     else ++other;
     sum += punctual_light(p, int(min(light, everywhere)));
   }
+  return sum_if(i >= end && other >= other_end, sum);
 #else
   for (; i < end; ++i) sum += punctual_light(p, int(texelFetch(world_indices, int(i)).r));
-#endif
   return sum;
+#endif
 }
+#endif

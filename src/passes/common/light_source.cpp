@@ -7,10 +7,15 @@
 namespace lightgrid {
 namespace {
 
+// llvmpipe ends a shader's loops after 65,535 iterations together (shaders/lights/blocks.glsl); the loops over masks and z-bins
+// take two a light and one a word, those of voxel-lights-exact two a light.
+constexpr size_t longest_plain_loop = 16384;
+
 LightSource with_lights(const RenderView& v) {
   LightSource source = base_lighting(v);
   if (v.plan.local_lights) source.defines.emplace_back("LIGHTS");
   if (v.plan.spots) source.defines.emplace_back("SPOTS");
+  if (v.plan.local.size() > longest_plain_loop) source.defines.emplace_back("LONG_LOOPS");
   return source;
 }
 
