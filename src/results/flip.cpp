@@ -57,7 +57,7 @@ glm::dvec3 hunt_lab_from_rgb(const glm::dvec3& rgb) {
 }
 
 // Abasi et al. 2020: a distance that holds for large differences too.
-double hyab(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
+double hyab(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(a.x - b.x) + glm::distance(glm::dvec2(a.y, a.z), glm::dvec2(b.y, b.z)); }
 
 // --- Filters ---------------------------------------------------------------------------------------------------------
 
@@ -76,24 +76,38 @@ void normalize(Kernel& kernel) {
   for (double& w : kernel) w /= w > 0 ? positive : -negative;
 }
 
+// to[x] is the sum of kernel[i] * from[x + i * stride]; to is 0 before. Sixteen sums at once stay in registers.
+void filter_row(const double* from, size_t stride, const Kernel& kernel, int width, double* to) {
+  constexpr int block = 16;
+  int x = 0;
+  for (; x + block <= width; x += block) {
+    double sums[block] = {};
+    for (size_t i = 0; i < kernel.size(); ++i) {
+      for (int k = 0; k < block; ++k) sums[k] += kernel[i] * from[size_t(x) + i * stride + size_t(k)];
+    }
+    for (int k = 0; k < block; ++k) to[x + k] = sums[k];
+  }
+  for (; x < width; ++x) {
+    for (size_t i = 0; i < kernel.size(); ++i) to[x] += kernel[i] * from[size_t(x) + i * stride];
+  }
+}
+
 // Values of one channel, filtered by `across` along rows and `up` along columns. Beyond the image its edge goes on.
 std::vector<double> filtered(const std::vector<double>& in, int width, int height, const Kernel& across, const Kernel& up) {
   const int radius_x = int(across.size() / 2), radius_y = int(up.size() / 2);
-  std::vector<double> rows(in.size()), out(in.size()), row(size_t(width) + across.size() - 1);
+  const int padded = height + 2 * radius_y;  // rows, of which the first and the last are repeated
+  std::vector<double> rows(size_t(padded) * width), out(in.size()), row(size_t(width) + across.size() - 1);
   for (int y = 0; y < height; ++y) {
     const double* from = in.data() + size_t(y) * width;
     for (size_t x = 0; x < row.size(); ++x) row[x] = from[std::clamp(int(x) - radius_x, 0, width - 1)];
-    double* to = rows.data() + size_t(y) * width;
-    for (size_t i = 0; i < across.size(); ++i) {
-      for (int x = 0; x < width; ++x) to[x] += across[i] * row[size_t(x) + i];
-    }
+    filter_row(row.data(), 1, across, width, rows.data() + size_t(y + radius_y) * width);
   }
-  for (int y = 0; y < height; ++y) {
-    for (int i = -radius_y; i <= radius_y; ++i) {
-      const size_t from = size_t(std::clamp(y + i, 0, height - 1)) * width, to = size_t(y) * width;
-      for (int x = 0; x < width; ++x) out[to + x] += up[i + radius_y] * rows[from + x];
-    }
+  for (int y = 0; y < padded; ++y) {
+    const int from = std::clamp(y, radius_y, radius_y + height - 1);
+    if (y != from) std::copy_n(rows.begin() + std::ptrdiff_t(from) * width, width, rows.begin() + std::ptrdiff_t(y) * width);
   }
+  for (int y = 0; y < height; ++y)
+    filter_row(rows.data() + size_t(y) * width, size_t(width), up, width, out.data() + size_t(y) * width);
   return out;
 }
 
@@ -156,7 +170,7 @@ Features features_of(const Planes& ycxcz, double pixels_per_degree) {
   const auto magnitude = [&](const Kernel& derivative) {
     std::vector<double> across = filtered(lightness, ycxcz.width, ycxcz.height, derivative, smooth);
     const std::vector<double> up = filtered(lightness, ycxcz.width, ycxcz.height, smooth, derivative);
-    for (size_t i = 0; i < across.size(); ++i) across[i] = std::hypot(across[i], up[i]);
+    for (size_t i = 0; i < across.size(); ++i) across[i] = std::sqrt(across[i] * across[i] + up[i] * up[i]);
     return across;
   };
   return {magnitude(edge), magnitude(point)};
@@ -164,7 +178,7 @@ Features features_of(const Planes& ycxcz, double pixels_per_degree) {
 
 // --- The difference --------------------------------------------------------------------------------------------------
 
-constexpr double color_exponent = 0.7, feature_exponent = 0.5;
+constexpr double color_exponent = 0.7;
 
 // The colour difference of two pixels in Hunt-adjusted CIELAB, from 0 to 1: large differences are compressed, since they all
 // look large.
@@ -208,7 +222,7 @@ std::vector<float> difference_map(const SeenImage& test, const SeenImage& refere
   for (size_t i = 0; i < map.size(); ++i) {
     const double color = color_difference(test.color.pixels[i], reference.color.pixels[i]);
     const double difference = std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
-    const double feature = std::pow(difference / std::numbers::sqrt2, feature_exponent);
+    const double feature = std::sqrt(difference / std::numbers::sqrt2);
     map[i] = test.nan[i] || reference.nan[i] ? 1.0f : float(std::pow(color, 1 - feature));
   }
   return map;
