@@ -221,7 +221,7 @@ void add_frontier(CommandLine& line) {
                                 [o] { return frontier(*o); });
   command.list("scene", o->scenes,
                "scenes as for compare; or: merge DIR…, the parts of one sweep (default: hall, terrain, "
-               "spheres, street)");
+               "spheres, street, gallery)");
   command.option("--size", o->scene.size, "image size, WxH");
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
                  most_lights);

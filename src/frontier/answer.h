@@ -21,9 +21,10 @@ struct PointFigures {
   MedianInterval ratio;
   std::vector<double> ratios;  // one a run
   PointErrors errors;
+  int flip_views = 0, temporal_views = 0;          // that have FLIP, and flicker
   PairCounts pairs;                                // sums over views
   uint64_t memory_bytes = 0;                       // the largest of the views
-  uint64_t bytes_moved = 0;                        // a frame: the mean over views
+  uint64_t bytes_moved = 0;                        // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
   bool front = false;          // no point of its scene is better in both error.total.rmse_rel and ratio
   std::vector<int> tied_with;  // points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index
@@ -41,13 +42,18 @@ struct BestWithin {
 struct BreakEven {
   std::string scene, tighter, looser;  // labels; otherwise of equal settings. Tighter: lists fewer pairs
   double ns_per_pixel_light = 0;       // infinite: the tighter test never wins; 0: it always does
-  double extra_ms = 0;                 // of culling the first view, on which passes are profiled
-  double pairs_saved = 0;              // listed pairs, likewise
+  double extra_ms = 0;                 // of culling the first view: the median over rounds of both
+  double pairs_saved = 0;              // listed pairs of that view
+  // 95 % interval of ns_per_pixel_light, from that of the median (median_interval); rounds: 0 if there is none, since
+  // pass times are known by their medians alone, or no pair is saved.
+  double low = 0, high = 0;
+  int rounds = 0;
 };
 
 struct ShadingCost {  // of this machine, a slope over points of one technique and BRDF
   std::string scene, technique, brdf;
   double ns_per_pixel_light = 0;
+  double low = 0, high = 0;  // 95 % interval of the slope (Student's t); infinite without a degree of freedom
 };
 
 // time = c x^exponent, least squares in logarithms, with a 95 % interval (power_law).
@@ -78,10 +84,11 @@ struct FrontierAnswer {
 // Pure. Parts of one sweep; throws Error(input) if they are of different requests or commits.
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
 
-// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`) and samples.csv (one row a run of
-// such a row): docs/frontier_json.md.
+// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row a run of
+// such a row) and culling.csv (one row a round in which its culling was timed): docs/frontier_json.md.
 nlohmann::json to_json(const FrontierAnswer& answer);
 std::string csv_text(const FrontierAnswer& answer);
 std::string samples_csv_text(const FrontierAnswer& answer);
+std::string cull_csv_text(const FrontierAnswer& answer);
 
 }  // namespace lightgrid

@@ -41,7 +41,11 @@ CsvFields csv_heading() {
       names.push_back(fmt::format("{}_{}", kind, name));
     }
   }
-  names.insert(names.end(), {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel", "flip_start", "flip_stop", "flip_count", "image"});
+  names.insert(names.end(), {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel", "flip_start",
+                             "flip_stop", "flip_count", "image", "in_double_pixels"});
+  for (const char* name : {"max_rel", "rmse_rel", "relative_rmse", "p99_rel", "float_total_max_rel",
+                           "float_total_rmse_rel", "float_truth_max_rel", "float_truth_rmse_rel"})
+    names.push_back(fmt::format("in_double_{}", name));
   return names;
 }
 
@@ -83,6 +87,18 @@ void add_errors(CsvFields& fields, const FrontierRecord& r) {
   fields.push_back(r.flip ? fmt::format("{}", r.flip->count) : "");
 }
 
+void add_in_double(CsvFields& fields, const std::optional<SampledErrors>& sampled) {
+  if (!sampled) {
+    fields.insert(fields.end(), 9, "");
+    return;
+  }
+  fields.push_back(fmt::format("{}", sampled->pixels));
+  const ErrorFigures &e = sampled->picture, &in_float = sampled->picture_in_float, &truth = sampled->truth;
+  for (const double value : {e.max_rel, e.rmse_rel, e.relative_rmse, e.p99_rel, in_float.max_rel,
+                             in_float.rmse_rel, truth.max_rel, truth.rmse_rel})
+    fields.push_back(figure(value));
+}
+
 }  // namespace
 
 std::string csv_text(const FrontierAnswer& answer) {
@@ -117,7 +133,18 @@ std::string csv_text(const FrontierAnswer& answer) {
     }
     add_errors(fields, r);
     fields.push_back(r.image);
+    add_in_double(fields, r.errors.in_double);
     text += csv_line(fields);
+  }
+  return text;
+}
+
+std::string cull_csv_text(const FrontierAnswer& answer) {
+  std::string text = "row,round,cull_ms\n";
+  for (size_t row = 0; row < answer.part.records.size(); ++row) {
+    const FrontierRecord& r = answer.part.records[row];
+    for (size_t round = 0; round < r.cull_ms.size(); ++round)
+      text += fmt::format("{},{},{}\n", row, round, figure(r.cull_ms[round]));
   }
   return text;
 }

@@ -30,6 +30,18 @@ json error_json(const ErrorFigures& e) {
           {"flip_mean", optional_finite(e.flip_mean)}};
 }
 
+json in_double_json(const std::optional<SampledErrors>& sampled) {
+  if (!sampled) return {};
+  json figures = error_json(sampled->picture);
+  figures.erase("flip_mean");
+  figures["pixels"] = sampled->pixels;
+  figures["float_total_max_rel"] = finite_number(sampled->picture_in_float.max_rel);
+  figures["float_total_rmse_rel"] = finite_number(sampled->picture_in_float.rmse_rel);
+  figures["float_truth_max_rel"] = finite_number(sampled->truth.max_rel);
+  figures["float_truth_rmse_rel"] = finite_number(sampled->truth.rmse_rel);
+  return figures;
+}
+
 json point_json(const FrontierPoint& point) {
   return {{"scene", point.scene},
           {"technique", point.technique},
@@ -47,6 +59,9 @@ json point_json(const PointFigures& p) {
                   {"precision", error_json(p.errors.precision)},
                   {"technique", error_json(p.errors.technique)},
                   {"total", error_json(p.errors.total)},
+                  {"in_double", in_double_json(p.errors.in_double)},
+                  {"flip_views", p.flip_views},
+                  {"temporal_views", p.temporal_views},
                   {"bias_rmse_rel", optional_finite(p.errors.bias_rmse_rel)},
                   {"deviation_rmse_rel", optional_finite(p.errors.deviation_rmse_rel)},
                   {"temporal_rmse_rel", optional_finite(p.errors.temporal_rmse_rel)}};
@@ -126,6 +141,8 @@ json to_json(const FrontierAnswer& answer) {
             {"tighter", b.tighter},
             {"looser", b.looser},
             {"ns_per_pixel_light", finite_number(b.ns_per_pixel_light)},
+            {"ci95", b.rounds > 0 ? json{finite_number(b.low), finite_number(b.high)} : json{nullptr, nullptr}},
+            {"rounds", b.rounds},
             {"extra_ms", finite_number(b.extra_ms)},
             {"pairs_saved", finite_number(b.pairs_saved)}};
   });
@@ -133,7 +150,8 @@ json to_json(const FrontierAnswer& answer) {
     return {{"scene", c.scene},
             {"technique", c.technique},
             {"brdf", c.brdf},
-            {"ns_per_pixel_light", finite_number(c.ns_per_pixel_light)}};
+            {"ns_per_pixel_light", finite_number(c.ns_per_pixel_light)},
+            {"ci95", {finite_number(c.low), finite_number(c.high)}}};
   });
   out["growth"] = array_of(answer.growth, growth_json);
   out["failures"] = array_of(answer.failures, [](const Failure& f) {

@@ -18,6 +18,10 @@ std::map<std::string, std::string> settings_without(const FrontierPoint& point,
 // A technique with settings, as text that is equal for equal points of a scene.
 std::string point_key(const FrontierPoint& point, std::span<const std::string> without = {});
 
+// The name of the pass whose times are those of culling, and what pairs of a break-even differ in.
+inline constexpr const char* cull_pass = "cull_lights";
+inline const std::vector<std::string> cull_test_alone = {"cull_test"};
+
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
 

@@ -146,22 +146,25 @@ bool is_of_technique(const std::string& label, const std::string& technique) {
 void add_break_even(const FrontierAnswer& answer, const std::string& scene,
                     std::vector<std::string>& sentences) {
   const ShadingCost* best = nullptr;
-  int most = 0, most_won = 0;
+  int most = 0, most_won = 0, most_undecided = 0;
   for (const ShadingCost& cost : answer.shading_costs) {
     if (cost.scene != scene) continue;
-    int all = 0, won = 0;
+    int all = 0, won = 0, undecided = 0;
     for (const BreakEven& pair : answer.break_even) {
       if (pair.scene != scene || !is_of_technique(pair.tighter, cost.technique)) continue;
-      ++all, won += pair.ns_per_pixel_light < cost.ns_per_pixel_light;
+      const double ns = cost.ns_per_pixel_light;
+      const bool open = pair.rounds > 0 && pair.low <= ns && ns <= pair.high;
+      ++all, undecided += open, won += !open && pair.ns_per_pixel_light < ns;
     }
-    if (all > most) best = &cost, most = all, most_won = won;
+    if (all > most) best = &cost, most = all, most_won = won, most_undecided = undecided;
   }
   if (!best) return;
   sentences.push_back(
       fmt::format("In {} a light at a pixel costs {} {} ns to shade{}: at that price the tighter cull test "
-                  "wins in {} of {} pairs.",
+                  "wins in {} of {} pairs{}.",
                   scene_in_words(scene), best->technique, three_digits(best->ns_per_pixel_light),
-                  best->brdf.empty() ? "" : " with " + best->brdf, most_won, most));
+                  best->brdf.empty() ? "" : " with " + best->brdf, most_won, most,
+                  most_undecided > 0 ? fmt::format(" ({} undecided)", most_undecided) : ""));
 }
 
 // Of the baseline, or of the series' first point.

@@ -1,18 +1,18 @@
 // What a tighter cull test must save, and what it saves: docs/frontier.md#break-even.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "frontier/answer_steps.h"
+#include "frontier/statistics.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr double ns_per_ms = 1e6;
-constexpr const char* cull_pass = "cull_lights";
-constexpr const char* shading_passes[] = {"shade_forward", "shade_tiles", "resolve", "shade_objects",
-                                          "shade_light_volumes", "fill_light_buffer"};
-const std::vector<std::string> cull_test_alone = {"cull_test"};
+constexpr const char* shading_passes[] = {"shade_forward", "shade_tiles",         "resolve",
+                                          "shade_objects", "shade_light_volumes", "fill_light_buffer"};
 const std::vector<std::string> bounds_and_test = {"cull_test", "depth_bounds"};
 
 bool has_cull_time(const FrontierRecord& r) {
@@ -30,23 +30,35 @@ std::vector<const FrontierRecord*> profiled(Records records) {
   return first;
 }
 
+// Of culling, `a` over `b`: the differences of the rounds in which one process measured both; otherwise that of
+// the medians.
+MedianInterval extra_ms_of(const FrontierRecord& a, const FrontierRecord& b) {
+  std::vector<double> differences;
+  const size_t rounds = a.shard == b.shard ? std::min(a.cull_ms.size(), b.cull_ms.size()) : 0;
+  for (size_t round = 0; round < rounds; ++round)
+    differences.push_back(a.cull_ms[round] - b.cull_ms[round]);
+  if (!differences.empty()) return median_interval(differences);
+  return {.median = a.pass_ms.at(cull_pass) - b.pass_ms.at(cull_pass)};
+}
+
 BreakEven break_even_of(const FrontierRecord& a, const FrontierRecord& b) {
-  const double ms_a = a.pass_ms.at(cull_pass), ms_b = b.pass_ms.at(cull_pass);
   const double listed_a = double(a.pairs.listed), listed_b = double(b.pairs.listed);
   // With equal lists, the slower test counts as the tighter one, which then never wins.
-  const bool a_is_tighter = listed_a != listed_b ? listed_a < listed_b : ms_a > ms_b;
+  const bool a_is_tighter = listed_a != listed_b ? listed_a < listed_b : extra_ms_of(a, b).median > 0;
   const FrontierRecord& tighter = a_is_tighter ? a : b;
   const FrontierRecord& looser = a_is_tighter ? b : a;
+  const MedianInterval extra_ms = extra_ms_of(tighter, looser);
   BreakEven found{a.point.scene, tighter.point.label, looser.point.label};
-  found.extra_ms = tighter.pass_ms.at(cull_pass) - looser.pass_ms.at(cull_pass);
+  found.extra_ms = extra_ms.median;
   found.pairs_saved = double(looser.pairs.listed) - double(tighter.pairs.listed);
-  if (found.extra_ms <= 0) {
-    found.ns_per_pixel_light = 0;
-  } else if (found.pairs_saved == 0) {
-    found.ns_per_pixel_light = std::numeric_limits<double>::infinity();
-  } else {
-    found.ns_per_pixel_light = found.extra_ms * ns_per_ms / found.pairs_saved;
+  if (found.pairs_saved == 0) {
+    found.ns_per_pixel_light = found.extra_ms <= 0 ? 0 : std::numeric_limits<double>::infinity();
+    return found;
   }
+  const auto ns_of = [&](double ms) { return std::max(ms, 0.0) * ns_per_ms / found.pairs_saved; };
+  found.ns_per_pixel_light = ns_of(extra_ms.median);
+  found.low = ns_of(extra_ms.low), found.high = ns_of(extra_ms.high);
+  found.rounds = extra_ms.runs;
   return found;
 }
 
@@ -54,16 +66,23 @@ struct PairsAndMs {
   double pairs = 0, ms = 0;
 };
 
-// Sums of products of deviations from the samples' means.
-void add_deviations(const std::vector<PairsAndMs>& samples, double& pairs_squared, double& pairs_ms) {
-  PairsAndMs mean;
-  for (const PairsAndMs& s : samples)
-    mean.pairs += s.pairs / double(samples.size()), mean.ms += s.ms / double(samples.size());
-  for (const PairsAndMs& s : samples) {
-    pairs_squared += (s.pairs - mean.pairs) * (s.pairs - mean.pairs);
-    pairs_ms += (s.pairs - mean.pairs) * (s.ms - mean.ms);
+// Sums of products of deviations from the means of each group of samples.
+struct Deviations {
+  double pairs_squared = 0, pairs_ms = 0, ms_squared = 0;
+  int degrees_of_freedom = -1;  // of the residuals: samples less groups less one, the slope
+
+  void add(const std::vector<PairsAndMs>& samples) {
+    PairsAndMs mean;
+    for (const PairsAndMs& s : samples)
+      mean.pairs += s.pairs / double(samples.size()), mean.ms += s.ms / double(samples.size());
+    for (const PairsAndMs& s : samples) {
+      pairs_squared += (s.pairs - mean.pairs) * (s.pairs - mean.pairs);
+      pairs_ms += (s.pairs - mean.pairs) * (s.ms - mean.ms);
+      ms_squared += (s.ms - mean.ms) * (s.ms - mean.ms);
+    }
+    degrees_of_freedom += int(samples.size()) - 1;
   }
-}
+};
 
 }  // namespace
 
@@ -116,10 +135,18 @@ std::vector<ShadingCost> shading_costs_of(Records records) {
   }
   std::vector<ShadingCost> measured;
   for (size_t i = 0; i < costs.size(); ++i) {
-    double pairs_squared = 0, pairs_ms = 0;
-    for (const auto& [group, samples] : groups[i]) add_deviations(samples, pairs_squared, pairs_ms);
-    if (pairs_squared == 0 || !(pairs_ms > 0)) continue;  // nothing varied, or noise outweighs the lists
-    costs[i].ns_per_pixel_light = ns_per_ms * pairs_ms / pairs_squared;
+    Deviations of;
+    for (const auto& [group, samples] : groups[i]) of.add(samples);
+    if (of.pairs_squared == 0 || !(of.pairs_ms > 0))
+      continue;  // nothing varied, or noise outweighs the lists
+    const double slope = of.pairs_ms / of.pairs_squared;
+    const double residuals = std::max(of.ms_squared - slope * of.pairs_ms, 0.0);
+    const double half = of.degrees_of_freedom < 1
+                            ? std::numeric_limits<double>::infinity()
+                            : student_t_quantile(0.975, of.degrees_of_freedom) *
+                                  std::sqrt(residuals / of.degrees_of_freedom / of.pairs_squared);
+    costs[i].ns_per_pixel_light = ns_per_ms * slope;
+    costs[i].low = ns_per_ms * (slope - half), costs[i].high = ns_per_ms * (slope + half);
     measured.push_back(costs[i]);
   }
   return measured;

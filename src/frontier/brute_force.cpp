@@ -39,12 +39,14 @@ void BruteForce::look(const View& view) {
 const Image& BruteForce::picture(const Settings& settings) {
   const Settings meaning = meaning_of(settings, common_);
   Image& image = pictures_[name_of(meaning)];
-  if (image.pixels.empty()) {
-    TechniqueRun run(renderer_, gpu_, view_, meaning, technique_, pool_);
-    run.run_frame(true);
-    image = run.take_image();
-  }
+  if (image.pixels.empty()) image = draw(settings);
   return image;
+}
+
+Image BruteForce::draw(const Settings& settings) {
+  TechniqueRun run(renderer_, gpu_, view_, meaning_of(settings, common_), technique_, pool_);
+  run.run_frame(true);
+  return run.take_image();
 }
 
 const Image& BruteForce::truth() {

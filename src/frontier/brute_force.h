@@ -20,6 +20,7 @@ class BruteForce {
 
   // With the BRDF, ranges and window of `settings`.
   const Image& picture(const Settings& settings);
+  Image draw(const Settings& settings);  // the same, not kept
   // Without ranges.
   const Image& truth();
   double brightest();  // channel of the truth

@@ -10,9 +10,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double least_channel = 1e-3;  // of the brightest: denominators of the relative error
 
-double difference_of(float a, float b) {
+double difference_of(double a, double b) {
   if (a == b) return 0;
-  const double difference = std::abs(double(a) - double(b));
+  const double difference = std::abs(a - b);
   return std::isnan(difference) ? infinite : difference;
 }
 
@@ -20,20 +20,20 @@ double over(double error, double brightest) {
   return error == 0 ? 0 : brightest > 0 ? error / brightest : infinite;
 }
 
-}  // namespace
-
-ErrorFigures error_figures(const Image& image, const Image& reference, double brightest) {
+// `reference_at`: the pixel of that number.
+template <typename ReferenceAt>
+ErrorFigures figures_of_errors(const Image& image, const ReferenceAt& reference_at, double brightest) {
   std::vector<double> worst;
   double squares = 0, relative_squares = 0, largest = 0;
   worst.reserve(image.pixels.size());
   for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const glm::dvec3 reference = reference_at(i);
     double worst_channel = 0;
     for (int c = 0; c < 3; ++c) {
-      const double error = difference_of(image.pixels[i][c], reference.pixels[i][c]);
+      const double error = difference_of(image.pixels[i][c], reference[c]);
       worst_channel = std::max(worst_channel, error);
       squares += error * error;
-      const double relative =
-          over(error, std::max(double(reference.pixels[i][c]), least_channel * brightest));
+      const double relative = over(error, std::max(reference[c], least_channel * brightest));
       relative_squares += relative * relative;
     }
     worst.push_back(worst_channel);
@@ -49,6 +49,18 @@ ErrorFigures error_figures(const Image& image, const Image& reference, double br
   figures.relative_rmse = std::sqrt(relative_squares / channels);
   figures.p99_rel = over(*p99, brightest);
   return figures;
+}
+
+}  // namespace
+
+ErrorFigures error_figures(const Image& image, const Image& reference, double brightest) {
+  return figures_of_errors(
+      image, [&](size_t i) { return glm::dvec3(reference.pixels[i]); }, brightest);
+}
+
+ErrorFigures error_figures(const Image& image, const std::vector<glm::dvec3>& reference, double brightest) {
+  return figures_of_errors(
+      image, [&](size_t i) { return reference[i]; }, brightest);
 }
 
 void PictureMoments::add(const Image& image) {

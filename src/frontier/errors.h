@@ -11,6 +11,8 @@ namespace lightgrid {
 // Of one size. `brightest`: the truth's brightest channel, over which errors are stated; 0: a black truth, of
 // which any difference is infinitely far. Without flip_mean.
 ErrorFigures error_figures(const Image& image, const Image& reference, double brightest);
+// The same against pixels in double.
+ErrorFigures error_figures(const Image& image, const std::vector<glm::dvec3>& reference, double brightest);
 
 // The mean of pictures and how far they scatter, per channel.
 class PictureMoments {

@@ -62,6 +62,14 @@ json page_point(const FrontierAnswer& answer, const PointFigures& p, const PageP
                      {"precision", page_errors(p.errors.precision)},
                      {"technique", page_errors(p.errors.technique)},
                      {"total", page_errors(p.errors.total)}};
+  if (p.errors.in_double) {
+    point["errors"]["in_double"] = page_errors(p.errors.in_double->picture);
+    point["sampled"] = {{"pixels", p.errors.in_double->pixels},
+                        {"in_float", page_errors(p.errors.in_double->picture_in_float)},
+                        {"truth", page_errors(p.errors.in_double->truth)}};
+  }
+  point["flip_views"] = p.flip_views;
+  point["temporal_views"] = p.temporal_views;
   point["bias"] = p.errors.bias_rmse_rel ? json(*p.errors.bias_rmse_rel) : json();
   point["temporal"] = p.errors.temporal_rmse_rel ? json(*p.errors.temporal_rmse_rel) : json();
   point["deviation"] = p.errors.deviation_rmse_rel ? json(*p.errors.deviation_rmse_rel) : json();

@@ -3,21 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
+#include <map>
 
 #include "base/error.h"
 #include "base/timer.h"
-#include "cl/error.h"
-#include "compare/oracle.h"
-#include "frontier/brute_force.h"
-#include "frontier/errors.h"
+#include "frontier/cull_times.h"
 #include "frontier/growth_series.h"
-#include "frontier/pictures.h"
-#include "frontier/point_run.h"
-#include "frontier/precision.h"
 #include "frontier/scene_views.h"
 #include "frontier/statistics.h"
-#include "results/metrics.h"
+#include "frontier/view_figures.h"
 #include "scene/random.h"
 
 namespace lightgrid {
@@ -25,19 +19,21 @@ namespace {
 
 // The share of the scene's time that the series take, as far as it is limited.
 constexpr double share_of_growth = 0.12;
-// Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file and
-// its FLIP.
-constexpr double as_brute_force = 1e-6;
 
-// Points that take more than so many times as long as the baseline are far from the others: fewer rounds tell
-// where.
-constexpr double slow_factor = 3;
-constexpr int slow_rounds = 4;
+// Points that take more than slow_factor times as long as the baseline, and beaten_factor times as long as a
+// point with no larger error, are far from the front: few rounds tell how far.
+constexpr double slow_factor = 1.25, beaten_factor = 3;
+constexpr int slow_rounds = 3;
+
+// With less time a point, as many points as possible are worth more than FLIP and flicker.
+constexpr double seconds_a_point_with_flip = 2;
 
 struct Measured {
   PointRun run;
+  std::vector<FrontierRecord> records;  // one a view, those of the file
+  double picture_s = 0;
   bool slow = false;
-  std::vector<FrontierRecord> records;  // one a view
+  int rounds() const { return int(records.front().frame_ms.size()); }
 };
 
 FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
@@ -45,8 +41,11 @@ FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
   return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
 }
 
-bool has_own_surfaces(const ChosenPoint& point) {
-  return own_surfaces(*point.contestant.technique, point.contestant.settings);
+// Of a picture with all its frames.
+double seconds_of_passes(const FrontierRecord& record) {
+  double ms = 0;
+  for (const auto& [name, pass_ms] : record.pass_ms) ms += pass_ms;
+  return ms * record.point.frames / 1000;
 }
 
 class SceneSweep {
@@ -60,33 +59,40 @@ class SceneSweep {
         job_(job),
         file_(file),
         gpu_(renderer, scene),
-        pictures_(job.pictures),
         views_(frontier_views(scene, start, choice, job.views)),
-        with_opengl_(renderer, gpu_, job.common, !renderer.gl),
-        with_opencl_(renderer, gpu_, job.common, true),
-        precision_(renderer, gpu_, start, job.common, job.shaded_samples) {}
+        figures_(renderer, gpu_, scene, start, job, choice.scene) {}
 
   void run() {
     make_runs();
     if (!measured_.empty()) {
-      measure_errors();
-      measure_flicker();
+      measure_figures();
+      measure_cull_tests();
       measure_times();
-      for (const Measured& m : measured_) file_.append(m.records);
-      measured_.clear();
+      complete();
     }
     baseline_.reset();
     if (job_.growth) {
-      const double left = std::max(job_.seconds - timer_.elapsed_ms() / 1000, 0.05 * job_.seconds);
+      const double left = std::max(job_.seconds - seconds(), 0.05 * job_.seconds);
       measure_growth(renderer_, gpu_, scene_, choice_, job_, left, file_);
+      end_step("growth");
     }
+    tell_steps();
   }
 
  private:
   double seconds() const { return timer_.elapsed_ms() / 1000; }
+  void notice(const std::string& what) const {
+    if (job_.notice) job_.notice(choice_.scene + ": " + what);
+  }
   void tell(double done, const std::string& step) const {
     if (job_.progress) job_.progress(std::min(done, 1.0), step);
   }
+  void end_step(const char* name) {
+    steps_ += fmt::format("{}{} {:.0f} s", steps_.empty() ? "" : ", ", name, seconds() - step_began_s_);
+    step_began_s_ = seconds();
+  }
+  void tell_steps() const { notice(steps_); }
+
   FrontierRecord record_of(const ChosenPoint& point, int view) const {
     FrontierRecord record;
     record.point = described(choice_.scene, point);
@@ -96,235 +102,192 @@ class SceneSweep {
     return record;
   }
 
+  // Points whose records are complete are left out; of others the records of an earlier process go on.
   void make_runs() {
     const auto pool = std::make_shared<TargetPool>();
     for (const ChosenPoint& point : job_.points) {
       if (file_.has(record_key(record_of(point, 0)))) continue;
       tell(0, point.label);
-      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool)});
+      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool), {}});
+      std::vector<FrontierRecord>& records = measured_.back().records;
+      for (int view = 0; view < int(views_.size()); ++view) {
+        const auto begun = file_.open_records().find(record_key(record_of(point, view)));
+        if (begun == file_.open_records().end()) break;
+        records.push_back(begun->second);
+      }
     }
-    if (!measured_.empty()) baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool);
-  }
-
-  // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
-  bool fits(double more, int rounds, int views) const {
-    const double until = job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0);
-    const int of_slow = std::min(rounds, slow_rounds);
-    return seconds() + more + (fast_s_ * (rounds + 1) + slow_s_ * (of_slow + 1)) * views <= until;
-  }
-
-  // As many points as the time allows on one view, then as many views.
-  void measure_errors() {
+    if (measured_.empty()) return;
+    baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool);
     baseline_->draw();
-    const double baseline_s = baseline_->draw() / 1000;
+    baseline_s_ = baseline_->draw() / 1000;
     if (!baseline_->refused().empty()) {
       throw machine_error("{}: the baseline {} cannot run: {}", choice_.scene, job_.baseline.label,
                           baseline_->refused());
     }
+    end_step("programs");
+  }
+
+  double until() const { return job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0); }
+  // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
+  bool fits(double more, int rounds, int views) const {
+    double round_s = 0;
+    for (const Measured& m : measured_) {
+      if (m.records.empty()) continue;
+      const int runs = m.slow ? std::min(rounds, slow_rounds) : rounds + 1;
+      round_s += (0.5 * baseline_s_ + m.picture_s) * runs;
+    }
+    return seconds() + more + round_s * views <= until();
+  }
+
+  // As many points as the time allows on one view, then as many views: first with FLIP and flicker, then
+  // without.
+  void measure_figures() {
+    const bool own =
+        std::ranges::any_of(measured_, [](const Measured& m) { return has_own_surfaces(m.run.point()); });
+    double view_s = 0;  // of the last one
+    bool whole = has_time_for_flip();
     for (int view = 0; view < int(views_.size()); ++view) {
+      if (std::ranges::any_of(measured_, [&](const Measured& m) { return has_view(m, view); })) {
+        whole = is_whole(view);
+      } else if (view > 0 && !fits(view_s, job_.least_rounds, view + 1)) {
+        if (!whole || !fits(share_without_flip * view_s, job_.least_rounds, view + 1)) break;
+        whole = false;
+      }
       const double before = seconds();
-      if (view > 0 && !fits(last_view_s_, job_.least_rounds, view + 1)) break;
-      with_opengl_.look(views_[view]);
-      with_opencl_.look(views_[view]);
-      const bool own =
-          std::ranges::any_of(measured_, [](const Measured& m) { return has_own_surfaces(m.run.point()); });
-      precision_.measure(views_[view], with_opengl_, own ? &with_opencl_ : nullptr);
-      if (view == 0) make_flip();
-      for (Measured& m : measured_) {
+      measure_view(view, own, whole);
+      used_views_ = view + 1;
+      if (view == 0) leave_out_unmeasured(), classify();
+      view_s = seconds() - before;
+      if (whole) whole_views_ = view + 1;
+    }
+    if (used_views_ < int(views_.size()))
+      notice(fmt::format("{} of {} views, for the time there is", used_views_, views_.size()));
+    if (whole_views_ < used_views_)
+      notice(fmt::format("FLIP and flicker on {} of {} views, for the time there is", whole_views_,
+                         used_views_));
+    end_step("figures");
+  }
+
+  bool has_time_for_flip() const {
+    return job_.seconds >= seconds_a_point_with_flip * double(measured_.size());
+  }
+  static bool has_view(const Measured& m, int view) { return int(m.records.size()) > view; }
+  bool is_whole(int view) const {
+    return std::ranges::any_of(measured_, [&](const Measured& m) {
+      return has_view(m, view) && m.records[size_t(view)].errors.temporal_rmse_rel.has_value();
+    });
+  }
+
+  void measure_view(int view, bool own, bool whole) {
+    bool looked = false;
+    for (Measured& m : measured_) {
+      if (!has_view(m, view)) {
+        if (view == 0 && !fits(0, 1, 1)) break;
         tell(seconds() / job_.seconds,
              fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
-        m.records.push_back(errors_of(m, view));
-        if (view > 0) continue;
-        const double picture_s = seconds_of_passes(m.records.front());
-        m.slow = picture_s > slow_factor * baseline_s;
-        (m.slow ? slow_s_ : fast_s_) += 0.5 * baseline_s + picture_s;
-        if (!fits(0, 1, 1)) break;
+        if (!looked) figures_.look(views_[size_t(view)], view, own, whole);
+        looked = true;
+        FrontierRecord record = record_of(m.run.point(), view);
+        figures_.measure(m.run, record);
+        file_.begin(record);
+        m.records.push_back(std::move(record));
       }
-      if (view == 0) leave_out_unmeasured();
-      last_view_s_ = seconds() - before;
-      used_views_ = view + 1;
+      if (view == 0) m.picture_s = seconds_of_passes(m.records.front());
     }
-    if (used_views_ < int(views_.size()) && job_.notice)
-      job_.notice(fmt::format("{}: {} of {} views, for the time there is", choice_.scene, used_views_,
-                              views_.size()));
-  }
-
-  // If it leaves time for rounds.
-  void measure_flicker() {
-    constexpr int frames = 3;
-    if (!fits(frames * (fast_s_ + slow_s_ + last_view_s_ / 10), job_.least_rounds, used_views_)) return;
-    std::vector<ChangeOfError> changes(measured_.size());
-    const std::vector<View> turn = slow_turn(scene_, views_.front(), frames);
-    for (int frame = 0; frame < frames; ++frame) {
-      with_opengl_.look(turn[size_t(frame)]);
-      with_opencl_.look(turn[size_t(frame)]);
-      for (size_t i = 0; i < measured_.size(); ++i) {
-        PointRun& run = measured_[i].run;
-        tell(seconds() / job_.seconds, "flicker, " + run.point().label);
-        run.look(turn[size_t(frame)]);
-        run.go_to_frame(frame);
-        run.draw();
-        if (run.refused().empty()) changes[i].add(run.image(), brute_force_of(run.point()).truth());
-      }
-    }
-    for (size_t i = 0; i < measured_.size(); ++i) {
-      measured_[i].run.go_to_frame(0);
-      if (!measured_[i].run.refused().empty() || !(brightest_ > 0)) continue;
-      measured_[i].records.front().errors.temporal_rmse_rel = changes[i].rmse() / brightest_;
-    }
-  }
-
-  // Of a picture with all its frames.
-  static double seconds_of_passes(const FrontierRecord& record) {
-    double ms = 0;
-    for (const auto& [name, pass_ms] : record.pass_ms) ms += pass_ms;
-    return ms * record.point.frames / 1000;
   }
 
   void leave_out_unmeasured() {
     const size_t all = measured_.size();
     std::erase_if(measured_, [](const Measured& m) { return m.records.empty(); });
-    if (measured_.size() < all && job_.notice)
-      job_.notice(
-          fmt::format("{}: {} of {} points, for the time there is", choice_.scene, measured_.size(), all));
+    if (measured_.size() < all)
+      notice(fmt::format("{} of {} points, for the time there is", measured_.size(), all));
   }
 
-  // Where a median pixel is black, HDR-FLIP has no exposures.
-  void make_flip() {
-    const Image& truth = with_opengl_.truth();
-    exposures_ = flip_exposures(truth);
-    if (!exposures_) return;
-    flip_.emplace(truth, *exposures_);
-    flip_own_.emplace(with_opencl_.truth(), *exposures_);
-  }
-
-  BruteForce& brute_force_of(const ChosenPoint& point) {
-    return has_own_surfaces(point) ? with_opencl_ : with_opengl_;
-  }
-
-  FrontierRecord errors_of(Measured& m, int view) {
-    FrontierRecord record = record_of(m.run.point(), view);
-    m.run.look(views_[view]);
-    m.run.draw_for_errors();
-    if (m.run.refused().empty()) {
-      try {
-        fill(record, m, view);  // its lists may not fit into memory
-      } catch (const Error& error) {
-        record.refused = error.what();
-      } catch (const cl::Error& error) {
-        record.refused = cl_machine_error(error).what();
-      } catch (const std::bad_alloc&) {
-        record.refused = "out of memory";
-      }
-    } else {
-      record.refused = m.run.refused();
+  void classify() {
+    size_t slow = 0;
+    for (Measured& m : measured_) {
+      const double error = m.records.front().errors.total.rmse_rel;
+      m.slow = m.picture_s > slow_factor * baseline_s_ &&
+               std::ranges::any_of(measured_, [&](const Measured& other) {
+                 const FrontierRecord& record = other.records.front();
+                 return record.refused.empty() && record.errors.total.rmse_rel <= error &&
+                        beaten_factor * other.picture_s < m.picture_s;
+               });
+      slow += m.slow;
     }
-    return record;
+    if (slow > 0)
+      notice(fmt::format(
+          "{} of {} points take {} times as long as another with no larger error: timed in {} rounds", slow,
+          measured_.size(), beaten_factor, slow_rounds));
   }
 
-  void fill(FrontierRecord& record, Measured& m, int view) {
-    const ChosenPoint& point = m.run.point();
-    BruteForce& brute = brute_force_of(point);
-    const Image& image = m.run.image();
-    // One for both kinds of surfaces, since a highlight of one pixel makes it.
-    const double brightest = (renderer_.gl ? with_opengl_ : with_opencl_).brightest();
-    if (view == 0) brightest_ = brightest;
-    record.errors.total = error_figures(image, brute.truth(), brightest);
-    record.errors.precision = has_own_surfaces(point) ? precision_.of_own_surfaces() : precision_.of_opengl();
-    record.nan_pixels = count_nan_pixels(image);
-    if (point.frames > 1) {
-      const double relative = brightest > 0 ? m.run.deviation() / brightest : 0;
-      record.errors.deviation_rmse_rel = relative;
-      record.errors.bias_rmse_rel = bias_rmse(record.errors.total.rmse_rel, relative, point.frames);
-      record.errors.model = record.errors.total;
-      m.run.draw_first_frame();
-    }
-    const Image& meant = brute.picture(point.contestant.settings);
-    record.errors.technique = error_figures(m.run.run().image(), meant, brightest);
-    if (point.frames == 1) record.errors.model = error_figures(meant, brute.truth(), brightest);
-    if (view == 0)
-      show(record, point.frames == 1 && record.errors.technique.max_rel <= as_brute_force ? meant : image,
-           brute);
-    TechniqueRun& run = m.run.run();
-    const std::vector<float> depth = read_depth(run);
-    record.covered_pixels = uint64_t(std::ranges::count_if(depth, [](float d) { return d > 0; }));
-    const LitPairs pairs = count_listed_pairs(run, depth);
-    record.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
-    if (run.technique().limited_lists) record.overflow = pairs.lost;
-    if (view == 0) run.run_profiled_frames(100);
-    const RunResult result = run.result();
-    record.memory_bytes = result.memory_total;
-    for (const PassResult& pass : result.passes) {
-      record.pass_ms[pass.name] += pass.median_ms;
-      record.bytes_moved += pass.bytes_read + pass.bytes_written;
-    }
-  }
-
-  void show(FrontierRecord& record, const Image& image, BruteForce& brute) {
-    const auto& flip = &brute == &with_opencl_ ? flip_own_ : flip_;
-    const PictureFiles::Written written =
-        pictures_.write(choice_.scene, image, brute.truth(), flip ? &*flip : nullptr);
-    record.image = written.name;
-    record.errors.total.flip_mean = written.flip_mean;
-    record.flip = exposures_;
+  void measure_cull_tests() {
+    std::vector<PointOnView> points;
+    for (Measured& m : measured_) points.push_back({m.run, m.records.front()});
+    measure_cull_times(points, views_.front(), until() - seconds(), file_);
+    end_step("cull tests");
   }
 
   // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each
   // round. A point counts with the baseline run beside it. Slow points are left out of late rounds. The first
-  // round does not count: drivers compile in it what they dropped.
+  // round does not count, and has no slow points: drivers compile in it what they dropped.
   void measure_times() {
-    const double until = job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0);
+    int done = 0;  // rounds that count
+    for (const Measured& m : measured_) done = std::max(done, m.rounds());
     double longest_round = 0;
-    for (int round = 0; round <= job_.most_rounds; ++round) {
+    for (bool warm_up = true; done < job_.most_rounds; warm_up = false) {
       const double before = seconds();
-      if (round >= 2 && before + longest_round > until) break;
-      if (round > job_.least_rounds && is_certain()) break;
-      for (int view = 0; view < used_views_; ++view) time_view(round, view);
-      if (round == 0) {
-        for (Measured& m : measured_) forget_times(m);
-        continue;
-      }
+      if (done > 0 && before + longest_round > until()) break;
+      if (done >= job_.least_rounds && is_certain()) break;
+      std::vector<TimeOfRecord> times;
+      for (int view = 0; view < used_views_; ++view) time_view(warm_up ? 0 : done + 1, view, times);
+      if (warm_up) continue;
+      file_.add_times(times);
+      for (Measured& m : measured_) update(m);
+      ++done;
       longest_round = std::max(longest_round, seconds() - before);
     }
+    notice(fmt::format("{} points, {} views, {} rounds", measured_.size(), used_views_, done));
+    end_step("rounds");
   }
 
-  void time_view(int round, int view) {
+  // From the file, which has added the round.
+  void update(Measured& m) {
+    for (FrontierRecord& record : m.records) record = file_.open_records().at(record_key(record));
+  }
+
+  void time_view(int round, int view, std::vector<TimeOfRecord>& times) {
     std::vector<size_t> order;
     for (size_t i = 0; i < measured_.size(); ++i) {
-      if (!measured_[i].slow || round <= slow_rounds) order.push_back(i);
+      const bool out = measured_[i].slow && (round == 0 || measured_[i].rounds() >= slow_rounds);
+      if (!out && measured_[i].run.refused().empty()) order.push_back(i);
     }
     Random random(Random::mix(job_.seed) + uint64_t(round) * 1000 + uint64_t(view));
     for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-    baseline_->look(views_[view]);
+    baseline_->look(views_[size_t(view)]);
     baseline_->draw();
     double beside = baseline_->draw();
     for (size_t i = 0; i < order.size(); i += 2) {
-      tell(seconds() / job_.seconds, fmt::format("times, round {}", round + 1));
+      tell(seconds() / job_.seconds, fmt::format("times, round {}", round));
       Measured& first = measured_[order[i]];
-      add_times(first, view, timed(first, view), beside);
+      add_time(first, view, timed(first, view), beside, times);
       if (i + 1 == order.size()) break;
       Measured& second = measured_[order[i + 1]];
       const double ms = timed(second, view);
       beside = baseline_->draw();
-      add_times(second, view, ms, beside);
+      add_time(second, view, ms, beside, times);
     }
   }
 
-  static void forget_times(Measured& m) {
-    for (FrontierRecord& record : m.records) record.frame_ms.clear(), record.baseline_ms.clear();
-  }
-
   double timed(Measured& m, int view) {
-    m.run.look(views_[view]);
+    m.run.look(views_[size_t(view)]);
     return m.run.draw();
   }
 
-  void add_times(Measured& m, int view, double ms, double beside) {
-    FrontierRecord& record = m.records[size_t(view)];
-    if (!m.run.refused().empty()) record.refused = m.run.refused();
-    if (!record.refused.empty()) return;
-    record.frame_ms.push_back(ms);
-    record.baseline_ms.push_back(beside);
+  void add_time(const Measured& m, int view, double ms, double beside,
+                std::vector<TimeOfRecord>& times) const {
+    const FrontierRecord& record = m.records[size_t(view)];
+    if (record.refused.empty()) times.push_back({record_key(record), ms, beside, m.run.refused()});
   }
 
   // Whether each ratio's interval is narrow enough.
@@ -332,17 +295,30 @@ class SceneSweep {
     return std::ranges::all_of(measured_, [&](const Measured& m) {
       if (std::ranges::any_of(m.records, [](const FrontierRecord& r) { return !r.refused.empty(); }))
         return true;
+      if (m.slow && m.rounds() >= slow_rounds) return true;
       std::vector<double> ratios;
-      for (size_t i = 0; i < m.records.front().frame_ms.size(); ++i) {
+      for (size_t run = 0; run < size_t(m.rounds()); ++run) {
         double ms = 0, beside = 0;
         for (const FrontierRecord& record : m.records)
-          ms += record.frame_ms[i], beside += record.baseline_ms[i];
+          ms += record.frame_ms[run], beside += record.baseline_ms[run];
         ratios.push_back(ms / beside);
       }
       const MedianInterval ratio = median_interval(ratios);
       return ratio.high - ratio.low <= job_.interval_width * ratio.median;
     });
   }
+
+  void complete() {
+    std::vector<std::string> keys;
+    for (const Measured& m : measured_) {
+      for (const FrontierRecord& record : m.records) keys.push_back(record_key(record));
+    }
+    file_.complete(keys);
+    measured_.clear();
+  }
+
+  // Of a view's time, what it takes without FLIP and flicker: a low estimate.
+  static constexpr double share_without_flip = 0.4;
 
   Renderer& renderer_;
   Scene& scene_;
@@ -352,17 +328,13 @@ class SceneSweep {
   RecordFile& file_;
   Timer timer_;
   GpuScene gpu_;
-  PictureFiles pictures_;
   std::vector<View> views_;
-  BruteForce with_opengl_, with_opencl_;
-  Precision precision_;
+  ViewFigures figures_;
   std::vector<Measured> measured_;
   std::optional<PointRun> baseline_;
-  std::optional<FlipExposures> exposures_;
-  std::optional<HdrFlip> flip_, flip_own_;
-  double brightest_ = 0;                              // channel of the truth on the first view
-  double last_view_s_ = 0, fast_s_ = 0, slow_s_ = 0;  // the latter of a round over one view
-  int used_views_ = 0;
+  double baseline_s_ = 0, step_began_s_ = 0;
+  std::string steps_;  // what took how long
+  int used_views_ = 0, whole_views_ = 0;
 };
 
 }  // namespace

@@ -20,9 +20,9 @@ struct FrontierJob {
   int least_rounds = 6, most_rounds = 40;
   double interval_width = 0.05;  // rounds end when each ratio's interval is at most this share of its median
   uint64_t seed = 1;
-  size_t shaded_samples = 400;     // pixels a view at which the oracle judges precision
-  bool growth = true;              // the series of lights, pixels and radius too
-  std::filesystem::path pictures;  // folder; empty: no pictures
+  size_t shaded_pairs = 10'000'000;  // of pixel and light that the oracle shades on a view
+  bool growth = true;                // the series of lights, pixels and radius too
+  std::filesystem::path pictures;    // folder; empty: no pictures
   // Called with the progress (0 to 1) and the next step.
   std::function<void(double done, const std::string& step)> progress;
   std::function<void(const std::string& what)> notice;

@@ -62,11 +62,13 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
     const double factor = own == of_scene.end() ? 0 : times_longer(of_scene.begin()->second, own->second);
     if (factor == 0) {
       r.pass_ms.clear();
+      r.cull_ms.clear();
       continue;
     }
     for (double& ms : r.frame_ms) ms *= factor;
     for (double& ms : r.baseline_ms) ms *= factor;
     for (auto& [pass, ms] : r.pass_ms) ms *= factor;
+    for (double& ms : r.cull_ms) ms *= factor;
   }
   return records;
 }

@@ -47,16 +47,33 @@ constexpr auto rms_of_views = [](const ViewRecords& views, const auto& figure) {
   return rms_over(views, figure);
 };
 
-ErrorFigures errors_over(const ViewRecords& views, ErrorFigures PointErrors::*kind) {
+// `of` gives a view's figures.
+template <typename Of>
+ErrorFigures errors_over(const ViewRecords& views, const Of& of) {
   ErrorFigures all;
-  for (const FrontierRecord* view : views)
-    all.max_rel = max_or_nan(all.max_rel, (view->errors.*kind).max_rel);
-  all.rmse_rel = rms_over(views, [&](const FrontierRecord& v) { return (v.errors.*kind).rmse_rel; });
-  all.relative_rmse =
-      rms_over(views, [&](const FrontierRecord& v) { return (v.errors.*kind).relative_rmse; });
-  all.p99_rel = mean_over(views, [&](const FrontierRecord& v) { return (v.errors.*kind).p99_rel; });
+  for (const FrontierRecord* view : views) all.max_rel = max_or_nan(all.max_rel, of(*view).max_rel);
+  all.rmse_rel = rms_over(views, [&](const FrontierRecord& v) { return of(v).rmse_rel; });
+  all.relative_rmse = rms_over(views, [&](const FrontierRecord& v) { return of(v).relative_rmse; });
+  all.p99_rel = mean_over(views, [&](const FrontierRecord& v) { return of(v).p99_rel; });
   all.flip_mean = over_present(
-      views, [&](const FrontierRecord& v) { return (v.errors.*kind).flip_mean; }, mean_of_views);
+      views, [&](const FrontierRecord& v) { return of(v).flip_mean; }, mean_of_views);
+  return all;
+}
+
+// Over the views that have a sample.
+std::optional<SampledErrors> in_double_over(const ViewRecords& views) {
+  SampledErrors all;
+  ViewRecords sampled;
+  for (const FrontierRecord* view : views) {
+    if (!view->errors.in_double) continue;
+    sampled.push_back(view);
+    all.pixels += view->errors.in_double->pixels;
+  }
+  if (sampled.empty()) return {};
+  all.picture = errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->picture; });
+  all.picture_in_float =
+      errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->picture_in_float; });
+  all.truth = errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->truth; });
   return all;
 }
 
@@ -87,23 +104,27 @@ PointFigures over_views(const ViewRecords& views) {
   all.ratio = median_interval(all.ratios);
   for (const auto kind :
        {&PointErrors::model, &PointErrors::precision, &PointErrors::technique, &PointErrors::total}) {
-    all.errors.*kind = errors_over(views, kind);
+    all.errors.*kind = errors_over(views, [&](const FrontierRecord& v) { return v.errors.*kind; });
   }
+  all.errors.in_double = in_double_over(views);
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
     all.errors.*spread = over_present(
         views, [&](const FrontierRecord& v) { return v.errors.*spread; }, rms_of_views);
   }
-  uint64_t bytes_moved = 0;
+  uint64_t bytes_moved = 0, counted = 0;  // views that were profiled
   for (const FrontierRecord* view : views) {
     for (const auto count : {&PairCounts::listed, &PairCounts::lit, &PairCounts::lost, &PairCounts::wrong}) {
       all.pairs.*count += view->pairs.*count;
     }
     all.memory_bytes = std::max(all.memory_bytes, view->memory_bytes);
     bytes_moved += view->bytes_moved;
+    counted += view->bytes_moved > 0;
     all.nan_pixels += view->nan_pixels;
+    all.flip_views += view->errors.total.flip_mean.has_value();
+    all.temporal_views += view->errors.temporal_rmse_rel.has_value();
   }
-  all.bytes_moved = bytes_moved / views.size();
+  all.bytes_moved = bytes_moved / std::max<uint64_t>(counted, 1);
   return all;
 }
 

@@ -1,49 +1,85 @@
 #include "frontier/precision.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "compare/oracle_sample.h"
 #include "compare/silhouettes.h"
 #include "frontier/errors.h"
+#include "scene/random.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-Image as_image(const std::vector<glm::dvec3>& colors) {
-  Image image(int(colors.size()), 1);
-  for (size_t i = 0; i < colors.size(); ++i) image.pixels[i] = glm::vec4(glm::vec3(colors[i]), 1);
-  return image;
-}
+constexpr size_t least_pixels = 400, most_pixels = 20000;
 
 }  // namespace
 
+std::vector<uint32_t> random_pixels(const std::vector<uint32_t>& pixels, size_t count, uint64_t seed) {
+  if (pixels.size() <= count) return pixels;
+  Random random(seed);
+  std::vector<uint32_t> sample;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t begin = i * pixels.size() / count, end = (i + 1) * pixels.size() / count;
+    sample.push_back(pixels[begin + size_t(random.next() % (end - begin))]);
+  }
+  return sample;
+}
+
 Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common,
-                     size_t samples)
-    : renderer_(renderer), common_(common), samples_(samples) {
-  of_opengl_ = of_own_ = {unknown, unknown, unknown, unknown, {}};
+                     size_t pairs)
+    : renderer_(renderer), common_(common), pairs_(pairs) {
+  for (Sample& sample : samples_) sample.precision = {unknown, unknown, unknown, unknown, {}};
   if (!renderer_.gl) return;
-  forward_.emplace(renderer, gpu, view, common, find_technique("forward"));
+  opengl_.emplace(renderer, gpu, view, common, find_technique("forward_plus"));
   visibility_.emplace(renderer, gpu, view, common, find_technique("visibility"));
 }
 
-void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own) {
-  if (!forward_) return;
-  forward_->look(view);
-  forward_->run_frame(true);
-  const std::vector<float> depth = read_depth(forward_->view());
-  const SurfaceOracle oracle(forward_->view(), depth);
-  const size_t most = affordable_samples(samples_, forward_->view().scene.lights.size());
-  std::vector<uint32_t> pixels = sample_pixels(oracle.pixels(), most);
-  const Image exact = as_image(oracle.shade(pixels, true));
-  of_opengl_ = error_figures(at_pixels(opengl.picture(common_), pixels), exact, opengl.brightest());
+void Precision::judge(Sample& sample, BruteForce& brute, const std::vector<glm::dvec3>& with_ranges) const {
+  sample.precision = error_figures(at_pixels(brute.picture(common_), sample.pixels), with_ranges, brightest_);
+  sample.float_truth = at_pixels(brute.truth(), sample.pixels);
+  sample.truth_in_float = error_figures(sample.float_truth, sample.truth, brightest_);
+}
+
+void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed) {
+  if (!opengl_) return;
+  opengl_->look(view);
+  opengl_->run_frame(true);
+  const std::vector<float> depth = read_depth(opengl_->view());
+  const SurfaceOracle oracle(opengl_->view(), depth);
+  const size_t lights = std::max<size_t>(opengl_->view().scene.lights.size(), 1);
+  Sample& all = samples_[0];
+  all.pixels = random_pixels(oracle.pixels(), std::clamp(pairs_ / lights, least_pixels, most_pixels), seed);
+  all.truth = oracle.shade(all.pixels, false);
+  const std::vector<glm::dvec3> with_ranges = oracle.shade(all.pixels, true);
+  brightest_ = opengl.brightest();
+  judge(all, opengl, with_ranges);
   if (!own) return;
-  const ShownTriangles shown = read_triangles(forward_->view());
+  const ShownTriangles shown = read_triangles(opengl_->view());
   visibility_->look(view);
   visibility_->run_frame(true);
   const std::vector<SceneTriangle> triangles = own_triangles(*visibility_);
-  std::erase_if(pixels, [&](uint32_t pixel) { return triangles[pixel] != shown.opaque[pixel]; });
-  const Image exact_inside = as_image(oracle.shade(pixels, true));
-  of_own_ = error_figures(at_pixels(own->picture(common_), pixels), exact_inside, own->brightest());
+  Sample& same = samples_[1];
+  same.pixels.clear();
+  same.truth.clear();
+  std::vector<glm::dvec3> same_with_ranges;
+  for (size_t i = 0; i < all.pixels.size(); ++i) {
+    const uint32_t pixel = all.pixels[i];
+    if (triangles[pixel] != shown.opaque[pixel]) continue;
+    same.pixels.push_back(pixel);
+    same.truth.push_back(all.truth[i]);
+    same_with_ranges.push_back(with_ranges[i]);
+  }
+  judge(same, *own, same_with_ranges);
+}
+
+std::optional<SampledErrors> Precision::in_double(const Image& picture, bool own_surfaces) const {
+  const Sample& sample = samples_[own_surfaces];
+  if (!opengl_ || sample.pixels.empty()) return {};
+  const Image at_sample = at_pixels(picture, sample.pixels);
+  return SampledErrors{int(sample.pixels.size()), error_figures(at_sample, sample.truth, brightest_),
+                       error_figures(at_sample, sample.float_truth, brightest_), sample.truth_in_float};
 }
 
 }  // namespace lightgrid

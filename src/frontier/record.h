@@ -28,7 +28,15 @@ struct ErrorFigures {
   double max_rel = 0, rmse_rel = 0;
   double relative_rmse = 0;  // of each channel's difference over the truth's channel (at least 1e-3 of the brightest)
   double p99_rel = 0;        // of each pixel's largest channel error
-  std::optional<double> flip_mean;  // HDR-FLIP; measured on the first view of a scene
+  std::optional<double> flip_mean;  // HDR-FLIP
+};
+
+// The picture against the truth in double, at a random pixel of each of `pixels` equal shares of the opaque ones.
+struct SampledErrors {
+  int pixels = 0;
+  ErrorFigures picture;           // without flip_mean
+  ErrorFigures picture_in_float;  // the picture at the same pixels against the truth in float
+  ErrorFigures truth;             // that truth against the one in double: how far the two above may be apart
 };
 
 // Errors kept apart (docs/frontier.md#errors). Truth: every light, no range window.
@@ -37,11 +45,12 @@ struct PointErrors {
   ErrorFigures precision;  // brute force in float against the oracle in double, at a sample of pixels
   ErrorFigures technique;  // the picture against brute force of the same meaning
   ErrorFigures total;      // the picture against the truth
+  std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
   // Of random ranges, over at least 16 seeds, relative like the others: root mean square over pixels of the mean's
   // error and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera turns by a
-  // quarter of a degree a frame; root mean square over pixels and frames. On the first view.
+  // quarter of a degree a frame; root mean square over pixels and frames.
   std::optional<double> temporal_rmse_rel;
 };
 
@@ -56,7 +65,9 @@ struct FrontierRecord {
   std::string refused;       // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
   std::map<std::string, double> pass_ms;      // medians of profiled frames
-  uint64_t bytes_moved = 0;  // sum of the passes' counted bytes
+  std::vector<double> cull_ms;  // of culling, one a round: entry i of points that differ in the cull test alone was
+                                // taken in one round. Empty: no such point, or another view than the first
+  uint64_t bytes_moved = 0;  // sum of the passes' counted bytes, on the first view; otherwise 0
   uint64_t memory_bytes = 0;
   uint64_t covered_pixels = 0;  // with an opaque surface
   PairCounts pairs;

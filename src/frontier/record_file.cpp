@@ -7,153 +7,18 @@
 
 #include <cassert>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/write_file.h"
 #include "frontier/json_fields.h"
+#include "frontier/part_text.h"
 
 namespace lightgrid {
 namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-constexpr size_t max_line_bytes = size_t(64) << 20;  // a thousand views of a thousand runs take 40 million
-constexpr int max_depth = 8;
-constexpr char first_key[] = "lightgrid_frontier";
-
-std::string first_text() { return fmt::format("{{\"{}\":1,", first_key); }
-
-std::string line_text(const json& line) {
-  return line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-}
-
-// The line starts with `first_key`, so that half of it still shows what the file is.
-std::string header_line(const FrontierPart& part) {
-  const json fields = {{"request", part.request},
-                       {"commit", part.commit},
-                       {"seed", part.seed},
-                       {"shard", part.shard},
-                       {"shards", part.shards},
-                       {"baseline", part.baseline},
-                       {"machine", to_json(part.machine)}};
-  return first_text() + line_text(fields).substr(1);
-}
-
-FrontierPart header_of(const json& line) {
-  const JsonFields fields(line);
-  if (fields.whole(first_key, 0) != 1) throw input_error("{}: is of another version", first_key);
-  FrontierPart part;
-  part.request = fields.text("request");
-  part.commit = fields.text("commit");
-  part.seed = fields.count("seed");
-  part.shards = fields.whole("shards", 1);
-  part.shard = fields.whole("shard", 0);
-  if (part.shard >= part.shards)
-    throw input_error("shard: {} is not below shards, {}", part.shard, part.shards);
-  part.baseline = fields.text("baseline");
-  part.machine = machine_of(fields.at("machine"));
-  part.machine.shard = part.shard;
-  return part;
-}
-
-// std::getline without a limit would read any file whole.
-enum class LineEnd { newline, file, too_long };
-
-LineEnd read_line(std::istream& stream, std::string& line) {
-  line.clear();
-  auto& buffer = *stream.rdbuf();
-  for (int c = buffer.sbumpc(); c != std::char_traits<char>::eof(); c = buffer.sbumpc()) {
-    if (c == '\n') return LineEnd::newline;
-    if (line.size() == max_line_bytes) return LineEnd::too_long;
-    line.push_back(static_cast<char>(c));
-  }
-  return LineEnd::file;
-}
-
-json parsed(const std::string& line) {
-  const auto shallow = [](int depth, json::parse_event_t, json&) {
-    if (depth > max_depth) throw input_error("is nested deeper than {}", max_depth);
-    return true;
-  };
-  try {
-    return json::parse(line, shallow);
-  } catch (const json::exception&) {
-    throw input_error("is not JSON");
-  }
-}
-
-struct PartText {
-  FrontierPart part;
-  bool described = false;     // has its first line
-  uintmax_t whole_bytes = 0;  // of the complete lines
-  bool half_line = false;
-  std::set<std::string> keys;
-};
-
-void add_record(PartText& text, const json& object, const std::string& place, const Notice& notice) {
-  FrontierRecord record = record_of(object);
-  record.shard = text.part.shard;
-  if (text.keys.insert(record_key(record)).second) {
-    text.part.records.push_back(std::move(record));
-  } else if (notice) {
-    notice(fmt::format("{}: {} of {}, view {}, is there twice; the first counts", place, record.point.label,
-                       record.point.scene, record.view));
-  }
-}
-
-void add_line(PartText& text, const json& line, const std::string& place, const Notice& notice) {
-  if (!text.described) {
-    text.part = header_of(line);
-    text.described = true;
-    return;
-  }
-  if (line.is_object() && line.contains("finished")) {
-    text.part.finished = true;
-    text.part.machine.load_at_end =
-        JsonFields(line).object("finished").optional_number("load_at_end").value_or(0);
-    return;
-  }
-  text.part.finished = false;  // until the next line that says so
-  if (!line.is_array()) add_record(text, line, place, notice);
-  for (size_t i = 0; line.is_array() && i < line.size(); ++i) add_record(text, line[i], place, notice);
-}
-
-// A complete line that is not what it should be is an error: only the last line can be cut off by a process's
-// end.
-PartText read_text(const fs::path& path, const Notice& notice) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw input_error("{}: cannot be opened", path.string());
-  PartText text;
-  std::string line;
-  for (int number = 1;; ++number) {
-    const std::string place = fmt::format("{}: line {}", path.string(), number);
-    const LineEnd end = read_line(stream, line);
-    if (end == LineEnd::too_long) throw input_error("{}: is longer than {} MiB", place, max_line_bytes >> 20);
-    if (end == LineEnd::newline) {
-      try {
-        add_line(text, parsed(line), place, notice);
-      } catch (const Error& error) {
-        const char* advice =
-            number == 1 ? "not a part of a frontier" : "without this line it is measured again";
-        throw input_error("{}: {} ({})", place, error.what(), advice);
-      }
-      text.whole_bytes += line.size() + 1;
-      continue;
-    }
-    text.half_line = !line.empty();
-    // Of another file that has no newline nothing may be cut off.
-    if (text.half_line && number == 1 &&
-        line.compare(0, first_text().size(), first_text(), 0, line.size()) != 0) {
-      throw input_error("{}: not a part of a frontier", place);
-    }
-    if (text.half_line && notice) notice(fmt::format("{}: is half-written and left out", place));
-    return text;
-  }
-}
 
 bool is_regular(int file) {
   struct stat status = {};
@@ -203,9 +68,10 @@ RecordFile::RecordFile(const fs::path& path, const FrontierPart& part, const Not
       throw input_error("{}: another process is writing it", path.string());
     }
     PartText text;
-    if (is_regular(file_)) text = read_text(path, notice);
+    if (is_regular(file_)) text = read_part_text(path, notice);
     part_ = text.described ? std::move(text.part) : part;
     keys_ = std::move(text.keys);
+    open_ = std::move(text.open);
     if (text.described) {
       check_same_sweep(path, part_, part, "this run");
       if (part_.shard != part.shard) {
@@ -246,6 +112,56 @@ void RecordFile::append(std::span<const FrontierRecord> records) {
   part_.finished = false;
 }
 
+void RecordFile::begin(const FrontierRecord& record) {
+  const std::string key = record_key(record);
+  assert(!has(key));
+  write_text(line_text({{"open", to_json(record)}}));
+  open_.insert_or_assign(key, record);
+  part_.finished = false;
+}
+
+void RecordFile::add_times(const std::vector<TimeOfRecord>& times) {
+  if (times.empty()) return;
+  json entries = json::object();
+  for (const TimeOfRecord& time : times) {
+    json& entry = entries[time.key];
+    if (!time.refused.empty()) {
+      entry = time.refused;
+    } else {
+      entry = {exact_number(time.frame_ms), exact_number(time.baseline_ms)};
+    }
+  }
+  write_text(line_text({{"times", entries}}));
+  for (const TimeOfRecord& time : times) {
+    FrontierRecord& record = open_.at(time.key);
+    if (!time.refused.empty()) {
+      record.refused = time.refused;
+      continue;
+    }
+    record.frame_ms.push_back(time.frame_ms);
+    record.baseline_ms.push_back(time.baseline_ms);
+  }
+}
+
+void RecordFile::add_cull_times(const std::map<std::string, double>& times) {
+  if (times.empty()) return;
+  json entries = json::object();
+  for (const auto& [key, ms] : times) entries[key] = exact_number(ms);
+  write_text(line_text({{"cull_ms", entries}}));
+  for (const auto& [key, ms] : times) open_.at(key).cull_ms.push_back(ms);
+}
+
+void RecordFile::complete(const std::vector<std::string>& keys) {
+  if (keys.empty()) return;
+  write_text(line_text({{"complete", keys}}));
+  for (const std::string& key : keys) {
+    part_.records.push_back(std::move(open_.at(key)));
+    part_.records.back().shard = part_.shard;
+    open_.erase(key);
+    keys_.insert(key);
+  }
+}
+
 void RecordFile::finish(double load_at_end) {
   write_text(line_text({{"finished", {{"load_at_end", finite_number(load_at_end)}}}}));
   part_.finished = true;
@@ -272,7 +188,7 @@ void RecordFile::write_text(const std::string& text) {
 FrontierPart read_part(const fs::path& path, const Notice& notice) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw input_error("{}: no such file", path.string());
-  PartText text = read_text(path, notice);
+  PartText text = read_part_text(path, notice);
   if (!text.described) throw input_error("{}: not a part of a frontier", path.string());
   return std::move(text.part);
 }

@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "frontier/record.h"
 
@@ -34,6 +36,12 @@ FrontierMachine machine_of(const nlohmann::json& object);  // throws Error(input
 // "records-3-of-16.jsonl", for shard 3 of 16: parts of one sweep may share a folder.
 std::filesystem::path part_path(const std::filesystem::path& folder, int shard, int shards);
 
+struct TimeOfRecord {
+  std::string key;
+  double frame_ms = 0, baseline_ms = 0;
+  std::string refused;  // why the point did not run; the times then do not count
+};
+
 class RecordFile {
  public:
   // Opens `path` for `part` (whose records are ignored), created if it is not there. Reads the records that
@@ -50,8 +58,18 @@ class RecordFile {
   // In the file when it returns, even if the process is killed then. Throws Error(machine) if the disk is
   // full: nothing of the records is in the file then.
   void append(const FrontierRecord& record) { append(std::span(&record, 1)); }
-  // The views of a point, in one line: after a kill all of them are there, or none.
+  // Several of them in one line: after a kill all of them are there, or none.
   void append(std::span<const FrontierRecord> records);
+
+  // A record whose times follow is open: its figures are kept, but it is none of the part's records until it
+  // is complete. All of these throw as append() does, and are whole or not there after a kill. Keys:
+  // record_key of open records.
+  void begin(const FrontierRecord& record);
+  void add_times(const std::vector<TimeOfRecord>& times);              // of a round
+  void add_cull_times(const std::map<std::string, double>& times_ms);  // likewise
+  void complete(const std::vector<std::string>& keys);
+  const std::map<std::string, FrontierRecord>& open_records() const { return open_; }
+
   // Nothing more is to be measured. `load_at_end`: the system's one-minute load average. Throws like
   // append().
   void finish(double load_at_end);
@@ -64,6 +82,7 @@ class RecordFile {
   int file_ = -1;
   FrontierPart part_;
   std::set<std::string> keys_;
+  std::map<std::string, FrontierRecord> open_;
 };
 
 // Reads a finished or half-finished part, even while it is written. A half-written last line is left out, a

@@ -28,11 +28,28 @@ ErrorFigures figures_of(const JsonFields& fields) {
           .flip_mean = fields.optional_number("flip_mean")};
 }
 
+json sampled_json(const std::optional<SampledErrors>& sampled) {
+  if (!sampled) return {};
+  return {{"pixels", sampled->pixels},
+          {"picture", figures_json(sampled->picture)},
+          {"picture_in_float", figures_json(sampled->picture_in_float)},
+          {"truth", figures_json(sampled->truth)}};
+}
+
+std::optional<SampledErrors> sampled_of(const JsonFields& errors) {
+  if (!errors.has("in_double")) return {};
+  const JsonFields fields = errors.object("in_double");
+  return SampledErrors{fields.whole("pixels", 0), figures_of(fields.object("picture")),
+                       figures_of(fields.object("picture_in_float")),
+                       figures_of(fields.object("truth"))};
+}
+
 json errors_json(const PointErrors& errors) {
   return {{"model", figures_json(errors.model)},
           {"precision", figures_json(errors.precision)},
           {"technique", figures_json(errors.technique)},
           {"total", figures_json(errors.total)},
+          {"in_double", sampled_json(errors.in_double)},
           {"bias_rmse_rel", optional_json(errors.bias_rmse_rel)},
           {"deviation_rmse_rel", optional_json(errors.deviation_rmse_rel)},
           {"temporal_rmse_rel", optional_json(errors.temporal_rmse_rel)}};
@@ -43,6 +60,7 @@ PointErrors errors_of(const JsonFields& fields) {
           .precision = figures_of(fields.object("precision")),
           .technique = figures_of(fields.object("technique")),
           .total = figures_of(fields.object("total")),
+          .in_double = sampled_of(fields),
           .bias_rmse_rel = fields.optional_number("bias_rmse_rel"),
           .deviation_rmse_rel = fields.optional_number("deviation_rmse_rel"),
           .temporal_rmse_rel = fields.optional_number("temporal_rmse_rel")};
@@ -89,6 +107,7 @@ json to_json(const FrontierRecord& r) {
   line["baseline_ms"] = numbers_json(r.baseline_ms);
   line["pass_ms"] = json::object();
   for (const auto& [pass, ms] : r.pass_ms) line["pass_ms"][pass] = exact_number(ms);
+  line["cull_ms"] = numbers_json(r.cull_ms);
   line["bytes_moved"] = r.bytes_moved;
   line["memory_bytes"] = r.memory_bytes;
   line["covered_pixels"] = r.covered_pixels;
@@ -126,6 +145,7 @@ FrontierRecord record_of(const json& line) {
     throw input_error("frame_ms: {} times beside {} of baseline_ms", r.frame_ms.size(), r.baseline_ms.size());
   }
   for (const std::string& name : passes.names()) r.pass_ms[name] = passes.number(name);
+  r.cull_ms = fields.numbers("cull_ms");
   r.bytes_moved = fields.count("bytes_moved");
   r.memory_bytes = fields.count("memory_bytes");
   r.covered_pixels = fields.count("covered_pixels");

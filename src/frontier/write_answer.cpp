@@ -40,6 +40,7 @@ void write_answer(const fs::path& folder, const FrontierAnswer& answer, const st
   write_file(folder / "frontier.json", json_text(to_json(answer)));
   write_file(folder / "frontier.csv", csv_text(answer));
   write_file(folder / "samples.csv", samples_csv_text(answer));
+  write_file(folder / "culling.csv", cull_csv_text(answer));
   for (const Plot& plot : plots_of(answer)) write_file(folder / (plot.name + ".svg"), svg_file(plot));
   write_file(folder / "index.html", page_text(answer, folder / "pictures", page_bytes));
 }

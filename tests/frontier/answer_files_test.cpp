@@ -65,15 +65,23 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["technique"]["max_rel"], answer.points[0].errors.technique.max_rel);
   EXPECT_EQ(error["model"]["relative_rmse"], 0.07);
   EXPECT_EQ(error["model"]["flip_mean"], nullptr);
+  json sampled = json::parse(R"({"pixels": 9000, "max_rel": 0.5, "rmse_rel": 1.6666666666666667,
+    "relative_rmse": 0.35000000000000003})");
+  sampled["p99_rel"] = 0.011 * 5;
+  sampled["float_total_max_rel"] = 0.1 * 7, sampled["float_total_rmse_rel"] = 7.0 / 3;
+  sampled["float_truth_max_rel"] = 0.1 * 6, sampled["float_truth_rmse_rel"] = 2.0;
+  EXPECT_EQ(error["in_double"], sampled);
+  EXPECT_EQ(error["flip_views"], 2);
+  EXPECT_EQ(error["temporal_views"], 1);
   EXPECT_EQ(error["bias_rmse_rel"], 1e-5);
   EXPECT_EQ(error["deviation_rmse_rel"], 2e-5);
   EXPECT_EQ(frontier["best_within"],
             (json{{{"scene", scene}, {"error", 1e-3}, {"point", 0}, {"tied", {1}}}}));
   EXPECT_EQ(frontier["break_even"], json::parse(R"([{"scene": "hall", "tighter": "exact", "looser": "sphere",
-    "ns_per_pixel_light": 0.25, "extra_ms": 1.5, "pairs_saved": 1000.0}])"));
+    "ns_per_pixel_light": 0.25, "ci95": [0.125, 0.5], "rounds": 12, "extra_ms": 1.5, "pairs_saved": 1000.0}])"));
   EXPECT_EQ(frontier["shading_costs"],
             json::parse(R"([{"scene": "hall", "technique": "forward_plus", "brdf": "ggx",
-    "ns_per_pixel_light": 0.75}])"));
+    "ns_per_pixel_light": 0.75, "ci95": [0.5, 1.0]}])"));
   EXPECT_EQ(frontier["growth"], json::parse(R"([{"scene": "hall", "technique": "forward_plus", "of": "lights",
     "exponent": 0.5, "ci95": [0.25, 0.75], "samples": [[100.0, 1.0], [400.0, 2.0], [1600.0, 4.0]]}])"));
   EXPECT_EQ(frontier["failures"][0]["label"], "forward_plus:tile=32");
@@ -89,12 +97,14 @@ TEST(FrontierJson, HasNullForWhatIsNotFinite) {
   answer.points[0].pairs.lit = 0;
   answer.break_even[0].ns_per_pixel_light = infinity;
   answer.growth[0].low = -infinity;
+  answer.break_even[0].rounds = 0;
   const json frontier = json::parse(to_json(answer).dump());
   EXPECT_EQ(frontier["points"][0]["error"]["total"]["max_rel"], nullptr);
   EXPECT_EQ(frontier["points"][0]["frame_ms"],
             json::parse(R"({"median": null, "ci95": [null, null], "runs": 0})"));
   EXPECT_EQ(frontier["points"][0]["listed_per_lit"], nullptr);
   EXPECT_EQ(frontier["break_even"][0]["ns_per_pixel_light"], nullptr);
+  EXPECT_EQ(frontier["break_even"][0]["ci95"], json::parse("[null, null]"));
   EXPECT_EQ(frontier["growth"][0]["ci95"], json::parse("[null, 0.75]"));
 }
 
@@ -152,7 +162,10 @@ TEST(FrontierCsv, HasALineAPointAndView) {
                                                        {"model_flip_mean", ""},
                                                        {"bias_rmse_rel", "1e-05"},
                                                        {"deviation_rmse_rel", "2e-05"},
-                                                       {"image", "sponza_17"}};
+                                                       {"image", "sponza_17"},
+                                                       {"in_double_pixels", "9000"},
+                                                       {"in_double_relative_rmse", "0.35000000000000003"},
+                                                       {"in_double_float_truth_rmse_rel", "2"}};
   for (const auto& [name, value] : expected) EXPECT_EQ(table[1].at(name), value) << name;
   EXPECT_EQ(std::stod(table[1].at("ratio_low")), (1.0 / 3) / (2.0 / 3 + 1));
   EXPECT_EQ(table[4].at("refused"), "needs \"OpenGL\", which is not here");
@@ -172,6 +185,14 @@ TEST(FrontierCsv, HasEachRunBeside) {
     EXPECT_EQ(std::stod(table[i].at("frame_ms")), record.frame_ms[i % 3]);
     EXPECT_EQ(std::stod(table[i].at("baseline_ms")), record.baseline_ms[i % 3]);
   }
+}
+
+TEST(FrontierCsv, HasEachRoundOfCulling) {
+  const auto table = csv_table(cull_csv_text(some_answer()));
+  ASSERT_EQ(table.size(), 15u);
+  EXPECT_EQ(table[4].at("row"), "1");
+  EXPECT_EQ(table[4].at("round"), "1");
+  EXPECT_EQ(table[4].at("cull_ms"), "0.125");
 }
 
 }  // namespace

@@ -161,6 +161,31 @@ TEST(BreakEven, IsExtraCullingTimeOverPairsSavedOfTheFirstView) {
   EXPECT_EQ(pair.pairs_saved, 600000);
 }
 
+// Nine rounds: the interval of a median of nine has ranks 2 and 8 (published tables of the sign test). The
+// differences are 1 to 9 ms in a mixed order, over 1e6 pairs. A drift that both tests share cancels.
+TEST(BreakEven, HasTheIntervalOfTheMedianDifferenceOfRounds) {
+  FrontierRecord loose = culled("aabb", "16", 2, 2000000), tight = culled("exact", "16", 99, 1000000);
+  for (const int difference : {4, 1, 9, 7, 5, 2, 8, 3, 6}) {
+    const double drift = 100.0 * double(loose.cull_ms.size());
+    loose.cull_ms.push_back(2 + drift);
+    tight.cull_ms.push_back(2 + drift + difference);
+  }
+  const FrontierAnswer answer = answer_from({loose, tight});
+  ASSERT_THAT(answer.break_even, SizeIs(1));
+  const BreakEven& pair = answer.break_even[0];
+  EXPECT_EQ(pair.tighter, "forward_plus:cull_test=exact,tile=16");
+  EXPECT_EQ(pair.rounds, 9);
+  EXPECT_NEAR(pair.extra_ms, 5, 1e-9);
+  EXPECT_NEAR(pair.ns_per_pixel_light, 5, 1e-9);
+  EXPECT_NEAR(pair.low, 2, 1e-9);
+  EXPECT_NEAR(pair.high, 8, 1e-9);
+  for (double& ms : tight.cull_ms) ms -= 7;  // -6 to 2 ms: never slower in the middle
+  const FrontierAnswer even = answer_from({loose, tight});
+  EXPECT_EQ(even.break_even[0].ns_per_pixel_light, 0);
+  EXPECT_EQ(even.break_even[0].low, 0);
+  EXPECT_NEAR(even.break_even[0].high, 1, 1e-9);
+}
+
 TEST(BreakEven, IsZeroWhereTheTighterTestIsFasterAndInfiniteWhereItSavesNothing) {
   const FrontierAnswer faster =
       answer_from({culled("aabb", "16", 5, 1600000), culled("exact", "16", 4, 1000000)});
@@ -191,6 +216,8 @@ TEST(ShadingCost, IsTheSlopeOverListedPairsWhateverElseTheFrameShades) {
   ASSERT_THAT(answer.shading_costs, SizeIs(2));
   EXPECT_EQ(answer.shading_costs[0].brdf, "ggx");
   EXPECT_NEAR(answer.shading_costs[0].ns_per_pixel_light, 4, 1e-9);
+  EXPECT_NEAR(answer.shading_costs[0].high, 4, 1e-6) << "five samples on two parallel lines";
+  EXPECT_EQ(answer.shading_costs[1].high, std::numeric_limits<double>::infinity()) << "two samples";
   EXPECT_EQ(answer.shading_costs[1].brdf, "blinn");
   EXPECT_NEAR(answer.shading_costs[1].ns_per_pixel_light, 1.5, 1e-9);
 }

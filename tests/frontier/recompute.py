@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""recompute.py FOLDER: the front and the ties of each scene again, from frontier.csv and samples.csv alone.
+"""recompute.py FOLDER: front, ties, ratios and break-evens again, from frontier.csv, samples.csv and culling.csv alone.
 
 Compares them with frontier.json of the same folder, prints what differs, and ends with status 1 if anything does.
-Written without the program's code: medians by statistics, the front by its definition, Mann-Whitney in whole numbers.
+Written without the program's code: medians by statistics, the front by its definition, Mann-Whitney and the ranks of
+intervals in whole numbers.
 """
 import csv
 import functools
+import itertools
 import json
 import math
 import pathlib
@@ -68,6 +70,55 @@ def mann_whitney(a, b):
     return math.erfc(z / math.sqrt(2))
 
 
+def median_interval(values):
+    """Median, low, high: the ranks that at most 2.5 % of all outcomes leave on either side, by the binomial distribution."""
+    values, n = sorted(values), len(values)
+    rank = 0
+    while rank + 1 <= (n - 1) // 2 and 40 * sum(math.comb(n, k) for k in range(rank + 2)) <= 2**n:
+        rank += 1
+    return statistics.median(values), values[rank], values[n - 1 - rank]
+
+
+def read_culling(folder):
+    rounds = {}
+    for row in csv.DictReader(open(folder / "culling.csv", newline="")):
+        rounds.setdefault(row["row"], []).append(float(row["cull_ms"]))
+    return rounds
+
+
+def break_evens(folder):
+    """{(scene, tighter, looser): (rounds, ns, low, high)} of the points that differ in the cull test alone."""
+    rounds, groups = read_culling(folder), {}
+    for row in csv.DictReader(open(folder / "frontier.csv", newline="")):
+        settings = dict(item.split("=", 1) for item in row["settings"].split())
+        if row["row"] in rounds and not row["series"] and not row["refused"] and settings.pop("cull_test", None):
+            shared = ("scene", "technique", "frames", "view", "shard")
+            key = (*(row[name] for name in shared), tuple(sorted(settings.items())))
+            groups.setdefault(key, []).append(row)
+    answer = {}
+    for a, b in itertools.chain(*(itertools.combinations(group, 2) for group in groups.values())):
+        extra = [x - y for x, y in zip(rounds[a["row"]], rounds[b["row"]])]
+        saved = int(b["listed"]) - int(a["listed"])
+        if saved < 0:
+            a, b, saved, extra = b, a, -saved, [-x for x in extra]
+        if saved > 0:
+            figures = [max(x, 0) * 1e6 / saved for x in median_interval(extra)]
+            answer[a["scene"], a["label"], b["label"]] = (len(extra), *figures)
+    return answer
+
+
+def different_break_evens(folder, stated):
+    computed = break_evens(folder)
+    stated = {(b["scene"], b["tighter"], b["looser"]): (b["rounds"], b["ns_per_pixel_light"], *b["ci95"])
+              for b in stated if b["rounds"] > 0}
+    different = [key for key in set(stated) | set(computed) if key not in stated or key not in computed
+                 or any(abs(x - y) > 1e-9 * max(abs(y), 1e-9) for x, y in zip(stated[key], computed[key]))]
+    for key in different:
+        print(f"break-even of {', '.join(key)}: stated {stated.get(key)}, computed {computed.get(key)}")
+    print(f"{len(computed)} break-evens with intervals: {len(different)} differ")
+    return len(different)
+
+
 def is_beaten(place, places):
     return any(q != place and q[0] <= place[0] and q[1] <= place[1] for q in places)
 
@@ -97,7 +148,8 @@ def recompute(folder):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    points = json.load(open(folder / "frontier.json"))["points"]
+    answer = json.load(open(folder / "frontier.json"))
+    points = answer["points"]
     keys = [(p["scene"], p["label"], p["frames"]) for p in points]
     stated = {key: (p["front"], {keys[i] for i in p["tied_with"]}) for key, p in zip(keys, points)}
     computed = recompute(folder)
@@ -109,6 +161,8 @@ def main():
     on_front = sum(front for front, _ in computed.values())
     ties = sum(len(tied) for _, tied in computed.values()) // 2
     print(f"{len(computed)} points, {on_front} on a front, {ties} ties: {differences} points differ")
+    if len(answer.get("machines", [])) < 2:  # those of other machines are scaled
+        differences += different_break_evens(folder, answer["break_even"])
     return 1 if differences or not computed else 0
 
 

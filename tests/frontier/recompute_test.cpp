@@ -1,4 +1,4 @@
-// Fronts and ties of random records, computed again by recompute.py from the tables alone.
+// Fronts, ties and break-evens of random records, computed again by recompute.py from the tables alone.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -30,6 +30,13 @@ FrontierPart random_sweep(uint32_t seed) {
       for (int view = 0; view < 2; ++view) {
         FrontierRecord record = some_record(tile, view);
         record.point.scene = scene;
+        // Pairs of cull tests: tile 0 and 1, 2 and 3, …
+        record.point.settings = {{"tile", std::to_string(tile / 2)},
+                                 {"cull_test", tile % 2 ? "exact" : "aabb"}};
+        record.pairs.listed = 1000000 + random() % 3 * 100000;
+        record.cull_ms.clear();
+        for (uint32_t round = view == 0 ? 5 + uint32_t(tile) / 2 : 0; round > 0; --round)
+          record.cull_ms.push_back(5 + 0.1 * (tile % 2) + noise(random));
         record.nan_pixels = shows_nan && view == 1 ? 3 : 0;
         record.errors.total.rmse_rel = not_finite && view == 1 ? std::nan("") : error * (1 + view);
         record.frame_ms.clear();
@@ -57,6 +64,7 @@ TEST(Recomputed, FrontsAndTiesAreThoseOfTheTables) {
   ASSERT_GT(answer.points.size(), 20u);
   std::ofstream(folder.path / "frontier.csv") << csv_text(answer);
   std::ofstream(folder.path / "samples.csv") << samples_csv_text(answer);
+  std::ofstream(folder.path / "culling.csv") << cull_csv_text(answer);
   const auto recompute = [&](const nlohmann::json& frontier) {
     std::ofstream(folder.path / "frontier.json") << frontier;
     return run_command(std::string("python3 ") + source_folder + "/tests/frontier/recompute.py " +
@@ -67,7 +75,17 @@ TEST(Recomputed, FrontsAndTiesAreThoseOfTheTables) {
   EXPECT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr(fmt::format("{} points, ", answer.points.size())));
 
+  const auto with_interval = std::count_if(answer.break_even.begin(), answer.break_even.end(),
+                                           [](const BreakEven& b) { return b.rounds > 0; });
+  EXPECT_GE(with_interval, 6);
+  EXPECT_THAT(run.output, HasSubstr(fmt::format("{} break-evens with intervals: 0 differ", with_interval)));
+
   nlohmann::json wrong = stated;
+  for (nlohmann::json& b : wrong["break_even"]) {
+    if (b["rounds"] > 0) b["ci95"][1] = b["ci95"][1].get<double>() * 1.001 + 1e-6;
+  }
+  EXPECT_THAT(recompute(wrong).output, HasSubstr(fmt::format(": {} differ", with_interval)));
+  wrong = stated;
   wrong["points"][7]["front"] = !wrong["points"][7]["front"].get<bool>();
   EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
   wrong = stated;

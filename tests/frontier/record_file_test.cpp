@@ -1,167 +1,19 @@
 #include "frontier/record_file.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <cmath>
-#include <csignal>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "frontier/faults.h"
-#include "frontier/some_records.h"
-#include "support/read_files.h"
-#include "support/temp_folder.h"
+#include "frontier/part_file.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-struct PartFile {
-  TempFolder folder;
-  std::filesystem::path path = part_path(folder.path, 1, 4);
-  Told told;
-
-  RecordFile open(const FrontierPart& part = some_part()) { return RecordFile(path, part, told.notice()); }
-  std::string text() const { return file_bytes(path); }
-
-  // Three records, and the end.
-  void fill() {
-    RecordFile file = open();
-    for (int view = 0; view < 3; ++view) file.append(some_record(8, view));
-    file.finish(0.5);
-  }
-  std::string fault(const FrontierPart& part = some_part()) {
-    return fault_of([&] { open(part); });
-  }
-};
-
 void expect_equal(const FrontierRecord& a, const FrontierRecord& b) { EXPECT_EQ(to_json(a), to_json(b)); }
-
-TEST(FrontierRecords, KeepEveryFieldAsJson) {
-  const FrontierRecord r = some_record(8, 2);
-  const nlohmann::json written = to_json(r);
-  const FrontierRecord read = record_of(nlohmann::json::parse(written.dump()));
-  EXPECT_EQ(read.point.scene, r.point.scene);
-  EXPECT_EQ(read.point.technique, r.point.technique);
-  EXPECT_EQ(read.point.settings, r.point.settings);
-  EXPECT_EQ(read.point.label, r.point.label);
-  EXPECT_EQ(read.point.frames, r.point.frames);
-  EXPECT_EQ(read.view, r.view);
-  EXPECT_EQ(read.width, r.width);
-  EXPECT_EQ(read.height, r.height);
-  EXPECT_EQ(read.lights, r.lights);
-  EXPECT_EQ(read.radius_scale, r.radius_scale);
-  EXPECT_EQ(read.series, r.series);
-  EXPECT_EQ(read.refused, r.refused);
-  EXPECT_EQ(read.frame_ms, r.frame_ms);
-  EXPECT_EQ(read.baseline_ms, r.baseline_ms);
-  EXPECT_EQ(read.pass_ms, r.pass_ms);
-  EXPECT_EQ(read.bytes_moved, r.bytes_moved);
-  EXPECT_EQ(read.memory_bytes, r.memory_bytes);
-  EXPECT_EQ(read.covered_pixels, r.covered_pixels);
-  EXPECT_EQ(read.pairs.listed, r.pairs.listed);
-  EXPECT_EQ(read.pairs.lit, r.pairs.lit);
-  EXPECT_EQ(read.pairs.lost, r.pairs.lost);
-  EXPECT_EQ(read.pairs.wrong, r.pairs.wrong);
-  EXPECT_EQ(read.nan_pixels, r.nan_pixels);
-  EXPECT_EQ(read.overflow, r.overflow);
-  EXPECT_EQ(read.errors.model.max_rel, r.errors.model.max_rel);
-  EXPECT_EQ(read.errors.precision.rmse_rel, r.errors.precision.rmse_rel);
-  EXPECT_EQ(read.errors.technique.relative_rmse, r.errors.technique.relative_rmse);
-  EXPECT_EQ(read.errors.total.p99_rel, r.errors.total.p99_rel);
-  EXPECT_EQ(read.errors.total.flip_mean, r.errors.total.flip_mean);
-  EXPECT_EQ(read.errors.model.flip_mean, std::nullopt);
-  EXPECT_EQ(read.errors.bias_rmse_rel, r.errors.bias_rmse_rel);
-  EXPECT_EQ(read.errors.deviation_rmse_rel, r.errors.deviation_rmse_rel);
-  EXPECT_EQ(read.errors.temporal_rmse_rel, r.errors.temporal_rmse_rel);
-  ASSERT_TRUE(read.flip);
-  EXPECT_EQ(read.flip->start, r.flip->start);
-  EXPECT_EQ(read.flip->stop, r.flip->stop);
-  EXPECT_EQ(read.flip->count, r.flip->count);
-  EXPECT_EQ(read.image, r.image);
-}
-
-TEST(FrontierRecords, KeepNanAndInfinity) {
-  FrontierRecord r = some_record(8, 0);
-  r.errors.total = {.max_rel = infinite, .rmse_rel = std::nan(""), .p99_rel = -infinite};
-  r.errors.bias_rmse_rel = std::nan("");
-  r.errors.deviation_rmse_rel.reset();
-  r.frame_ms[1] = infinite;
-  const FrontierRecord read = record_of(nlohmann::json::parse(to_json(r).dump()));
-  EXPECT_EQ(read.errors.total.max_rel, infinite);
-  EXPECT_TRUE(std::isnan(read.errors.total.rmse_rel));
-  EXPECT_EQ(read.errors.total.p99_rel, -infinite);
-  EXPECT_TRUE(std::isnan(read.errors.bias_rmse_rel.value()));
-  EXPECT_EQ(read.errors.deviation_rmse_rel, std::nullopt);
-  EXPECT_EQ(read.frame_ms[1], infinite);
-}
-
-// Without a field, and with one of another type.
-TEST(FrontierRecords, NameAWrongField) {
-  const nlohmann::json good = to_json(some_record(8, 0));
-  for (const auto& [name, value] : good.items()) {
-    nlohmann::json line = good;
-    line.erase(name);
-    EXPECT_THAT(fault_of([&] { record_of(line); }), HasSubstr(name + " is missing"));
-    line[name] = value.is_number() ? nlohmann::json("x") : nlohmann::json(7);
-    EXPECT_THAT(fault_of([&] { record_of(line); }), AllOf(HasSubstr(name + ": "), HasSubstr(" is not a")));
-  }
-  nlohmann::json line = good;
-  line["errors"]["total"]["p99_rel"] = true;
-  EXPECT_EQ(fault_of([&] { record_of(line); }), "errors.total.p99_rel: true is not a number");
-  line = good;
-  line["baseline_ms"].push_back(1);
-  EXPECT_EQ(fault_of([&] { record_of(line); }), "frame_ms: 3 times beside 4 of baseline_ms");
-  line = good;
-  line["lights"] = 3e9;
-  EXPECT_EQ(fault_of([&] { record_of(line); }), "lights: 3000000000.0 is not a whole number");
-  line["lights"] = 3000000000;
-  EXPECT_EQ(fault_of([&] { record_of(line); }), "lights: 3000000000 is not a whole number of at least 0");
-  line = good;
-  line["memory_bytes"] = -1;
-  EXPECT_EQ(fault_of([&] { record_of(line); }), "memory_bytes: -1 is not a whole number");
-}
-
-TEST(FrontierRecords, HaveAKeyOfWhatIsMeasuredAlone) {
-  const FrontierRecord r = some_record(8, 1);
-  std::set<std::string> keys = {record_key(r)};
-  const auto add = [&](auto change) {
-    FrontierRecord other = r;
-    change(other);
-    EXPECT_TRUE(keys.insert(record_key(other)).second) << to_json(other);
-  };
-  add([](FrontierRecord& o) { o.point.scene = "hall"; });
-  add([](FrontierRecord& o) { o.point.technique = "tiled"; });
-  add([](FrontierRecord& o) { o.point.settings["tile"] = "16"; });
-  add([](FrontierRecord& o) { o.point.frames = 16; });
-  add([](FrontierRecord& o) { o.view = 0; });
-  add([](FrontierRecord& o) { o.width = 320; });
-  add([](FrontierRecord& o) { o.height = 90; });
-  add([](FrontierRecord& o) { o.lights = 1023; });
-  add([](FrontierRecord& o) { o.radius_scale = 1; });
-  add([](FrontierRecord& o) { o.series = "lights"; });
-  FrontierRecord measured = r;
-  measured.frame_ms.clear();
-  measured.errors = {};
-  measured.refused = "no";
-  measured.image.clear();
-  measured.shard = 3;
-  EXPECT_EQ(record_key(measured), record_key(r));
-  EXPECT_EQ(content_hash(""), "cbf29ce484222325");  // of the authors' test vectors
-  EXPECT_EQ(content_hash("foobar"), "85944171f73967e8");
-}
 
 TEST(RecordFile, ReadsWhatWasAppended) {
   PartFile part;
@@ -316,107 +168,63 @@ TEST(RecordFile, CountsARecordThatIsThereTwiceOnce) {
   EXPECT_THAT(part.told.lines[0], AllOf(HasSubstr("line 6: "), HasSubstr("view 0, is there twice")));
 }
 
-TEST(RecordFile, RefusesAFileOfAnotherRun) {
+// Two views of two points and one round of their times, cut off anywhere: what the lines before it say is
+// there, and only "complete" makes records of it.
+TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
   PartFile part;
-  part.fill();
-  const std::string whole = part.text();
-  const auto fault_with = [&](auto change) {
-    FrontierPart other = some_part();
-    change(other);
-    return part.fault(other);
-  };
-  const std::string path = part.path.string();
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.request = "fff"; }),
-              AllOf(HasSubstr(path), HasSubstr("request"), HasSubstr("0123456789abcdef is not fff")));
-  EXPECT_EQ(fault_with([](FrontierPart& p) { p.commit = "abc"; }),
-            path + ": commit 9d11b69 is not abc, that of this run");
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.seed = 2; }),
-              HasSubstr("seed 18446744073709551615 is not 2"));
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.baseline = "forward"; }),
-              HasSubstr("baseline forward_plus is not forward"));
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.shard = 2; }), HasSubstr("is shard 1 of 4, not 2"));
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.shards = 5; }), HasSubstr("number of shards 4 is not 5"));
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.machine.cpu = "Epyc"; }),
-              HasSubstr("begun with CPU \"Xeon\", here it is \"Epyc\""));
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.machine.cl_driver = "PoCL 5"; }),
-              HasSubstr("OpenCL driver"));
-  EXPECT_THAT(fault_with([](FrontierPart& p) { p.machine.threads = 64; }), HasSubstr("threads"));
-  EXPECT_EQ(part.text(), whole);
-
-  FrontierPart later = some_part();  // another load, clock and governor are the same machine
-  later.machine.load_at_start = 3;
-  later.machine.clock_mhz = 900;
-  later.machine.governor = "powersave";
-  EXPECT_EQ(part.open(later).part().machine.load_at_start, 0.25);
-}
-
-// Nothing of somebody's own file is cut off.
-TEST(RecordFile, RefusesAFileThatIsNoPart) {
-  PartFile part;
-  for (const char* text : {"glTF without newline", "{\"lightgrid\":", "a,b\n1,2\n", "{\"asset\": {}}\n", "\n",
-                           "{\"lightgrid_frontier\":2,\"request\":\"x\"}\n"}) {
-    write_text(part.path, text);
-    EXPECT_THAT(part.fault(),
-                AllOf(HasSubstr(part.path.string() + ": line 1: "), HasSubstr("not a part of a frontier")));
-    EXPECT_EQ(part.text(), text);
+  std::vector<FrontierRecord> records;
+  for (const int tile : {8, 16}) {
+    for (const int view : {0, 1}) {
+      records.push_back(some_record(tile, view));
+      records.back().frame_ms.clear(), records.back().baseline_ms.clear(), records.back().cull_ms.clear();
+    }
   }
-  write_text(part.path, "");
-  EXPECT_THAT(fault_of([&] { read_part(part.path, nullptr); }), HasSubstr("not a part of a frontier"));
-  EXPECT_THAT(fault_of([&] { read_part(part.folder.path, nullptr); }), HasSubstr("no such file"));
-}
-
-TEST(RecordFile, IsOfOneProcessAtATime) {
-  PartFile part;
-  const RecordFile file = part.open();
-  EXPECT_THAT(part.fault(), HasSubstr("another process is writing it"));
-}
-
-TEST(RecordFile, RefusesWhatCannotBeWritten) {
-  const TempFolder folder;
-  write_text(folder.path / "file", "");
-  const auto fault_at = [&](const std::filesystem::path& path) {
-    return fault_of([&] { RecordFile(path, some_part(), nullptr); });
-  };
-  EXPECT_THAT(fault_at(folder.path), HasSubstr(folder.path.string() + ": cannot be written: "));
-  EXPECT_THAT(fault_at(folder.path / "file" / "x"), HasSubstr("cannot be written: Not a directory"));
-  EXPECT_THAT(fault_at(folder.path / "none" / "x"), HasSubstr("cannot be written: No such file"));
-
-  using std::filesystem::perms;
-  std::filesystem::permissions(
-      folder.path, perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
-  const uid_t user = geteuid();  // root may write anywhere
-  ASSERT_EQ(user == 0 ? seteuid(65534) : 0, 0);
-  const std::string fault = fault_at(folder.path / "x");
-  ASSERT_EQ(user == 0 ? seteuid(0) : 0, 0);
-  EXPECT_EQ(fault, (folder.path / "x").string() + ": cannot be written: Permission denied");
-}
-
-TEST(RecordFile, TellsThatTheDiskIsFull) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  EXPECT_EQ(fault_of([] { RecordFile("/dev/full", some_part(), nullptr); }, ErrorKind::machine),
-            "/dev/full: cannot be written: No space left on device");
-}
-
-// A limit on file sizes fills the disk in the middle of a line.
-TEST(RecordFile, HoldsNoHalfLineWhenTheDiskIsFull) {
-  PartFile part;
-  part.fill();
+  std::vector<std::string> keys;
+  for (const FrontierRecord& r : records) keys.push_back(record_key(r));
+  {
+    RecordFile file = part.open();
+    for (const FrontierRecord& r : records) file.begin(r);
+    file.add_cull_times({{keys[0], 0.3}, {keys[2], 0.1}});
+    file.add_times({{keys[0], 1, 2, ""}, {keys[1], 1.0 / 3, 4, ""}, {keys[3], 0, 0, "no memory"}});
+    EXPECT_TRUE(file.part().records.empty());
+    file.complete(keys);
+    EXPECT_EQ(file.part().records.size(), 4u);
+    EXPECT_TRUE(file.open_records().empty());
+  }
+  records[0].cull_ms = {0.3}, records[2].cull_ms = {0.1};
+  records[0].frame_ms = {1}, records[0].baseline_ms = {2};
+  records[1].frame_ms = {1.0 / 3}, records[1].baseline_ms = {4};
+  records[3].refused = "no memory";
   const std::string whole = part.text();
-  RecordFile file = part.open();
-  rlimit before = {};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  rlimit tight = before;
-  tight.rlim_cur = whole.size() + 100;
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &tight), 0);
-  const std::string fault = fault_of([&] { file.append(some_record(8, 3)); }, ErrorKind::machine);
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(fault, part.path.string() + ": cannot be written: File too large");
-  EXPECT_EQ(part.text(), whole);
-  EXPECT_EQ(file.part().records.size(), 3u);
-  file.append(some_record(8, 3));
-  EXPECT_EQ(read_part(part.path, nullptr).records.size(), 4u);
+  const FrontierPart read = read_part(part.path, nullptr);
+  ASSERT_EQ(read.records.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) expect_equal(read.records[i], records[i]);
+  EXPECT_EQ(read.records[3].shard, 1);
+
+  for (size_t size = whole.find('\n') + 1; size <= whole.size(); size += 97) {
+    const std::string kept = whole.substr(0, size);
+    const auto lines = static_cast<size_t>(std::count(kept.begin(), kept.end(), '\n'));  // 1 + 4 + 1 + 1 + 1
+    write_text(part.path, kept);
+    const RecordFile file = part.open();
+    EXPECT_TRUE(file.part().records.empty());
+    EXPECT_EQ(file.open_records().size(), std::min<size_t>(lines - 1, 4)) << size;
+    if (lines < 6) continue;
+    EXPECT_EQ(file.open_records().at(keys[2]).cull_ms, std::vector{0.1});
+    EXPECT_EQ(file.open_records().at(keys[1]).frame_ms.size(), lines - 6) << size;
+  }
+}
+
+TEST(RecordFile, NamesTimesOfNoRecord) {
+  PartFile part;
+  part.open();
+  const std::string header = part.text();
+  for (const auto& [line, why] : {std::pair{R"({"times":{"abc":[1,2]}})", "abc is no record that is open"},
+                                  {R"({"complete":["abc"]})", "abc is no record that is open"},
+                                  {R"({"complete":7})", "complete: 7 is not an array"},
+                                  {R"({"times":[]})", "times: array is not an object"}}) {
+    write_text(part.path, header + line + "\n");
+    EXPECT_THAT(part.fault(), AllOf(HasSubstr("line 2: "), HasSubstr(why)));
+  }
 }
 
 TEST(Shards, AreEveryNthPoint) {

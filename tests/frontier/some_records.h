@@ -32,7 +32,14 @@ inline FrontierRecord some_record(int tile, int view) {
   r.pairs = {1000, 400, 2, 1};
   r.nan_pixels = 3;
   r.overflow = 5;
-  r.errors = {some_figures(1), some_figures(2), some_figures(3), some_figures(4), 1e-5, 2e-5};
+  r.cull_ms = {0.1, 0.125, 1.0 / 7};
+  r.errors = {.model = some_figures(1),
+              .precision = some_figures(2),
+              .technique = some_figures(3),
+              .total = some_figures(4),
+              .in_double = SampledErrors{9000, some_figures(5), some_figures(7), some_figures(6)},
+              .bias_rmse_rel = 1e-5,
+              .deviation_rmse_rel = 2e-5};
   r.errors.total.flip_mean = 0.0123;
   r.errors.temporal_rmse_rel = 3e-5;
   r.flip = FlipExposures{-2.5, 7.25, 10};
@@ -67,6 +74,7 @@ inline PointFigures some_point_figures(int tile) {
   p.frame_ms = {2.5, 2.25, 3, 8};
   p.ratio = {0.5, 0.25, 0.75, 8};
   p.errors = some_record(tile, 0).errors;
+  p.flip_views = 2, p.temporal_views = 1;
   p.pairs = {2000, 800, 4, 2};
   p.memory_bytes = 5000;
   p.bytes_moved = 7000;
@@ -97,8 +105,8 @@ inline FrontierAnswer some_answer() {
   answer.points[0].tied_with = {1};
   answer.points[1].tied_with = {0};
   answer.best_within = {{answer.points[0].point.scene, 1e-3, 0, {1}}};
-  answer.break_even = {{"hall", "exact", "sphere", 0.25, 1.5, 1000}};
-  answer.shading_costs = {{"hall", "forward_plus", "ggx", 0.75}};
+  answer.break_even = {{"hall", "exact", "sphere", 0.25, 1.5, 1000, 0.125, 0.5, 12}};
+  answer.shading_costs = {{"hall", "forward_plus", "ggx", 0.75, 0.5, 1}};
   answer.growth = {{"hall", "forward_plus", "lights", 0.5, 0.25, 0.75, {{100, 1}, {400, 2}, {1600, 4}}}};
   answer.failures = {{refused.point, "refused", "refused: " + refused.refused}};
   answer.sentences = {"One.", "Two."};

@@ -97,7 +97,9 @@ function errorTable(point) {
   return make("div", { class: "scrolls" }, make("table", {},
     make("thead", {}, make("tr", {}, make("td", {}, "Error"), ...ERROR_MEASURES.map(([, title]) => make("th", { scope: "col" }, title)))),
     make("tbody", {}, ...ERROR_KINDS.map(([kind, title]) => make("tr", {}, make("th", { scope: "row" }, title),
-      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.errors[kind][measure]))))))));
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.errors[kind][measure])))))),
+    ...(point.sampled ? [make("tbody", {}, make("tr", {}, make("th", { scope: "row" }, "whole picture, truth in double"),
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.errors.in_double[measure])))))] : [])));
 }
 
 function choosePoint(point) {
@@ -112,6 +114,8 @@ function choosePoint(point) {
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
     ...(images.length && page.reduced > 1 ? [make("p", { class: "quiet" }, `Shown at 1/${page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] : []),
     errorTable(point),
+    ...(point.sampled ? [make("p", {}, `Truth in double: at ${wholeNumber(point.sampled.pixels)} random pixels of opaque surfaces. There the RMSE is ${errorNumber(point.sampled.in_float.rmse_rel)} against the truth in float, which is within ${errorNumber(point.sampled.truth.max_rel)} of the one in double (RMSE ${errorNumber(point.sampled.truth.rmse_rel)}).`)] : []),
+    ...(point.flip_views > 0 && point.flip_views < point.views ? [make("p", {}, `FLIP on ${point.flip_views} of ${point.views} views, flicker on ${point.temporal_views}.`)] : []),
     ...(point.deviation !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(point.bias ?? 0)}, standard deviation of a frame ${errorNumber(point.deviation)} (RMSE over the brightest channel).`)] : []),
     ...(point.temporal !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(point.temporal)} (RMSE over the brightest channel).`)] : []),
     ...(tied.length ? [make("details", {}, make("summary", {}, `~ ${tied.length} point${tied.length === 1 ? "" : "s"} whose time does not differ`), make("p", {}, tied.join(", ")))] : []),

@@ -1,0 +1,173 @@
+#include "frontier/view_figures.h"
+
+#include <algorithm>
+#include <new>
+
+#include "base/error.h"
+#include "cl/error.h"
+#include "compare/oracle.h"
+#include "frontier/errors.h"
+#include "frontier/scene_views.h"
+#include "results/metrics.h"
+#include "scene/random.h"
+
+namespace lightgrid {
+namespace {
+
+// Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file,
+// its FLIP and its flicker.
+constexpr double as_brute_force = 1e-6;
+constexpr int frames_of_flicker = 3;
+
+}  // namespace
+
+bool has_own_surfaces(const ChosenPoint& point) {
+  return own_surfaces(*point.contestant.technique, point.contestant.settings);
+}
+
+ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& start,
+                         const FrontierJob& job, const std::string& scene_name)
+    : renderer_(renderer),
+      scene_(scene),
+      scene_name_(scene_name),
+      truths_{Truths(renderer, gpu, job.common, !renderer.gl), Truths(renderer, gpu, job.common, true)},
+      precision_(renderer, gpu, start, job.common, job.shaded_pairs),
+      pictures_(job.pictures),
+      nowhere_({}),
+      seed_(job.seed) {}
+
+ViewFigures::Truths::Truths(Renderer& renderer, GpuScene& gpu, const Settings& common, bool own_surfaces)
+    : brute(renderer, gpu, common, own_surfaces) {
+  for (int frame = 1; frame < frames_of_flicker; ++frame)
+    turned.emplace_back(renderer, gpu, common, own_surfaces);
+}
+
+void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) {
+  for (size_t frame = 1; frame < turn.size(); ++frame) turned[frame - 1].look(turn[frame]);
+  brute.look(view);
+  flip.reset();
+  flicker.clear();
+}
+
+void ViewFigures::look(const View& view, int index, bool own, bool whole) {
+  view_ = view;
+  turn_ = whole ? slow_turn(scene_, view, frames_of_flicker) : std::vector<View>();
+  std::vector<Truths*> used = {&truths_[0]};
+  if (own && renderer_.gl) used.push_back(&truths_[1]);
+  for (Truths* truths : used) truths->look(view, turn_);
+  BruteForce& first = truths_[0].brute;
+  // Where a median pixel is black, HDR-FLIP has no exposures.
+  exposures_ = whole ? flip_exposures(first.truth()) : std::nullopt;
+  for (Truths* truths : used) {
+    if (exposures_) truths->flip.emplace(truths->brute.truth(), *exposures_);
+  }
+  brightest_ = first.brightest();
+  precision_.measure(view, first, used.size() > 1 ? &truths_[1].brute : nullptr,
+                     Random::mix(seed_) + uint64_t(index));
+}
+
+ViewFigures::Truths& ViewFigures::truths_of(const ChosenPoint& point) {
+  return truths_[has_own_surfaces(point) && renderer_.gl ? 1 : 0];
+}
+
+void ViewFigures::measure(PointRun& run, FrontierRecord& record) {
+  run.look(view_);
+  run.draw_for_errors();
+  record.refused = run.refused();
+  if (!record.refused.empty()) return;
+  try {
+    fill(run, record);  // its lists may not fit into memory
+  } catch (const Error& error) {
+    record.refused = error.what();
+  } catch (const cl::Error& error) {
+    record.refused = cl_machine_error(error).what();
+  } catch (const std::bad_alloc&) {
+    record.refused = "out of memory";
+  }
+}
+
+void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
+  const ChosenPoint& point = point_run.point();
+  Truths& truths = truths_of(point);
+  const Image image = point_run.image();
+  const Image& truth = truths.brute.truth();
+  record.errors.total = error_figures(image, truth, brightest_);
+  const bool own = has_own_surfaces(point);
+  record.errors.precision = precision_.of(own);
+  record.errors.in_double = precision_.in_double(image, own);
+  record.nan_pixels = count_nan_pixels(image);
+  if (point.frames > 1) {
+    const double relative = brightest_ > 0 ? point_run.deviation() / brightest_ : 0;
+    record.errors.deviation_rmse_rel = relative;
+    record.errors.bias_rmse_rel = bias_rmse(record.errors.total.rmse_rel, relative, point.frames);
+    record.errors.model = record.errors.total;
+    point_run.draw_first_frame();
+  }
+  const Image& meant = truths.brute.picture(point.contestant.settings);
+  record.errors.technique = error_figures(point_run.run().image(), meant, brightest_);
+  if (point.frames == 1) record.errors.model = error_figures(meant, truth, brightest_);
+  const bool as_meant = point.frames == 1 && record.errors.technique.max_rel <= as_brute_force;
+  fill_flip(as_meant ? meant : image, truths, record);
+
+  TechniqueRun& run = point_run.run();
+  const std::vector<float> depth = read_depth(run);
+  record.covered_pixels = uint64_t(std::ranges::count_if(depth, [](float d) { return d > 0; }));
+  const LitPairs pairs = count_listed_pairs(run, depth);
+  record.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  if (run.technique().limited_lists) record.overflow = pairs.lost;
+  if (record.view == 0) run.run_profiled_frames(100);
+  const RunResult result = run.result();
+  record.memory_bytes = result.memory_total;
+  for (const PassResult& pass : result.passes) {
+    if (record.view > 0) break;  // passes are counted where they are profiled
+    record.pass_ms[pass.name] += pass.median_ms;
+    record.bytes_moved += pass.bytes_read + pass.bytes_written;
+  }
+  if (turn_.empty() || !(brightest_ > 0)) return;
+  const double change =
+      as_meant ? flicker_of_brute_force(point, truths) : flicker_of(point_run, truths, image);
+  record.errors.temporal_rmse_rel = change / brightest_;
+}
+
+void ViewFigures::fill_flip(const Image& image, Truths& truths, FrontierRecord& record) {
+  const HdrFlip* flip = truths.flip ? &*truths.flip : nullptr;
+  if (record.view > 0 && !flip) return;
+  PictureFiles& files = record.view == 0 ? pictures_ : nowhere_;
+  const PictureFiles::Written written = files.write(scene_name_, image, truths.brute.truth(), flip);
+  record.image = written.name;
+  record.errors.total.flip_mean = written.flip_mean;
+  record.flip = exposures_;
+}
+
+// The turn begins with the view itself.
+double ViewFigures::flicker_of(PointRun& run, Truths& truths, const Image& first) {
+  ChangeOfError change;
+  change.add(first, truths.brute.truth());
+  for (size_t frame = 1; frame < turn_.size(); ++frame) {
+    run.look(turn_[frame]);
+    run.go_to_frame(int(frame));
+    run.draw();
+    if (!run.refused().empty()) throw machine_error("{}", run.refused());
+    change.add(run.image(), truths.turned[frame - 1].truth());
+  }
+  run.go_to_frame(0);
+  return change.rmse();
+}
+
+// Once a view and meaning.
+double ViewFigures::flicker_of_brute_force(const ChosenPoint& point, Truths& truths) {
+  Settings settings = point.contestant.settings;
+  const Image& first = truths.brute.picture(settings);
+  const auto [place, added] = truths.flicker.try_emplace(&first, 0.0);
+  if (!added) return place->second;
+  ChangeOfError change;
+  change.add(first, truths.brute.truth());
+  for (size_t frame = 1; frame < turn_.size(); ++frame) {
+    ++settings.ranges.seed;  // as PointRun::go_to_frame has it
+    BruteForce& turned = truths.turned[frame - 1];
+    change.add(turned.draw(settings), turned.truth());
+  }
+  return place->second = change.rmse();
+}
+
+}  // namespace lightgrid

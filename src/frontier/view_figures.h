@@ -1,0 +1,65 @@
+// The figures of points on one view, all but their times: errors, FLIP, flicker, pairs, bytes.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "frontier/brute_force.h"
+#include "frontier/measure.h"
+#include "frontier/pictures.h"
+#include "frontier/point_run.h"
+#include "frontier/precision.h"
+
+namespace lightgrid {
+
+class ViewFigures {
+ public:
+  // All outlive it.
+  ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& start,
+              const FrontierJob& job, const std::string& scene_name);
+
+  // Draws the truths of a view, the path's `index`-th. `own`: some point has surfaces of its own. `whole`:
+  // FLIP and flicker too.
+  void look(const View& view, int index, bool own, bool whole);
+
+  // Draws the point on the view and fills in all but its times: why it is refused, or its figures. On the
+  // first view its picture is written and its passes are profiled. Points that draw what brute force does
+  // share its picture, its FLIP and its flicker.
+  void measure(PointRun& run, FrontierRecord& record);
+
+ private:
+  // The truths of the techniques that share surfaces: OpenGL's, or those of the rasteriser in OpenCL.
+  struct Truths {
+    Truths(Renderer& renderer, GpuScene& gpu, const Settings& common, bool own_surfaces);
+    BruteForce brute;
+    std::vector<BruteForce> turned;  // of the later frames of a slow turn
+    std::optional<HdrFlip> flip;
+    std::map<const Image*, double> flicker;  // of pictures of brute force
+    void look(const View& view, const std::vector<View>& turn);
+  };
+  Truths& truths_of(const ChosenPoint& point);
+  void fill(PointRun& run, FrontierRecord& record);
+  void fill_flip(const Image& image, Truths& truths, FrontierRecord& record);
+  double flicker_of(PointRun& run, Truths& truths, const Image& first);
+  double flicker_of_brute_force(const ChosenPoint& point, Truths& truths);
+
+  Renderer& renderer_;
+  const Scene& scene_;
+  const std::string scene_name_;
+  std::array<Truths, 2> truths_;  // OpenGL's, OpenCL's
+  Precision precision_;
+  PictureFiles pictures_, nowhere_;  // the latter measures FLIP alone
+  View view_;
+  std::vector<View> turn_;  // empty: no flicker is measured
+  std::optional<FlipExposures> exposures_;
+  double brightest_ =
+      0;  // channel of the truth; one for both kinds of surfaces, since a highlight of one pixel makes it
+  uint64_t seed_;
+};
+
+// Whether a point's surfaces are those of the rasteriser in OpenCL.
+bool has_own_surfaces(const ChosenPoint& point);
+
+}  // namespace lightgrid

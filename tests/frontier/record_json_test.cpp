@@ -1,0 +1,142 @@
+// Records as JSON, and the keys by which they are found again.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "frontier/faults.h"
+#include "frontier/record_file.h"
+#include "frontier/some_records.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(FrontierRecords, KeepEveryFieldAsJson) {
+  const FrontierRecord r = some_record(8, 2);
+  const nlohmann::json written = to_json(r);
+  const FrontierRecord read = record_of(nlohmann::json::parse(written.dump()));
+  EXPECT_EQ(read.point.scene, r.point.scene);
+  EXPECT_EQ(read.point.technique, r.point.technique);
+  EXPECT_EQ(read.point.settings, r.point.settings);
+  EXPECT_EQ(read.point.label, r.point.label);
+  EXPECT_EQ(read.point.frames, r.point.frames);
+  EXPECT_EQ(read.view, r.view);
+  EXPECT_EQ(read.width, r.width);
+  EXPECT_EQ(read.height, r.height);
+  EXPECT_EQ(read.lights, r.lights);
+  EXPECT_EQ(read.radius_scale, r.radius_scale);
+  EXPECT_EQ(read.series, r.series);
+  EXPECT_EQ(read.refused, r.refused);
+  EXPECT_EQ(read.frame_ms, r.frame_ms);
+  EXPECT_EQ(read.baseline_ms, r.baseline_ms);
+  EXPECT_EQ(read.pass_ms, r.pass_ms);
+  EXPECT_EQ(read.cull_ms, r.cull_ms);
+  EXPECT_EQ(read.bytes_moved, r.bytes_moved);
+  EXPECT_EQ(read.memory_bytes, r.memory_bytes);
+  EXPECT_EQ(read.covered_pixels, r.covered_pixels);
+  EXPECT_EQ(read.pairs.listed, r.pairs.listed);
+  EXPECT_EQ(read.pairs.lit, r.pairs.lit);
+  EXPECT_EQ(read.pairs.lost, r.pairs.lost);
+  EXPECT_EQ(read.pairs.wrong, r.pairs.wrong);
+  EXPECT_EQ(read.nan_pixels, r.nan_pixels);
+  EXPECT_EQ(read.overflow, r.overflow);
+  EXPECT_EQ(read.errors.model.max_rel, r.errors.model.max_rel);
+  EXPECT_EQ(read.errors.precision.rmse_rel, r.errors.precision.rmse_rel);
+  EXPECT_EQ(read.errors.technique.relative_rmse, r.errors.technique.relative_rmse);
+  EXPECT_EQ(read.errors.total.p99_rel, r.errors.total.p99_rel);
+  EXPECT_EQ(read.errors.total.flip_mean, r.errors.total.flip_mean);
+  EXPECT_EQ(read.errors.model.flip_mean, std::nullopt);
+  ASSERT_TRUE(read.errors.in_double);
+  EXPECT_EQ(read.errors.in_double->pixels, r.errors.in_double->pixels);
+  EXPECT_EQ(read.errors.in_double->picture.max_rel, r.errors.in_double->picture.max_rel);
+  EXPECT_EQ(read.errors.in_double->picture_in_float.rmse_rel, r.errors.in_double->picture_in_float.rmse_rel);
+  EXPECT_EQ(read.errors.in_double->truth.rmse_rel, r.errors.in_double->truth.rmse_rel);
+  EXPECT_EQ(read.errors.bias_rmse_rel, r.errors.bias_rmse_rel);
+  EXPECT_EQ(read.errors.deviation_rmse_rel, r.errors.deviation_rmse_rel);
+  EXPECT_EQ(read.errors.temporal_rmse_rel, r.errors.temporal_rmse_rel);
+  ASSERT_TRUE(read.flip);
+  EXPECT_EQ(read.flip->start, r.flip->start);
+  EXPECT_EQ(read.flip->stop, r.flip->stop);
+  EXPECT_EQ(read.flip->count, r.flip->count);
+  EXPECT_EQ(read.image, r.image);
+}
+
+TEST(FrontierRecords, KeepNanAndInfinity) {
+  FrontierRecord r = some_record(8, 0);
+  r.errors.total = {.max_rel = infinite, .rmse_rel = std::nan(""), .p99_rel = -infinite};
+  r.errors.bias_rmse_rel = std::nan("");
+  r.errors.deviation_rmse_rel.reset();
+  r.frame_ms[1] = infinite;
+  const FrontierRecord read = record_of(nlohmann::json::parse(to_json(r).dump()));
+  EXPECT_EQ(read.errors.total.max_rel, infinite);
+  EXPECT_TRUE(std::isnan(read.errors.total.rmse_rel));
+  EXPECT_EQ(read.errors.total.p99_rel, -infinite);
+  EXPECT_TRUE(std::isnan(read.errors.bias_rmse_rel.value()));
+  EXPECT_EQ(read.errors.deviation_rmse_rel, std::nullopt);
+  EXPECT_EQ(read.frame_ms[1], infinite);
+}
+
+// Without a field, and with one of another type.
+TEST(FrontierRecords, NameAWrongField) {
+  const nlohmann::json good = to_json(some_record(8, 0));
+  for (const auto& [name, value] : good.items()) {
+    nlohmann::json line = good;
+    line.erase(name);
+    EXPECT_THAT(fault_of([&] { record_of(line); }), HasSubstr(name + " is missing"));
+    line[name] = value.is_number() ? nlohmann::json("x") : nlohmann::json(7);
+    EXPECT_THAT(fault_of([&] { record_of(line); }), AllOf(HasSubstr(name + ": "), HasSubstr(" is not a")));
+  }
+  nlohmann::json line = good;
+  line["errors"]["total"]["p99_rel"] = true;
+  EXPECT_EQ(fault_of([&] { record_of(line); }), "errors.total.p99_rel: true is not a number");
+  line = good;
+  line["baseline_ms"].push_back(1);
+  EXPECT_EQ(fault_of([&] { record_of(line); }), "frame_ms: 3 times beside 4 of baseline_ms");
+  line = good;
+  line["lights"] = 3e9;
+  EXPECT_EQ(fault_of([&] { record_of(line); }), "lights: 3000000000.0 is not a whole number");
+  line["lights"] = 3000000000;
+  EXPECT_EQ(fault_of([&] { record_of(line); }), "lights: 3000000000 is not a whole number of at least 0");
+  line = good;
+  line["memory_bytes"] = -1;
+  EXPECT_EQ(fault_of([&] { record_of(line); }), "memory_bytes: -1 is not a whole number");
+}
+
+TEST(FrontierRecords, HaveAKeyOfWhatIsMeasuredAlone) {
+  const FrontierRecord r = some_record(8, 1);
+  std::set<std::string> keys = {record_key(r)};
+  const auto add = [&](auto change) {
+    FrontierRecord other = r;
+    change(other);
+    EXPECT_TRUE(keys.insert(record_key(other)).second) << to_json(other);
+  };
+  add([](FrontierRecord& o) { o.point.scene = "hall"; });
+  add([](FrontierRecord& o) { o.point.technique = "tiled"; });
+  add([](FrontierRecord& o) { o.point.settings["tile"] = "16"; });
+  add([](FrontierRecord& o) { o.point.frames = 16; });
+  add([](FrontierRecord& o) { o.view = 0; });
+  add([](FrontierRecord& o) { o.width = 320; });
+  add([](FrontierRecord& o) { o.height = 90; });
+  add([](FrontierRecord& o) { o.lights = 1023; });
+  add([](FrontierRecord& o) { o.radius_scale = 1; });
+  add([](FrontierRecord& o) { o.series = "lights"; });
+  FrontierRecord measured = r;
+  measured.frame_ms.clear();
+  measured.errors = {};
+  measured.refused = "no";
+  measured.image.clear();
+  measured.shard = 3;
+  EXPECT_EQ(record_key(measured), record_key(r));
+  EXPECT_EQ(content_hash(""), "cbf29ce484222325");  // of the authors' test vectors
+  EXPECT_EQ(content_hash("foobar"), "85944171f73967e8");
+}
+
+}  // namespace
+}  // namespace lightgrid
