@@ -80,7 +80,12 @@ ImportedMemory::ImportedMemory(ClDevice& cl, size_t bytes) : cl_(cl) {
 
 ImportedMemory::~ImportedMemory() { free_all(); }
 
+// Neither API may still use the memory. NVIDIA's OpenCL (580) waits for ever when a buffer is freed that it still owns.
 void ImportedMemory::free_all() {
+  if (in_cl_) release_(cl_.queue()(), 1, &cl_buffer_(), 0, nullptr, nullptr);
+  in_cl_ = false;
+  if (cl_buffer_()) clFinish(cl_.queue()());
+  if (gl_buffer_) glFinish();
   cl_buffer_ = {};
   if (gl_buffer_) glDeleteBuffers(1, &gl_buffer_);
   if (memory_object_) glDeleteMemoryObjectsEXT(1, &memory_object_);
@@ -133,8 +138,14 @@ void ImportedMemory::enqueue(HandOver call, const char* name) {
   if (code != CL_SUCCESS) throw machine_error("{} failed with {}", name, cl_error_name(code));
 }
 
-void ImportedMemory::acquire() { enqueue(acquire_, "clEnqueueAcquireExternalMemObjectsKHR"); }
+void ImportedMemory::acquire() {
+  enqueue(acquire_, "clEnqueueAcquireExternalMemObjectsKHR");
+  in_cl_ = true;
+}
 
-void ImportedMemory::release() { enqueue(release_, "clEnqueueReleaseExternalMemObjectsKHR"); }
+void ImportedMemory::release() {
+  enqueue(release_, "clEnqueueReleaseExternalMemObjectsKHR");
+  in_cl_ = false;
+}
 
 }  // namespace lightgrid

@@ -16,7 +16,7 @@ class ImportedMemory {
   // At least `bytes`; contents undefined. The current context and `cl` are of one GPU. Throws Error(machine),
   // naming the step that failed.
   ImportedMemory(ClDevice& cl, size_t bytes);
-  // The context is current, and OpenCL's queue is finished.
+  // The context is current. Waits for both APIs.
   ~ImportedMemory();
   ImportedMemory(const ImportedMemory&) = delete;
   ImportedMemory& operator=(const ImportedMemory&) = delete;
@@ -27,6 +27,7 @@ class ImportedMemory {
   // Enqueue the hand-over; OpenCL uses the memory only between the two.
   void acquire();
   void release();
+  bool in_cl() const { return in_cl_; }  // between the two
 
  private:
   using HandOver = cl_int(CL_API_CALL*)(cl_command_queue, cl_uint, const cl_mem*, cl_uint, const cl_event*,
@@ -41,6 +42,7 @@ class ImportedMemory {
   std::unique_ptr<CudaMemory> memory_;
   GLuint memory_object_ = 0, gl_buffer_ = 0;
   cl::Buffer cl_buffer_;
+  bool in_cl_ = false;
 };
 
 }  // namespace lightgrid

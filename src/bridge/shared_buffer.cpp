@@ -151,7 +151,6 @@ SharedBuffer& SharedBuffer::operator=(SharedBuffer&& other) noexcept {
   std::swap(copied_, other.copied_);
   std::swap(cl_buffer_, other.cl_buffer_);
   std::swap(imported_, other.imported_);
-  std::swap(in_cl_, other.in_cl_);
   return *this;
 }
 
@@ -181,12 +180,12 @@ void SharedBuffer::wait_for_copy() {
 }
 
 cl::Buffer& SharedBuffer::cl_buffer() {
-  if (imported_ && !in_cl_) take_for_cl();
+  if (imported_ && !imported_->in_cl()) take_for_cl();
   return cl_buffer_;
 }
 
 GLuint SharedBuffer::gl_buffer() {
-  if (imported_ && in_cl_) take_for_gl();
+  if (imported_ && imported_->in_cl()) take_for_gl();
   return gl_buffer_;
 }
 
@@ -194,7 +193,6 @@ void SharedBuffer::take_for_cl() {
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   glFinish();
   imported_->acquire();
-  in_cl_ = true;
 }
 
 // The barrier discards what OpenGL's caches hold of the memory.
@@ -202,12 +200,11 @@ void SharedBuffer::take_for_gl() {
   imported_->release();
   finish_queue(*cl_, "handing a buffer to OpenGL");
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  in_cl_ = false;
 }
 
 void SharedBuffer::hand_to_gl(size_t bytes) {
   assert(bytes <= bytes_ && kind_ != BridgeKind::none);
-  if (imported_ && in_cl_) {
+  if (imported_ && imported_->in_cl()) {
     take_for_gl();
     return;
   }
@@ -228,7 +225,7 @@ void SharedBuffer::hand_to_gl(size_t bytes) {
 void SharedBuffer::hand_to_cl(size_t bytes) {
   assert(bytes <= bytes_ && kind_ != BridgeKind::none);
   if (imported_) {
-    if (!in_cl_) take_for_cl();
+    if (!imported_->in_cl()) take_for_cl();
     return;
   }
   if (kind_ == BridgeKind::staged && bytes > 0) {

@@ -72,7 +72,6 @@ class SharedBuffer {
   GLsync copied_ = nullptr; // staged: signalled when OpenGL has read the staging memory; null: already read
   cl::Buffer cl_buffer_;
   std::unique_ptr<ImportedMemory> imported_;  // of kind imported; gl_buffer_ and cl_buffer_ are then its own
-  bool in_cl_ = false;                        // imported: OpenCL has acquired it
 };
 
 }  // namespace lightgrid
