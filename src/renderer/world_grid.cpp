@@ -76,11 +76,11 @@ cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
   return shared.buffer->cl_buffer();
 }
 
-// Some chunks for each thread on a CPU, and thousands of them elsewhere.
+// Some chunks for each thread on a CPU, and thousands of them elsewhere. At least 1, also of nothing.
 size_t WorldGrid::chunk_of(size_t count, size_t least) const {
   const bool cpu = renderer_.cl->info().cpu;
   const size_t items = cpu ? 32 : 8192;
-  return std::max((count + items - 1) / items, cpu ? least : least / 16);
+  return std::max({(count + items - 1) / items, cpu ? least : least / 16, size_t(1)});
 }
 
 void WorldGrid::run(const char* name, size_t items, const auto&... arguments) {

@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"CullOfATechniqueWithoutAGrid", {"cull", "FOLDER", "-t", "forward"}, {"forward", "grid"}},
                     Wrong{"CaptureOfNoTechnique", {"capture", scene, "-t", "magic", "-o", "FOLDER/r"}, {"magic"}},
                     Wrong{"VerifyOfAFolderWithoutAFrame", {"verify", "--replay", "FOLDER"}, {"FOLDER/view.json"}},
-                    Wrong{"VerifyOfAFrameAndOfCases", {"verify", "--replay", "FOLDER", "--nightly"}, {"--replay", "--nightly"}},
+                    Wrong{"VerifyOfAFrameAndOfCases", {"verify", "--replay", "FOLDER", "--filter", "depth"}, {"--replay", "--filter"}},
                     Wrong{"InspectNothing", {"inspect", scene}, {"--pixel", "-o"}},
                     Wrong{"InspectCompareAtAPlace",
                           {"inspect", scene, "--pixel", "1,1", "--compare", "tile=8,16"},
