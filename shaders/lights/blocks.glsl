@@ -1,5 +1,5 @@
 // A long list of lights, in the order of its entries, in few loop iterations (LONG_LOOPS). llvmpipe ends the loops of a shader
-// after 65,535 iterations, those of all its loops together, and says nothing (Mesa: LP_MAX_TGSI_LOOP_ITERATIONS). Here one
+// after 65,535 iterations of all its loops together, without an error (Mesa: LP_MAX_TGSI_LOOP_ITERATIONS). Here one
 // iteration tests 64 lights, and each light that may reach the point takes one more. The sum has the bits of a loop over all
 // entries: a light that is left out would add an exact zero.
 //   LIGHT_ENTRIES: there are entries_at(p), the first entry and their number; light_of_entry(i); entry_is_read(light)
