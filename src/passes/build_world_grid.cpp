@@ -57,6 +57,8 @@ WorldGridInCl build_world_grid(RenderView& v) {
   return {&grid, state.in_cl.buffer()};
 }
 
+const WorldGrid& built_world_grid(RenderView& v) { return *v.state<WorldGridOfView>().grid; }
+
 LightSource from_world_grid(RenderView& v) {
   WorldGrid& grid = *build_world_grid(v).grid;
   {

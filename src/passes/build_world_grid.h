@@ -21,6 +21,9 @@ WorldGridInCl build_world_grid(RenderView& v);
 // The same for OpenGL's light loop.
 LightSource from_world_grid(RenderView& v);
 
+// The lists that the view's last frame read.
+const WorldGrid& built_world_grid(RenderView& v);
+
 // The lists that the last frame read at each pixel of these depths (width * height, row 0 at the bottom).
 ListedLights listed_of_world_grid(RenderView& v, const std::vector<float>& depth);
 

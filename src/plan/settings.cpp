@@ -203,8 +203,9 @@ const std::vector<Setting>& all_settings() {
        {choice("3d", &Settings::world_grid, WorldGridShape::cubes), choice("2d", &Settings::world_grid, WorldGridShape::columns),
         choice("hashed", &Settings::world_grid, WorldGridShape::hashed)}},
       {"world-cell",
-       "edge of world_grid's cells over the lights' median radius; hashed: least edge of a light's cells over its own radius",
-       {choice("1", &Settings::world_cell, 1.0), choice("2", &Settings::world_cell, 2.0),
+       "edge of world_grid's cells over the lights' median radius; hashed: least edge of a light's cells over its own radius; "
+       "auto: chosen by the lights' number and radii",
+       {choice("auto", &Settings::world_cell, 0.0), choice("1", &Settings::world_cell, 1.0), choice("2", &Settings::world_cell, 2.0),
         choice("0.5", &Settings::world_cell, 0.5), choice("0.25", &Settings::world_cell, 0.25)}},
       {"portable",
        "plain OpenCL C, without builtins that only some CPUs have",

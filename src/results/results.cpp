@@ -118,9 +118,10 @@ json settings_json(const std::map<std::string, std::string>& settings) {
 }
 
 // Of a pass whose result serves many frames: the frame's median, which is without it, with its share.
-static json build_json(const PassResult& pass, double frame_ms) {
+static json build_json(const PassResult& pass, double frame_ms, std::optional<double> world_cell) {
   const auto shared = [&](int frames) { return frame_ms + pass.median_ms / frames; };
   return {{"pass", pass.name},
+          {"world_cell", world_cell ? json(*world_cell) : json()},
           {"median_ms", pass.median_ms},
           {"frame_ms_over", {{"1", shared(1)}, {"10", shared(10)}, {"100", shared(100)}}}};
 }
@@ -142,7 +143,7 @@ json to_json(const RunResult& result) {
               {"overflow", result.overflow},
               {"skipped", skipped}};
   for (const auto& pass : result.passes) {
-    if (pass.name == "build_world_grid") out["build"] = build_json(pass, result.frame_ms.median);
+    if (pass.name == "build_world_grid") out["build"] = build_json(pass, result.frame_ms.median, result.world_cell);
   }
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;

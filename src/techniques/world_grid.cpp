@@ -11,6 +11,11 @@
 
 namespace lightgrid {
 
+static void note_lists(Frame& frame, const WorldGrid& grid) {
+  frame.world_grid_bytes = grid.list_bytes();
+  frame.world_cell = grid.layout().cell;
+}
+
 // The same with triangles rasterised and shaded in OpenCL.
 static Frame render_in_cl(RenderView& v) {
   Frame frame;
@@ -22,7 +27,7 @@ static Frame render_in_cl(RenderView& v) {
   frame.image = resolve(v, visible, {.world = lights ? &*lights : nullptr});
   if (!v.plan.blended.empty())
     blend_resolved(v, list_blended(v), *frame.depth, {.world = lights ? &*lights : nullptr});
-  if (lights) frame.world_grid_bytes = lights->grid->list_bytes();
+  if (lights) note_lists(frame, *lights->grid);
   return frame;
 }
 
@@ -33,7 +38,7 @@ static Frame render(RenderView& v) {
   const LightSource lights = v.plan.world_grid ? from_world_grid(v) : every_light(v);
   Frame frame{.image = shade_forward(v, surfaces, lights)};
   shade_blended(v, frame.image, lights);
-  if (v.plan.world_grid) frame.world_grid_bytes = lights.bytes;
+  if (v.plan.world_grid) note_lists(frame, built_world_grid(v));
   return frame;
 }
 

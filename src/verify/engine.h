@@ -29,7 +29,7 @@ struct DepthImage {
 // Cells of the world and the list of each (docs/techniques/world_grid.md).
 struct WorldListsOf {
   WorldGridShape shape;
-  double cell;  // the setting world-cell
+  double cell;  // the setting world-cell, 0: auto
   int index_bits;
   auto operator<=>(const WorldListsOf&) const = default;
 };

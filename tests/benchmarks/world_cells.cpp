@@ -3,6 +3,8 @@
 // machine changes less than elapsed time.
 //
 //     world_cells [SCENE [LIGHTS [WIDTHxHEIGHT [FRAMES]]]]    LIGHTS 0: the scene's own
+//     world_cells SCENE LIGHTS steps                          each step of a build
+//     world_cells SCENE LIGHTS estimates                      what world-cell=auto expects, and its choice
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -67,13 +69,78 @@ void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape
   std::fflush(stdout);
 }
 
+double median_ms(int runs, const auto& body) {
+  std::vector<double> elapsed;
+  for (int i = 0; i < runs; ++i) {
+    const double from = elapsed_ms();
+    body();
+    elapsed.push_back(elapsed_ms() - from);
+  }
+  std::ranges::sort(elapsed);
+  return elapsed[size_t(runs / 2)];
+}
+
+// Kernels by the device's clock, the mean of all builds; the host's steps and the whole as medians.
+void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape shape,
+                   const char* name, double cell) {
+  const Scene& scene = gpu.scene();
+  const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
+  const WorldBox bounds = world_box(scene);
+  WorldGrid grid(renderer, shape, cell, plan.index_bits);
+  std::vector<CullLight> lights;
+  WorldLayout layout;
+  const auto build = [&] {
+    grid.build(lights, bounds, view, 0);
+    renderer.cl->queue().finish();
+  };
+  const double of_lights = median_ms(builds, [&] { cull_lights_of(scene, plan.local, {}, lights); });
+  const double first = median_ms(1, build), whole = median_ms(builds, build);
+  const double laid_out =
+      median_ms(builds, [&] { lay_out_world(lights, bounds, shape, cell, view, layout); });
+  ClProfiler& profiler = renderer.cl->profiler();
+  profiler.time_launches(true);
+  for (int i = 0; i < builds; ++i) build();
+  fmt::print("{} {}: build {:.2f} ms, the first {:.2f}; lights of the scene {:.2f}, layout {:.2f}", name,
+             cell, whole, first, of_lights, laid_out);
+  double kernels = 0;
+  for (const ClProfiler::Row& row : profiler.collect()) {
+    kernels += row.ms / builds;
+    fmt::print(", {} {:.2f} ({})", row.label, row.ms / builds, row.launches / builds);
+  }
+  profiler.time_launches(false);
+  fmt::print("; kernels {:.2f}\n", kernels);
+  std::fflush(stdout);
+}
+
+void print_estimates(const GpuScene& gpu, const View& view) {
+  const Scene& scene = gpu.scene();
+  const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
+  const std::vector<CullLight> lights = cull_lights_of(scene, plan.local);
+  const WorldBox bounds = world_box(scene);
+  constexpr struct {
+    WorldGridShape shape;
+    const char* name;
+  } shapes[] = {
+      {WorldGridShape::cubes, "3d"}, {WorldGridShape::columns, "2d"}, {WorldGridShape::hashed, "hashed"}};
+  for (const auto& [shape, name] : shapes) {
+    for (const double cell : {2.0, 1.0, 0.5, 0.25}) {
+      const WorldCellEstimate e = estimate_world_cell(lights, bounds, shape, cell);
+      fmt::print("{} {}: {:.1f} listed at a position, {:.0f} entries, {:.0f} blocks\n", name, cell, e.listed,
+                 e.entries, e.blocks);
+    }
+    fmt::print("{} auto: {}\n", name, choose_world_cell(lights, bounds, shape));
+  }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   const std::string name = count > 1 ? words[1] : "hall";
   const int lights = count > 2 ? std::atoi(words[2]) : 0;
   int width = 640, height = 360;
-  if (count > 3) std::sscanf(words[3], "%dx%d", &width, &height);
+  const bool steps = count > 3 && std::string(words[3]) == "steps";
+  const bool estimates = count > 3 && std::string(words[3]) == "estimates";
+  if (count > 3 && !steps && !estimates) std::sscanf(words[3], "%dx%d", &width, &height);
   const int frames = count > 4 ? std::atoi(words[4]) : 3;
   const BuiltinScene* builtin = find_builtin_scene(name);
   if (!builtin) return std::fprintf(stderr, "no scene %s\n", name.c_str()), 2;
@@ -84,6 +151,15 @@ int main(int count, char** words) {
   Renderer renderer("", GlBackend::automatic);
   GpuScene gpu(renderer, scene);
   const View view = make_view(scene.cameras.at(0), width, height);
+  if (estimates) return print_estimates(gpu, view), 0;
+  if (steps) {
+    for (const double cell : {2.0, 1.0, 0.5, 0.25}) {
+      measure_steps(renderer, gpu, view, WorldGridShape::cubes, "3d", cell);
+      measure_steps(renderer, gpu, view, WorldGridShape::columns, "2d", cell);
+      measure_steps(renderer, gpu, view, WorldGridShape::hashed, "hashed", cell);
+    }
+    return 0;
+  }
   fmt::print(
       "| `world-grid` | `world-cell` | listed a pixel | blocks | entries | MB | build, CPU ms | build, ms | "
       "frame, CPU ms |\n");

@@ -186,5 +186,63 @@ TEST(WorldGrid, ServesViewsWithinItsReach) {
   EXPECT_GT(grid.layout().lights[0].w, slack);
 }
 
+// Lights over a plane, as scenes have them.
+std::vector<CullLight> lights_over_a_plane(int count, double size_m, double radius_m) {
+  Random random(8);
+  const auto u = [&] { return double(random.uniform()); };
+  std::vector<CullLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at((u() - 0.5) * size_m, u() * radius_m, (u() - 0.5) * size_m);
+    lights.push_back(ball(at, radius_m * (0.5 + u())));
+  }
+  return lights;
+}
+
+// Against the lists themselves, read at points of the plane: entries within a quarter, lights a point within
+// a half. The points of the estimate are around lights, where lists are longer.
+TEST(WorldGrid, EstimatesItsCells) {
+  const std::vector<CullLight> lights = lights_over_a_plane(3000, 60, 2);
+  const WorldBox bounds{glm::dvec3(-30, 0, -30), glm::dvec3(30, 3, 30)};
+  const View view = view_from({0, 5, 5}, {0, 0, 0});
+  const struct {
+    WorldGridShape shape;
+    double cell;
+  } grids[] = {{WorldGridShape::cubes, 2}, {WorldGridShape::cubes, 0.5}, {WorldGridShape::columns, 1}};
+  for (const auto& [shape, cell] : grids) {
+    const Lists grid = lists_of(lights, view, shape, cell, 16, bounds);
+    Random random(9);
+    double listed = 0;
+    constexpr int points = 1000;
+    for (int i = 0; i < points; ++i) {
+      const glm::dvec3 at(50 * double(random.uniform()) - 25, 1, 50 * double(random.uniform()) - 25);
+      listed += double(list_at(grid, view, in_view(view, at)).size()) / points;
+    }
+    const WorldCellEstimate estimate = estimate_world_cell(lights, bounds, shape, cell);
+    EXPECT_NEAR(estimate.entries / double(grid.entries), 1, 0.25) << cell;
+    EXPECT_NEAR(estimate.listed / listed, 1, 0.5) << cell;
+  }
+}
+
+// Few lights get small cells, many of the same density large ones; the layout has the choice.
+TEST(WorldGrid, ChoosesItsCells) {
+  const WorldBox bounds{glm::dvec3(-1e3), glm::dvec3(1e3)};
+  const View view = view_from({0, 5, 5}, {0, 0, 0});
+  double last = 0;
+  for (const int count : {200, 5000, 80000}) {
+    const std::vector<CullLight> lights = lights_over_a_plane(count, 1.2 * std::sqrt(double(count)), 2);
+    const double chosen = choose_world_cell(lights, bounds, WorldGridShape::cubes);
+    EXPECT_GT(chosen, last) << count;
+    last = chosen;
+    WorldLayout of_auto, of_chosen;
+    lay_out_world(lights, bounds, WorldGridShape::cubes, 0, view, of_auto);
+    lay_out_world(lights, bounds, WorldGridShape::cubes, chosen, view, of_chosen);
+    EXPECT_EQ(of_auto.cell, chosen);
+    EXPECT_EQ(of_auto.cell_m, of_chosen.cell_m);
+  }
+  EXPECT_EQ(choose_world_cell({}, bounds, WorldGridShape::hashed), 1);
+  const std::vector<CullLight> endless_ones(3, ball({0, 0, 0}, endless));
+  EXPECT_EQ(choose_world_cell(endless_ones, bounds, WorldGridShape::cubes), 1);
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -53,6 +53,7 @@ struct Frame {
   std::optional<LightGrid> blend_grid;  // of blended ones, in RenderView::blend_grid()
   size_t light_index_bytes = 0;         // of LightIndexImages
   size_t world_grid_bytes = 0;          // of WorldGrid's lists
+  std::optional<double> world_cell;     // the value of world-cell that they were built with
   std::optional<DepthBuffer> depth;     // of techniques that rasterise in OpenCL; else the depth image has it
   std::optional<TriangleBuffer> triangles;  // of the same techniques
 
