@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <string>
+#include <vector>
 
 #include "cl/error.h"
 #include "gl/errors.h"
@@ -132,20 +133,23 @@ void ImportedMemory::import_in_cl() {
   cl_buffer_ = cl::Buffer(buffer);
 }
 
-void ImportedMemory::enqueue(HandOver call, const char* name) {
-  const cl_mem buffer = cl_buffer_();
-  const cl_int code = call(cl_.queue()(), 1, &buffer, 0, nullptr, nullptr);
-  if (code != CL_SUCCESS) throw machine_error("{} failed with {}", name, cl_error_name(code));
+void ImportedMemory::enqueue(HandOver call, const char* name, std::span<ImportedMemory* const> memories) {
+  std::vector<cl_mem> buffers;
+  for (const ImportedMemory* memory : memories) buffers.push_back(memory->cl_buffer_());
+  const cl_int code = call(memories[0]->cl_.queue()(), cl_uint(buffers.size()), buffers.data(), 0, nullptr, nullptr);
+  if (code != CL_SUCCESS) throw machine_error("{} of {} buffers failed with {}", name, buffers.size(), cl_error_name(code));
 }
 
-void ImportedMemory::acquire() {
-  enqueue(acquire_, "clEnqueueAcquireExternalMemObjectsKHR");
-  in_cl_ = true;
+void ImportedMemory::acquire(std::span<ImportedMemory* const> memories) {
+  if (memories.empty()) return;
+  enqueue(memories[0]->acquire_, "clEnqueueAcquireExternalMemObjectsKHR", memories);
+  for (ImportedMemory* memory : memories) memory->in_cl_ = true;
 }
 
-void ImportedMemory::release() {
-  enqueue(release_, "clEnqueueReleaseExternalMemObjectsKHR");
-  in_cl_ = false;
+void ImportedMemory::release(std::span<ImportedMemory* const> memories) {
+  if (memories.empty()) return;
+  enqueue(memories[0]->release_, "clEnqueueReleaseExternalMemObjectsKHR", memories);
+  for (ImportedMemory* memory : memories) memory->in_cl_ = false;
 }
 
 }  // namespace lightgrid

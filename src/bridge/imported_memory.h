@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "bridge/cuda_memory.h"
 #include "cl/device.h"
@@ -24,9 +25,9 @@ class ImportedMemory {
   GLuint gl_buffer() const { return gl_buffer_; }
   cl::Buffer& cl_buffer() { return cl_buffer_; }
 
-  // Enqueue the hand-over; OpenCL uses the memory only between the two.
-  void acquire();
-  void release();
+  // Enqueue the hand-over of all, as one command; OpenCL uses their memory only between the two. All are of one device.
+  static void acquire(std::span<ImportedMemory* const> memories);
+  static void release(std::span<ImportedMemory* const> memories);
   bool in_cl() const { return in_cl_; }  // between the two
 
  private:
@@ -34,7 +35,7 @@ class ImportedMemory {
                                         cl_event*);
   void import_in_gl();
   void import_in_cl();
-  void enqueue(HandOver call, const char* name);
+  static void enqueue(HandOver call, const char* name, std::span<ImportedMemory* const> memories);
   void free_all();
 
   ClDevice& cl_;

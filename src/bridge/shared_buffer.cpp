@@ -180,32 +180,31 @@ void SharedBuffer::wait_for_copy() {
 }
 
 cl::Buffer& SharedBuffer::cl_buffer() {
-  if (imported_ && !imported_->in_cl()) take_for_cl();
+  if (imported_ && !imported_->in_cl()) hand_to_cl(bytes_);
   return cl_buffer_;
 }
 
 GLuint SharedBuffer::gl_buffer() {
-  if (imported_ && imported_->in_cl()) take_for_gl();
+  SharedBuffer* const buffers[] = {this};
+  take_for_gl(buffers);
   return gl_buffer_;
 }
 
-void SharedBuffer::take_for_cl() {
-  glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  glFinish();
-  imported_->acquire();
-}
-
 // The barrier discards what OpenGL's caches hold of the memory.
-void SharedBuffer::take_for_gl() {
-  imported_->release();
-  finish_queue(*cl_, "handing a buffer to OpenGL");
+void SharedBuffer::take_for_gl(std::span<SharedBuffer* const> buffers) {
+  std::vector<ImportedMemory*> imported;
+  for (SharedBuffer* buffer : buffers)
+    if (buffer->imported_ && buffer->imported_->in_cl()) imported.push_back(buffer->imported_.get());
+  if (imported.empty()) return;
+  ImportedMemory::release(imported);
+  finish_queue(*buffers[0]->cl_, "handing buffers to OpenGL");
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
 void SharedBuffer::hand_to_gl(size_t bytes) {
   assert(bytes <= bytes_ && kind_ != BridgeKind::none);
   if (imported_ && imported_->in_cl()) {
-    take_for_gl();
+    gl_buffer();
     return;
   }
   if (kind_ != BridgeKind::staged || bytes == 0) {
@@ -223,23 +222,39 @@ void SharedBuffer::hand_to_gl(size_t bytes) {
 }
 
 void SharedBuffer::hand_to_cl(size_t bytes) {
-  assert(bytes <= bytes_ && kind_ != BridgeKind::none);
-  if (imported_) {
-    if (!imported_->in_cl()) take_for_cl();
-    return;
-  }
-  if (kind_ == BridgeKind::staged && bytes > 0) {
+  const Written written[] = {{this, bytes}};
+  hand_to_cl(written);
+}
+
+void SharedBuffer::hand_to_cl(std::span<const Written> written) {
+  std::vector<ImportedMemory*> imported;
+  std::vector<Written> staged;
+  GLbitfield barriers = 0;
+  for (const auto& [buffer, bytes] : written) {
+    assert(bytes <= buffer->bytes_ && buffer->kind_ != BridgeKind::none);
+    if (buffer->imported_) {
+      if (buffer->imported_->in_cl()) continue;
+      imported.push_back(buffer->imported_.get());
+      barriers |= GL_ALL_BARRIER_BITS;
+      continue;
+    }
+    barriers |= GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT;
+    if (buffer->kind_ != BridgeKind::staged || bytes == 0) continue;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(gl_buffer_, staging_, 0, 0, static_cast<GLsizeiptr>(bytes));
+    glCopyNamedBufferSubData(buffer->gl_buffer_, buffer->staging_, 0, 0, static_cast<GLsizeiptr>(bytes));
+    staged.push_back({buffer, bytes});
   }
-  glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  if (barriers == 0) return;
+  glMemoryBarrier(barriers);
   glFinish();
-  if (kind_ == BridgeKind::mapped || bytes == 0) return;
-  try {
-    cl_->queue().enqueueWriteBuffer(cl_buffer_, CL_TRUE, 0, bytes, mapped_, nullptr,
-                                    cl_->profiler().event("hand_to_cl"));
-  } catch (const cl::Error& error) {
-    throw cl_machine_error(error, "handing a buffer to OpenCL");
+  ImportedMemory::acquire(imported);
+  for (const auto& [buffer, bytes] : staged) {
+    try {
+      buffer->cl_->queue().enqueueWriteBuffer(buffer->cl_buffer_, CL_TRUE, 0, bytes, buffer->mapped_, nullptr,
+                                              buffer->cl_->profiler().event("hand_to_cl"));
+    } catch (const cl::Error& error) {
+      throw cl_machine_error(error, "handing a buffer to OpenCL");
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "bridge/imported_memory.h"
@@ -57,11 +58,18 @@ class SharedBuffer {
   // After GL wrote the first `bytes` (by glReadPixels, say): waits for GL and makes them visible to OpenCL.
   void hand_to_cl(size_t bytes);
 
+  // The same of several buffers of one device, with one wait for all. No buffer twice.
+  struct Written {
+    SharedBuffer* buffer;
+    size_t bytes;
+  };
+  static void hand_to_cl(std::span<const Written> written);
+  // Before OpenGL overwrites them: gl_buffer() of each then has no wait of its own.
+  static void take_for_gl(std::span<SharedBuffer* const> buffers);
+
  private:
   void release();
   void wait_for_copy();
-  void take_for_cl();
-  void take_for_gl();
 
   ClDevice* cl_ = nullptr;  // null after a move
   BridgeKind kind_ = BridgeKind::staged;

@@ -68,13 +68,18 @@ GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
   const GBufferInCl in_cl = gbuffer_in_cl_of(v, gbuffer.base_lighting, TargetUse::image);
   const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
+  std::vector<SharedBuffer::Written> copies;
+  for (size_t i = 0; i < in_cl.images(); ++i) copies.push_back({in_cl.surfaces[i], pixels * gbuffer.layout->images[i].bytes});
+  if (base_lighting) copies.push_back({in_cl.image, pixels * 16});
+  std::vector<SharedBuffer*> buffers;
+  for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
+  SharedBuffer::take_for_gl(buffers);
   for (size_t i = 0; i < in_cl.images(); ++i) {
     copy_attachment(v, gbuffer, i < 2 ? int(i) : gbuffer.coats_attachment(), gbuffer.textures[i], gbuffer.layout->images[i].type,
                     *in_cl.surfaces[i]);
   }
   if (base_lighting) copy_attachment(v, gbuffer, 2, v.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
-  for (size_t i = 0; i < in_cl.images(); ++i) in_cl.surfaces[i]->hand_to_cl(pixels * gbuffer.layout->images[i].bytes);
-  if (base_lighting) in_cl.image->hand_to_cl(pixels * 16);
+  SharedBuffer::hand_to_cl(copies);
   const size_t bytes = pixels * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;

@@ -9,6 +9,7 @@
 
 #include "cl/launch.h"
 #include "cl/program_cache.h"
+#include "gl/objects.h"
 
 namespace lightgrid {
 namespace {
@@ -206,6 +207,7 @@ struct LateCopies {
   LateCopies() {
     copy = glCopyNamedBufferSubData, wait = glClientWaitSync, finish = glFinish;
     pending.clear();
+    finishes = 0;
     glCopyNamedBufferSubData = [](GLuint from, GLuint to, GLintptr a, GLintptr b, GLsizeiptr bytes) {
       pending.push_back([=] { copy(from, to, a, b, bytes); });
     };
@@ -213,7 +215,7 @@ struct LateCopies {
       run();
       return wait(sync, flags, time);
     };
-    glFinish = [] { run(), finish(); };
+    glFinish = [] { ++finishes, run(), finish(); };
   }
   ~LateCopies() {
     run();
@@ -224,6 +226,7 @@ struct LateCopies {
     pending.clear();
   }
   static inline std::vector<std::function<void()>> pending;
+  static inline int finishes;  // calls of glFinish
   static inline PFNGLCOPYNAMEDBUFFERSUBDATAPROC copy;
   static inline PFNGLCLIENTWAITSYNCPROC wait;
   static inline PFNGLFINISHPROC finish;
@@ -249,6 +252,32 @@ TEST_P(SharedBufferOf, WaitsForTheLastCopyBeforeItHandsOverAgain) {
     EXPECT_EQ(first_frame, squares(count, 1));
   }
   EXPECT_EQ(read_in_gl(buffer, count, copy_shader), squares(count, 1000));
+}
+
+TEST_P(SharedBufferOf, HandsSeveralToKernelsWithOneWait) {
+  constexpr cl_uint counts[] = {1, 153, 4097};
+  std::vector<SharedBuffer> buffers;
+  for (cl_uint count : counts) buffers.emplace_back(cl, kind, count * 4);
+  std::vector<SharedBuffer*> pointers;
+  std::vector<SharedBuffer::Written> written;
+  for (SharedBuffer& buffer : buffers) {
+    pointers.push_back(&buffer);
+    written.push_back({&buffer, buffer.size()});
+  }
+  for (cl_uint frame = 0; frame < 2; ++frame) {
+    const LateCopies late;
+    SharedBuffer::take_for_gl(pointers);
+    std::vector<GlBuffer> sources;
+    for (size_t i = 0; i < buffers.size(); ++i) {
+      sources.push_back(make_buffer(buffers[i].size(), squares(counts[i], 1000 * frame).data()));
+      glCopyNamedBufferSubData(sources[i].name(), buffers[i].gl_buffer(), 0, 0, GLsizeiptr(buffers[i].size()));
+    }
+    LateCopies::finishes = 0;
+    SharedBuffer::hand_to_cl(written);
+    EXPECT_EQ(LateCopies::finishes, 1);
+    for (size_t i = 0; i < buffers.size(); ++i)
+      EXPECT_EQ(read_in_cl(buffers[i], counts[i]), squares(counts[i], 1000 * frame)) << counts[i] << ", frame " << frame;
+  }
 }
 
 // Earlier failures are not attributed to the buffer. Debug builds abort at the call itself.
