@@ -26,14 +26,19 @@ kernel void world_count(global const float4* lights, global uint* counts, global
     if (!(light.w >= 0.0f)) continue;
     const int4 first = world_coordinates(light - light.w, least, most) >> shift;
     const int4 last = world_coordinates(light + light.w, least, most) >> shift;
-    for (int z = first.z; z <= last.z; ++z) {
-      for (int y = first.y; y <= last.y; ++y) {
-        global uint* const row = own + ((uint)z * world->blocks_y + (uint)y) * world->blocks_x;
-        for (int x = first.x; x <= last.x; ++x) {
-          if (write) members[row[x]] = i;
-          ++row[x];
-        }
-      }
+    // One loop over all blocks, as a loop's end is seldom predicted.
+    const int4 blocks = last - first + 1;
+    uint at = ((uint)first.z * world->blocks_y + (uint)first.y) * world->blocks_x + (uint)first.x;
+    const uint next_row = world->blocks_x - (uint)blocks.x, next_layer = (world->blocks_y - (uint)blocks.y) * world->blocks_x;
+    int x = blocks.x, y = blocks.y;
+    for (int left = blocks.x * blocks.y * blocks.z; left > 0; --left) {
+      if (write) members[own[at]] = i;
+      ++own[at];
+      --x;
+      const bool row_ends = x == 0, layer_ends = row_ends & (y == 1);
+      at += 1 + (row_ends ? next_row : 0) + (layer_ends ? next_layer : 0);
+      y = layer_ends ? blocks.y : y - (row_ends ? 1 : 0);
+      x = row_ends ? blocks.x : x;
     }
   }
 }

@@ -1,14 +1,13 @@
-// The lists of each block's 64 cells, from the block's lights. Runs twice: to count, then, after world_scan,
-// to write. A list is sorted because its block's lights are.
+// The lists of each block's 64 cells, from the block's lights, 16 at a time. Runs twice: to test lights against cells, then,
+// after world_scan, to write. A list is sorted because its block's lights are.
 //
-// lights   as in world_blocks
-// cones    axis and cosine of the outer half-angle, lowered as docs/hard_cases.md#slack says; below 0: none. Null: no light
-//          has a cone that is tested
-// block_first, members, keys  of blocks
-// masks    a bit a cell for each member: out, and with `write` in
+// lights   as in world_blocks; the radius of a light with a cone that is tested is an odd float, others' are even
+// cones    axis and cosine of the outer half-angle, lowered as docs/hard_cases.md#slack says; null: no light has one
+// block_first, members, keys  of blocks; members may be read 15 past their end
+// masks    for each block and each BATCH of its lights 64 words, one a cell: a bit a light. Out, and with `write` in
 // totals   a chunk's number of entries out; with `write` its first entry in
-// cells    out: 64 a block: first entry and number
-// indices  out with `write`
+// cells    out with `write`: 64 a block: first entry and number
+// indices  out with `write`: entry_count
 // -DCOLUMNS   blocks are 8 x 8 columns, not 4 x 4 x 4 cubes
 // -DINDEX_32  indices are 32 bits, not 16
 // -DAVX512    with that instruction set's builtins
@@ -18,12 +17,14 @@
 
 #ifdef INDEX_32
 typedef uint index_t;
+#define append_indices append_uints
 #else
 typedef ushort index_t;
+#define append_indices append_ushorts
 #endif
 
-#define PARTS (WORLD_BLOCK_CELLS / LANES)  // of a block, whose cells are tested together
-#define BATCH 16u                          // lights
+#define PARTS (WORLD_BLOCK_CELLS / LANES)  // of a block, whose cells are tested together against a cone
+#define BATCH 16u                          // lights that are tested together: WORLD_BATCH of renderer/world_grid.cpp
 
 // Lower and upper sides of a block's cells along each axis, in lanes: cubes have 4 along x, then 4 along y
 // and 4 along z; columns 8 along x, then 8 along y. The outer cells have no end.
@@ -43,10 +44,12 @@ typedef struct BlockSides {
    : (part) == 2 ? (v).sccccccccdddddddd \
                  : (v).seeeeeeeeffffffff)
 #define ALONG_X 8
+#define ALONG_Z 1
 #else
 #define SPREAD_X(v) (v).s0123012301230123
 #define SPREAD_Y(v, part) (v).s4444555566667777
 #define ALONG_X 4
+#define ALONG_Z 4
 #endif
 #define SPREAD_Z(v, part) ((part) == 0 ? (v).s8 : (part) == 1 ? (v).s9 : (part) == 2 ? (v).sa : (v).sb)
 
@@ -87,71 +90,130 @@ static inline mask_t meets_cone(float4 light, float4 cone, const BlockSides* s, 
   return s->outer[part] | ((most >= REAL(0.0f)) & (off <= most * most));
 }
 
-// The cells that a light may reach, a bit each. Adds one for each of them to `counts`.
-static inline ulong mask_of_cells(float4 light, float4 axis, const BlockSides* s, whole* counts,
-                                  constant WorldGridParams* world) {
-#ifdef COLUMNS
-  const real at = (real)((float8)(light.x), (float8)(light.y));
-#else
-  const real at = (real)((float4)(light.x), (float4)(light.y), (float8)(light.z));
-#endif
-  const real away = max_real(max_real(s->low - at, at - s->high), REAL(0.0f)), square = away * away;
-  const real most = light.w * light.w;
-  float radius = 0.0f;
-  if (axis.w >= 0.0f) {
-    // The ball around a cell, rounded up, and slack for both the light and the test's own rounding.
-    const float far = fabs(light.x) + fabs(light.y) + fabs(light.z);
-    radius = 0.866026f * s->edge + 2.0f * world_slack(far, light.w, world);
+// Squared distances of lights from the cells along an axis; `first` is the number of those before them in `sides`.
+static inline void squares_along(real at, const BlockSides* sides, uint first, uint cells, real* squares) {
+  for (uint i = 0; i < cells; ++i) {
+    const float low = ((const float*)&sides->low)[first + i], high = ((const float*)&sides->high)[first + i];
+    const real away = max_real(max_real(low - at, at - high), REAL(0.0f));
+    squares[i] = away * away;
   }
-  ulong mask = 0;
-#pragma unroll
-  for (uint part = 0; part < PARTS; ++part) {
-#ifdef COLUMNS
-    mask_t meets = SPREAD_X(square) + SPREAD_Y(square, part) <= most;
-#else
-    mask_t meets = SPREAD_X(square) + SPREAD_Y(square, part) + (real)(SPREAD_Z(square, part)) <= most;
-#endif
-    if (axis.w >= 0.0f) meets &= meets_cone(light, axis, s, part, radius);
-    counts[part] -= meets;
-    mask |= (ulong)mask_bits(meets) << part * LANES;
-  }
-  return mask;
 }
 
-static inline uint lowest_bit_of_64(ulong bits) { return 63u - (uint)clz(bits & (0ul - bits)); }
+// Lights of a block are anywhere in memory: a batch is loaded at once, so that its cache misses overlap.
+typedef struct Balls {
+  real x, y, z, radius;
+} Balls;
 
-kernel void world_lists(global const float4* lights, global const float4* cones,
-                        global const uint* block_first, global const uint* members, global const uint2* keys,
-                        global ulong* masks, global uint* totals, global uint2* cells,
-                        global index_t* indices, uint block_count, uint chunk, uint write,
-                        constant WorldGridParams* world) {
+#ifdef AVX512
+#define GATHERED(component)                                                                                         \
+  __builtin_ia32_gathersiv16sf((real)(0.0f), (const void*)((size_t)lights + 4 * (component)), of * 2, (ushort)0xffff, 8)
+static inline Balls load_balls(global const float4* lights, whole of) {
+  const Balls b = {GATHERED(0), GATHERED(1), GATHERED(2), GATHERED(3)};
+  return b;
+}
+#else
+static inline Balls load_balls(global const float4* lights, whole of) {
+  float x[BATCH], y[BATCH], z[BATCH], radius[BATCH];
+  for (uint i = 0; i < BATCH; ++i) {
+    const float4 light = lights[((const int*)&of)[i]];
+    x[i] = light.x, y[i] = light.y, z[i] = light.z, radius[i] = light.w;
+  }
+  const Balls b = {vload16(0, x), vload16(0, y), vload16(0, z), vload16(0, radius)};
+  return b;
+}
+#endif
+
+// For each cell of the block the lights of a batch whose balls may reach it, a bit each.
+static inline void test_balls(Balls balls, uint valid, const BlockSides* sides, ushort* met) {
+  real x[ALONG_X], y[ALONG_X], z[ALONG_Z];
+  squares_along(balls.x, sides, 0, ALONG_X, x);
+  squares_along(balls.y, sides, ALONG_X, ALONG_X, y);
+#ifndef COLUMNS
+  squares_along(balls.z, sides, 2 * ALONG_X, ALONG_Z, z);
+#endif
+  const real most = balls.radius * balls.radius;
+#pragma unroll
+  for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) {
+    const real across = x[i % ALONG_X] + y[i / ALONG_X % ALONG_X];
+#ifdef COLUMNS
+    met[i] = (ushort)(mask_bits(across <= most) & valid);
+#else
+    met[i] = (ushort)(mask_bits(across + z[i / (ALONG_X * ALONG_X)] <= most) & valid);
+#endif
+  }
+}
+
+// Removes a light from the cells that its cone misses.
+static inline void test_cone(float4 light, float4 axis, uint lane, const BlockSides* sides, ushort* met,
+                             constant WorldGridParams* world) {
+  // The ball around a cell, rounded up, and slack for both the light and the test's own rounding.
+  const float far = fabs(light.x) + fabs(light.y) + fabs(light.z);
+  const float radius = 0.866026f * sides->edge + 2.0f * world_slack(far, light.w, world);
+  const ushort bit = (ushort)(1u << lane);
+  for (uint part = 0; part < PARTS; ++part) {
+    const mask_t meets = meets_cone(light, axis, sides, part, radius);
+    const ushort16 of_cells = vload16(part, met);
+    vstore16(of_cells & (convert_ushort16(meets) | (ushort16)(ushort)~bit), part, met);
+  }
+}
+
+// Tests a block's lights. Returns the number of entries of its lists.
+static inline uint test_lights(global const float4* lights, global const float4* cones, global const uint* members,
+                               uint count, uint2 key, global ushort* masks, constant WorldGridParams* world) {
+  const BlockSides sides = block_sides(key, world);
+  uint entries = 0;
+  for (uint m = 0; m < count; m += BATCH, masks += WORLD_BLOCK_CELLS) {
+    const uint batch = min(count - m, BATCH), valid = (1u << batch) - 1u;
+    const whole last = (whole)(members[m + batch - 1]);
+    const whole of = LANE_INDEX < (whole)((int)batch) ? as_int16(vload16(0, members + m)) : last;
+    ushort met[WORLD_BLOCK_CELLS];
+    const Balls balls = load_balls(lights, of);
+    test_balls(balls, valid, &sides, met);
+    uint spots = mask_bits((as_int16(balls.radius) & 1) != 0) & valid;
+    for (; spots != 0; spots &= spots - 1) {
+      const uint i = lowest_bit(spots);
+      test_cone(lights[members[m + i]], cones[members[m + i]], i, &sides, met, world);
+    }
+    for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) masks[i] = met[i], entries += popcount((uint)met[i]);
+  }
+  return entries;
+}
+
+// Writes the lights of one batch that `bits` has, in order. room: entries that may be written, kept or not.
+static inline void write_batch(global const uint* members, uint bits, global index_t* indices, uint room) {
+#ifdef AVX512
+  if (room >= BATCH) {
+    append_indices(indices, as_int16(vload16(0, members)), bits);
+    return;
+  }
+#endif
+  for (; bits != 0; bits &= bits - 1) *indices++ = (index_t)members[lowest_bit(bits)];
+}
+
+kernel void world_lists(global const float4* lights, global const float4* cones, global const uint* block_first,
+                        global const uint* members, global const uint2* keys, global ushort* masks, global uint* totals,
+                        global uint2* cells, global index_t* indices, uint block_count, uint chunk, uint write,
+                        uint entry_count, constant WorldGridParams* world) {
   const uint item = get_global_id(0);
   if ((ulong)item * chunk >= block_count) return;
   const uint block_end = min(item * chunk + chunk, block_count);
   uint at = write ? totals[item] : 0;
+  const uint end = write && block_end < block_count ? totals[item + 1] : entry_count;
   for (uint block = item * chunk; block < block_end; ++block) {
-    const uint first = block_first[block], end = block_first[block + 1];
-    global uint2* const own = cells + (size_t)block * WORLD_BLOCK_CELLS;
+    const uint first = block_first[block], count = block_first[block + 1] - first;
+    global ushort* const own = masks + (size_t)(block + first / BATCH) * WORLD_BLOCK_CELLS;
     if (!write) {
-      const BlockSides sides = block_sides(keys[block], world);
-      whole counts[PARTS] = {0, 0, 0, 0};
-      // Lights of a block are anywhere in memory: a batch of them is loaded at once, so that its cache misses overlap.
-      for (uint m = first; m < end; m += BATCH) {
-        float4 balls[BATCH], axes[BATCH];
-        const uint batch = min(end - m, BATCH);
-        for (uint i = 0; i < batch; ++i) balls[i] = lights[members[m + i]];
-        for (uint i = 0; i < batch; ++i) axes[i] = cones ? cones[members[m + i]] : (float4)(-2.0f);
-        for (uint i = 0; i < batch; ++i) masks[m + i] = mask_of_cells(balls[i], axes[i], &sides, counts, world);
+      at += test_lights(lights, cones, members + first, count, keys[block], own, world);
+      continue;
+    }
+    for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) {
+      const uint list = at;
+      for (uint batch = 0; batch * BATCH < count; ++batch) {
+        const uint bits = own[batch * WORLD_BLOCK_CELLS + i];
+        write_batch(members + first + batch * BATCH, bits, indices + at, end - at);
+        at += popcount(bits);
       }
-      for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) own[i].y = ((const uint*)counts)[i], at += own[i].y;
-    } else {
-      uint places[WORLD_BLOCK_CELLS];
-      for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) places[i] = own[i].x = at, at += own[i].y;
-      for (uint m = first; m < end; ++m) {
-        for (ulong bits = masks[m]; bits != 0; bits &= bits - 1) {
-          indices[places[lowest_bit_of_64(bits)]++] = (index_t)members[m];
-        }
-      }
+      cells[(size_t)block * WORLD_BLOCK_CELLS + i] = (uint2)(list, at - list);
     }
   }
   if (!write) totals[item] = at;

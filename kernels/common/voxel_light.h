@@ -30,7 +30,7 @@ typedef struct VoxelLights {
   global const float* places;  // of a group's lights: x, y, z and radius, VOXEL_LIGHT_GROUP each, along the volume's axes
   global const float4* colors;  // radiant intensity, and the least 1 / distance^2
 #ifdef SPOTS
-  global const float8* cones;  // axis times scale, offset (shared/punctual_light.h), scale, 1 - cosine and squared sine of the half-angle
+  global const float8* cones;  // scale 0: no cone. Axis times scale, offset (shared/punctual_light.h), scale, 1 - cosine and squared sine of the half-angle
 #endif
 } VoxelLights;
 
@@ -102,6 +102,17 @@ static inline VoxelReach voxel_reach(float radius, constant VoxelSlice* slice) {
   return r;
 }
 
+// Of a spot. Its edge is rounded off over the angle that a cell fills, q its square. y (y - x) = soft^2 / 4.
+static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real inverse, constant VoxelSlice* slice) {
+  const real q = lane_min(slice->half_diagonal_squared * inverse_squared, REAL(4.0f));
+  const real x = (cone.s0 * d.x + cone.s1 * d.y + cone.s2 * d.z) * inverse + cone.s3;
+  const real soft_squared = cone.s4 * cone.s4 * q * (cone.s6 + 0.25f * q);
+  const real root = lane_max(sqrt(x * x + soft_squared) + fabs(x), REAL(1e-30f));
+  const real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
+  const real angular = x < -4.0f * cone.s4 * sqrt(q) ? REAL(0.0f) : lane_min(y, REAL(1.0f));
+  return (angular * angular) * (cone.s5 / (cone.s5 + 0.5f * q));
+}
+
 // place: x, y and z of the light.
 static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float3 place, VoxelReach reach,
                                    const VoxelLights* lights, uint light) {
@@ -127,15 +138,8 @@ static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant Voxel
 #endif
   real attenuation = window * falloff * reach.dimmed;
 #ifdef SPOTS
-  // A cone's edge is rounded off over the angle that a cell fills, q its square. y (y - x) = soft^2 / 4.
   const float8 cone = lights->cones[light];
-  const real q = lane_min(slice->half_diagonal_squared * inverse_squared, REAL(4.0f));
-  const real x = (cone.s0 * d.x + cone.s1 * d.y + cone.s2 * d.z) * inverse + cone.s3;
-  const real soft_squared = cone.s4 * cone.s4 * q * (cone.s6 + 0.25f * q);
-  const real root = lane_max(sqrt(x * x + soft_squared) + fabs(x), REAL(1e-30f));
-  const real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
-  const real angular = x < -4.0f * cone.s4 * sqrt(q) ? REAL(0.0f) : lane_min(y, REAL(1.0f));
-  attenuation = attenuation * (angular * angular) * (cone.s5 / (cone.s5 + 0.5f * q));
+  if (cone.s4 != 0.0f) attenuation = attenuation * voxel_cone(cone, d, inverse_squared, inverse, slice);
 #endif
   attenuation = inside ? attenuation : REAL(0.0f);
   const Real3 arrives = real3(lane_min(attenuation * color.x, REAL(LARGEST_VOXEL)), lane_min(attenuation * color.y, REAL(LARGEST_VOXEL)),

@@ -17,6 +17,9 @@
 namespace lightgrid {
 namespace {
 
+constexpr size_t world_batch = 16;           // lights that world_lists tests together: BATCH there
+constexpr size_t members_past_end = 16 * 4;  // bytes that it may read
+
 // The device has a limit for one buffer, and entries are counted in 32 bits.
 void check_count(ClDevice& device, const char* what, uint64_t count, size_t bytes_each) {
   const uint64_t most = device.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
@@ -140,7 +143,7 @@ void WorldGrid::count_blocks() {
   run("places", 1, counts_.get(), block_first_.at_least(device, (blocks + 1) * 4),
       grown(keys_, blocks * 8, GL_RG32UI), grown(buckets_, sizes_[0], GL_R32UI), total_.at_least(device, 8),
       cl_uint(chunks), cl_uint(blocks), params());
-  step(1, members_.at_least(device, pair_count_ * 4));
+  step(1, members_.at_least(device, pair_count_ * 4 + members_past_end));
   uint64_t stored = 0;
   read_buffer(device, "reading the world grid's size", total_.get(), &stored, sizeof stored);
   blocks_ = size_t(stored);
@@ -203,7 +206,7 @@ void WorldGrid::find_blocks() {
   blocks_ = size_t(scan(chunks, true));
   sizes_[1] = blocks_ * 8;
   step(1, block_first_.at_least(device, (blocks_ + 1) * 4), grown(keys_, sizes_[1], GL_RG32UI),
-       members_.at_least(device, pair_count_ * 4));
+       members_.at_least(device, pair_count_ * 4 + members_past_end));
 }
 
 // Of hashed grids with several levels: full_members_.
@@ -219,13 +222,14 @@ void WorldGrid::inherit() {
   const uint64_t members = scan(chunks, true);
   check_count(device, "pairs of blocks and lights", members, 8);
   step(1, full_first_.at_least(device, (blocks_ + 1) * 4),
-       full_members_.at_least(device, size_t(members) * 4));
-  masks_.at_least(device, size_t(members) * 8);
+       full_members_.at_least(device, size_t(members) * 4 + members_past_end));
+  listed_count_ = size_t(members);
 }
 
 void WorldGrid::write_lists() {
   ClDevice& device = *renderer_.cl;
   const size_t index_bytes = size_t(index_bits_) / 8;
+  listed_count_ = pair_count_;
   const bool inherited = blocks_ > 0 && std::popcount(layout_.params.levels) > 1;
   if (inherited) inherit();
   sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
@@ -236,9 +240,13 @@ void WorldGrid::write_lists() {
     if (blocks_ == 0) return;
     run("lists", chunks, lights_.buffer(), layout_.cones.empty() ? cl::Buffer() : cones_.buffer(),
         (inherited ? full_first_ : block_first_).get(), (inherited ? full_members_ : members_).get(), keys(),
-        masks_.get(), totals_.get(), cells(), indices, cl_uint(blocks_), cl_uint(chunk), write, params());
+        masks_.get(), totals_.get(), cells(), indices, cl_uint(blocks_), cl_uint(chunk), write,
+        cl_uint(entries_), params());
   };
-  if (!inherited) masks_.at_least(device, pair_count_ * 8);
+  // Each block's begin at its number plus that of whole batches before it.
+  const size_t batches = blocks_ + listed_count_ / world_batch;
+  check_count(device, "batches of lights", batches, WORLD_BLOCK_CELLS * 2);
+  masks_.at_least(device, batches * WORLD_BLOCK_CELLS * 2);
   totals_.at_least(device, std::max<size_t>(chunks, 1) * 4);
   step(0, {});
   const uint64_t entries = blocks_ > 0 ? scan(chunks, true) : 0;

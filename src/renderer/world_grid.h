@@ -96,7 +96,8 @@ class WorldGrid {
   GrowingBuffer pairs_[2], totals_, total_, counts_, block_first_, members_, full_first_, full_members_, masks_;
   Shared buckets_, keys_, cells_, indices_;
   GlBuffer block_;
-  size_t pair_count_ = 0, blocks_ = 0, entries_ = 0, list_bytes_ = 0;
+  size_t pair_count_ = 0, listed_count_ = 0, blocks_ = 0, entries_ = 0, list_bytes_ = 0;
+  // pair_count_: pairs of a block and a light; listed_count_: with those that hashed blocks inherit.
   size_t sizes_[4] = {};  // in use: of buckets, keys, cells, indices
   int builds_ = 0, lights_version_ = -1;
   bool in_gl_ = false;

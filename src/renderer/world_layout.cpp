@@ -36,9 +36,10 @@ void for_each_part(size_t count, const Body& body) {
 }
 
 bool is_local(const CullLight& light) {
+  constexpr double most = std::numeric_limits<double>::max();
   const glm::dvec3& p = light.position;
-  return light.radius_m >= 0 && std::isfinite(light.radius_m) && std::isfinite(p.x) && std::isfinite(p.y) &&
-         std::isfinite(p.z);
+  return light.radius_m >= 0 && light.radius_m <= most && std::abs(p.x) <= most && std::abs(p.y) <= most &&
+         std::abs(p.z) <= most;
 }
 
 // World axes in the grid's order: columns stand on x and z.
@@ -229,30 +230,40 @@ void lay_hashed(WorldLayout& layout, size_t lights) {
   p.bucket_bits = uint(layout.bucket_bits);
 }
 
-// world_coordinate without a branch: which side of 0 a light is on cannot be predicted.
-int coordinate_of(float at, float least, float most) {
-  const float clamped = std::min(std::max(at, least), most);
-  const int whole = int(clamped);
-  return whole - int(float(whole) > clamped) - int(least);
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int __attribute__((vector_size(16)));
+
+// world_coordinate along three axes, without a branch: which side of 0 a light is on cannot be predicted.
+inline Int4 coordinates_of(Float4 at, Float4 least, Float4 most) {
+  const Float4 above = at > least ? at : least, clamped = above < most ? above : most;
+  const Int4 whole = __builtin_convertvector(clamped, Int4);
+  return whole + (__builtin_convertvector(whole, Float4) > clamped) - __builtin_convertvector(least, Int4);
 }
 
-uint blocks_along(float at, float radius, uint level, uint shift, float least, float most) {
-  const uint first = uint(coordinate_of(at - radius, least, most)) >> level >> shift;
-  const uint last = uint(coordinate_of(at + radius, least, most)) >> level >> shift;
-  return last - first + 1;
+inline uint64_t blocks_of(const glm::vec4& light, uint level, const WorldGridParams& p) {
+  const Float4 at{light.x, light.y, light.z, 0}, radius{light.w, light.w, light.w, 0};
+  const Float4 least{p.least_x, p.least_y, p.least_z, 0}, most{p.most_x, p.most_y, p.most_z, 0};
+  const Int4 first = coordinates_of(at - radius, least, most),
+             last = coordinates_of(at + radius, least, most);
+  const auto along = [&](int axis, uint shift) {
+    return uint64_t((last[axis] >> level >> shift) - (first[axis] >> level >> shift) + 1);
+  };
+  return along(0, p.shift_x) * along(1, p.shift_y) * along(2, p.shift_z);
 }
 
-uint64_t blocks_of(const glm::vec4& light, uint level, const WorldGridParams& p) {
-  return uint64_t(blocks_along(light.x, light.w, level, p.shift_x, p.least_x, p.most_x)) *
-         blocks_along(light.y, light.w, level, p.shift_y, p.least_y, p.most_y) *
-         blocks_along(light.z, light.w, level, p.shift_z, p.least_z, p.most_z);
+// A radius rounded up to an even float, or, of a light whose cone is tested, to an odd one: world_lists tells
+// them apart without reading cones.
+inline float marked(float radius, bool cone) {
+  const uint32_t bits = std::bit_cast<uint32_t>(radius);
+  return std::bit_cast<float>(bits + ((bits & 1u) != uint32_t(cone)));
 }
 
-glm::vec4 in_cells(const CullLight& light, const WorldLayout& layout) {
+// metre: in cells.
+inline glm::vec4 in_cells(const CullLight& light, double metre, const WorldLayout& layout) {
   constexpr double most = 1e30;
   const glm::dvec3 at =
-      glm::clamp(in_grid(light.position - layout.middle, layout.columns) / layout.cell_m, -most, most);
-  const double radius = std::min(light.radius_m / layout.cell_m, most);
+      glm::clamp(in_grid(light.position - layout.middle, layout.columns) * metre, -most, most);
+  const double radius = std::min(light.radius_m * metre, most);
   const double sum = std::abs(at.x) + std::abs(at.y) + std::abs(at.z);
   const double slack = double(layout.params.slack) * (double(layout.params.reach) + sum + radius);
   return {glm::vec3(at), float(radius + slack) + least_radius};
@@ -267,9 +278,10 @@ struct Placed {
 
 // The light's level, the first that is large enough and needs few blocks.
 Placed place_of(const CullLight& light, const glm::vec4& in, double cell, const WorldLayout& layout) {
-  if (!(light.radius_m >= 0) || glm::any(glm::isnan(light.position)) || glm::any(glm::isinf(light.position)))
-    return {};
-  if (!is_local(light)) return {in_every_cell};
+  if (!is_local(light)) {
+    const bool anywhere = light.radius_m >= 0 && is_local({light.position, 0});
+    return {anywhere ? in_every_cell : in_no_cell};
+  }
   const uint levels = layout.params.bucket_bits > 0 ? WORLD_LEVELS : 1;
   uint level = 0;
   while (level + 1 < levels && std::ldexp(layout.cell_m, int(level)) < cell * light.radius_m) ++level;
@@ -283,6 +295,7 @@ void add_lights(std::span<const CullLight> lights, double cell, WorldLayout& lay
   const bool hashed = layout.params.bucket_bits > 0;
   const bool cones =
       !layout.columns && std::ranges::any_of(lights, [](const CullLight& l) { return l.cos_outer >= 0; });
+  const double metre = 1 / layout.cell_m;
   layout.lights.resize(lights.size());
   layout.cones.resize(cones ? lights.size() : 0);
   layout.first_pairs.resize(lights.size());
@@ -296,10 +309,12 @@ void add_lights(std::span<const CullLight> lights, double cell, WorldLayout& lay
   for_each_part(lights.size(), [&](size_t at, size_t begin, size_t end) {
     Part part;  // of this thread alone: parts share cache lines
     for (size_t i = begin; i < end; ++i) {
-      layout.lights[i] = in_cells(lights[i], layout);
-      const Placed placed = place_of(lights[i], layout.lights[i], cell, layout);
-      if (placed.blocks == 0) layout.lights[i].w = -1;
-      if (cones) layout.cones[i] = {glm::vec3(lights[i].direction), float(lights[i].cos_outer - 1e-6)};
+      glm::vec4& light = layout.lights[i] = in_cells(lights[i], metre, layout);
+      const float cone = float(lights[i].cos_outer - 1e-6);
+      light.w = marked(light.w, cones && cone >= 0);
+      const Placed placed = place_of(lights[i], light, cell, layout);
+      if (placed.blocks == 0) light.w = -1;
+      if (cones) layout.cones[i] = {glm::vec3(lights[i].direction), cone};
       layout.first_pairs[i] = uint32_t(part.pairs);
       part.pairs += placed.blocks;
       if (placed.level == in_every_cell) part.everywhere.push_back(uint32_t(i));

@@ -35,7 +35,8 @@ struct WorldLayout {
   bool columns = false;
 
   std::vector<glm::vec4>
-      lights;  // position and radius with slack, in cells from the middle; radius -1: in no cell
+      lights;  // position and radius with slack, in cells from the middle; radius -1: in no cell. The radius is an odd
+               // float if the light has a cone that is tested, else an even one
   std::vector<glm::vec4>
       cones;  // axis, and a cosine no larger than the outer half-angle's; below 0: none. Empty: no cones
   std::vector<uint32_t> levels;       // of each light; empty: 0

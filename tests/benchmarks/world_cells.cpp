@@ -3,7 +3,7 @@
 // machine changes less than elapsed time.
 //
 //     world_cells [SCENE [LIGHTS [WIDTHxHEIGHT [FRAMES]]]]    LIGHTS 0: the scene's own
-//     world_cells SCENE LIGHTS steps                          each step of a build
+//     world_cells SCENE LIGHTS steps [WORLD-GRID WORLD-CELL]  each step of a build
 //     world_cells SCENE LIGHTS estimates                      what world-cell=auto expects, and its choice
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -25,6 +25,12 @@ using namespace lightgrid;
 namespace {
 
 constexpr int builds = 20;
+
+const struct {
+  WorldGridShape shape;
+  std::string name;
+} shapes[] = {
+    {WorldGridShape::cubes, "3d"}, {WorldGridShape::columns, "2d"}, {WorldGridShape::hashed, "hashed"}};
 
 // User and system time of all threads.
 double processor_ms() {
@@ -154,9 +160,10 @@ int main(int count, char** words) {
   if (estimates) return print_estimates(gpu, view), 0;
   if (steps) {
     for (const double cell : {2.0, 1.0, 0.5, 0.25}) {
-      measure_steps(renderer, gpu, view, WorldGridShape::cubes, "3d", cell);
-      measure_steps(renderer, gpu, view, WorldGridShape::columns, "2d", cell);
-      measure_steps(renderer, gpu, view, WorldGridShape::hashed, "hashed", cell);
+      for (const auto& [shape, shape_name] : shapes) {
+        const bool wanted = count <= 5 || (shape_name == words[4] && cell == std::atof(words[5]));
+        if (wanted) measure_steps(renderer, gpu, view, shape, shape_name.c_str(), cell);
+      }
     }
     return 0;
   }

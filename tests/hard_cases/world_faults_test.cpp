@@ -17,7 +17,7 @@ struct WorldFault {
   void (*of_lists)(WorldLists&) = nullptr;
   bool near_view = false;    // lists are built for an eye at the origin, wherever it is
   bool first_build = false;  // what an earlier build listed is read again
-  bool no_slack = false;     // radii are not grown
+  bool no_slack = false;     // radii are neither grown nor rounded up
 };
 
 class FaultyWorld : public CullEngine {
@@ -46,8 +46,11 @@ class FaultyWorld : public CullEngine {
     if (fault_.near_view) seen_from.eye = {0, 0, 5};
     std::optional<WorldLists> lists = right_.world_lists(of, lights, bounds, seen_from);
     if (fault_.no_slack) {
-      for (size_t i = 0; i < lights.size(); ++i)
-        lights[i].radius_m -= double(lists->layout.lights[i].w) * lists->layout.cell_m - lights[i].radius_m;
+      for (size_t i = 0; i < lights.size(); ++i) {
+        // And one unit in the last place, by which it may be rounded up.
+        lights[i].radius_m -=
+            double(lists->layout.lights[i].w) * (1 + 0x1p-23) * lists->layout.cell_m - lights[i].radius_m;
+      }
       lists = right_.world_lists(of, lights, bounds, seen_from);
     }
     if (fault_.of_lists) fault_.of_lists(*lists);
