@@ -19,6 +19,11 @@ std::string common_options(const ClDeviceInfo& device) {
 
 bool builds_quickly() { return std::getenv("LIGHTGRID_CL_QUICK_BUILD") != nullptr; }
 
+// PoCL 3 includes clang's opencl-c.h before each program, where this macro is not defined yet (its _clang_opencl.h).
+bool may_declare_builtins(const ClDeviceInfo& device) {
+  return device.platform == "Portable Computing Language" && device.driver.starts_with("3.");
+}
+
 // Of "cpu/cull_lights": "cull_lights".
 std::string entry_point(const std::string& file) { return file.substr(file.rfind('/') + 1); }
 
@@ -68,8 +73,11 @@ ProgramCache::ProgramCache(ClDevice& device, std::filesystem::path folder)
     : device_(device), folder_(disk_is_off() ? std::filesystem::path() : std::move(folder)) {}
 
 cl::Kernel ProgramCache::kernel(const std::string& file, const std::string& defines) {
-  return kernel_of(file + ' ' + defines, file, defines,
-                   [&] { return with_includes("kernels/" + file + ".cl"); });
+  const bool declared = may_declare_builtins(device_.info());
+  return kernel_of(file + ' ' + defines, file, declared ? "-D_OPENCL_H_ " + defines : defines, [&] {
+    const std::string text = with_includes("kernels/" + file + ".cl");
+    return declared ? with_includes("kernels/common/builtins.h") + text : text;
+  });
 }
 
 cl::Kernel ProgramCache::kernel_of_source(const std::string& file, const std::string& source,
