@@ -53,19 +53,23 @@ struct FuzzInput {
 // Sizes and settings in their range; every number may be anything.
 inline FuzzInput fuzz_input(Bytes bytes) {
   FuzzInput in;
-  // Few settings, because each builds its own kernels: four combinations.
+  // Few settings, because each builds its own kernels: four combinations. Slices and standard depth are kernels of their own too.
   constexpr struct {
     CullTest test;
     DepthBoundsMode mode;
     DepthFormat format;
     int tile, samples, index_bits;
     GridLists lists;
-    bool portable, blend;
-  } kinds[] = {
-      {CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1, 0, GridLists::lists, false, false},
-      {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1, 32, GridLists::masks, false, true},
-      {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4, 16, GridLists::lists, true, false},
-      {CullTest::aabb, DepthBoundsMode::halfz, DepthFormat::d32f, 32, 1, 16, GridLists::masks, true, true}};
+    bool portable, blend, sliced;
+    DepthOrder order;
+  } kinds[] = {{CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1, 0, GridLists::lists, false, false, false,
+                DepthOrder::reversed},
+               {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1, 32, GridLists::masks, false, true, true,
+                DepthOrder::standard},
+               {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4, 16, GridLists::lists, true, false,
+                true, DepthOrder::reversed},
+               {CullTest::aabb, DepthBoundsMode::halfz, DepthFormat::d32f, 32, 1, 16, GridLists::masks, true, true, false,
+                DepthOrder::standard}};
   CullerOptions& o = in.options;
   const auto& kind = kinds[bytes.up_to(3)];
   o.cull_test = kind.test, o.depth_bounds = kind.mode, o.depth_format = kind.format, o.tile = kind.tile;
@@ -80,12 +84,12 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   lens.half_x = number(0.01, 3), lens.half_y = number(0.01, 3);
   lens.near = number(0.01, 1), lens.far = bytes.up_to(1) ? no_end : number(2, 1000);
   lens.shift_x = number(-1, 1), lens.shift_y = number(-1, 1);
-  lens.orthographic = bytes.up_to(3) == 0, lens.order = DepthOrder(bytes.up_to(1));
+  lens.orthographic = bytes.up_to(3) == 0, lens.order = kind.order;
   if (lens.orthographic && std::isinf(lens.far)) lens.far = 1000;
   in.view = view_through(lens, 1 + bytes.up_to(40), 1 + bytes.up_to(24));
   if (bytes.up_to(3) == 0) in.view = placed(in.view, {bytes.number(-1e7, 1e7), 0, 1}, bytes.number(-3, 3), bytes.number(-1, 1));
   float edge = 0;
-  for (int slices = bytes.up_to(3); slices > 0; --slices) in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
+  for (int slices = kind.sliced ? 1 + bytes.up_to(3) : 0; slices > 0; --slices) in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
   edge = 0;
   for (int bins = bytes.up_to(7); bins > 0; --bins) in.view.z_bin_edges.push_back(edge += 0.1f * float(1 + bytes.up_to(99)));
   for (size_t i = tile_count(in.view, o.tile); i > 0; --i)

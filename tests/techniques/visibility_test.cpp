@@ -36,8 +36,8 @@ TEST(VisibilityBuffer, ListsAndEveryLightHaveTheSameBytes) {
     const Image all = render(scene, view, "visibility", {.lights = ShadedLights::all});
     EXPECT_TRUE(identical(render(scene, view, "visibility"), all));
     if (builtin.name != std::string("hall")) continue;  // with every effect; each setting is a kernel to compile
-    for (const Settings& settings :
-         {Settings{.tile = 8}, Settings{.z_bins = 64}, Settings{.depth_bounds = DepthBoundsMode::none}}) {
+    for (const Settings& settings : {Settings{.tile = 8, .everything_on = true}, Settings{.z_bins = 64, .everything_on = true},
+                                     Settings{.depth_bounds = DepthBoundsMode::none}}) {
       EXPECT_TRUE(identical(render(scene, view, "visibility", settings), all));
     }
   }
