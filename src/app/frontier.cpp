@@ -36,7 +36,7 @@ struct FrontierCommand {
   bool no_growth = false;
 };
 
-const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street", "gallery"};
+const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street"};
 
 struct Shard {
   int index = 0, count = 1;
@@ -221,7 +221,7 @@ void add_frontier(CommandLine& line) {
                                 [o] { return frontier(*o); });
   command.list("scene", o->scenes,
                "scenes as for compare; or: merge DIR…, the parts of one sweep (default: hall, terrain, "
-               "spheres, street, gallery)");
+               "spheres, street)");
   command.option("--size", o->scene.size, "image size, WxH");
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
                  most_lights);
