@@ -46,7 +46,7 @@ int view(const ViewOptions& o) {
   if (!o.script.empty()) job.script = Script::read(o.script);
   if (!o.screenshot.empty()) check_output_file("--screenshot", o.screenshot);
   const ImageSize size = parse_size(o.scene.size);
-  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene);
+  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene, !job.scripted);
   ChosenScene chosen = load_chosen_scene(o.scene);
   job.scene = std::move(chosen.scene);
   job.view = chosen.view;

@@ -52,7 +52,8 @@ struct Input {
   std::array<bool, 7> held{};  // by FlightKey
   double x = -1, y = -1;       // pointer, pixels of the window from its upper left
   bool button = false;         // the left one
-  double scroll = 0;
+  // Where the button went down in this frame; without it, at the position of the frame before.
+  std::optional<std::array<double, 2>> pressed;
 };
 
 enum class FlightKey { forward, left, back, right, down, up, fast };  // W A S D Q E shift

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -25,23 +26,29 @@ glm::dvec3 direction(double yaw, double pitch) {
 
 }  // namespace
 
-View resized(View view, int width, int height) {
-  if (view.width == width && view.height == height) return view;
-  view.width = width;
-  view.height = height;
-  view.clip_from_view[0][0] = view.clip_from_view[1][1] * height / width;
-  return view;
-}
-
-FlyCamera::FlyCamera(const Scene& scene, const View& start, std::string text)
-    : scene_(scene), text_(std::move(text)), size_m_(scene_size_m(scene)) {
+FlyCamera::FlyCamera(const Scene& scene, std::string text, double aspect)
+    : scene_(scene), size_m_(scene_size_m(scene)) {
   speed_m = size_m_ / 8;
-  take(start);
+  go_to(text, aspect);
 }
 
-void FlyCamera::take(const View& view) {
-  start_ = view;
+void FlyCamera::go_to(const std::string& text, double aspect) {
+  choose_camera(scene_, text, aspect);
+  text_ = text;
+  aspect_ = aspect;
   moved_ = false;
+}
+
+void FlyCamera::hold(double aspect) {
+  if (moved_ || !text_.empty() || !scene_.cameras.empty()) return;
+  start_from_scene(aspect);
+  write_text();
+}
+
+// A camera of the scene may be animated: where it is now.
+void FlyCamera::start_from_scene(double aspect) {
+  if (moved_) return;
+  const View view = make_view(choose_camera(scene_, text_, aspect), 1, 1);
   eye_ = view.eye;
   const glm::dvec3 forward = -glm::transpose(glm::dmat3(view.view_from_world))[2];
   yaw_ = std::atan2(-forward.x, -forward.z);
@@ -49,13 +56,9 @@ void FlyCamera::take(const View& view) {
   if (!view.orthographic) fov_deg_ = 2 * std::atan(1 / view.clip_from_view[1][1]) * (180 / std::numbers::pi);
 }
 
-void FlyCamera::go_to(const std::string& text, int width, int height) {
-  take(make_view(choose_camera(scene_, text, double(width) / height), width, height));
-  text_ = text;
-}
-
 bool FlyCamera::turn(double dx_px, double dy_px, int height) {
   if (dx_px == 0 && dy_px == 0) return false;
+  start_from_scene(aspect_);
   const double rad_a_px = fov_deg_ / 180 * std::numbers::pi / height;
   yaw_ = std::remainder(yaw_ + dx_px * rad_a_px, 2 * std::numbers::pi);
   pitch_ = std::clamp(pitch_ + dy_px * rad_a_px, -steepest_rad, steepest_rad);
@@ -67,6 +70,8 @@ bool FlyCamera::move(const std::array<bool, 7>& held, double seconds) {
   const auto axis = [&](FlightKey plus, FlightKey minus) {
     return double(held[int(plus)]) - double(held[int(minus)]);
   };
+  if (std::none_of(held.begin(), held.begin() + int(FlightKey::fast), std::identity())) return false;
+  start_from_scene(aspect_);
   const glm::dvec3 forward = direction(yaw_, pitch_);
   const glm::dvec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
   const glm::dvec3 way = forward * axis(FlightKey::forward, FlightKey::back) +
@@ -89,9 +94,9 @@ void FlyCamera::write_text() {
   text_ = fmt::format("eye:{},target:{},fov:{:.6g}", point(eye_), point(target), fov_deg_);
 }
 
-View FlyCamera::view(int width, int height) const {
-  if (!moved_) return resized(start_, width, height);
-  return make_view(choose_camera(scene_, text_, double(width) / height), width, height);
+View FlyCamera::view(int width, int height) {
+  aspect_ = double(width) / height;
+  return make_view(choose_camera(scene_, text_, aspect_), width, height);
 }
 
 }  // namespace lightgrid

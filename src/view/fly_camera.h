@@ -1,4 +1,4 @@
-// A flying camera: turned by the mouse, moved by keys, always upright.
+// A camera turned by the mouse and moved by keys, always upright.
 #pragma once
 
 #include <array>
@@ -13,37 +13,38 @@ namespace lightgrid {
 // that text, so that a command line with it gives the same picture to the bit.
 class FlyCamera {
  public:
-  // The scene outlives it. `text`: the value of --camera. Until it is moved the view stays `start`, of any
-  // kind; then it is upright and perspective, with the near plane from choose_camera.
-  FlyCamera(const Scene& scene, const View& start, std::string text);
+  // The scene outlives it. `text`: the value of --camera, for an image of this aspect. Until the user moves
+  // it, it is that camera of the scene, of any kind, and follows its animation; then it is upright and
+  // perspective, with the near plane from choose_camera. Throws Error(input) as choose_camera does.
+  FlyCamera(const Scene& scene, std::string text, double aspect);
 
   // Jumps to another camera, in the form of --camera. Throws Error(input) as choose_camera does.
-  void go_to(const std::string& text, int width, int height);
+  void go_to(const std::string& text, double aspect);
+
+  // Call before the scene moves: a camera that was placed to show the whole scene then stays where it is.
+  void hold(double aspect);
 
   // Turns by pixels of a picture of this height, as if the scene were dragged. Returns whether it turned.
   bool turn(double dx_px, double dy_px, int height);
   // Moves for `seconds` by the held keys (FlightKey). Returns whether it moved.
   bool move(const std::array<bool, 7>& held, double seconds);
 
-  View view(int width, int height) const;
+  View view(int width, int height);
   const std::string& text() const { return text_; }  // empty: the scene's own first camera
 
   double speed_m = 1;  // metres a second
 
  private:
-  void take(const View& view);
+  void start_from_scene(double aspect);
   void write_text();
 
   const Scene& scene_;
-  View start_;
-  bool moved_ = false;
+  bool moved_ = false;  // text_ is that of the members below
   std::string text_;
+  double aspect_ = 1;  // of the last view
   glm::dvec3 eye_{0};
   double yaw_ = 0, pitch_ = 0, fov_deg_ = 60;  // yaw about y from -z, pitch upwards; radians
   double size_m_ = 1;                          // of the scene
 };
-
-// The same camera for an image of another size; keeps the vertical field.
-View resized(View view, int width, int height);
 
 }  // namespace lightgrid

@@ -39,14 +39,14 @@ Interface::~Interface() {
 void Interface::begin(const Input& input, int width, int height) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  ImGuiIO& io = ImGui::GetIO();
   if (scripted_) {
-    ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {float(width), float(height)};
     io.DisplayFramebufferScale = {1, 1};
     io.DeltaTime = 1.f / 60;
-    io.MousePos = {float(input.x), float(input.y)};
-    io.MouseDown[0] = input.button;
   }
+  io.MousePos = {float(input.x), float(input.y)};
+  io.MouseDown[0] = input.button;
   ImGui::NewFrame();
 }
 

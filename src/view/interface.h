@@ -8,8 +8,8 @@ namespace lightgrid {
 
 class Interface {
  public:
-  // The window outlives it and its context is current. `scripted`: the pointer comes from begin(), not from
-  // the user.
+  // The window outlives it and its context is current. `scripted`: its size comes from begin(), and the
+  // user's keys are not read.
   Interface(Window& window, bool scripted);
   ~Interface();
   Interface(const Interface&) = delete;

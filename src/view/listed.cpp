@@ -61,18 +61,21 @@ PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel
   return result;
 }
 
-std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth, PicturePixel pixel) {
+std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth,
+                                             PicturePixel pixel) {
   RenderView& v = run.view();
   if (!v.plan.light_grid) return {};
   const Settings& settings = v.plan.settings;
-  const CapturedFrame frame{v.scene.name, v.view, settings.tile, v.plan.slice_far_m,
-                            lights_with_ranges(v.scene, settings.ranges), depth};
+  const CapturedFrame frame{
+      v.scene.name, v.view, settings.tile, v.plan.slice_far_m, lights_with_ranges(v.scene, settings.ranges),
+      depth};
   FrameCuller culler(*v.renderer.cl, *v.renderer.kernels, frame, settings, run.technique().needs);
   culler.run();
   return inspect_pixel(frame, culler.grid(), culler.intervals(), settings, pixel.x, pixel.y);
 }
 
-void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene, int most_dropped) {
+void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene,
+                 int most_dropped) {
   for (const LightVerdict& verdict : inspection.lights) {
     const auto known = std::ranges::find(lights.lights, verdict.light, &PixelLight::light);
     if (known != lights.lights.end()) {
@@ -93,7 +96,8 @@ std::array<std::string, 2> lines_of(const PixelLight& light) {
   if (light.test == "empty") {
     decided = "dropped: no surface in its cell";
   } else if (!light.test.empty()) {
-    decided = fmt::format("{} by {} {:+.3f} m", light.listed ? "kept" : "dropped", light.test, light.margin_m);
+    decided =
+        fmt::format("{} by {} {:+.3f} m", light.listed ? "kept" : "dropped", light.test, light.margin_m);
   }
   return {fmt::format("{} {:.2f} of {:.2f} m{}", name, light.distance_m, light.radius_m, lost), decided};
 }

@@ -47,10 +47,12 @@ PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel
 
 // What culling decided about each light at the pixel: the frame's depth is culled once more, with the
 // run's settings. Empty if the technique's plan has no light grid.
-std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth, PicturePixel pixel);
+std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth,
+                                             PicturePixel pixel);
 
 // Adds the deciding tests and their margins, and up to `most_dropped` dropped lights.
-void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene, int most_dropped);
+void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene,
+                 int most_dropped);
 
 // "lamp 3 1.20 of 3.00 m" and "kept by aabb +0.430 m": the two lines of a light. The second may be empty.
 std::array<std::string, 2> lines_of(const PixelLight& light);

@@ -10,6 +10,7 @@ namespace lightgrid {
 namespace {
 
 constexpr size_t most_rows = 200;
+constexpr float lines_high = 16;  // always, so that what is below stays where it is
 
 void show_lights(const PixelLights& pixel) {
   if (!pixel.covered) {
@@ -19,9 +20,7 @@ void show_lights(const PixelLights& pixel) {
   ImGui::TextUnformatted(
       fmt::format("{} listed, {} lit, {} lost", pixel.listed, pixel.lit, pixel.lost).c_str());
   ImGui::TextUnformatted(fmt::format("surface {:.3g} m away", pixel.distance_m).c_str());
-  const float height =
-      ImGui::GetTextLineHeightWithSpacing() * float(std::clamp<size_t>(2 * pixel.lights.size(), 1, 14));
-  ImGui::BeginChild("lights", {0, height});
+  ImGui::BeginChild("lights", {0, 0});
   for (size_t i = 0; i < std::min(pixel.lights.size(), most_rows); ++i) {
     const PixelLight& light = pixel.lights[i];
     const bool lost = light.lit && !light.listed;
@@ -48,16 +47,19 @@ void show_pixel(Controls& controls, const Shown& shown) {
       fmt::format("pixel {},{} from the lower left", controls.pixel->x, controls.pixel->y).c_str());
   ImGui::SameLine();
   const bool clear = ImGui::SmallButton("clear");
+  const float height = lines_high * ImGui::GetTextLineHeightWithSpacing();
   if (ImGui::BeginTable("pixel", 2)) {
     ImGui::TableNextRow();
     for (int i = 0; i < 2; ++i) {
       ImGui::TableNextColumn();
       ImGui::PushID(i);
+      ImGui::BeginChild("side", {0, height});
       if (shown.pixel[i]) {
         show_lights(*shown.pixel[i]);
       } else {
-        ImGui::TextDisabled("when the camera rests");
+        ImGui::TextDisabled(shown.sides[i]->ready() ? "when the camera rests" : "not drawn");
       }
+      ImGui::EndChild();
       ImGui::PopID();
     }
     ImGui::EndTable();

@@ -37,6 +37,15 @@ void choose_setting(SideControls& side, const SettingHelp& setting) {
   if (chosen) apply_setting(side.settings, setting.key + "=" + chosen);
 }
 
+// A column of names, and one for each side.
+bool begin_table(const char* id) {
+  if (!ImGui::BeginTable(id, 3)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 100);
+  ImGui::TableSetupColumn("left");
+  ImGui::TableSetupColumn("right");
+  return true;
+}
+
 void row_name(const char* name, const std::string& meaning) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -62,18 +71,26 @@ bool reads(const SideControls& side, const std::string& key) {
 
 }  // namespace
 
-void show_settings(Controls& controls, const Shown& shown) {
-  if (!ImGui::BeginTable("settings", 3)) return;
-  ImGui::TableSetupColumn("setting", ImGuiTableColumnFlags_WidthFixed, 100);
-  ImGui::TableSetupColumn("left");
-  ImGui::TableSetupColumn("right");
-  row_name("technique", "");
-  cells(controls, choose_technique);
-  row_name("show", "the picture, or a map of its lights or errors");
-  cells(controls, [](SideControls& side) {
-    if (const char* chosen = combo("##map", map_names()[int(side.map)], map_names()))
-      side.map = parse_map(chosen);
-  });
+void show_techniques(Controls& controls, const Shown& shown) {
+  if (begin_table("techniques")) {
+    row_name("technique", "");
+    cells(controls, choose_technique);
+    row_name("show", "the picture, or a map of its lights or errors");
+    cells(controls, [](SideControls& side) {
+      const char* chosen = combo("##map", map_names()[int(side.map)], map_names());
+      if (chosen) side.map = parse_map(chosen);
+    });
+    ImGui::EndTable();
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (controls.sides[i].map != SideMap::picture && shown.map_notes[i].empty()) {
+      ImGui::TextWrapped("%s: %s", i ? "right" : "left", shown.maps[i]->legend().c_str());
+    }
+  }
+}
+
+void show_settings(Controls& controls) {
+  if (!begin_table("settings")) return;
   for (const SettingHelp& setting : setting_help()) {
     if (!reads(controls.sides[0], setting.key) && !reads(controls.sides[1], setting.key)) continue;
     row_name(setting.key.c_str(), setting.meaning);
@@ -82,11 +99,6 @@ void show_settings(Controls& controls, const Shown& shown) {
     });
   }
   ImGui::EndTable();
-  for (int i = 0; i < 2; ++i) {
-    if (controls.sides[i].map != SideMap::picture && shown.map_notes[i].empty()) {
-      ImGui::TextWrapped("%s: %s", i ? "right" : "left", shown.maps[i]->legend().c_str());
-    }
-  }
 }
 
 }  // namespace lightgrid

@@ -44,12 +44,14 @@ void show_panels(Controls& controls, const Shown& shown) {
                                      ImGuiWindowFlags_NoBringToFrontOnFocus;
   ImGui::Begin("panel", nullptr, fixed);
   show_status(controls, shown);
-  if (section("Techniques and settings", true)) show_settings(controls, shown);
-  if (section("Times of passes", true)) show_times(controls, shown);
-  if (section("Lights at a pixel", controls.pixel.has_value())) show_pixel(controls, shown);
+  show_techniques(controls, shown);
+  if (section("Settings", false)) show_settings(controls);
+  if (shown.pixel_is_new) ImGui::SetNextItemOpen(true);
+  if (section("Lights at a pixel", false)) show_pixel(controls, shown);
   if (section("Movement", true)) show_motion(controls, shown);
-  if (section("Plan", true)) show_plan(shown);
   if (section("This view again", true)) show_commands(controls, shown);
+  if (section("Times of passes", true)) show_times(controls, shown);
+  if (section("Plan", true)) show_plan(shown);
   ImGui::End();
 }
 

@@ -41,6 +41,7 @@ struct Shown {
   std::array<std::string, 2> map_notes;  // why a map is not available yet; empty: it is
   std::array<PlanHistory, 2>& plans;
   std::array<std::optional<PixelLights>, 2> pixel;  // at Controls::pixel
+  bool pixel_is_new = false;                        // clicked since the last frame
   std::array<std::string, 2> commands;
   std::string note;  // result of the last action
   int picture_width = 0, picture_height = 0;
@@ -52,7 +53,8 @@ void show_panels(Controls& controls, const Shown& shown);
 void show_overlay(const Controls& controls, const Shown& shown);
 
 // Sections of the panel, one file each.
-void show_settings(Controls& controls, const Shown& shown);
+void show_techniques(Controls& controls, const Shown& shown);
+void show_settings(Controls& controls);
 void show_times(Controls& controls, const Shown& shown);
 void show_motion(Controls& controls, const Shown& shown);
 void show_pixel(Controls& controls, const Shown& shown);

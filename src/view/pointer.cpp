@@ -13,23 +13,29 @@ constexpr double click_reach_px = 3;  // largest movement during a click
 
 PointerResult Pointer::follow(const Input& input, int width, int height, double line, bool free) {
   PointerResult result;
-  // A press counts at the position of the last frame: a script may press and move in one frame.
+  if (input.pressed) {
+    x_ = (*input.pressed)[0];
+    y_ = (*input.pressed)[1];
+  }
+  // Without `pressed` it is the position of the last frame: a script may press and move in one frame.
   if (input.button && gesture_ == Gesture::none) {
     const bool over = free && x_ >= 0 && y_ >= 0 && x_ < width && y_ < height;
     const bool near_line = std::abs(x_ - line * width) <= line_reach_px;
     gesture_ = !over ? Gesture::elsewhere : near_line ? Gesture::line : Gesture::look;
     moved_px_ = 0;
   }
+  // The release has a position too: a whole drag may lie between two frames.
   const double dx = input.x - x_, dy = input.y - y_;
-  if (input.button) {
-    moved_px_ += std::hypot(dx, dy);
-    if (gesture_ == Gesture::line) result.line = std::clamp(input.x / width, 0.0, 1.0);
-    if (gesture_ == Gesture::look && moved_px_ > click_reach_px) {
-      result.turn_x = dx;
-      result.turn_y = dy;
-    }
-  } else {
-    if (gesture_ == Gesture::look && moved_px_ <= click_reach_px) {
+  moved_px_ += std::hypot(dx, dy);
+  const bool drags = moved_px_ > click_reach_px;
+  if (gesture_ == Gesture::line && drags) result.line = std::clamp(input.x / width, 0.0, 1.0);
+  if (gesture_ == Gesture::look && drags) {
+    result.turn_x = dx;
+    result.turn_y = dy;
+  }
+  if (!input.button) {
+    const bool on_picture = gesture_ == Gesture::look || gesture_ == Gesture::line;
+    if (on_picture && !drags) {
       result.click =
           PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(height - 1 - int(y_), 0, height - 1)};
     }

@@ -46,10 +46,12 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
   for (GLuint unit = 0; unit < 2; ++unit) glBindSampler(unit, 0);
 }
 
+// Mesa gives framebuffer 0 the window's new size when a bound one is drawn into after glViewport.
 void Screen::finish() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width_, height_);
   glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_,
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 void Screen::save(const std::filesystem::path& path) {

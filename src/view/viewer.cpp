@@ -17,7 +17,10 @@ namespace {
 
 constexpr double script_step_s = 1.0 / 60;
 constexpr double longest_step_s = 0.1;  // limits the camera's movement after a slow frame
-constexpr double idle_wait_s = 0.2;
+constexpr double idle_wait_s = 1;
+constexpr int frames_after_event = 3;  // Dear ImGui opens a list one to two frames after a click
+constexpr int least_picture_px = 64;
+constexpr PicturePixel no_pixel{-1, -1};
 constexpr int dropped_shown = 10;  // lights that culling dropped at the clicked pixel
 
 }  // namespace
@@ -30,12 +33,14 @@ Viewer::Viewer(Window& window, ViewJob job)
       screen_(renderer_),
       interface_(std::make_unique<Interface>(window, job_.scripted)),
       controls_(job_.controls),
-      camera_(job_.scene, job_.view, job_.camera),
+      camera_(job_.scene, job_.camera, double(job_.view.width) / job_.view.height),
       motion_(job_.scene, LightMotion::none, job_.seconds),
       reference_(renderer_, gpu_),
       sides_{{renderer_, gpu_}, {renderer_, gpu_}},
       width_(job_.view.width),
-      height_(job_.view.height) {}
+      height_(job_.view.height) {
+  if (!job_.scripted) window_.limit_size(panel_width + least_picture_px, least_picture_px);
+}
 
 Viewer::~Viewer() = default;
 
@@ -43,7 +48,8 @@ void Viewer::run() {
   Timer timer;
   for (int number = 0; !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames);
        ++number) {
-    window_.poll(!job_.scripted && number > 2 && idle() ? idle_wait_s : 0);
+    const bool events = window_.poll(!job_.scripted && number > 2 && idle() ? idle_wait_s : 0);
+    awake_frames_ = events || window_.input_waits() ? frames_after_event : std::max(awake_frames_ - 1, 0);
     seconds_ = job_.scripted ? script_step_s : std::min(timer.elapsed_ms() / 1000, longest_step_s);
     timer = Timer();
     now_s_ += seconds_;
@@ -59,7 +65,8 @@ bool Viewer::idle() const {
     const bool map_open = controls_.sides[i].map != SideMap::picture && sides_[i].ready();
     waits = waits && !(map_open && !controls_.playing && !maps_[i].shows(controls_.sides[i].map, sides_[i]));
   }
-  return waits && !moved_ && !drew_ && resolution_.resting() && !controls_.playing && !controls_.draw_always;
+  return waits && awake_frames_ == 0 && !moved_ && !drew_ && resolution_.resting() && !controls_.playing &&
+         !controls_.draw_always;
 }
 
 void Viewer::frame(int number) {
@@ -92,9 +99,11 @@ void Viewer::take_input(int number) {
       if (window_.was_pressed(GLFW_KEY_PERIOD)) controls_.step = true;
       if (window_.was_pressed(GLFW_KEY_F12)) controls_.screenshot = true;
     }
+  } else {
+    window_.forget_presses();
   }
   if (controls_.camera) {
-    camera_.go_to(*controls_.camera, width_, height_);
+    camera_.go_to(*controls_.camera, double(width_) / height_);
     controls_.camera.reset();
     moved_ = true;
   }
@@ -105,7 +114,9 @@ void Viewer::take_input(int number) {
 }
 
 void Viewer::draw_sides() {
+  if (controls_.playing || controls_.step || controls_.seconds) camera_.hold(double(width_) / height_);
   const SceneChanges changes = motion_.follow(controls_, seconds_);
+  if (!motion_.can_play()) controls_.playing = false;
   gpu_.update(changes);
   if (!changes.empty()) reference_.scene_changed();
   fraction_ = resolution_.next(moved_, seconds_, controls_.rate);
@@ -114,12 +125,13 @@ void Viewer::draw_sides() {
   const bool resized = width != drawn_width_ || height != drawn_height_;
   drawn_width_ = width;
   drawn_height_ = height;
-  const View view = camera_.view(width, height);
+  const bool looks = moved_ || resized || !changes.empty();
+  if (looks) view_ = camera_.view(width, height);
   drew_ = false;
   double ms = 0;
   for (int i = 0; i < 2; ++i) {
-    const bool made = sides_[i].choose(controls_.sides[i], view);
-    if (!made && (moved_ || resized || !changes.empty())) sides_[i].look(view, changes);
+    const bool made = sides_[i].choose(controls_.sides[i], view_);
+    if (!made && looks) sides_[i].look(view_, changes);
     if (sides_[i].draw(controls_.draw_always, controls_.measure_passes)) drew_ = true;
     if (job_.scripted && !sides_[i].problem().empty()) throw input_error("view: {}", sides_[i].problem());
     plans_[i].follow(sides_[i].run().view().plan, now_s_);
@@ -143,11 +155,14 @@ void Viewer::follow_maps() {
 }
 
 void Viewer::follow_pixel() {
+  pixel_is_new_ = false;
   if (!controls_.pixel) {
     pixel_ = {};
+    pixel_shown_ = no_pixel;
     return;
   }
   const bool moved = *controls_.pixel != pixel_shown_;
+  pixel_is_new_ = moved;
   pixel_shown_ = *controls_.pixel;
   for (int i = 0; i < 2; ++i) {
     const bool current = pixel_[i] && !moved && pixel_picture_[i] == sides_[i].pictures();
@@ -187,6 +202,7 @@ Shown Viewer::shown() {
               .map_notes = {},
               .plans = plans_,
               .pixel = pixel_,
+              .pixel_is_new = pixel_is_new_,
               .commands = {},
               .note = note_,
               .picture_width = width_,

@@ -71,14 +71,17 @@ class Viewer {
   bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;
   std::array<std::optional<PixelLights>, 2> pixel_;
-  PicturePixel pixel_shown_;
+  PicturePixel pixel_shown_{-1, -1};  // outside: none
+  bool pixel_is_new_ = false;
   size_t pixel_picture_[2] = {};
   Input script_input_;
   int width_ = 0, height_ = 0;              // of the picture
   int drawn_width_ = 0, drawn_height_ = 0;  // of the drawn part
+  View view_;                               // of the drawn part
   double seconds_ = 0, now_s_ = 0;          // of this frame, and since the start
   double fraction_ = 1;
   bool moved_ = false, drew_ = false;
+  int awake_frames_ = 0;  // to draw before the next wait for events
   int screenshots_ = 0;
   std::string note_;
 };

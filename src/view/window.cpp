@@ -1,5 +1,9 @@
 #include "view/window.h"
 
+#include <dlfcn.h>
+
+#include <algorithm>
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -13,6 +17,26 @@ std::string glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);
   return text ? text : "GLFW gives no reason";
+}
+
+Window& window_of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
+
+// The largest size at most this one whose window, with a frame, the screen has room for.
+void fit_screen(int& width, int& height) {
+  int x = 0, y = 0, most_width = 0, most_height = 0;
+  GLFWmonitor* screen = glfwGetPrimaryMonitor();
+  if (screen) glfwGetMonitorWorkarea(screen, &x, &y, &most_width, &most_height);
+  if (most_width > 0) width = std::min(width, most_width);
+  if (most_height > 0) height = std::min(height, most_height);
+}
+
+// GLFW answers programs that paste what was copied here. If such a program has ended before its answer,
+// Xlib's own handler would end this program.
+void survive_x_errors() {
+  using Handler = int (*)(void* display, void* error);
+  using SetHandler = Handler (*)(Handler);
+  const auto set_handler = reinterpret_cast<SetHandler>(dlsym(RTLD_DEFAULT, "XSetErrorHandler"));
+  if (set_handler) set_handler([](void*, void*) { return 0; });
 }
 
 void* window_function(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); }
@@ -35,12 +59,13 @@ class WindowGlContext final : public GlContext {
 
 }  // namespace
 
-Window::Window(int width, int height, const std::string& title) {
+Window::Window(int width, int height, const std::string& title, bool fits_screen) {
   if (!glfwInit()) {
     throw machine_error(
         "view: no window: {}; it needs a display (DISPLAY), and xvfb-run gives one without a screen",
         glfw_error());
   }
+  if (fits_screen) fit_screen(width, height);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -55,6 +80,34 @@ Window::Window(int width, int height, const std::string& title) {
         "view: this display has no OpenGL 4.5: {}; Debian's libgl1-mesa-dri brings one without a GPU", why);
   }
   glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);
+  receive_events();
+  survive_x_errors();
+}
+
+// Dear ImGui's callbacks call these after their own.
+void Window::receive_events() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwGetCursorPos(window_, &pointer_.x, &pointer_.y);
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double x, double y) {
+    window_of(handle).pointer_ = {x, y};
+    window_of(handle).any_event_ = true;
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int button, int action, int) {
+    Window& window = window_of(handle);
+    if (button == GLFW_MOUSE_BUTTON_LEFT)
+      window.button_changes_.push_back({action == GLFW_PRESS, window.pointer_});
+    window.any_event_ = true;
+  });
+  glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int, int action, int) {
+    if (action == GLFW_PRESS) ++window_of(handle).presses_[key];
+    window_of(handle).any_event_ = true;
+  });
+  glfwSetScrollCallback(window_,
+                        [](GLFWwindow* handle, double, double) { window_of(handle).any_event_ = true; });
+  glfwSetCharCallback(window_, [](GLFWwindow* handle, unsigned) { window_of(handle).any_event_ = true; });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) { window_of(handle).any_event_ = true; });
+  glfwSetFramebufferSizeCallback(window_,
+                                 [](GLFWwindow* handle, int, int) { window_of(handle).any_event_ = true; });
 }
 
 Window::~Window() {
@@ -68,12 +121,18 @@ std::unique_ptr<GlContext> Window::make_context() {
   return context;
 }
 
-void Window::poll(double seconds) {
+void Window::limit_size(int least_width, int least_height) {
+  glfwSetWindowSizeLimits(window_, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+}
+
+bool Window::poll(double seconds) {
+  any_event_ = false;
   if (seconds > 0) {
     glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
   }
+  return any_event_;
 }
 
 bool Window::closing() const { return glfwWindowShouldClose(window_); }
@@ -92,27 +151,36 @@ int Window::height() const {
   return height;
 }
 
-Input Window::input() const {
+Input Window::input() {
   constexpr int keys[] = {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S,         GLFW_KEY_D,
                           GLFW_KEY_Q, GLFW_KEY_E, GLFW_KEY_LEFT_SHIFT};
   Input input;
   for (size_t i = 0; i < input.held.size(); ++i) input.held[i] = glfwGetKey(window_, keys[i]) == GLFW_PRESS;
-  glfwGetCursorPos(window_, &input.x, &input.y);
+  if (glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS) input.held[int(FlightKey::fast)] = true;
+
   int points_x = 1, points_y = 1;
   glfwGetWindowSize(window_, &points_x, &points_y);
-  if (points_x > 0 && points_y > 0) {
-    input.x *= double(width()) / points_x;
-    input.y *= double(height()) / points_y;
+  const double scale_x = points_x > 0 ? double(width()) / points_x : 1;
+  const double scale_y = points_y > 0 ? double(height()) / points_y : 1;
+  Point at = pointer_;
+  if (!button_changes_.empty()) {
+    const ButtonChange change = button_changes_.front();
+    button_changes_.pop_front();
+    at = change.at;
+    if (change.down && !button_) input.pressed = {{at.x * scale_x, at.y * scale_y}};
+    button_ = change.down;
   }
-  input.button = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+  input.x = at.x * scale_x;
+  input.y = at.y * scale_y;
+  input.button = button_;
   return input;
 }
 
 bool Window::was_pressed(int key) {
-  const bool down = glfwGetKey(window_, key) == GLFW_PRESS;
-  const bool pressed = down && !down_[key];
-  down_[key] = down;
-  return pressed;
+  const auto found = presses_.find(key);
+  if (found == presses_.end()) return false;
+  if (--found->second == 0) presses_.erase(found);
+  return true;
 }
 
 }  // namespace lightgrid

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "view/pointer.h"
 #include "view/resolution.h"
 
@@ -24,11 +26,24 @@ Scene ten_metres() {
   return scene;
 }
 
+constexpr double wide = 320.0 / 180;
+
+Scene ten_metres_with_camera() {
+  Scene scene = ten_metres();
+  scene.cameras = {look_at({1, 2, 10}, {1, 2, 0})};
+  return scene;
+}
+
 View start_view() { return make_view(look_at({1, 2, 10}, {1, 2, 0}), 320, 180); }
 
+void expect_same(const View& a, const View& b) {
+  EXPECT_EQ(a.view_from_world, b.view_from_world);
+  EXPECT_EQ(a.clip_from_view, b.clip_from_view);
+}
+
 TEST(FlyCamera, StaysTheStartUntilItMoves) {
-  const Scene scene = ten_metres();
-  FlyCamera camera(scene, start_view(), "0");
+  const Scene scene = ten_metres_with_camera();
+  FlyCamera camera(scene, "0", wide);
   EXPECT_EQ(camera.text(), "0");
   EXPECT_FALSE(camera.move({}, 1));
   EXPECT_FALSE(camera.turn(0, 0, 180));
@@ -40,8 +55,8 @@ TEST(FlyCamera, StaysTheStartUntilItMoves) {
 }
 
 TEST(FlyCamera, FliesWhereItLooks) {
-  const Scene scene = ten_metres();
-  FlyCamera camera(scene, start_view(), "");
+  const Scene scene = ten_metres_with_camera();
+  FlyCamera camera(scene, "", wide);
   camera.speed_m = 2;
   std::array<bool, 7> held{};
   held[int(FlightKey::forward)] = true;
@@ -60,8 +75,8 @@ TEST(FlyCamera, FliesWhereItLooks) {
 }
 
 TEST(FlyCamera, TurnsWithTheDragAndNeverPastTheVertical) {
-  const Scene scene = ten_metres();
-  FlyCamera camera(scene, start_view(), "");
+  const Scene scene = ten_metres_with_camera();
+  FlyCamera camera(scene, "", wide);
   // A drag over the picture's height turns by the vertical field, 60 degrees; dragging to the right shows
   // what is left.
   EXPECT_TRUE(camera.turn(180, 0, 180));
@@ -75,16 +90,38 @@ TEST(FlyCamera, TurnsWithTheDragAndNeverPastTheVertical) {
 }
 
 TEST(FlyCamera, IsTheTextThatItGives) {
-  const Scene scene = ten_metres();
-  FlyCamera camera(scene, start_view(), "");
+  const Scene scene = ten_metres_with_camera();
+  FlyCamera camera(scene, "", wide);
   camera.turn(31.7, -12.9, 180);
   std::array<bool, 7> held{};
   held[int(FlightKey::back)] = true;
   camera.move(held, 0.123);
   EXPECT_THAT(camera.text(), StartsWith("eye:"));
-  const View again = make_view(choose_camera(scene, camera.text()), 320, 180);
-  EXPECT_EQ(again.view_from_world, camera.view(320, 180).view_from_world);
-  EXPECT_EQ(again.clip_from_view, camera.view(320, 180).clip_from_view);
+  expect_same(make_view(choose_camera(scene, camera.text()), 320, 180), camera.view(320, 180));
+}
+
+// As `lightgrid render` sees the scene at that time and size.
+TEST(FlyCamera, FollowsAnAnimatedCameraOfTheSceneUntilItMoves) {
+  Scene scene = ten_metres_with_camera();
+  FlyCamera camera(scene, "", wide);
+  scene.cameras[0] = look_at({4, 2, 10}, {4, 2, 0});
+  EXPECT_EQ(camera.view(320, 180).eye, glm::dvec3(4, 2, 10));
+  camera.turn(0, 5, 180);
+  EXPECT_NEAR(camera.view(320, 180).eye.x, 4, 1e-5);
+  scene.cameras[0] = look_at({0, 2, 10}, {0, 2, 0});
+  EXPECT_NEAR(camera.view(320, 180).eye.x, 4, 1e-5);
+}
+
+TEST(FlyCamera, AnOverviewFitsAWindowOfAnotherShapeAndStaysWhenTheSceneMoves) {
+  Scene scene = ten_metres();
+  FlyCamera camera(scene, "", wide);
+  expect_same(make_view(choose_camera(scene, "", 0.5), 90, 180), camera.view(90, 180));
+  camera.hold(wide);
+  const View held = camera.view(320, 180);
+  const glm::dvec3 overview(choose_camera(scene, "", wide).world_from_view[3]);
+  EXPECT_NEAR(glm::distance(held.eye, overview), 0, 1e-4);
+  scene.instances[0].world_from_object = glm::translate(glm::dmat4(1), {1, 0, 0});
+  EXPECT_EQ(camera.view(320, 180).eye, held.eye);
 }
 
 Input at(double x, double y, bool button) {
@@ -112,6 +149,29 @@ TEST(Pointer, TurnsDragsTheLineAndClicks) {
   pointer.follow(at(10, 0, false), 320, 180, 0.25, true);
   pointer.follow(at(10, 0, true), 320, 180, 0.25, true);
   EXPECT_EQ(pointer.follow(at(10, 0, false), 320, 180, 0.25, true).click, (PicturePixel{10, 179}));
+}
+
+// A slow frame: since the last one the pointer came from elsewhere and was pressed.
+TEST(Pointer, APressCountsWhereItHappened) {
+  Pointer pointer;
+  pointer.follow(at(400, 30, false), 320, 180, 0.5, true);
+  Input press = at(90, 40, true);
+  press.pressed = {{90, 40}};
+  EXPECT_EQ(pointer.follow(press, 320, 180, 0.5, true).turn_x, 0);
+  EXPECT_EQ(pointer.follow(at(90, 40, false), 320, 180, 0.5, true).click, (PicturePixel{90, 139}));
+}
+
+TEST(Pointer, ADragBetweenTwoFramesIsNoClick) {
+  Pointer pointer;
+  Input press = at(160, 40, true);
+  press.pressed = {{160, 40}};
+  EXPECT_FALSE(pointer.follow(press, 320, 180, 0.5, true).line)
+      << "a press alone leaves the line where it is";
+  const PointerResult released = pointer.follow(at(80, 40, false), 320, 180, 0.5, true);
+  EXPECT_EQ(released.line, 0.25);
+  EXPECT_FALSE(released.click);
+  pointer.follow(at(80, 40, false), 320, 180, 0.25, true);
+  EXPECT_FALSE(pointer.follow(at(200, 40, false), 320, 180, 0.25, true).line);
 }
 
 TEST(Pointer, LeavesWhatAPanelTakes) {
