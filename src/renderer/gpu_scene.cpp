@@ -14,7 +14,7 @@ std::shared_ptr<WorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldG
   for (const auto& [held_key, held] : world_grids_) {
     if (held_key == key) return held.lock();
   }
-  auto made = std::make_shared<WorldGrid>(renderer, key.shape, key.cell, key.index_bits);
+  auto made = std::make_shared<WorldGrid>(renderer, key.shape, key.cell, key.index_bits, key.for_gl);
   world_grids_.emplace_back(key, made);
   return made;
 }

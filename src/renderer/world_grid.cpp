@@ -50,8 +50,12 @@ std::span<const uint32_t> HostWorldGrid::everywhere() const {
   return std::span(indices).subspan(params.everywhere_first, params.everywhere_count);
 }
 
-WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits)
-    : renderer_(renderer), shape_(shape), cell_(cell), index_bits_(index_bits) {}
+WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits, bool for_gl)
+    : renderer_(renderer),
+      shape_(shape),
+      cell_(cell),
+      index_bits_(index_bits),
+      for_gl_(for_gl && renderer.gl) {}
 
 bool WorldGrid::serves(const View& view, int lights_version) const {
   return lights_version_ == lights_version && layout_.reach.holds(reach_of(view, layout_.middle));
@@ -59,7 +63,7 @@ bool WorldGrid::serves(const View& view, int lights_version) const {
 
 cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
-    if (renderer_.gl) {
+    if (for_gl_) {
       GLint texels = 0;
       glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
       const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
@@ -73,8 +77,9 @@ cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
     }
     shared.texture = GlTexture();
     shared.buffer.reset();  // freed first, so that both need not fit at once
-    shared.buffer.emplace(*renderer_.cl, renderer_.bridge, std::max<size_t>(bytes, 64));
-    if (renderer_.gl) shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
+    shared.buffer.emplace(*renderer_.cl, for_gl_ ? renderer_.bridge : BridgeKind::none,
+                          std::max<size_t>(bytes, 64));
+    if (for_gl_) shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
   }
   return shared.buffer->cl_buffer();
 }

@@ -17,6 +17,7 @@ struct WorldGridKey {
   double cell;
   int index_bits;
   LightRanges ranges;
+  bool for_gl = true;  // else OpenCL alone reads them
   bool operator==(const WorldGridKey&) const = default;
 };
 
@@ -34,7 +35,8 @@ struct HostWorldGrid {
 
 class WorldGrid {
  public:
-  WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits);
+  // for_gl: OpenGL may read the lists too, whose memory is then that of the renderer's bridge.
+  WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits, bool for_gl = true);
 
   // Whether the lists are those of these lights (GpuScene::lights_version) and right for the view.
   bool serves(const View& view, int lights_version) const;
@@ -44,7 +46,7 @@ class WorldGrid {
   // the bytes if memory does not suffice; the grid then serves no view.
   void build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view, int lights_version);
 
-  // Makes them visible to OpenGL, once a build.
+  // Makes them visible to OpenGL, once a build. Only with for_gl.
   void hand_to_gl();
 
   const WorldLayout& layout() const { return layout_; }
@@ -90,6 +92,7 @@ class WorldGrid {
   const WorldGridShape shape_;
   const double cell_;
   const int index_bits_;
+  const bool for_gl_;
 
   WorldLayout layout_;
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
