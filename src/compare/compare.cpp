@@ -223,8 +223,10 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Reference& 
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
+  const bool is_copy = !is_reference && reference.in_report && !reference.sampled() && row.error->bit_identical;
   report.rows[place] = std::move(row);
   report.images[place] = run.take_image();
+  if (is_copy) report.images[place] = Image();
   if (is_reference) reference.in_report = &report.images[place];
   report.listed[place] = std::move(pairs.listed_of_pixel);
   if (!run.frame().depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
@@ -244,14 +246,14 @@ void measure_against_oracle(CompareReport& report, const Reference& reference, c
   report.reference_errors = measure_reference_errors(oracle, reference.image(), pixels);
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (!report.rows[i].error) continue;
-    const std::vector<uint32_t> worst = most_different(report.images[i], reference.image(), among, worst_of_a_row);
+    const std::vector<uint32_t> worst = most_different(image_of(report, i), reference.image(), among, worst_of_a_row);
     pixels.insert(pixels.end(), worst.begin(), worst.end());
   }
   std::sort(pixels.begin(), pixels.end());
   pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
   const std::vector<glm::dvec3> radiance = oracle.shade(pixels, true);
   for (size_t i = 0; i < report.rows.size(); ++i) {
-    if (report.rows[i].error) report.rows[i].error->oracle = oracle_error(report.images[i], reference.image(), pixels, radiance);
+    if (report.rows[i].error) report.rows[i].error->oracle = oracle_error(image_of(report, i), reference.image(), pixels, radiance);
   }
 }
 
@@ -264,13 +266,14 @@ void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries,
   });
 }
 
-// What takes most memory first, while few images are there: techniques with a copy of the scene in OpenCL, then
-// those whose lists have an entry for each pixel.
-std::vector<size_t> order_of_rows(const std::vector<Entry>& entries) {
+// The reference first: images that equal it are then not kept. Then what takes most memory, while few images are
+// there: techniques with a copy of the scene in OpenCL, then those whose lists have an entry for each pixel.
+std::vector<size_t> order_of_rows(const std::vector<Entry>& entries, const TechniqueRun* reference) {
   std::vector<size_t> order(entries.size());
   std::iota(order.begin(), order.end(), size_t(0));
   std::ranges::stable_sort(order, {}, [&](size_t i) {
     const Contestant& c = *entries[i].contestant;
+    if (entries[i].run && entries[i].run.get() == reference) return -1;
     return own_surfaces(*c.technique, c.settings) ? 0 : c.technique->listed ? 1 : 2;
   });
   return order;
@@ -323,7 +326,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, 
   if (renderer.gl && any_has_own_surfaces(entries) && !reference.sampled())
     shown = read_triangles(reference.run->view());
   report.rows.resize(entries.size()), report.images.resize(entries.size()), report.listed.resize(entries.size());
-  const std::vector<size_t> order = order_of_rows(entries);
+  const std::vector<size_t> order = order_of_rows(entries, reference.run);
   for (size_t i = 0; i < order.size(); ++i) {
     Entry& entry = entries[order[i]];
     if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");

@@ -74,8 +74,7 @@ bool same_colour(const glm::vec4& a, const glm::vec4& b) {
 
 // "3 of 153 pixels differ", or empty if an image is absent.
 std::string differing_pixels(const CompareReport& report, size_t a, size_t b) {
-  if (a >= report.images.size() || b >= report.images.size()) return "";
-  const auto &first = report.images[a].pixels, &second = report.images[b].pixels;
+  const auto &first = image_of(report, a).pixels, &second = image_of(report, b).pixels;
   if (first.empty() || first.size() != second.size()) return "";
   const auto same =
       std::inner_product(first.begin(), first.end(), second.begin(), size_t(0), std::plus<>(), same_colour);

@@ -20,7 +20,7 @@ using Png = std::vector<uint8_t>;
 constexpr int most_reduced = 16;
 
 bool has_image(const CompareReport& report, size_t row) {
-  return row < report.images.size() && !report.images[row].pixels.empty();
+  return !image_of(report, row).pixels.empty();
 }
 
 bool has_counts(const CompareReport& report, size_t row) {
@@ -51,13 +51,6 @@ uint32_t heat_top(const CompareReport& report) {
   }
   consider(report.lit);
   return top ? top : flat_top;
-}
-
-// The image that all are compared with, and whether it belongs to a row.
-const Image& reference_image(const CompareReport& report) {
-  const RunResult* row = reference_row(report);
-  const size_t i = row ? size_t(row - report.rows.data()) : report.rows.size();
-  return row && has_image(report, i) ? report.images[i] : report.reference_image;
 }
 
 Png picture_png(const Image& image, int reduced) {
@@ -99,7 +92,7 @@ void write_pictures(const fs::path& folder, const CompareReport& report, const R
 void write_exr_files(const fs::path& folder, const CompareReport& report) {
   const auto stems = file_stems(row_names(report));
   parallel_for(int(stems.size()), [&](int i) {
-    if (has_image(report, i)) save_exr(folder / (stems[i] + ".exr"), report.images[i]);
+    if (has_image(report, i)) save_exr(folder / (stems[i] + ".exr"), image_of(report, size_t(i)));
   });
   const Image& reference = reference_image(report);
   if (&reference == &report.reference_image && !reference.pixels.empty()) {
@@ -118,8 +111,9 @@ ReportPictures make_pictures(const CompareReport& report, int reduced) {
     RowPictures& row = pictures.rows[i];
     row.name = names[i];
     if (has_image(report, i)) {
-      row.image = picture_png(report.images[i], reduced);
-      if (!reference.pixels.empty()) row.difference = difference_png(report.images[i], reference, reduced);
+      const Image& image = image_of(report, size_t(i));
+      row.image = picture_png(image, reduced);
+      if (!reference.pixels.empty()) row.difference = difference_png(image, reference, reduced);
     }
     if (has_counts(report, i)) row.listed = make_heat_map(report, report.listed[i], pictures.heat_top, reduced);
   });

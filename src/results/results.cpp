@@ -167,6 +167,21 @@ const RunResult* reference_row(const CompareReport& report) {
   return refused;
 }
 
+const Image& reference_image(const CompareReport& report) {
+  const RunResult* row = reference_row(report);
+  const size_t i = row ? size_t(row - report.rows.data()) : report.images.size();
+  return i < report.images.size() && !report.images[i].pixels.empty() ? report.images[i] : report.reference_image;
+}
+
+const Image& image_of(const CompareReport& report, size_t row) {
+  static const Image none;
+  if (row >= report.images.size()) return none;
+  const Image& own = report.images[row];
+  if (!own.pixels.empty() || row >= report.rows.size()) return own;
+  const std::optional<ImageError>& error = report.rows[row].error;
+  return error && error->bit_identical ? reference_image(report) : own;
+}
+
 json to_json(const CompareReport& report) {
   json rows = json::array(), reference_errors;
   for (const auto& row : report.rows) rows.push_back(to_json(row));

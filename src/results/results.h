@@ -122,7 +122,7 @@ struct CompareReport {
                           // that makes it one, "visibility:lights=all"
   uint64_t reference_pixels = 0;  // number of pixels compared: all, or a sample if all would take too long
   std::vector<RunResult> rows;
-  std::vector<Image> images;                  // one a row, linear
+  std::vector<Image> images;                  // one a row, linear; read with image_of
   Image reference_image;                      // set only if no row is the reference
   std::vector<std::vector<uint32_t>> listed;  // one a row, lights listed per pixel, row 0 at the bottom
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
@@ -131,6 +131,11 @@ struct CompareReport {
 
 // The row that is the reference, possibly refused; null if there is none.
 const RunResult* reference_row(const CompareReport& report);
+// The image that all are compared with: of its row, or reference_image. Empty if neither was kept.
+const Image& reference_image(const CompareReport& report);
+// The image of a row; empty if it has none. A row whose colours equal the reference's to the bit may keep no copy: its
+// image is then the reference's.
+const Image& image_of(const CompareReport& report, size_t row);
 
 nlohmann::json to_json(const CompareReport& report);
 std::string json_text(const CompareReport& report);  // the text of results.json for one view

@@ -44,6 +44,17 @@ TEST(WriteReport, ComparesWithAReferenceThatIsNoRow) {
   EXPECT_FALSE(fs::exists(folder.path / "exact.difference.png"));
 }
 
+TEST(WriteReport, WritesTheReferencesPictureWhereARowKeptNoCopyOfIt) {
+  auto report = synthetic_report(17, 9);
+  ASSERT_EQ(report.rows[2].technique, "clustered");
+  report.rows[2].error->bit_identical = true;
+  report.images[2] = Image();
+  const TempFolder folder;
+  write_report(folder.path, report);
+  EXPECT_EQ(file_bytes(folder.path / "clustered.exr"), file_bytes(folder.path / "forward.exr"));
+  EXPECT_NE(file_bytes(folder.path / "lidr.exr"), file_bytes(folder.path / "forward.exr"));
+}
+
 TEST(WriteReport, IsTheSameEachTime) {
   const TempFolder first, second;
   write_report(first.path, synthetic_report(17, 9));
