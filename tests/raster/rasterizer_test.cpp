@@ -229,62 +229,6 @@ TEST(Rasterizer, TheSameBytesFarFromTheOrigin) {
   EXPECT_TRUE(drawn(scene).same_image(here));
 }
 
-RasterScene sphere(const RasterView& view, int rings, double radius, const glm::dvec3& center) {
-  RasterScene scene;
-  scene.view = view;
-  scene.meshes.resize(1);
-  RasterScene::MeshData& mesh = scene.meshes[0];
-  const int around = 2 * rings;
-  for (int y = 0; y <= rings; ++y) {
-    for (int x = 0; x < around; ++x) {
-      const double up = 3.14159265358979 * y / rings, turn = 6.28318530717959 * x / around;
-      mesh.positions.push_back(glm::vec3(radius * std::sin(up) * std::cos(turn), radius * std::cos(up),
-                                         -radius * std::sin(up) * std::sin(turn)));
-    }
-  }
-  for (int y = 0; y < rings; ++y) {
-    for (int x = 0; x < around; ++x) {
-      const uint32_t a = uint32_t(y * around + x), b = uint32_t(y * around + (x + 1) % around),
-                     c = a + around, d = b + around;
-      for (const uint32_t i : {a, c, b, b, c, d}) mesh.indices.push_back(i);
-    }
-  }
-  scene.instances.push_back({.mesh = 0});
-  scene.instances[0].world_from_object[3] = glm::dvec4(center, 1);
-  return scene;
-}
-
-TEST(Rasterizer, ClustersThatFaceAwayAreLeftOutAndDoNotShow) {
-  for (const double distance : {1.5, 4.0, 40.0}) {
-    for (const bool mirrored : {false, true}) {
-      RasterScene scene = sphere(plain_view(300, 260, 0.01), 60, 1, {0.3, 0.1, -distance});
-      if (mirrored) scene.instances[0].world_from_object[0][0] = -1;
-      const Drawn with = drawn(scene), without = drawn(scene, {.cluster_cones = false});
-      EXPECT_LT(with.counts.clusters, without.counts.clusters * 4 / 5);
-      EXPECT_TRUE(with.same_image(without));
-      EXPECT_EQ(count_wrong(with, oracle_of(with, scene)), 0);
-      EXPECT_GT(with.covered(), distance > 10 ? 20u : 3000u);
-    }
-  }
-  RasterScene inside = sphere(plain_view(300, 260, 0.01), 60, 1, {0, 0, 0});
-  EXPECT_EQ(drawn(inside).covered(), 0u);
-  inside.instances[0].two_sided = true;
-  const Drawn seen = drawn(inside);
-  EXPECT_EQ(seen.covered(), seen.triangles.size()) << "a hole in a closed mesh";
-  EXPECT_EQ(count_wrong(seen, oracle_of(seen, inside)), 0);
-}
-
-TEST(Rasterizer, ClustersOutOfViewAreLeftOut) {
-  RasterScene scene = sphere(plain_view(100, 100), 30, 1, {0, 0, 0});
-  for (const glm::dvec3& place :
-       {glm::dvec3{0, 0, 5}, {20, 0, -5}, {-20, 0, -5}, {0, 20, -5}, {0, -20, -5}}) {
-    scene.instances[0].world_from_object[3] = glm::dvec4(place, 1);
-    EXPECT_EQ(drawn(scene).counts.clusters, 0u);
-  }
-  scene.instances[0].world_from_object[3] = glm::dvec4(0, 0, -5, 1);
-  EXPECT_GT(drawn(scene).counts.clusters, 10u);
-}
-
 TEST(Rasterizer, InstancesThatMoveKeepTheirNumbers) {
   RasterScene scene = many_triangles(300, 120, 100, 5);
   Rasterizer rasterizer(raster_device(), raster_programs());
@@ -316,46 +260,6 @@ TEST(Rasterizer, LargestViews) {
     EXPECT_EQ(count_wrong(image, oracle_of(image, scene)), 0);
     for (const uint32_t triangle : {0u, 1u, 2u})
       EXPECT_GT(std::count(image.triangles.begin(), image.triangles.end(), triangle), 4);
-  }
-}
-
-struct ScannedCounts {
-  std::vector<uint32_t> places, begins, counters;
-  bool operator==(const ScannedCounts&) const = default;
-};
-
-// Of `chunks` chunks, one after the other, each with a count a tile.
-ScannedCounts scanned(const char* kernel, size_t items, std::vector<uint32_t> counts, uint32_t tiles_x, uint32_t tiles_y,
-                      uint32_t chunks) {
-  ClDevice& device = raster_device();
-  RasterParams params{};
-  params.tiles_x = tiles_x, params.tiles_y = tiles_y, params.chunks = chunks;
-  const auto buffer_of = [&](void* data, size_t bytes) {
-    return cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, bytes, data);
-  };
-  ScannedCounts all{std::move(counts), std::vector<uint32_t>(tiles_x * tiles_y + 1), std::vector<uint32_t>(RASTER_COUNTERS)};
-  std::vector<std::pair<cl::Buffer, std::vector<uint32_t>*>> buffers;
-  for (std::vector<uint32_t>* values : {&all.places, &all.begins, &all.counters})
-    buffers.emplace_back(buffer_of(values->data(), values->size() * 4), values);
-  cl::Kernel scan = raster_programs().kernel(kernel, "");
-  launch(device, "raster_scan", scan, cl::NDRange(items), cl::NDRange(items), buffers[0].first, buffers[1].first,
-         buffers[2].first, buffer_of(&params, sizeof(params)));
-  for (auto& [buffer, values] : buffers)
-    device.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, values->size() * 4, values->data());
-  return all;
-}
-
-TEST(Rasterizer, ScansCountsAlikeForCpusAndGpus) {
-  RandomNumbers random(7);
-  for (const auto& [tiles_x, tiles_y, chunks] : {std::tuple(1u, 1u, 1u), {20u, 12u, 16u}, {67u, 3u, 5u}, {16u, 8u, 1u}}) {
-    for (const uint32_t most : {3u, 1u << 29}) {  // past 2^32 too
-      std::vector<uint32_t> counts(tiles_x * tiles_y * chunks);
-      uint64_t sum = 0;
-      for (uint32_t& count : counts) sum += count = uint32_t(random.between(0, most));
-      const ScannedCounts of_cpu = scanned("cpu/raster_scan", 1, counts, tiles_x, tiles_y, chunks);
-      EXPECT_EQ(of_cpu.counters[RASTER_ENTRIES] | uint64_t(of_cpu.counters[RASTER_ENTRIES + 1]) << 32, sum);
-      EXPECT_TRUE(scanned("gpu/raster_scan", RASTER_SCAN_GROUP, counts, tiles_x, tiles_y, chunks) == of_cpu) << tiles_x;
-    }
   }
 }
 
