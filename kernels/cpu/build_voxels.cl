@@ -14,7 +14,11 @@
 #define COLUMNS (VOXEL_BRICK_X / 4)
 #define VECTORS (COLUMNS * (VOXEL_BRICK_Y / 4) * VOXEL_BRICK_Z)
 #define CHUNK 128u  // lights that are added at once
-#define LANE_OF(v, i) (((const float*)&(v))[i])
+#if VOXEL_BITS == 16
+#define STORE_4_VOXELS(values, to) vstore_half16(values, 0, to)
+#else
+#define STORE_4_VOXELS(values, to) vstore16(values, 0, to)
+#endif
 
 static inline void add_lights(VoxelSum* sums, const uint* found, uint count, const VoxelLights* lights, constant VoxelGrid* grid,
                               constant VoxelSlice* slices, uint x, uint y, uint z) {
@@ -41,6 +45,18 @@ static inline void add_lights(VoxelSum* sums, const uint* found, uint count, con
     for (uint i = 0; i < count; ++i) add_voxel_light(&sum, position, slice, places[i], reaches[i], lights, found[i]);
     sums[v] = sum;
   }
+}
+
+static inline float16 side_by_side(float4 a, float4 b, float4 c, float4 d) {
+  return (float16)(a.x, b.x, c.x, d.x, a.y, b.y, c.y, d.y, a.z, b.z, c.z, d.z, a.w, b.w, c.w, d.w);
+}
+
+// Four values of 4 x 4 samples; `stride` is from row to row.
+static inline void store_samples(real a, real b, real c, real d, global voxel_t* to, size_t stride) {
+  STORE_4_VOXELS(side_by_side(a.lo.lo, b.lo.lo, c.lo.lo, d.lo.lo), to);
+  STORE_4_VOXELS(side_by_side(a.lo.hi, b.lo.hi, c.lo.hi, d.lo.hi), to + stride);
+  STORE_4_VOXELS(side_by_side(a.hi.lo, b.hi.lo, c.hi.lo, d.hi.lo), to + 2 * stride);
+  STORE_4_VOXELS(side_by_side(a.hi.hi, b.hi.hi, c.hi.hi, d.hi.hi), to + 3 * stride);
 }
 
 kernel void build_voxels(global const float* boxes, global const float* places, global const float4* colors,
@@ -76,12 +92,8 @@ kernel void build_voxels(global const float* boxes, global const float* places, 
   for (uint v = 0; v < VECTORS; ++v) {
     const VoxelSum s = as_stored(sums[v], grid);
     const uint column = v % COLUMNS * 4, row = v / COLUMNS % (VOXEL_BRICK_Y / 4) * 4, slice = v / (VECTORS / VOXEL_BRICK_Z);
-    for (uint i = 0; i < 16; ++i) {
-      const size_t at = 4 * (((size_t)(z + slice) * grid->size_y + y + row + i / 4) * grid->size_x + x + column + i % 4);
-      STORE_VOXEL(((float4)(LANE_OF(s.irradiance.x, i), LANE_OF(s.irradiance.y, i), LANE_OF(s.irradiance.z, i), LANE_OF(s.lights, i))),
-                  irradiance + at);
-      STORE_VOXEL(((float4)(LANE_OF(s.directions.x, i), LANE_OF(s.directions.y, i), LANE_OF(s.directions.z, i), LANE_OF(s.weight, i))),
-                  directions + at);
-    }
+    const size_t at = 4 * (((size_t)(z + slice) * grid->size_y + y + row) * grid->size_x + x + column);
+    store_samples(s.irradiance.x, s.irradiance.y, s.irradiance.z, s.lights, irradiance + at, 4 * grid->size_x);
+    store_samples(s.directions.x, s.directions.y, s.directions.z, s.weight, directions + at, 4 * grid->size_x);
   }
 }
