@@ -21,8 +21,8 @@ struct CaptureOptions {
 };
 
 // Writes one frame into `folder` and returns its summary as JSON.
-std::string capture_into(const std::string& folder, Renderer& devices, const CapturedFrame& frame, const Settings& settings,
-                         const Technique& technique, const CaptureOptions& o) {
+std::string capture_into(const std::string& folder, Renderer& devices, const CapturedFrame& frame,
+                         const Settings& settings, const Technique& technique, const CaptureOptions& o) {
   make_folder(folder);
   FrameCuller culler(*devices.cl, *devices.kernels, frame, settings, grid_needs(technique.name, settings));
   culler.run();
@@ -42,7 +42,8 @@ std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene
   for (size_t i = 0; i < path.size(); ++i) {
     const SceneChanges changes = advance ? advance(i) : SceneChanges();
     const std::string folder = (std::filesystem::path(o.output) / fmt::format("{:04}", i)).string();
-    summaries += (i ? ",\n" : "") + capture_into(folder, devices, capture.frame(path[i], changes), settings, technique, o);
+    summaries += (i ? ",\n" : "") +
+                 capture_into(folder, devices, capture.frame(path[i], changes), settings, technique, o);
   }
   return "[" + summaries + "]";
 }
@@ -59,10 +60,10 @@ int capture(const CaptureOptions& o) {
   Renderer devices = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, devices);
   const std::string summary =
-      path.empty()
-          ? capture_into(o.output, devices, capture_frame(devices, chosen.scene, chosen.view, settings, technique),
-                         settings, technique, o)
-          : capture_path(path, devices, chosen.scene, settings, technique, o);
+      path.empty() ? capture_into(o.output, devices,
+                                  capture_frame(devices, chosen.scene, chosen.view, settings, technique),
+                                  settings, technique, o)
+                   : capture_path(path, devices, chosen.scene, settings, technique, o);
   if (!o.json.empty()) write_json(o.json, summary);
   return 0;
 }

@@ -23,9 +23,12 @@ void Subcommand::option(const std::string& names, uint64_t& value, const std::st
   app_.add_option(names, value, help)->capture_default_str();
 }
 
-void Subcommand::flag(const std::string& names, bool& value, const std::string& help) { app_.add_flag(names, value, help); }
+void Subcommand::flag(const std::string& names, bool& value, const std::string& help) {
+  app_.add_flag(names, value, help);
+}
 
-void Subcommand::list(const std::string& names, std::vector<std::string>& values, const std::string& help, char separator) {
+void Subcommand::list(const std::string& names, std::vector<std::string>& values, const std::string& help,
+                      char separator) {
   CLI::Option* option = app_.add_option(names, values, help);
   // An option takes one word each time: the next word may be a positional argument.
   if (names[0] == '-') option->allow_extra_args(false);

@@ -27,7 +27,8 @@ class Subcommand {
   void option(const std::string& names, uint64_t& value, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
   // May be given more than once; with a separator, one word may hold several values.
-  void list(const std::string& names, std::vector<std::string>& values, const std::string& help, char separator = 0);
+  void list(const std::string& names, std::vector<std::string>& values, const std::string& help,
+            char separator = 0);
 
  private:
   CLI::App& app_;
@@ -44,8 +45,8 @@ class CommandLine {
   // is printed in one line on stderr and returns a command that ends with status 2.
   Command parse(int argc, const char* const* argv);
 
-  // A message of a run, which begins with the name of a field ("size 0x0: …"), as the user gave it ("--size 0x0: …"). Other
-  // messages stay as they are.
+  // A message of a run, which begins with the name of a field ("size 0x0: …"), as the user gave it ("--size
+  // 0x0: …"). Other messages stay as they are.
   std::string with_option(const std::string& message) const;
 
   bool quiet() const { return quiet_; }

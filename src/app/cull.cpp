@@ -23,7 +23,8 @@ int cull(const CullOptions& o) {
   if (o.frame.empty())
     throw input_error(
         "cull: FRAME is missing; it is a folder that `lightgrid capture` or another engine wrote");
-  const TechniqueNeeds needs = grid_needs(o.technique, frame_settings({}, o.set));  // reports faults in these first
+  const TechniqueNeeds needs =
+      grid_needs(o.technique, frame_settings({}, o.set));  // reports faults in these first
   if (!o.json.empty()) check_output_file("--json", o.json);
   const CapturedFrame frame = read_frame(o.frame);
   const Settings settings = frame_settings(frame, o.set);

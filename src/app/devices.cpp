@@ -33,7 +33,7 @@ struct Found {
   int chosen_cl = -1, chosen_gl = -1;  // -1: none is usable, for the reason in `problems`
   TunedSizes tuned;                    // of the chosen OpenCL device
   std::string bridge;
-  std::string why_staged;              // of the bridge "staged", else empty
+  std::string why_staged;  // of the bridge "staged", else empty
   std::vector<std::string> problems;
 };
 
@@ -60,7 +60,8 @@ void choose_bridge(Found& found, GlContext& gl) {
   gl.make_current();
   const BridgeKind kind = choose_bridge(cl, gl);
   found.bridge = to_string(kind);
-  if (kind == BridgeKind::staged) found.why_staged = std::getenv("LIGHTGRID_BRIDGE") ? "LIGHTGRID_BRIDGE=staged" : why_not_imported(cl, gl);
+  if (kind == BridgeKind::staged)
+    found.why_staged = std::getenv("LIGHTGRID_BRIDGE") ? "LIGHTGRID_BRIDGE=staged" : why_not_imported(cl, gl);
 }
 
 Found find_devices(const DeviceOptions& o) {
@@ -86,9 +87,9 @@ void print(const Found& found) {
   fmt::print("OpenCL devices\n");
   for (int i = 0; i < int(found.cl.size()); ++i) {
     const ClDeviceInfo& d = found.cl[i];
-    fmt::print("{} #{} {} {}: {}, {} compute units, {:.1f} GiB, driver {}, {}\n", mark(i == found.chosen_cl), i, d.platform,
-               d.name, d.cpu ? "CPU" : "GPU", d.compute_units, double(d.global_bytes) / (1 << 30),
-               d.driver, d.version);
+    fmt::print("{} #{} {} {}: {}, {} compute units, {:.1f} GiB, driver {}, {}\n", mark(i == found.chosen_cl),
+               i, d.platform, d.name, d.cpu ? "CPU" : "GPU", d.compute_units,
+               double(d.global_bytes) / (1 << 30), d.driver, d.version);
     if (const std::string why = why_not_the_same_bytes(d); !why.empty()) {
       fmt::print("    light grids may differ in some bytes from other devices': {}\n", why);
     }
@@ -108,7 +109,9 @@ void print(const Found& found) {
       fmt::print("  {:<6} not available: {}\n", g.backend, g.why);
     }
   }
-  const std::string bridge = found.bridge.empty() ? "none without both: the technique visibility draws in OpenCL alone" : found.bridge;
+  const std::string bridge = found.bridge.empty()
+                                 ? "none without both: the technique visibility draws in OpenCL alone"
+                                 : found.bridge;
   fmt::print("Bridge\n  {}{}\n", bridge, found.why_staged.empty() ? "" : ": " + found.why_staged);
 }
 
@@ -170,8 +173,8 @@ int list_devices(const DevicesOptions& o) {
 
 void add_devices(CommandLine& line) {
   auto o = std::make_shared<DevicesOptions>();
-  Subcommand command =
-      line.add("devices", "the available OpenCL devices and OpenGL backends", [o] { return list_devices(*o); });
+  Subcommand command = line.add("devices", "the available OpenCL devices and OpenGL backends",
+                                [o] { return list_devices(*o); });
   add_device_options(command, o->devices);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }

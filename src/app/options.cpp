@@ -67,13 +67,15 @@ const Technique& technique_or_default(const std::string& technique, const Render
 void check_output_file(const std::string& option, const std::filesystem::path& path) {
   if (path == "-") return;
   std::error_code unreadable;
-  if (std::filesystem::is_directory(path, unreadable)) throw input_error("{} {}: is a folder, not a file", option, path.string());
+  if (std::filesystem::is_directory(path, unreadable))
+    throw input_error("{} {}: is a folder, not a file", option, path.string());
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, unreadable)) {
     throw input_error("{} {}: there is no folder {}", option, path.string(), folder.string());
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw input_error("{} {}: no file can be made in {}: {}", option, path.string(), folder.string(), std::strerror(errno));
+    throw input_error("{} {}: no file can be made in {}: {}", option, path.string(), folder.string(),
+                      std::strerror(errno));
   }
 }
 

@@ -27,17 +27,17 @@ void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what);
 
-// The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened only if the
-// technique needs it or --gl names a backend. Throws Error(input) for an unknown name, Error(machine) without
-// what it needs.
+// The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened
+// only if the technique needs it or --gl names a backend. Throws Error(input) for an unknown name,
+// Error(machine) without what it needs.
 Renderer open_devices(const DeviceOptions& options, const std::string& technique, const Settings& settings);
 
 // The technique by its name; if that is empty, forward_plus or, without OpenGL, visibility, which is reported
 // on stderr.
 const Technique& technique_or_default(const std::string& technique, const Renderer& renderer);
 
-// Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not a folder
-// or not writable, or it is a folder itself. Call it before long work; "-" is always valid.
+// Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not
+// a folder or not writable, or it is a folder itself. Call it before long work; "-" is always valid.
 void check_output_file(const std::string& option, const std::filesystem::path& path);
 
 // Writes JSON text to a file, or to stdout for "-".

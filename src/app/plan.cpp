@@ -26,7 +26,9 @@ int plan(const PlanOptions& o) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
     return 0;
   }
-  nlohmann::ordered_json json = {{"scene", chosen.scene.name}, {"technique", technique.name}, {"decisions", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json = {{"scene", chosen.scene.name},
+                                 {"technique", technique.name},
+                                 {"decisions", nlohmann::ordered_json::array()}};
   for (const Decision& d : plan.decisions) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }
@@ -38,7 +40,8 @@ int plan(const PlanOptions& o) {
 
 void add_plan(CommandLine& line) {
   auto o = std::make_shared<PlanOptions>();
-  Subcommand command = line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
+  Subcommand command =
+      line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
   add_scene_options(command, o->scene);
   command.option("-t,--technique", o->technique, technique_names());
   command.option("--json", o->json, "as JSON into a file, - for stdout");

@@ -28,7 +28,8 @@ State& state() {
 }
 
 std::string in_words(double seconds) {
-  return seconds < 90 ? fmt::format("{:.0f} s", std::ceil(seconds)) : fmt::format("{:.0f} min", std::ceil(seconds / 60));
+  return seconds < 90 ? fmt::format("{:.0f} s", std::ceil(seconds))
+                      : fmt::format("{:.0f} min", std::ceil(seconds / 60));
 }
 
 // Estimated from the time so far, if that is long enough: "about 3 min".
@@ -53,8 +54,9 @@ std::function<void(double, const std::string&)> progress_bar() {
   }
   return [timer = Timer()](double done, const std::string& step) {
     const int filled = int(done * width);
-    fmt::print(stderr, "\r[{}{}] {:<{}.{}} {:<{}}", std::string(filled, '#'), std::string(width - filled, '.'), step, text,
-               text, time_left(done, timer.elapsed_ms() / 1000), rest);
+    fmt::print(stderr, "\r[{}{}] {:<{}.{}} {:<{}}", std::string(filled, '#'),
+               std::string(width - filled, '.'), step, text, text, time_left(done, timer.elapsed_ms() / 1000),
+               rest);
     if (done >= 1) fmt::print(stderr, "\r{:{}}\r", "", width + text + rest + 4);
   };
 }
@@ -81,7 +83,8 @@ void ProgressLines::run(std::chrono::duration<double> interval) {
   while (!end_.wait_for(lock, interval, [this] { return ended_; })) {
     const double seconds = timer.elapsed_ms() / 1000;
     const std::lock_guard reading(state().mutex);
-    const std::string left = state().done > 0 && state().done < 1 ? fmt::format(", {:.0f} % done", 100 * state().done) : "";
+    const std::string left =
+        state().done > 0 && state().done < 1 ? fmt::format(", {:.0f} % done", 100 * state().done) : "";
     log_info("after {}{}: {}", in_words(seconds), left, state().step.empty() ? "finishing" : state().step);
   }
 }

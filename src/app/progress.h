@@ -14,9 +14,9 @@ namespace lightgrid {
 // If stderr is no terminal, updates the process's ProgressLines instead.
 std::function<void(double done, const std::string& step)> progress_bar();
 
-// While it exists, if stderr is no terminal and the command opens no window, a thread prints on stderr every ten seconds how long the
-// command has run and what its last step is. main creates one; --quiet silences it. LIGHTGRID_PROGRESS_S sets
-// another interval, in seconds.
+// While it exists, if stderr is no terminal and the command opens no window, a thread prints on stderr every
+// ten seconds how long the command has run and what its last step is. main creates one; --quiet silences it.
+// LIGHTGRID_PROGRESS_S sets another interval, in seconds.
 class ProgressLines {
  public:
   explicit ProgressLines(const std::string& command);

@@ -22,10 +22,12 @@ struct RenderOptions {
 // out.png becomes out_0000.png, out_0001.png and so on.
 std::filesystem::path numbered(const std::filesystem::path& path, size_t number) {
   std::filesystem::path numbered = path;
-  return numbered.replace_filename(fmt::format("{}_{:04}{}", path.stem().string(), number, path.extension().string()));
+  return numbered.replace_filename(
+      fmt::format("{}_{:04}{}", path.stem().string(), number, path.extension().string()));
 }
 
-int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const std::vector<View>& path, const SceneMotion& advance) {
+int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const std::vector<View>& path,
+                const SceneMotion& advance) {
   run.prepare();
   for (size_t i = 0; i < path.size(); ++i) {
     const SceneChanges changes = advance ? advance(i) : SceneChanges();
@@ -78,7 +80,8 @@ void add_render(CommandLine& line) {
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
   add_technique_option(command, o->technique, technique_names());
-  command.option("-o,--output", o->output, "image file, .png or .exr; with a camera path NAME_0000.png and so on");
+  command.option("-o,--output", o->output,
+                 "image file, .png or .exr; with a camera path NAME_0000.png and so on");
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
 }
 

@@ -31,7 +31,8 @@ void print_techniques() {
     if (!t->settings.empty()) fmt::print("{:<{}}settings: {}\n", "", column, with_defaults(t->settings));
   }
   fmt::print("{:<{}}settings: {}\n", "(all of them)", column, with_defaults(common_settings()));
-  fmt::print("\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
+  fmt::print(
+      "\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
   for (const SettingHelp& s : setting_help()) {
     fmt::print("{:<{}}{}: {}\n", s.key, column, fmt::join(s.values, " "), s.meaning);
   }
@@ -64,8 +65,8 @@ int list_techniques(const std::string& json) {
 
 void add_techniques(CommandLine& line) {
   auto json = std::make_shared<std::string>();
-  Subcommand command =
-      line.add("techniques", "the available techniques and settings", [json] { return list_techniques(*json); });
+  Subcommand command = line.add("techniques", "the available techniques and settings",
+                                [json] { return list_techniques(*json); });
   command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 

@@ -25,8 +25,9 @@ TemporaryCache::~TemporaryCache() {
 
 void TemporaryCache::tell() const {
   if (folder_.empty()) return;
-  log_info("{}: cannot be written; kernels are compiled in each run (set XDG_CACHE_HOME to a writable folder)",
-           unwritable_.string());
+  log_info(
+      "{}: cannot be written; kernels are compiled in each run (set XDG_CACHE_HOME to a writable folder)",
+      unwritable_.string());
 }
 
 }  // namespace lightgrid

@@ -21,20 +21,22 @@ constexpr uint64_t short_hunt = 1'000'000;  // contacts: a shorter hunt would ta
 double parse_minutes(const std::string& text) {
   double minutes = 0;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), minutes);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || !(minutes > 0 && minutes <= most_minutes))
+  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() ||
+      !(minutes > 0 && minutes <= most_minutes))
     throw input_error("--hunt {}: not a number of minutes above 0 and up to {}", text, most_minutes);
   return minutes;
 }
 
 void print(const verify::HuntReport& report) {
   const auto row = [](const verify::HuntTally& t) {
-    fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>8.0f} {:>8.0f}  {}\n", t.name, t.contacts, t.lost, t.views, t.refused,
-               t.shapes_differ, t.contacts ? t.seconds * 1e9 / double(t.contacts) : 0, t.cpu_ns_each, t.why);
+    fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>8.0f} {:>8.0f}  {}\n", t.name, t.contacts, t.lost,
+               t.views, t.refused, t.shapes_differ, t.contacts ? t.seconds * 1e9 / double(t.contacts) : 0,
+               t.cpu_ns_each, t.why);
     if (!t.refusal.empty()) fmt::print("  {:<13} refused: {}\n", t.name, t.refusal);
   };
   fmt::print("{}, seed {}\n", report.device, report.seed);
-  fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>8} {:>8}\n", "class", "contacts", "lost", "views", "refused", "differ",
-             "ns each", "cpu ns");
+  fmt::print("  {:<13} {:>12} {:>8} {:>7} {:>7} {:>7} {:>8} {:>8}\n", "class", "contacts", "lost", "views",
+             "refused", "differ", "ns each", "cpu ns");
   for (const verify::HuntTally& tally : report.classes) row(tally);
   row(report.total());
   for (const std::string& folder : report.saved) fmt::print("saved {}\n", folder);
@@ -43,16 +45,24 @@ void print(const verify::HuntReport& report) {
 }  // namespace
 
 void add_hunt_options(Subcommand& command, HuntCommand& o) {
-  command.option("--hunt", o.minutes, "instead, minutes of random views with lights that barely reach a pixel, on one device");
-  command.option("--contacts", o.contacts, "with --hunt: ends after this many contacts instead of a time; 0: by time");
+  command.option("--hunt", o.minutes,
+                 "instead, minutes of random views with lights that barely reach a pixel, on one device");
+  command.option("--contacts", o.contacts,
+                 "with --hunt: ends after this many contacts instead of a time; 0: by time");
   command.option("--seed", o.seed, "with --hunt: seed of its random numbers");
-  command.option("--save", o.save, "with --hunt: a folder for losing views, as captured frames with the fewest lights");
+  command.option("--save", o.save,
+                 "with --hunt: a folder for losing views, as captured frames with the fewest lights");
 }
 
 int run_hunt(const HuntCommand& o, verify::CullEngine& engine, const std::string& filter,
              const std::string& json) {
-  verify::HuntOptions options{.minutes = parse_minutes(o.minutes), .contacts = o.contacts, .seed = o.seed, .filter = filter,
-                              .few_settings = o.contacts > 0 && o.contacts < short_hunt, .save = o.save, .progress = progress_bar()};
+  verify::HuntOptions options{.minutes = parse_minutes(o.minutes),
+                              .contacts = o.contacts,
+                              .seed = o.seed,
+                              .filter = filter,
+                              .few_settings = o.contacts > 0 && o.contacts < short_hunt,
+                              .save = o.save,
+                              .progress = progress_bar()};
   const verify::HuntReport report = verify::hunt(engine, options);
   if (!json.empty()) write_json(json, verify::to_json(report).dump(1) + "\n");
   if (json != "-") print(report);

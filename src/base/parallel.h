@@ -1,4 +1,5 @@
-// A plain parallel for over [0, count), for work on the CPU that is not a kernel: the oracle, metrics, loading.
+// A plain parallel for over [0, count), for work on the CPU that is not a kernel: the oracle, metrics,
+// loading.
 #pragma once
 
 #include <algorithm>

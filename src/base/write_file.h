@@ -10,7 +10,8 @@
 
 namespace lightgrid {
 
-// "PATH: cannot be written: REASON" of an errno: a machine error if the disk is full or fails, otherwise an input error.
+// "PATH: cannot be written: REASON" of an errno: a machine error if the disk is full or fails, otherwise an
+// input error.
 Error write_error(const std::filesystem::path& path, int code);
 
 // Writes to a temporary name beside `path` and renames, so that neither a reader nor an interrupted run finds

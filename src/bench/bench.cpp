@@ -15,13 +15,19 @@ namespace {
 
 nlohmann::ordered_json machine_of(const ClDeviceInfo& info) {
   const char* threads = std::getenv("POCL_MAX_PTHREAD_COUNT");
-  return {{"device", info.name},           {"platform", info.platform}, {"vendor", info.vendor},
-          {"driver", info.driver},         {"version", info.version},   {"cpu", info.cpu},
-          {"compute_units", info.compute_units}, {"pocl_threads", threads ? nlohmann::ordered_json(threads) : nullptr},
+  return {{"device", info.name},
+          {"platform", info.platform},
+          {"vendor", info.vendor},
+          {"driver", info.driver},
+          {"version", info.version},
+          {"cpu", info.cpu},
+          {"compute_units", info.compute_units},
+          {"pocl_threads", threads ? nlohmann::ordered_json(threads) : nullptr},
           {"commit", commit_of_build()}};
 }
 
-nlohmann::ordered_json params_of(const CapturedFrame& frame, const std::string& compared, const CullingRun& run) {
+nlohmann::ordered_json params_of(const CapturedFrame& frame, const std::string& compared,
+                                 const CullingRun& run) {
   const LightGrid& grid = run.grid();
   const double cells = double(grid.cells_x) * grid.cells_y * grid.slices;
   nlohmann::ordered_json params = {{"frame", frame.name},
@@ -73,8 +79,8 @@ std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, c
 }
 
 // The rows of one case of culling before filtering.
-std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options, const BenchCase& c,
-                                   const CapturedFrame& frame, const Limits& limits) {
+std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options,
+                                   const BenchCase& c, const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;
   std::vector<CullingRun*> in_turn;
   const cl::Buffer depth = upload_depth(device, frame);
@@ -106,7 +112,8 @@ std::vector<BenchRow> measure_raster(ClDevice& device, ProgramCache& programs, c
   std::vector<std::unique_ptr<RasterRun>> runs;
   std::vector<std::function<void()>> work;
   for (const BenchContestant& contestant : options.contestants) {
-    runs.push_back(std::make_unique<RasterRun>(device, programs, scene, c.recipe.width, c.recipe.height, contestant.settings));
+    runs.push_back(std::make_unique<RasterRun>(device, programs, scene, c.recipe.width, c.recipe.height,
+                                               contestant.settings));
     work.push_back([run = runs.back().get()] { run->run(); });
   }
   Rounds rounds{options.warmup, options.frames, {}};
@@ -125,7 +132,8 @@ std::vector<BenchRow> measure_raster(ClDevice& device, ProgramCache& programs, c
                       {"tile_entries", of_run.tile_entries},
                       {"settings", to_strings(options.contestants[i].settings)}},
                      of_run});
-    if (!options.contestants[i].compared.empty()) about.back().params["compared"] = options.contestants[i].compared;
+    if (!options.contestants[i].compared.empty())
+      about.back().params["compared"] = options.contestants[i].compared;
   }
   return rows_in_turn(about, measured, limits);
 }
@@ -138,13 +146,15 @@ std::vector<std::string> row_names(ClDevice& device, ProgramCache& programs, con
   std::vector<std::string> names;
   Limits none;
   none.operations = 1, none.flops.min = 1;
-  for (const BenchRow& row : measure_case(device, programs, small, tiny, make_standard_frame(tiny.recipe), none)) {
+  for (const BenchRow& row :
+       measure_case(device, programs, small, tiny, make_standard_frame(tiny.recipe), none)) {
     if (std::find(names.begin(), names.end(), row.name) == names.end()) names.push_back(row.name);
   }
   return names;
 }
 
-void keep_rows(BenchReport& report, const BenchOptions& options, const RowFilter& filter, std::vector<BenchRow> rows) {
+void keep_rows(BenchReport& report, const BenchOptions& options, const RowFilter& filter,
+               std::vector<BenchRow> rows) {
   std::erase_if(rows, [&](const BenchRow& row) { return !filter.keeps(row.case_name, row.name); });
   if (options.found && !rows.empty()) options.found(rows);
   report.rows.insert(report.rows.end(), rows.begin(), rows.end());
@@ -158,7 +168,8 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options) {
   const std::vector<std::string> names = row_names(device, programs, options);
   const auto wanted = [&](const BenchCase& c) {
     const std::vector<std::string>& rows = c.raster.empty() ? names : raster_rows();
-    return std::any_of(rows.begin(), rows.end(), [&](const std::string& name) { return filter.keeps(c.name, name); });
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](const std::string& name) { return filter.keeps(c.name, name); });
   };
   BenchReport report;
   report.machine = machine_of(device.info());

@@ -1,4 +1,5 @@
-// The benchmark of the culling pipeline and of the rasteriser: limits first, then each case with its contestants in turn.
+// The benchmark of the culling pipeline and of the rasteriser: limits first, then each case with its
+// contestants in turn.
 #pragma once
 
 #include <filesystem>

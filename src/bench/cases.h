@@ -15,7 +15,8 @@ struct BenchCase {
   FrameRecipe recipe;
   std::function<CapturedFrame()> captured{};  // called when the case runs; empty: the recipe
   int tile = 0;                               // the case's own tile size; 0: from the settings
-  std::string raster{};  // a built-in scene: its triangles are drawn, at the recipe's size, instead of culling
+  std::string
+      raster{};  // a built-in scene: its triangles are drawn, at the recipe's size, instead of culling
 };
 
 // The standard frames, then scaling in lights, tile size and resolution; then the rasteriser.

@@ -4,8 +4,8 @@
 
 namespace lightgrid {
 
-CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const cl::Buffer& depth,
-                       const Settings& settings)
+CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
+                       const cl::Buffer& depth, const Settings& settings)
     : device_(device),
       settings_(grid_settings(settings, grid_needs("forward_plus", settings))),
       lights_(cull_lights_of(frame)),
@@ -18,9 +18,7 @@ CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedF
   for (int i = 0; i < 2; ++i) run();
 }
 
-void CullingRun::run() {
-  grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_);
-}
+void CullingRun::run() { grid_ = culler_->cull(culler_->depth_bounds({depth_}).opaque, storage_); }
 
 void CullingRun::upload_lights() {
   culler_->set_lights(lights_);

@@ -11,7 +11,9 @@ constexpr size_t depth_bytes = size_t(1920) * 1080 * sizeof(float);
 constexpr size_t gpu_group = 256;
 constexpr int chains = 12, vector_width = 16;  // of the arithmetic kernels
 
-cl::Buffer device_buffer(ClDevice& device, size_t bytes) { return {device.context(), CL_MEM_READ_WRITE, bytes}; }
+cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
+  return {device.context(), CL_MEM_READ_WRITE, bytes};
+}
 
 double device_ms(ClDevice& device) {
   double ms = 0;
@@ -45,7 +47,8 @@ Spread copy_ms(ClDevice& device, const cl::Buffer& from, size_t bytes, int runs)
 Spread flops_ms(ClDevice& device, ProgramCache& programs, int runs, double& operations) {
   const bool cpu = device.info().cpu;
   cl::Kernel kernel = programs.kernel(cpu ? "cpu/limits_flops" : "gpu/limits_flops", "");
-  const size_t items = cpu ? 4 * size_t(device.info().compute_units) : gpu_group * 32 * device.info().compute_units;
+  const size_t items =
+      cpu ? 4 * size_t(device.info().compute_units) : gpu_group * 32 * device.info().compute_units;
   const cl_uint steps = cpu ? 20000 : 4000;
   const cl::Buffer results = device_buffer(device, items * sizeof(float));
   operations = 2.0 * chains * steps * double(items) * (cpu ? vector_width : 1);
@@ -68,9 +71,8 @@ void measure_launches(ClDevice& device, ProgramCache& programs, int runs, Limits
   const cl::Buffer unused = device_buffer(device, 64);
   limits.launch_wait = repeat(4 * runs, [&] { return launches_ms(device, empty, unused, 1); });
   const double one = limits.launch_wait.median;
-  limits.more_launch = repeat(runs, [&] {
-    return std::max(0.0, (launches_ms(device, empty, unused, many) - one) / (many - 1));
-  });
+  limits.more_launch = repeat(
+      runs, [&] { return std::max(0.0, (launches_ms(device, empty, unused, many) - one) / (many - 1)); });
 }
 
 void measure_transfers(ClDevice& device, int runs, Limits& limits) {
@@ -106,7 +108,8 @@ PlainRead::PlainRead(ClDevice& device, ProgramCache& programs)
 
 double PlainRead::run(const cl::Buffer& buffer, size_t bytes) {
   const size_t vector_bytes = device_.info().cpu ? 64 : 16;
-  launch(device_, "plain_read", kernel_, items_, group_, buffer, cl_uint(bytes_read(bytes) / vector_bytes), sums_);
+  launch(device_, "plain_read", kernel_, items_, group_, buffer, cl_uint(bytes_read(bytes) / vector_bytes),
+         sums_);
   return device_ms(device_);
 }
 

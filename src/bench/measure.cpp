@@ -77,7 +77,8 @@ void measure_transfers(CullingRun& run, MeasuredRun& result) {
 
 }  // namespace
 
-std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::function<void()>>& work, const Rounds& rounds,
+std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::function<void()>>& work,
+                                      const Rounds& rounds,
                                       const std::function<void(bool counts)>& end_of_round) {
   std::vector<Samples> samples(work.size());
   for (int round = -rounds.warmup; round < rounds.timed; ++round) {

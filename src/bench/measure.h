@@ -21,7 +21,7 @@ struct MeasuredRun {
                                 // of `wall`
   std::vector<Kernel> kernels;  // in order of first launch
   Spread lights_upload, grid_download;  // of culling: wall clock, each with its wait
-  Spread overhead;              // wall minus device, for the runs timed by events
+  Spread overhead;                      // wall minus device, for the runs timed by events
 };
 
 struct MeasuredFrame {
@@ -35,13 +35,14 @@ struct Rounds {
   std::function<void(double done)> progress;  // may be empty
 };
 
-// In each round each piece of work runs once for the wall clock and once for the device's. end_of_round is then called:
-// whether the round counts. Each ends with a wait.
-std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::function<void()>>& work, const Rounds& rounds,
+// In each round each piece of work runs once for the wall clock and once for the device's. end_of_round is
+// then called: whether the round counts. Each ends with a wait.
+std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::function<void()>>& work,
+                                      const Rounds& rounds,
                                       const std::function<void(bool counts)>& end_of_round);
 
-// The same of culling. In each round each contestant runs once for the wall clock and once for the device's, and the depth buffer
-// is read once, so that other load on the machine affects all of them.
+// The same of culling. In each round each contestant runs once for the wall clock and once for the device's,
+// and the depth buffer is read once, so that other load on the machine affects all of them.
 MeasuredFrame measure_in_turn(ClDevice& device, const std::vector<CullingRun*>& contestants, PlainRead& read,
                               const Rounds& rounds);
 

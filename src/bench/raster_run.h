@@ -1,5 +1,5 @@
-// A built-in scene's opaque and masked triangles, for repeated rasterising. Masks are not looked up: masked triangles are
-// drawn whole.
+// A built-in scene's opaque and masked triangles, for repeated rasterising. Masks are not looked up: masked
+// triangles are drawn whole.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ const std::vector<std::string>& raster_rows();
 class RasterRun {
  public:
   // The scene's first camera. Draws twice, so that kernels are built and room has its size.
-  RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height, const Settings& settings);
+  RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height,
+            const Settings& settings);
 
   // Vertices to the visibility buffer, with the wait in which the rasteriser reads its counters.
   void run() { rasterizer_.draw(); }

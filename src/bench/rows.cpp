@@ -33,12 +33,14 @@ std::vector<BenchRow> limit_rows(const Limits& l) {
           limit_row("to_host", "transfer", l.to_host, depth)};
 }
 
-std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const MeasuredFrame& frame,
-                                      const Limits& limits) {
+std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run,
+                                      const MeasuredFrame& frame, const Limits& limits) {
   const double depth_bytes = double(PlainRead::bytes_read(4 * about.work.pixels));
   const bool culls = frame.plain_read.runs > 0;
-  const double read_gb_s = culls && depth_bytes > 0 ? 1e-6 * depth_bytes / frame.least_read_ms : limits.read_depth_gb_s();
-  const auto row = [&](const std::string& name, const char* kind, const Spread& ms, std::optional<KernelCost> cost) {
+  const double read_gb_s =
+      culls && depth_bytes > 0 ? 1e-6 * depth_bytes / frame.least_read_ms : limits.read_depth_gb_s();
+  const auto row = [&](const std::string& name, const char* kind, const Spread& ms,
+                       std::optional<KernelCost> cost) {
     BenchRow r{name, kind, about.case_name, about.params, ms, cost, {}, {}};
     if (cost) r.limit_ms = least_ms(*cost, read_gb_s, limits);
     return r;
@@ -88,11 +90,13 @@ nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device) {
 }
 
 std::string table_head() {
-  return fmt::format("{:<18}{:<20}{:>9}{:>9}{:>9}{:>9}{:>7}  {}\n", "case", "", "min ms", "median", "p90", "limit", "share", "");
+  return fmt::format("{:<18}{:<20}{:>9}{:>9}{:>9}{:>9}{:>7}  {}\n", "case", "", "min ms", "median", "p90",
+                     "limit", "share", "");
 }
 
 std::string table_line(const BenchRow& row) {
-  std::string line = fmt::format("{:<18}{:<20}{:>9.4f}{:>9.4f}{:>9.4f}", row.case_name, row.name, row.ms.min, row.ms.median, row.ms.p90);
+  std::string line = fmt::format("{:<18}{:<20}{:>9.4f}{:>9.4f}{:>9.4f}", row.case_name, row.name, row.ms.min,
+                                 row.ms.median, row.ms.p90);
   if (row.limit_ms && row.ms.min > 0) {
     line += fmt::format("{:>9.4f}{:>6.0f}%", *row.limit_ms, 100 * *row.limit_ms / row.ms.min);
   } else {

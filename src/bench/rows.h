@@ -35,8 +35,8 @@ struct ContestantParams {
 };
 
 // Of culling, whose frame has a plain read of its depth, or of the rasteriser, which has none.
-std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run, const MeasuredFrame& frame,
-                                      const Limits& limits);
+std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run,
+                                      const MeasuredFrame& frame, const Limits& limits);
 
 nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device);
 std::string table_line(const BenchRow& row);

@@ -48,7 +48,8 @@ struct TileGrid {
 };
 
 TileGrid tile_grid(const std::vector<float>& distances, int width, int height) {
-  TileGrid grid{borders(width, room_tan_y * float(width) / float(height)), borders(height, room_tan_y), {}, {}};
+  TileGrid grid{
+      borders(width, room_tan_y * float(width) / float(height)), borders(height, room_tan_y), {}, {}};
   const int tiles_x = grid.tiles_x();
   grid.near.assign(size_t(tiles_x) * (grid.y.slope.size() - 1), 1e9f);
   grid.far.assign(grid.near.size(), 0);
@@ -88,13 +89,15 @@ size_t tiles_listing(const TileGrid& grid, const Light& light, float radius) {
   return count;
 }
 
-double mean_listed(const TileGrid& grid, const std::vector<Light>& lights, const std::vector<float>& radii, float scale) {
+double mean_listed(const TileGrid& grid, const std::vector<Light>& lights, const std::vector<float>& radii,
+                   float scale) {
   constexpr int chunk = 1024;
   const int chunks = int((lights.size() + chunk - 1) / chunk);
   std::vector<size_t> listed(chunks, 0);
   parallel_for(chunks, [&](int c) {
     const size_t end = std::min(lights.size(), size_t(c + 1) * chunk);
-    for (size_t i = size_t(c) * chunk; i < end; ++i) listed[c] += tiles_listing(grid, lights[i], scale * radii[i]);
+    for (size_t i = size_t(c) * chunk; i < end; ++i)
+      listed[c] += tiles_listing(grid, lights[i], scale * radii[i]);
   });
   return double(std::accumulate(listed.begin(), listed.end(), size_t(0))) / double(grid.near.size());
 }
@@ -104,7 +107,8 @@ std::vector<Light> scatter_in_view(int count, Random& random, std::vector<float>
   std::vector<Light> lights(count);
   for (Light& light : lights) {
     const float d = random.uniform(2, room_back), half = std::min(d * tan_x * 1.05f, 70.0f);
-    const float x = random.uniform(-half, half), y = random.uniform(room_floor, std::min(20.0f, d * room_tan_y));
+    const float x = random.uniform(-half, half),
+                y = random.uniform(room_floor, std::min(20.0f, d * room_tan_y));
     // Whole millimetres are short in a file: a million lights stay below the size limit of a lights file.
     light.position = glm::round(glm::dvec3(x, y, -d) * 1000.0) / 1000.0;
     radii.push_back(random.uniform(0.6f, 1.4f));

@@ -21,7 +21,8 @@ std::vector<Shape> make_boxes(Random& random) {
   std::vector<Shape> shapes;
   for (int i = 0; i < boxes; ++i) {
     const float x = random.uniform(-55, 55), z = -random.uniform(8, 92);
-    const float half_x = random.uniform(0.7f, 3), height = random.uniform(1, 9), half_z = random.uniform(0.7f, 3);
+    const float half_x = random.uniform(0.7f, 3), height = random.uniform(1, 9),
+                half_z = random.uniform(0.7f, 3);
     shapes.push_back({{x - half_x, room_floor, z - half_z}, {x + half_x, room_floor + height, z + half_z}});
   }
   return shapes;
@@ -52,7 +53,8 @@ Outline outline_of(const Shape& s) {
 // The distance at which the ray (x, y, -1) enters the shape, or `nearest` if it does not do so before.
 float enter_box(const Shape& s, float x, float y, float nearest) {
   float t0 = -s.high.z, t1 = std::min(nearest, -s.low.z);
-  for (const auto& [low, high, slope] : {std::tuple(s.low.x, s.high.x, x), std::tuple(s.low.y, s.high.y, y)}) {
+  for (const auto& [low, high, slope] :
+       {std::tuple(s.low.x, s.high.x, x), std::tuple(s.low.y, s.high.y, y)}) {
     if (slope == 0 && (low > 0 || high < 0)) return nearest;
     if (slope == 0) continue;
     const float a = low / slope, b = high / slope;
@@ -104,7 +106,8 @@ std::vector<float> room_distances(const FrameRecipe& recipe) {
         for (int x = x0; x < x1; ++x) {
           const float sx = slope_x(x + 0.5f), sy = slope_y(y + 0.5f);
           float t = room_distance(sy);
-          for (const Shape* s : near_shapes) t = recipe.spheres ? enter_ball(*s, sx, sy, t) : enter_box(*s, sx, sy, t);
+          for (const Shape* s : near_shapes)
+            t = recipe.spheres ? enter_ball(*s, sx, sy, t) : enter_box(*s, sx, sy, t);
           distances[size_t(y) * width + x] = t;
         }
       }

@@ -78,7 +78,8 @@ TuneResult tune_kernels(ClDevice& device, const TuneOptions& options) {
   TuneResult result;
   Settings settings;
   for (const std::string& key : tunable_settings()) {
-    if (key == "group-size" && settings.kernel_shape != KernelShape::group) continue;  // applies to that shape alone
+    if (key == "group-size" && settings.kernel_shape != KernelShape::group)
+      continue;  // applies to that shape alone
     std::vector<Candidate> candidates = candidates_of(key, settings);
     for (size_t i = 0; i < frames.size(); ++i) {
       if (options.step) options.step(double(i) / double(frames.size()), key);

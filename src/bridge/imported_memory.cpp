@@ -81,7 +81,8 @@ ImportedMemory::ImportedMemory(ClDevice& cl, size_t bytes) : cl_(cl) {
 
 ImportedMemory::~ImportedMemory() { free_all(); }
 
-// Neither API may still use the memory. NVIDIA's OpenCL (580) waits for ever when a buffer is freed that it still owns.
+// Neither API may still use the memory. NVIDIA's OpenCL (580) waits for ever when a buffer is freed that it
+// still owns.
 void ImportedMemory::free_all() {
   if (in_cl_) release_(cl_.queue()(), 1, &cl_buffer_(), 0, nullptr, nullptr);
   in_cl_ = false;
@@ -136,8 +137,10 @@ void ImportedMemory::import_in_cl() {
 void ImportedMemory::enqueue(HandOver call, const char* name, std::span<ImportedMemory* const> memories) {
   std::vector<cl_mem> buffers;
   for (const ImportedMemory* memory : memories) buffers.push_back(memory->cl_buffer_());
-  const cl_int code = call(memories[0]->cl_.queue()(), cl_uint(buffers.size()), buffers.data(), 0, nullptr, nullptr);
-  if (code != CL_SUCCESS) throw machine_error("{} of {} buffers failed with {}", name, buffers.size(), cl_error_name(code));
+  const cl_int code =
+      call(memories[0]->cl_.queue()(), cl_uint(buffers.size()), buffers.data(), 0, nullptr, nullptr);
+  if (code != CL_SUCCESS)
+    throw machine_error("{} of {} buffers failed with {}", name, buffers.size(), cl_error_name(code));
 }
 
 void ImportedMemory::acquire(std::span<ImportedMemory* const> memories) {

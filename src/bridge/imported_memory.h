@@ -25,7 +25,8 @@ class ImportedMemory {
   GLuint gl_buffer() const { return gl_buffer_; }
   cl::Buffer& cl_buffer() { return cl_buffer_; }
 
-  // Enqueue the hand-over of all, as one command; OpenCL uses their memory only between the two. All are of one device.
+  // Enqueue the hand-over of all, as one command; OpenCL uses their memory only between the two. All are of
+  // one device.
   static void acquire(std::span<ImportedMemory* const> memories);
   static void release(std::span<ImportedMemory* const> memories);
   bool in_cl() const { return in_cl_; }  // between the two

@@ -62,7 +62,8 @@ BridgeKind choose_bridge(ClDevice& cl, const GlContext& gl) {
   if (const char* forced = std::getenv("LIGHTGRID_BRIDGE")) {
     const std::string_view name = forced;
     if (name == "staged") return BridgeKind::staged;
-    if (name != "imported") throw input_error("LIGHTGRID_BRIDGE: \"{}\" is not \"staged\" or \"imported\"", forced);
+    if (name != "imported")
+      throw input_error("LIGHTGRID_BRIDGE: \"{}\" is not \"staged\" or \"imported\"", forced);
     const std::string why = why_not_imported(cl, gl);
     if (!why.empty()) throw machine_error("LIGHTGRID_BRIDGE=imported: {}", why);
     return BridgeKind::imported;
@@ -121,8 +122,9 @@ SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
     if (!mapped_) throw machine_error("OpenGL could not map a buffer of {} bytes", bytes);
     // OpenGL guarantees 64 bytes (MIN_MAP_BUFFER_ALIGNMENT), the alignment of a kernel's float16.
     if (kind == BridgeKind::mapped && reinterpret_cast<std::uintptr_t>(mapped_) % sizeof(cl_float16) != 0) {
-      throw machine_error("OpenGL mapped a buffer at {}, not on {} bytes; LIGHTGRID_BRIDGE=staged needs no alignment", mapped_,
-                          sizeof(cl_float16));
+      throw machine_error(
+          "OpenGL mapped a buffer at {}, not on {} bytes; LIGHTGRID_BRIDGE=staged needs no alignment",
+          mapped_, sizeof(cl_float16));
     }
     if (kind == BridgeKind::mapped)
       cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, allocated, mapped_);
@@ -213,7 +215,8 @@ void SharedBuffer::hand_to_gl(size_t bytes) {
   }
   wait_for_copy();
   try {
-    cl_->queue().enqueueReadBuffer(cl_buffer_, CL_TRUE, 0, bytes, mapped_, nullptr, cl_->profiler().event("hand_to_gl"));
+    cl_->queue().enqueueReadBuffer(cl_buffer_, CL_TRUE, 0, bytes, mapped_, nullptr,
+                                   cl_->profiler().event("hand_to_gl"));
   } catch (const cl::Error& error) {
     throw cl_machine_error(error, "handing a buffer to OpenGL");
   }

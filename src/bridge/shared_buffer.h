@@ -19,14 +19,14 @@ enum class BridgeKind {
   none,      // no OpenGL: OpenCL's memory alone, never handed over
 };
 
-// The kind for these two devices: mapped on PoCL's CPU with a software GL, imported where both drive one GPU and a trial
-// succeeds, else staged. LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison), LIGHTGRID_BRIDGE=imported throws
-// Error(machine), naming the missing step, where memory cannot be imported; any other value is an input error.
-// The context is current.
+// The kind for these two devices: mapped on PoCL's CPU with a software GL, imported where both drive one GPU
+// and a trial succeeds, else staged. LIGHTGRID_BRIDGE=staged forces the copy (tests, comparison),
+// LIGHTGRID_BRIDGE=imported throws Error(machine), naming the missing step, where memory cannot be imported;
+// any other value is an input error. The context is current.
 BridgeKind choose_bridge(ClDevice& cl, const GlContext& gl);
 
-// The step that fails when both import one memory and each reads what the other wrote; empty if none does. The context is
-// current.
+// The step that fails when both import one memory and each reads what the other wrote; empty if none does.
+// The context is current.
 std::string why_not_imported(ClDevice& cl, const GlContext& gl);
 
 // OpenCL guarantees nothing for host memory used without map and unmap, but PoCL's CPU device keeps only one
@@ -48,7 +48,8 @@ class SharedBuffer {
 
   size_t size() const { return bytes_; }
   BridgeKind kind() const { return kind_; }
-  // For use by one API until the other one's is called. Imported: either waits for the other API, if that one had it.
+  // For use by one API until the other one's is called. Imported: either waits for the other API, if that one
+  // had it.
   cl::Buffer& cl_buffer();
   GLuint gl_buffer();  // 0: kind none
 
@@ -75,9 +76,9 @@ class SharedBuffer {
   BridgeKind kind_ = BridgeKind::staged;
   size_t bytes_ = 0;
   GLuint gl_buffer_ = 0;
-  GLuint staging_ = 0;      // staged only: memory that the host and GL's copies share
-  void* mapped_ = nullptr;  // mapped: the GL buffer's memory; staged: that of `staging_`
-  GLsync copied_ = nullptr; // staged: signalled when OpenGL has read the staging memory; null: already read
+  GLuint staging_ = 0;       // staged only: memory that the host and GL's copies share
+  void* mapped_ = nullptr;   // mapped: the GL buffer's memory; staged: that of `staging_`
+  GLsync copied_ = nullptr;  // staged: signalled when OpenGL has read the staging memory; null: already read
   cl::Buffer cl_buffer_;
   std::unique_ptr<ImportedMemory> imported_;  // of kind imported; gl_buffer_ and cl_buffer_ are then its own
 };

@@ -28,7 +28,12 @@ CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes)
   }
   const Scene& scene = gpu_.scene();
   const Settings& settings = view_.plan.settings;
-  return {scene.name, view, settings.tile, view_.plan.slice_far_m, lights_with_ranges(scene, settings.ranges), std::move(depth)};
+  return {scene.name,
+          view,
+          settings.tile,
+          view_.plan.slice_far_m,
+          lights_with_ranges(scene, settings.ranges),
+          std::move(depth)};
 }
 
 CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view,

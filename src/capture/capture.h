@@ -9,11 +9,12 @@ namespace lightgrid {
 // Frames of one scene, which is uploaded once.
 class SceneCapture {
  public:
-  // `view`: any view of the scene. settings.tile becomes the frames' tile size. The renderer and the scene outlive it.
+  // `view`: any view of the scene. settings.tile becomes the frames' tile size. The renderer and the scene
+  // outlive it.
   SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                const Technique& technique);
-  // Draws the depth prepass, or what the technique rasterises without OpenGL. `changes`: of the scene since the last
-  // frame.
+  // Draws the depth prepass, or what the technique rasterises without OpenGL. `changes`: of the scene since
+  // the last frame.
   CapturedFrame frame(const View& view, const SceneChanges& changes = {});
 
  private:

@@ -19,7 +19,8 @@ void add_masks(std::span<const uint32_t> masks, size_t cells, ListedLights& list
   }
 }
 
-ListedLights in_z_bins(const ListedLights& lists, std::span<const uint32_t> bin_of_pixel, std::span<const uint32_t> z_bins) {
+ListedLights in_z_bins(const ListedLights& lists, std::span<const uint32_t> bin_of_pixel,
+                       std::span<const uint32_t> z_bins) {
   ListedLights out;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> made;
   for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {

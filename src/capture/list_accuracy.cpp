@@ -26,17 +26,20 @@ LitBlocks find_lit_blocks(const CapturedFrame& frame) {
 
 ListedLights grid_lists(const FrameGrid& grid) {
   ListedLights lists{.indices = grid.lists.indices};
-  for (const glm::uvec2& cell : grid.lists.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  for (const glm::uvec2& cell : grid.lists.cells)
+    lists.first.push_back(cell.x), lists.count.push_back(cell.y);
   return lists;
 }
 
 std::string accuracy_line(const AccuracyRow& row) {
   const ListAccuracy& a = row.accuracy;
-  return fmt::format("{}: listed / lit {:.3f} (tiles: p99 {:.2f}, worst {:.2f}), perfect lists {:.3f}, {} lost\n",
-                     row.compared, over_lit(a.listed, a), a.p99, a.worst, over_lit(a.perfect, a), a.lost);
+  return fmt::format(
+      "{}: listed / lit {:.3f} (tiles: p99 {:.2f}, worst {:.2f}), perfect lists {:.3f}, {} lost\n",
+      row.compared, over_lit(a.listed, a), a.p99, a.worst, over_lit(a.perfect, a), a.lost);
 }
 
-std::string accuracy_json(const CapturedFrame& frame, const Settings& settings, const std::vector<AccuracyRow>& rows) {
+std::string accuracy_json(const CapturedFrame& frame, const Settings& settings,
+                          const std::vector<AccuracyRow>& rows) {
   nlohmann::json out = {{"scene", frame.name},
                         {"size", {frame.view.width, frame.view.height}},
                         {"settings", settings_json(to_strings(settings))},

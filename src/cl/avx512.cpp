@@ -5,8 +5,8 @@
 namespace lightgrid {
 namespace {
 
-// A CPU device of OpenCL is the processor that runs this program. PoCL prints to stderr where the probe does not build,
-// so it is not built where it cannot.
+// A CPU device of OpenCL is the processor that runs this program. PoCL prints to stderr where the probe does
+// not build, so it is not built where it cannot.
 bool processor_has_avx512() {
 #if defined(__x86_64__) || defined(__i386__)
   return __builtin_cpu_supports("avx512f");

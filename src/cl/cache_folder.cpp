@@ -18,7 +18,8 @@ std::filesystem::path path_in(const char* variable) {
 }  // namespace
 
 std::filesystem::path pocl_cache_folder() {
-  const std::filesystem::path named = path_in("POCL_CACHE_DIR"), cache = path_in("XDG_CACHE_HOME"), home = path_in("HOME");
+  const std::filesystem::path named = path_in("POCL_CACHE_DIR"), cache = path_in("XDG_CACHE_HOME"),
+                              home = path_in("HOME");
   if (!named.empty()) return named;
   if (!cache.empty()) return cache / "pocl" / "kcache";
   if (!home.empty()) return home / ".cache" / "pocl" / "kcache";

@@ -7,7 +7,8 @@
 
 namespace lightgrid {
 
-// The folder that PoCL uses: POCL_CACHE_DIR, else pocl/kcache in XDG_CACHE_HOME or in HOME's .cache, else in /tmp.
+// The folder that PoCL uses: POCL_CACHE_DIR, else pocl/kcache in XDG_CACHE_HOME or in HOME's .cache, else in
+// /tmp.
 std::filesystem::path pocl_cache_folder();
 
 // Creates the folder if missing. Returns why no file can be created in it; empty if one can.

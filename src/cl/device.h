@@ -34,7 +34,8 @@ class ClDevice {
   // queue belongs to others or is out of order. Launches are timed only if the queue has profiling enabled.
   ClDevice(const cl::Device& device, const cl::Context& context, const cl::CommandQueue& queue);
 
-  // Waits for what is still in its queue: PoCL ends a program with an error if it leaves while a kernel compiles.
+  // Waits for what is still in its queue: PoCL ends a program with an error if it leaves while a kernel
+  // compiles.
   ~ClDevice();
   ClDevice(const ClDevice&) = delete;
   ClDevice& operator=(const ClDevice&) = delete;

@@ -19,7 +19,8 @@ std::string common_options(const ClDeviceInfo& device) {
 
 bool builds_quickly() { return std::getenv("LIGHTGRID_CL_QUICK_BUILD") != nullptr; }
 
-// PoCL 3 includes clang's opencl-c.h before each program, where this macro is not defined yet (its _clang_opencl.h).
+// PoCL 3 includes clang's opencl-c.h before each program, where this macro is not defined yet (its
+// _clang_opencl.h).
 bool may_declare_builtins(const ClDeviceInfo& device) {
   return device.platform == "Portable Computing Language" && device.driver.starts_with("3.");
 }
@@ -107,7 +108,8 @@ cl::Program ProgramCache::load_or_build(const std::string& kernel_file, const st
   const ClDeviceInfo& info = device_.info();
   const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.name, info.version,
                                       info.driver, options, source);
-  const std::filesystem::path file = folder_.empty() ? "" : program_file_path(folder_, entry_point(kernel_file), key);
+  const std::filesystem::path file =
+      folder_.empty() ? "" : program_file_path(folder_, entry_point(kernel_file), key);
   if (!file.empty()) {
     const std::vector<unsigned char> binary = read_program_file(file, key);
     if (!binary.empty()) {

@@ -24,14 +24,13 @@ class ProgramCache {
   // time.
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
-  // The kernel of the embedded file "kernels/<file>.cl" (e.g. "cpu/depth_bounds") with its includes, built with the
-  // options that all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16 -DTILE=16"). It has the
-  // file's own name, without the folder.
+  // The kernel of the embedded file "kernels/<file>.cl" (e.g. "cpu/depth_bounds") with its includes, built
+  // with the options that all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16
+  // -DTILE=16"). It has the file's own name, without the folder.
   cl::Kernel kernel(const std::string& file, const std::string& defines);
 
   // The same for a source that is not embedded; `file` names it in messages (tests, tools).
-  cl::Kernel kernel_of_source(const std::string& file, const std::string& source,
-                              const std::string& defines);
+  cl::Kernel kernel_of_source(const std::string& file, const std::string& source, const std::string& defines);
 
   struct Counts {
     int built = 0;      // compiled from source

@@ -20,12 +20,14 @@ constexpr size_t largest_pattern = 128;  // OpenCL's limit for a fill: the wides
 
 }  // namespace
 
-void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, void* to, size_t bytes, size_t offset) {
+void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, void* to, size_t bytes,
+                 size_t offset) {
   if (bytes == 0) return;
   checked(what, [&] { device.queue().enqueueReadBuffer(from, CL_TRUE, offset, bytes, to); });
 }
 
-void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes, size_t offset) {
+void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes,
+                  size_t offset) {
   if (bytes == 0) return;
   checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from); });
 }
@@ -36,8 +38,8 @@ void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, con
   assert(bytes % 4 == 0);
   for (size_t offset = 0, size = largest_pattern; offset < bytes; size /= 2) {
     for (; offset + size <= bytes; offset += size) {
-      const cl_int code = clEnqueueFillBuffer(device.queue()(), to(), static_cast<const char*>(from) + offset, size,
-                                              offset, size, 0, nullptr, nullptr);
+      const cl_int code = clEnqueueFillBuffer(device.queue()(), to(), static_cast<const char*>(from) + offset,
+                                              size, offset, size, 0, nullptr, nullptr);
       if (code != CL_SUCCESS) throw cl_machine_error(cl::Error(code, "clEnqueueFillBuffer"), what);
     }
   }
@@ -48,9 +50,12 @@ void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, c
   checked(what, [&] { device.queue().enqueueFillBuffer(buffer, value, 0, bytes); });
 }
 
-void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, const cl::Buffer& to, size_t bytes) {
+void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, const cl::Buffer& to,
+                 size_t bytes) {
   if (bytes == 0) return;
-  checked(what, [&] { device.queue().enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, device.profiler().event(what)); });
+  checked(what, [&] {
+    device.queue().enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, device.profiler().event(what));
+  });
 }
 
 void finish_queue(ClDevice& device, const char* what) {

@@ -32,7 +32,8 @@ Json read_all(const std::filesystem::path& file) {
 
 std::filesystem::path tuned_sizes_file() {
   const char* named = std::getenv("LIGHTGRID_TUNED");
-  if (named && *named) return std::string(named) == "off" ? std::filesystem::path() : std::filesystem::path(named);
+  if (named && *named)
+    return std::string(named) == "off" ? std::filesystem::path() : std::filesystem::path(named);
   const std::filesystem::path programs = ProgramCache::default_folder();
   return programs.empty() ? programs : programs.parent_path() / "tuned.json";
 }
@@ -48,7 +49,8 @@ TunedSizes read_tuned_sizes(const ClDeviceInfo& device, const std::filesystem::p
   return sizes;
 }
 
-void write_tuned_sizes(const ClDeviceInfo& device, const TunedSizes& sizes, const std::filesystem::path& file) {
+void write_tuned_sizes(const ClDeviceInfo& device, const TunedSizes& sizes,
+                       const std::filesystem::path& file) {
   if (file.empty()) throw input_error("LIGHTGRID_TUNED is off: there is no file for tuned sizes");
   Json all = read_all(file);
   all[key_of(device)] = sizes;

@@ -19,7 +19,8 @@ std::filesystem::path tuned_sizes_file();
 
 // The entry for this device and driver; empty if there is none, or no such file. Never throws: the cache is
 // optional. Values are not checked: readers ignore unknown ones.
-TunedSizes read_tuned_sizes(const ClDeviceInfo& device, const std::filesystem::path& file = tuned_sizes_file());
+TunedSizes read_tuned_sizes(const ClDeviceInfo& device,
+                            const std::filesystem::path& file = tuned_sizes_file());
 
 // Replaces the entry of this device and keeps the others. Throws Error(input) if the file cannot be written.
 void write_tuned_sizes(const ClDeviceInfo& device, const TunedSizes& sizes,

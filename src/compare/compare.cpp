@@ -72,13 +72,15 @@ std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& v
   for (const Contestant& c : contestants) {
     Entry& entry = entries.emplace_back(&c);
     const auto pool = reference.is(*c.technique, c.settings) ? nullptr : shared;
-    attempt(entry, [&] { entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique, pool); });
+    attempt(entry, [&] {
+      entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique, pool);
+    });
   }
   return entries;
 }
 
-// OpenGL keeps images that it still draws or has bound, and glibc what is freed, in pieces that the next stage's
-// images do not fit.
+// OpenGL keeps images that it still draws or has bound, and glibc what is freed, in pieces that the next
+// stage's images do not fit.
 void return_freed_memory(const Renderer& renderer) {
   if (renderer.gl) {
     reset_gl_state();
@@ -172,7 +174,9 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
       throw machine_error("reference sampled: shades with OpenGL; {}", renderer.why_no_gl);
     return;
   }
-  if (options.reference == ReferencePixels::full || (automatic && is_quick_for_forward(view, gpu.scene().lights.size(), options.most_reference_ms))) return;
+  if (options.reference == ReferencePixels::full ||
+      (automatic && is_quick_for_forward(view, gpu.scene().lights.size(), options.most_reference_ms)))
+    return;
   const auto of_reference = [&](const Entry& entry) {
     return entry.run && technique.is(entry.run->technique(), entry.contestant->settings);
   };
@@ -184,12 +188,16 @@ void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, 
   if (options.progress) options.progress(0, "estimating the reference's time");
   std::vector<PixelBlock> blocks = shuffled_blocks(view.width, view.height, options.seed);
   const double frame_ms = automatic ? estimate_forward_ms(run.view(), blocks) : 0;
-  if (automatic && frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms) return;
+  if (automatic &&
+      frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms)
+    return;
 
   const size_t most = sample_size(gpu.scene().lights.size()), a_block = PixelBlock::side * PixelBlock::side;
   blocks.resize(std::min(blocks.size(), (most + a_block - 1) / a_block));
-  const size_t pixels = pixels_of(blocks, view.width, view.height).size(), all = size_t(view.width) * size_t(view.height);
-  const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame", time_in_words(frame_ms))
+  const size_t pixels = pixels_of(blocks, view.width, view.height).size(),
+               all = size_t(view.width) * size_t(view.height);
+  const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame",
+                                                  time_in_words(frame_ms))
                                     : std::string("asked for");
   const std::string what = fmt::format("{} at {} of {} pixels ({}; reference full shades all)",
                                        technique.name(), with_commas(pixels), with_commas(all), why);
@@ -223,7 +231,8 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Reference& 
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
-  const bool is_copy = !is_reference && reference.in_report && !reference.sampled() && row.error->bit_identical;
+  const bool is_copy =
+      !is_reference && reference.in_report && !reference.sampled() && row.error->bit_identical;
   report.rows[place] = std::move(row);
   report.images[place] = run.take_image();
   if (is_copy) report.images[place] = Image();
@@ -234,30 +243,36 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Reference& 
 
 // Compares each image and the reference's with the oracle: at a sample of pixels, and where the images differ
 // most, so that no large difference is missed.
-void measure_against_oracle(CompareReport& report, const Reference& reference, const std::vector<float>& depth, size_t samples) {
+void measure_against_oracle(CompareReport& report, const Reference& reference,
+                            const std::vector<float>& depth, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
   const SurfaceOracle oracle(reference.run->view(), depth);
   std::vector<uint32_t> among = oracle.pixels();
   if (reference.sampled()) {
     const std::vector<uint32_t> sampled = pixels_of(reference.blocks, report.width, report.height);
-    std::erase_if(among, [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
+    std::erase_if(among,
+                  [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
-  std::vector<uint32_t> pixels = sample_pixels(among, affordable_samples(samples, reference.run->view().scene.lights.size()));
+  std::vector<uint32_t> pixels =
+      sample_pixels(among, affordable_samples(samples, reference.run->view().scene.lights.size()));
   report.reference_errors = measure_reference_errors(oracle, reference.image(), pixels);
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (!report.rows[i].error) continue;
-    const std::vector<uint32_t> worst = most_different(image_of(report, i), reference.image(), among, worst_of_a_row);
+    const std::vector<uint32_t> worst =
+        most_different(image_of(report, i), reference.image(), among, worst_of_a_row);
     pixels.insert(pixels.end(), worst.begin(), worst.end());
   }
   std::sort(pixels.begin(), pixels.end());
   pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
   const std::vector<glm::dvec3> radiance = oracle.shade(pixels, true);
   for (size_t i = 0; i < report.rows.size(); ++i) {
-    if (report.rows[i].error) report.rows[i].error->oracle = oracle_error(image_of(report, i), reference.image(), pixels, radiance);
+    if (report.rows[i].error)
+      report.rows[i].error->oracle = oracle_error(image_of(report, i), reference.image(), pixels, radiance);
   }
 }
 
-void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries, Reference& reference, const CompareOptions& options) {
+void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries, Reference& reference,
+              const CompareOptions& options) {
   if (options.path.empty()) return;
   std::vector<TechniqueRun*> runs;
   for (const Entry& entry : entries) runs.push_back(entry.refusal ? nullptr : entry.run.get());
@@ -266,8 +281,9 @@ void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries,
   });
 }
 
-// The reference first: images that equal it are then not kept. Then what takes most memory, while few images are
-// there: techniques with a copy of the scene in OpenCL, then those whose lists have an entry for each pixel.
+// The reference first: images that equal it are then not kept. Then what takes most memory, while few images
+// are there: techniques with a copy of the scene in OpenCL, then those whose lists have an entry for each
+// pixel.
 std::vector<size_t> order_of_rows(const std::vector<Entry>& entries, const TechniqueRun* reference) {
   std::vector<size_t> order(entries.size());
   std::iota(order.begin(), order.end(), size_t(0));
@@ -280,11 +296,13 @@ std::vector<size_t> order_of_rows(const std::vector<Entry>& entries, const Techn
 }
 
 bool any_has_own_surfaces(const std::vector<Entry>& entries) {
-  return std::ranges::any_of(entries, [](const Entry& e) { return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings); });
+  return std::ranges::any_of(entries, [](const Entry& e) {
+    return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings);
+  });
 }
 
-CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, const std::vector<Contestant>& contestants,
-                      const CompareOptions& options) {
+CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
+                      const std::vector<Contestant>& contestants, const CompareOptions& options) {
   CompareReport report;
   report.scene = scene.name;
   report.width = view.width, report.height = view.height;
@@ -307,7 +325,8 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, 
       continue;
     reference.run = entry.run.get();
   }
-  if (options.progress && (reference.sampled() || !reference.run)) options.progress(0.8, "reference: " + report.reference);
+  if (options.progress && (reference.sampled() || !reference.run))
+    options.progress(0.8, "reference: " + report.reference);
   if (reference.sampled()) {
     render_forward_at(reference.run->view(), reference.blocks, reference.sampled_image);
     report.reference_pixels = pixels_of(reference.blocks, view.width, view.height).size();
@@ -325,17 +344,20 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view, 
   std::optional<ShownTriangles> shown;
   if (renderer.gl && any_has_own_surfaces(entries) && !reference.sampled())
     shown = read_triangles(reference.run->view());
-  report.rows.resize(entries.size()), report.images.resize(entries.size()), report.listed.resize(entries.size());
+  report.rows.resize(entries.size()), report.images.resize(entries.size()),
+      report.listed.resize(entries.size());
   const std::vector<size_t> order = order_of_rows(entries, reference.run);
   for (size_t i = 0; i < order.size(); ++i) {
     Entry& entry = entries[order[i]];
-    if (options.progress) options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
+    if (options.progress)
+      options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
     // A refusal here keeps the run: it may be the reference.
     if (entry.run)
       attempt(
           entry, [&] { set_row(report, order[i], *entry.run, reference, depth, exposures, shown); }, false);
     if (entry.refusal) report.rows[order[i]] = refused_row(entry, reference.run->result());
-    if (entry.run && entry.run.get() != reference.run) options.path.empty() ? entry.run.reset() : entry.run->release();
+    if (entry.run && entry.run.get() != reference.run)
+      options.path.empty() ? entry.run.reset() : entry.run->release();
     if (options.path.empty() && !any_has_own_surfaces(entries)) gpu.free_in_cl();
     return_freed_memory(renderer);
   }

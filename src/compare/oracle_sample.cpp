@@ -13,7 +13,8 @@ double largest_difference(const glm::vec4& a, const glm::vec4& b) {
   double largest = 0;
   for (int c = 0; c < 3; ++c) {
     const double difference = a[c] == b[c] ? 0 : std::abs(double(a[c]) - double(b[c]));
-    largest = std::max(largest, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
+    largest =
+        std::max(largest, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
   }
   return largest;
 }
@@ -30,7 +31,10 @@ struct Sums {
 }  // namespace
 
 SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth)
-    : v_(v), depth_(depth), surfaces_(read_surfaces(v)), lights_(lights_in_view(v.scene, v.view, v.plan.settings.ranges)) {
+    : v_(v),
+      depth_(depth),
+      surfaces_(read_surfaces(v)),
+      lights_(lights_in_view(v.scene, v.view, v.plan.settings.ranges)) {
   for (const uint32_t pixel : covered_pixels(depth)) {
     surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);
   }
@@ -48,7 +52,8 @@ Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
   return picked;
 }
 
-std::vector<uint32_t> most_different(const Image& image, const Image& reference, const std::vector<uint32_t>& among, size_t most) {
+std::vector<uint32_t> most_different(const Image& image, const Image& reference,
+                                     const std::vector<uint32_t>& among, size_t most) {
   std::vector<std::pair<double, uint32_t>> differences;
   for (const uint32_t pixel : among) {
     const double difference = largest_difference(image.pixels[pixel], reference.pixels[pixel]);
@@ -74,7 +79,8 @@ OracleError oracle_error(const Image& image, const Image& reference, const std::
   const auto relative = [&](double error) {
     return error == 0 ? 0 : brightest > 0 ? error / brightest : std::numeric_limits<double>::infinity();
   };
-  return {relative(own.largest), relative(std::sqrt(own.squares / double(std::max<size_t>(3 * pixels.size(), 1)))),
+  return {relative(own.largest),
+          relative(std::sqrt(own.squares / double(std::max<size_t>(3 * pixels.size(), 1)))),
           relative(of_reference.largest)};
 }
 

@@ -31,7 +31,8 @@ class SurfaceOracle {
 Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels);
 
 // At most `most` pixels of `among`, those where the images differ most; without pixels that are equal.
-std::vector<uint32_t> most_different(const Image& image, const Image& reference, const std::vector<uint32_t>& among, size_t most);
+std::vector<uint32_t> most_different(const Image& image, const Image& reference,
+                                     const std::vector<uint32_t>& among, size_t most);
 
 // Both images against `radiance`, the oracle's at `pixels`, relative to the brightest channel of the
 // reference.

@@ -65,7 +65,8 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
   std::vector<std::pair<std::string, std::vector<double>>> by_name;
   for (const std::vector<KernelTime>& run : pass.kernels) {
     for (const KernelTime& kernel : run) {
-      auto found = std::ranges::find(by_name, kernel.name, &std::pair<std::string, std::vector<double>>::first);
+      auto found =
+          std::ranges::find(by_name, kernel.name, &std::pair<std::string, std::vector<double>>::first);
       if (found == by_name.end()) found = by_name.insert(by_name.end(), {kernel.name, {}});
       found->second.push_back(kernel.ms);
     }
@@ -83,8 +84,8 @@ RunResult TechniqueRun::result() const {
   result.lights_in_view = view_.plan.lights_in_view;
   result.frame_ms = spread_of(frame_ms_);
   for (const PassRecord& record : view_.timer.records()) {
-    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read, record.bytes_written,
-                             kernel_results(record)});
+    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read,
+                             record.bytes_written, kernel_results(record)});
   }
   result.memory_total = view_.memory_bytes();
   result.memory_light_grid = frame_.light_grid_bytes();

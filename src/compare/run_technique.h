@@ -14,10 +14,11 @@ class TechniqueRun {
  public:
   // pool: images that runs share (RenderView); call draw_frame() before reading targets after other runs'
   // frames.
-  TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const Technique& technique,
-               std::shared_ptr<TargetPool> pool = nullptr);
+  TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+               const Technique& technique, std::shared_ptr<TargetPool> pool = nullptr);
   // With its own GPU scene.
-  TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings, const Technique& technique);
+  TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
+               const Technique& technique);
 
   // Builds what frames of other views of the scene need: before a camera moves (RenderView::prepare).
   void prepare();
@@ -39,12 +40,12 @@ class TechniqueRun {
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.
   void run_profiled_frames(double most_ms = 1000);
 
-  // Frees what the next frame creates again (RenderView::release). All runs of a pool have to be released before one
-  // of them draws again.
+  // Frees what the next frame creates again (RenderView::release). All runs of a pool have to be released
+  // before one of them draws again.
   void release();
 
   const Image& image() const { return image_; }
-  Image take_image() { return std::exchange(image_, {}); }  // image() is empty until the next run_frame()
+  Image take_image() { return std::exchange(image_, {}); }    // image() is empty until the next run_frame()
   void reuse(Image&& memory) { image_ = std::move(memory); }  // for the next frame's image
   RenderView& view() { return view_; }
   const Frame& frame() const { return frame_; }  // the last one

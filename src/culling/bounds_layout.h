@@ -9,7 +9,8 @@
 namespace lightgrid {
 
 inline constexpr size_t counter_count = 8;
-// Counters of tiles with an invalid depth. depth_bounds counts in one and clears the other, in turn: cheaper than a fill.
+// Counters of tiles with an invalid depth. depth_bounds counts in one and clears the other, in turn: cheaper
+// than a fill.
 inline constexpr uint invalid_tiles_counters[2] = {2, 6};
 
 inline int planes_of(DepthBoundsMode mode) {

@@ -29,7 +29,9 @@ struct PipelineOptions {
   bool operator==(const PipelineOptions&) const = default;
 };
 
-inline std::string index_define(const PipelineOptions& options) { return options.index_bytes == 4 ? " -DINDEX_32" : ""; }
+inline std::string index_define(const PipelineOptions& options) {
+  return options.index_bytes == 4 ? " -DINDEX_32" : "";
+}
 
 class CullPipeline {
  public:
@@ -47,7 +49,9 @@ class CullPipeline {
   virtual size_t memory_bytes() const = 0;
 };
 
-std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
-std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options);
+std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs,
+                                                  const PipelineOptions& options);
+std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs,
+                                                  const PipelineOptions& options);
 
 }  // namespace lightgrid

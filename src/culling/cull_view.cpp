@@ -32,8 +32,10 @@ void check_edges(const CullView& view, const std::vector<float>& edges, const ch
   if (edges.size() >= most) throw input_error("view: {} {} are more than {}", edges.size(), name, most - 1);
   for (size_t i = 0; i < edges.size(); ++i) {
     const float edge = edges[i], before = i ? edges[i - 1] : -INFINITY;
-    if (!std::isfinite(edge) || !(edge >= before)) throw input_error("view: {}[{}] is {} after {}", name, i, edge, before);
-    if (!(edge > 0) && !is_orthographic(view)) throw input_error("view: {}[{}] is {}, not in front of the eye", name, i, edge);
+    if (!std::isfinite(edge) || !(edge >= before))
+      throw input_error("view: {}[{}] is {} after {}", name, i, edge, before);
+    if (!(edge > 0) && !is_orthographic(view))
+      throw input_error("view: {}[{}] is {}, not in front of the eye", name, i, edge);
   }
 }
 
@@ -41,8 +43,10 @@ void check_edges(const CullView& view, const std::vector<float>& edges, const ch
 
 std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, double far_m) {
   if (spacing == SliceSpacing::exponential && !(near_m > 0)) {
-    if (far_m > 0) near_m = far_m / 1000;
-    else spacing = SliceSpacing::linear;
+    if (far_m > 0)
+      near_m = far_m / 1000;
+    else
+      spacing = SliceSpacing::linear;
   }
   std::vector<float> edges;
   for (int k = 1; k < slices; ++k) {
@@ -53,8 +57,12 @@ std::vector<float> slice_edges(SliceSpacing spacing, int slices, double near_m, 
   return edges;
 }
 
-std::array<float, MOST_SLICES> slice_keys(const CullView& view) { return keys_of<MOST_SLICES>(view, view.slice_edges); }
-std::array<float, MOST_Z_BINS> z_bin_keys(const CullView& view) { return keys_of<MOST_Z_BINS>(view, view.z_bin_edges); }
+std::array<float, MOST_SLICES> slice_keys(const CullView& view) {
+  return keys_of<MOST_SLICES>(view, view.slice_edges);
+}
+std::array<float, MOST_Z_BINS> z_bin_keys(const CullView& view) {
+  return keys_of<MOST_Z_BINS>(view, view.z_bin_edges);
+}
 
 float depth_key(const CullView& view, float depth) { return has_standard_depth(view) ? depth : -depth; }
 
@@ -89,8 +97,8 @@ void check_edge_distance(const CullView& view, const std::vector<float>& edges, 
   const double x = (1 + std::abs(clip[2][0])) / clip[0][0], y = (1 + std::abs(clip[2][1])) / clip[1][1];
   const double most = 2e15 / std::sqrt(1 + x * x + y * y);
   if (!(edges.back() <= most)) {
-    throw input_error("view: {}[{}] is {} m, past {} m, the farthest that this field of view can have", name, edges.size() - 1,
-                      edges.back(), most);
+    throw input_error("view: {}[{}] is {} m, past {} m, the farthest that this field of view can have", name,
+                      edges.size() - 1, edges.back(), most);
   }
 }
 
@@ -113,8 +121,10 @@ struct ZeroEntry {
   const char* otherwise;
 };
 constexpr ZeroEntry zero_in_both[] = {
-    {0, 1, "a shear: clip x depends on y"},       {1, 0, "a shear: clip y depends on x"},
-    {3, 0, "a tilted w row: w depends on x"},     {3, 1, "a tilted w row: w depends on y"},
+    {0, 1, "a shear: clip x depends on y"},
+    {1, 0, "a shear: clip y depends on x"},
+    {3, 0, "a tilted w row: w depends on x"},
+    {3, 1, "a tilted w row: w depends on y"},
 };
 constexpr ZeroEntry zero_in_perspective[] = {
     {0, 3, "a translation; an off-centre perspective has its offset in clip_from_view[0][2]"},
@@ -140,38 +150,48 @@ void check_zeros(const CullView& view, std::span<const ZeroEntry> entries) {
 void check_projection(const CullView& view) {
   const glm::dmat4& clip = view.clip_from_view;
   check_zeros(view, zero_in_both);
-  const bool perspective = clip[2][3] == -1 && clip[3][3] == 0, orthographic = clip[2][3] == 0 && clip[3][3] == 1;
+  const bool perspective = clip[2][3] == -1 && clip[3][3] == 0,
+             orthographic = clip[2][3] == 0 && clip[3][3] == 1;
   if (!perspective && !orthographic) {
-    throw input_error("view: clip_from_view's last row is [{} {} {} {}], neither [0 0 -1 0], a perspective view along "
-                      "-z, nor [0 0 0 1], an orthographic one", clip[0][3], clip[1][3], clip[2][3], clip[3][3]);
+    throw input_error(
+        "view: clip_from_view's last row is [{} {} {} {}], neither [0 0 -1 0], a perspective view along "
+        "-z, nor [0 0 0 1], an orthographic one",
+        clip[0][3], clip[1][3], clip[2][3], clip[3][3]);
   }
-  check_zeros(view, perspective ? std::span<const ZeroEntry>(zero_in_perspective) : std::span<const ZeroEntry>(zero_in_orthographic));
+  check_zeros(view, perspective ? std::span<const ZeroEntry>(zero_in_perspective)
+                                : std::span<const ZeroEntry>(zero_in_orthographic));
   for (const int axis : {0, 1}) {
-    if (!(clip[axis][axis] > 0)) throw input_error("view: clip_from_view[{0}][{0}] is {1}, not above 0", axis, clip[axis][axis]);
+    if (!(clip[axis][axis] > 0))
+      throw input_error("view: clip_from_view[{0}][{0}] is {1}, not above 0", axis, clip[axis][axis]);
   }
   if ((perspective ? clip[3][2] : clip[2][2]) == 0) {
-    throw input_error("view: clip_from_view[2][{}] is 0: depth does not depend on distance", perspective ? 3 : 2);
+    throw input_error("view: clip_from_view[2][{}] is 0: depth does not depend on distance",
+                      perspective ? 3 : 2);
   }
 }
 
 // Kernels read these numbers as float; the slack assumes finite, normal products.
 void check_range(const CullView& view) {
   const glm::dmat4& clip = view.clip_from_view;
-  for (const double value : {2 / clip[0][0], 2 / clip[1][1], clip[2][0], clip[2][1], clip[3][0], clip[3][1], clip[2][2],
-                             clip[3][2], clip[0][0], clip[1][1]}) {
-    if (!(std::abs(value) < 1e18)) throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
+  for (const double value : {2 / clip[0][0], 2 / clip[1][1], clip[2][0], clip[2][1], clip[3][0], clip[3][1],
+                             clip[2][2], clip[3][2], clip[0][0], clip[1][1]}) {
+    if (!(std::abs(value) < 1e18))
+      throw input_error("view: clip_from_view has a number past 10^18 in it, or in its inverse");
   }
   // The nearest surface in the image.
-  const double near = is_oblique(view) ? near_distance(straightened(view, DepthFormat::d32f, 1).view) : near_distance(view);
+  const double near =
+      is_oblique(view) ? near_distance(straightened(view, DepthFormat::d32f, 1).view) : near_distance(view);
   if (!is_orthographic(view)) {
     if (!(near > 0)) throw input_error("view: the near plane is at {} m, not in front of the eye", near);
-    if (!(near >= 1e-37 && near <= 1e15)) throw input_error("view: the near plane is at {} m, not between 10^-37 and 10^15 m", near);
+    if (!(near >= 1e-37 && near <= 1e15))
+      throw input_error("view: the near plane is at {} m, not between 10^-37 and 10^15 m", near);
     return;
   }
   const double far = near + 1 / std::abs(clip[2][2]);
   for (const double edge : {near, far, (1 - clip[3][0]) / clip[0][0], (-1 - clip[3][0]) / clip[0][0],
                             (1 - clip[3][1]) / clip[1][1], (-1 - clip[3][1]) / clip[1][1]}) {
-    if (!(std::abs(edge) <= 1e15)) throw input_error("view: a side of the orthographic view is at {} m, past 10^15 m", edge);
+    if (!(std::abs(edge) <= 1e15))
+      throw input_error("view: a side of the orthographic view is at {} m, past 10^15 m", edge);
   }
 }
 
@@ -188,15 +208,19 @@ void check_rigid(const CullView& view) {
 }  // namespace
 
 void check_view(const CullView& view, int tile) {
-  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles || (view.height - 1) / tile >= most_tiles) {
-    throw input_error("view: {} x {} pixels is not a size that {}-pixel tiles can cover", view.width, view.height, tile);
+  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles ||
+      (view.height - 1) / tile >= most_tiles) {
+    throw input_error("view: {} x {} pixels is not a size that {}-pixel tiles can cover", view.width,
+                      view.height, tile);
   }
   check_finite(view);
   check_projection(view);
   check_range(view);
   if (is_oblique(view)) {
-    if (!view.slice_edges.empty()) throw input_error("view: {} slice_edges with an oblique near plane", view.slice_edges.size());
-    if (!view.z_bin_edges.empty()) throw input_error("view: {} z_bin_edges with an oblique near plane", view.z_bin_edges.size());
+    if (!view.slice_edges.empty())
+      throw input_error("view: {} slice_edges with an oblique near plane", view.slice_edges.size());
+    if (!view.z_bin_edges.empty())
+      throw input_error("view: {} z_bin_edges with an oblique near plane", view.z_bin_edges.size());
   }
   check_edges(view, view.slice_edges, "slice_edges", MOST_SLICES);
   check_edges(view, view.z_bin_edges, "z_bin_edges", MOST_Z_BINS);
@@ -216,7 +240,8 @@ ViewParams view_params(const CullView& view, int tile) {
   p.slope_x_offset = float((-1.0 - ndc_x_offset) / clip[0][0]);
   p.slope_y_scale = float(2.0 / (view.height * clip[1][1]));
   p.slope_y_offset = float((-1.0 - ndc_y_offset) / clip[1][1]);
-  // Perspective: depth = (clip[2][2] * z + clip[3][2]) / d; orthographic: depth = clip[2][2] * z + clip[3][2]; z = -d.
+  // Perspective: depth = (clip[2][2] * z + clip[3][2]) / d; orthographic: depth = clip[2][2] * z +
+  // clip[3][2]; z = -d.
   p.depth_a = float(p.orthographic ? 1.0 / clip[2][2] : clip[2][2]);
   p.depth_b = float(clip[3][2]);
   p.near_distance = float(near_distance(view));
@@ -239,8 +264,10 @@ CullParams cull_params(const CullView& view, int tile) {
   p.slope_y_scale = v.slope_y_scale, p.slope_y_offset = v.slope_y_offset;
   const double ndc_x_offset = v.orthographic ? clip[3][0] : -clip[2][0];
   const double ndc_y_offset = v.orthographic ? clip[3][1] : -clip[2][1];
-  p.tile_x_scale = float(clip[0][0] * view.width / 2 / tile), p.tile_x_offset = float((1 + ndc_x_offset) * view.width / 2 / tile);
-  p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile), p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
+  p.tile_x_scale = float(clip[0][0] * view.width / 2 / tile),
+  p.tile_x_offset = float((1 + ndc_x_offset) * view.width / 2 / tile);
+  p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile),
+  p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
   p.depth_a = v.depth_a, p.depth_b = v.depth_b;
   p.depth_a_rest = v.orthographic ? 0 : two_floats(clip[2][2]).rest;
   // Blended surfaces may lie past the farthest surface, where lights are scaled towards the eye; 1e12 m is
@@ -252,7 +279,8 @@ CullParams cull_params(const CullView& view, int tile) {
   (v.orthographic ? p.side_slack_m : p.side_slack) = side_slack;
   p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);
   p.width = v.width, p.height = v.height;
-  p.tile_size = v.tile_size, p.tiles_x = v.tiles_x, p.tiles_y = v.tiles_y, p.bins_x = v.bins_x, p.bins_y = v.bins_y;
+  p.tile_size = v.tile_size, p.tiles_x = v.tiles_x, p.tiles_y = v.tiles_y, p.bins_x = v.bins_x,
+  p.bins_y = v.bins_y;
   p.slices = uint(view.slice_edges.size() + 1);
   return p;
 }

@@ -23,8 +23,8 @@ struct CullView {
   glm::dmat4 clip_from_view{1};
   glm::dmat4 view_from_world{1};   // rigid; its translation is not used
   glm::dvec3 eye{0};               // world, metres
-  std::vector<float> slice_edges;  // inner edges of the depth slices, metres, ascending; empty: one slice. The first
-                                   // slice begins at the eye, the last has no end.
+  std::vector<float> slice_edges;  // inner edges of the depth slices, metres, ascending; empty: one slice.
+                                   // The first slice begins at the eye, the last has no end.
   std::vector<float> z_bin_edges{};  // likewise for z-bins, by which shading skips lights; empty: none
 };
 
@@ -59,8 +59,8 @@ CullParams cull_params(const CullView& view, int tile);
 
 // Properties of the view's depth, derived from clip_from_view.
 bool is_orthographic(const CullView& view);
-bool has_standard_depth(const CullView& view);   // near 0, far 1
-double near_distance(const CullView& view);      // of the near plane, metres; negative if an orthographic one
-                                                 // lies behind the eye
+bool has_standard_depth(const CullView& view);  // near 0, far 1
+double near_distance(const CullView& view);     // of the near plane, metres; negative if an orthographic one
+                                                // lies behind the eye
 
 }  // namespace lightgrid

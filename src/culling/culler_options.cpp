@@ -16,7 +16,8 @@ void check_option(const char* name, int value, std::initializer_list<int> allowe
 }
 
 void check_row(const char* name, int value, int rows) {
-  if (value < 0 || value >= rows) throw input_error("culler options: {} is {}, not from 0 to {}", name, value, rows - 1);
+  if (value < 0 || value >= rows)
+    throw input_error("culler options: {} is {}, not from 0 to {}", name, value, rows - 1);
 }
 
 }  // namespace

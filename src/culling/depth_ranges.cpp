@@ -12,11 +12,15 @@ namespace {
 
 constexpr float widen = WIDEN;
 
-float rounded_down(double value) { return std::nextafter(float(value), -std::numeric_limits<float>::infinity()); }
+float rounded_down(double value) {
+  return std::nextafter(float(value), -std::numeric_limits<float>::infinity());
+}
 
 }  // namespace
 
-float rounded_up(double value) { return std::nextafter(float(value), std::numeric_limits<float>::infinity()); }
+float rounded_up(double value) {
+  return std::nextafter(float(value), std::numeric_limits<float>::infinity());
+}
 
 float depth_step(DepthFormat format, bool standard_depth) {
   if (format == DepthFormat::d16) return 1.0f / 65535;

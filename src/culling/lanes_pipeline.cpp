@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t items_a_unit = 16;  // few enough that their buffers stay in the cache, enough to balance
                                      // load
-constexpr size_t spare = 64;  // values that a vector load or store may access past the last
+constexpr size_t spare = 64;         // values that a vector load or store may access past the last
 
 // Near the golden section of n, and coprime to it: steps of this size visit all of n and are spread evenly
 // from the start.
@@ -47,13 +47,15 @@ class LanesPipeline : public CullPipeline {
 
   void enqueue(const CullJob& job) override {
     const size_t bins = size_t(job.params.bins_x) * job.params.bins_y;
-    launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights, records_.get(), lists_.get(),
-           run_counts_.get(), job.counters, job.params_buffer);
+    launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights,
+           records_.get(), lists_.get(), run_counts_.get(), job.counters, job.params_buffer);
     const size_t quads = size_t((job.params.bins_x + 1) / 2) * ((job.params.bins_y + 1) / 2);
-    const size_t most = items_a_unit * size_t(device_.info().compute_units), rounds = (quads + most - 1) / most;
-    launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1), records_.get(),
-           lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)), job.bounds, job.slices, pool_.get(), staged_.get(), cell_counts_.get(),
-           bins_.get(), job.counters, job.params_buffer);
+    const size_t most = items_a_unit * size_t(device_.info().compute_units),
+                 rounds = (quads + most - 1) / most;
+    launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1),
+           records_.get(), lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)), job.bounds,
+           job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(), job.counters,
+           job.params_buffer);
     launch(device_, "write_lists", write_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
            staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);
   }
@@ -61,7 +63,8 @@ class LanesPipeline : public CullPipeline {
   size_t candidate_bytes() const override { return (options.cones ? 10 : 6) * sizeof(float); }
 
   size_t memory_bytes() const override {
-    return records_.bytes() + lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() + cell_counts_.bytes() + bins_.bytes();
+    return records_.bytes() + lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() +
+           cell_counts_.bytes() + bins_.bytes();
   }
 
  private:
@@ -73,7 +76,8 @@ class LanesPipeline : public CullPipeline {
 
 }  // namespace
 
-std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options) {
+std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs,
+                                                  const PipelineOptions& options) {
   return std::make_unique<LanesPipeline>(device, programs, options);
 }
 

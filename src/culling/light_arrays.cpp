@@ -71,13 +71,15 @@ UploadedSphere far_sphere(const CullLight& light, const glm::dvec3& origin, doub
   const double size = largest(half);
   if (light.radius_m * 0.5 > size / 4) return {glm::vec3(0), endless};
   return {glm::vec3(half / size * farthest_light),
-          radius_rounded_up(light.radius_m * 0.5 / size * farthest_light + 4 * half_ulp * farthest_light + 2 * eye_reach)};
+          radius_rounded_up(light.radius_m * 0.5 / size * farthest_light + 4 * half_ulp * farthest_light +
+                            2 * eye_reach)};
 }
 
 // The radius is grown by the rounding error of the position.
 UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin, double eye_reach) {
   if (!is_light(light)) return {};
-  if (std::isinf(light.radius_m)) return {glm::vec3(is_far(light, origin) ? glm::dvec3(0) : light.position - origin), endless};
+  if (std::isinf(light.radius_m))
+    return {glm::vec3(is_far(light, origin) ? glm::dvec3(0) : light.position - origin), endless};
   if (is_far(light, origin)) return far_sphere(light, origin, eye_reach);
   const glm::dvec3 offset = light.position - origin;
   return {glm::vec3(offset), radius_rounded_up(light.radius_m + half_ulp * sum_of(offset))};

@@ -19,7 +19,8 @@ namespace {
 
 constexpr uint lane_count = 16;
 constexpr uint most_regions = 64, most_region_bins = 16;
-constexpr size_t most_lights = size_t(1) << 30;  // kernels count lights, and a bin's pairs of lights and tiles, in 32 bits
+constexpr size_t most_lights =
+    size_t(1) << 30;  // kernels count lights, and a bin's pairs of lights and tiles, in 32 bits
 
 }  // namespace
 
@@ -45,18 +46,20 @@ void LightCuller::require_view(const char* call) const {
 void LightCuller::require_bounds(const TileBounds& bounds, const char* call) const {
   const size_t bytes = bounds_bytes(params_, planes_of(bounds.mode)), given = bytes_of(bounds.values);
   if (given < bytes) {
-    throw input_error("light culler: {} was given bounds of {} bytes; those of this view have {}", call, given, bytes);
+    throw input_error("light culler: {} was given bounds of {} bytes; those of this view have {}", call,
+                      given, bytes);
   }
 }
 
 void LightCuller::set_lights(std::span<const CullLight> lights) {
   if (lights.size() >= most_lights) {
-    throw machine_error("light culling: {} lights are more than kernels can count; {} are the most", lights.size(),
-                        most_lights - 1);
+    throw machine_error("light culling: {} lights are more than kernels can count; {} are the most",
+                        lights.size(), most_lights - 1);
   }
   light_count_ = uint(lights.size());
   light_stride_ = (light_count_ + lane_count - 1) / lane_count * lane_count;
-  cones_ = std::any_of(lights.begin(), lights.end(), [](const CullLight& light) { return light.cos_outer >= 0; });
+  cones_ =
+      std::any_of(lights.begin(), lights.end(), [](const CullLight& light) { return light.cos_outer >= 0; });
   host_lights_.assign(lights.begin(), lights.end());
   const LightOrigin origin = choose_origin(lights);
   fixed_origin_ = origin.fixed;
@@ -94,7 +97,8 @@ void LightCuller::set_view(const CullView& view) {
   params_ = cull_params(oblique_ ? oblique_->view : view, options_.tile);
   set_room(kept);
   params_.inset = options_.pixel_centres && options_.samples == 1 ? 0.5f : 0.0f;
-  params_.depth_step = oblique_ ? oblique_->depth_step : depth_step(options_.depth_format, params_.standard_depth);
+  params_.depth_step =
+      oblique_ ? oblique_->depth_step : depth_step(options_.depth_format, params_.standard_depth);
   eye_ = view.eye;
   const auto upload = [&](cl::Buffer& buffer, const std::vector<cl_float2>& ranges) {
     if (ranges.size() == 1) return;
@@ -114,7 +118,8 @@ void LightCuller::set_view(const CullView& view) {
 void LightCuller::choose_regions() {
   params_.region_bins = 4;
   const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
-  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions && params_.region_bins < most_region_bins) {
+  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions &&
+         params_.region_bins < most_region_bins) {
     params_.region_bins *= 2;
   }
   params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
@@ -146,13 +151,16 @@ CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
   if (light_count_) read(lights_->get(), in.lights, world_arrays * size_t(light_stride_));
   read(bounds.values, in.bounds, size_t(params_.bins_x) * params_.bins_y * planes_of(bounds.mode) * BIN_SIZE);
   constexpr float endless = std::numeric_limits<float>::infinity();
-  if (params_.slices > 1) read(slices_, in.slices, params_.slices);
-  else in.slices.emplace_back(-endless, endless);
+  if (params_.slices > 1)
+    read(slices_, in.slices, params_.slices);
+  else
+    in.slices.emplace_back(-endless, endless);
   return in;
 }
 
 size_t LightCuller::memory_bytes() const {
-  size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) + bounds_bytes_ * (options_.blend ? 2 : 1);
+  size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) +
+                 bounds_bytes_ * (options_.blend ? 2 : 1);
   if (straight_depth_) bytes += straight_depth_->bytes();
   for (const auto& pipeline : pipelines_) bytes += pipeline ? pipeline->memory_bytes() : 0;
   return bytes;

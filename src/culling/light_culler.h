@@ -77,7 +77,7 @@ class GridStorage {
   // A buffer of at least `bytes` in the culler's context; growing it may lose its contents.
   virtual cl::Buffer& cells(size_t bytes) = 0;
   virtual cl::Buffer& indices(size_t bytes) = 0;
-  virtual cl::Buffer& masks(size_t bytes) = 0;  // called only with GridLists::masks
+  virtual cl::Buffer& masks(size_t bytes) = 0;   // called only with GridLists::masks
   virtual cl::Buffer& z_bins(size_t bytes) = 0;  // called only if the view has z-bins
 };
 
@@ -117,8 +117,8 @@ struct HostGrid {
   int cells_x = 0, cells_y = 0, slices = 1;
   std::vector<glm::uvec2> cells;  // first, count
   std::vector<uint32_t> indices;
-  std::vector<uint32_t> masks;    // empty without masks
-  std::vector<uint32_t> z_bins;   // a word a light; empty without z-bins
+  std::vector<uint32_t> masks;   // empty without masks
+  std::vector<uint32_t> z_bins;  // a word a light; empty without z-bins
   bool operator==(const HostGrid&) const = default;
 };
 // Waits.
@@ -133,16 +133,16 @@ struct CullerOptions {
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the grid is the same
-  int tile = 16;               // pixels a side: 8, 16, 32 or 64
+  int tile = 16;                               // pixels a side: 8, 16, 32 or 64
   DepthFormat depth_format = DepthFormat::d32f;
-  int samples = 1;             // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
+  int samples = 1;  // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
   GridLists lists = GridLists::lists;  // masks: bitmasks as well
-  bool blend = false;          // depth bounds and a grid for blended surfaces
-  int index_bits = 0;          // 16 or 32; 0: 16 for up to 65,536 lights. More lights always take 32
-  bool pixel_centres = true;   // cells span the centres of their pixels, as shading does; false: whole pixels
-  bool portable = false;       // no builtins that only some CPUs have
-  int group_size = 0;          // work-items that cull a block of 4 x 4 tiles in the group shape: 64, 128,
-                               // 256, 512 or 1024, as far as the device allows; 0: 256
+  bool blend = false;                  // depth bounds and a grid for blended surfaces
+  int index_bits = 0;                  // 16 or 32; 0: 16 for up to 65,536 lights. More lights always take 32
+  bool pixel_centres = true;  // cells span the centres of their pixels, as shading does; false: whole pixels
+  bool portable = false;      // no builtins that only some CPUs have
+  int group_size = 0;         // work-items that cull a block of 4 x 4 tiles in the group shape: 64, 128,
+                              // 256, 512 or 1024, as far as the device allows; 0: 256
 };
 
 // All input of the culling kernels, with the layout of the device's memory: for checks that compute the grid
@@ -228,15 +228,15 @@ class LightCuller {
   ProgramCache& programs_;
   CullerOptions options_;
   bool cones_ = false;
-  std::optional<bool> avx512_;  // whether the device builds AVX-512 kernels
+  std::optional<bool> avx512_;                 // whether the device builds AVX-512 kernels
   std::vector<CullLight> host_lights_;         // to upload again when the origin follows the eye
   std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
   std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: not uploaded yet
   double cone_slack_m_ = 0;
-  glm::dvec3 eye_{0};                          // world
+  glm::dvec3 eye_{0};  // world
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
-  std::optional<CullParams> uploaded_;  // contents of params_buffer_ when the queue is done
+  std::optional<CullParams> uploaded_;     // contents of params_buffer_ when the queue is done
   std::unique_ptr<StraightView> oblique_;  // if the view's near plane is oblique
   std::unique_ptr<GrowingBuffer> straight_depth_;
   cl::Kernel straighten_kernel_;

@@ -10,8 +10,8 @@ namespace lightgrid {
 
 struct StraightView {
   CullView view;
-  // straight depth = (depth + offset - tilt_x * x - tilt_y * y) * scale, where x and y are the slopes of the pixel's
-  // centre (x / d, y / d). `nothing`: the stored depth that means no surface.
+  // straight depth = (depth + offset - tilt_x * x - tilt_y * y) * scale, where x and y are the slopes of the
+  // pixel's centre (x / d, y / d). `nothing`: the stored depth that means no surface.
   float tilt_x = 0, tilt_y = 0, offset = 0, scale = 1, nothing = 0;
   // Error bound of straight depth: rounding, the stored format's step, and the position of samples within a
   // pixel.

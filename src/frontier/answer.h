@@ -1,5 +1,5 @@
-// What the records say: for each point its figures over the views, the Pareto front of each scene, ties, break-evens,
-// growth, failures, and sentences in plain words.
+// What the records say: for each point its figures over the views, the Pareto front of each scene, ties,
+// break-evens, growth, failures, and sentences in plain words.
 #pragma once
 
 #include "frontier/record.h"
@@ -12,8 +12,9 @@ struct MedianInterval {
   int runs = 0;
 };
 
-// A point over all its views. Ratio: for each run, the sum of its times over the views over the same sum of the
-// baseline's runs beside them. Errors: the largest max_rel, otherwise root mean squares or means over views.
+// A point over all its views. Ratio: for each run, the sum of its times over the views over the same sum of
+// the baseline's runs beside them. Errors: the largest max_rel, otherwise root mean squares or means over
+// views.
 struct PointFigures {
   FrontierPoint point;
   int views = 0;
@@ -21,16 +22,18 @@ struct PointFigures {
   MedianInterval ratio;
   std::vector<double> ratios;  // one a run
   PointErrors errors;
-  int flip_views = 0, temporal_views = 0;          // that have FLIP, and flicker
-  PairCounts pairs;                                // sums over views
-  uint64_t memory_bytes = 0;                       // the largest of the views
-  uint64_t bytes_moved = 0;                        // a frame of the views that were profiled: the first
+  int flip_views = 0, temporal_views = 0;  // that have FLIP, and flicker
+  PairCounts pairs;                        // sums over views
+  uint64_t memory_bytes = 0;               // the largest of the views
+  uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
-  bool front = false;          // no point of its scene is better in both error.total.rmse_rel and ratio
-  std::vector<int> tied_with;  // points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index
+  bool front = false;  // no point of its scene is better in both error.total.rmse_rel and ratio
+  std::vector<int>
+      tied_with;  // points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index
 };
 
-// "If you can bear an error of … use …": the point of least ratio whose error.total.rmse_rel is at most `error`.
+// "If you can bear an error of … use …": the point of least ratio whose error.total.rmse_rel is at most
+// `error`.
 struct BestWithin {
   std::string scene;
   double error = 0;
@@ -38,14 +41,15 @@ struct BestWithin {
   std::vector<int> tied;  // further points within it whose ratio does not differ
 };
 
-// The shading cost from which the tighter of two cull tests is worth its time: extra culling time over pairs saved.
+// The shading cost from which the tighter of two cull tests is worth its time: extra culling time over pairs
+// saved.
 struct BreakEven {
   std::string scene, tighter, looser;  // labels; otherwise of equal settings. Tighter: lists fewer pairs
   double ns_per_pixel_light = 0;       // infinite: the tighter test never wins; 0: it always does
   double extra_ms = 0;                 // of culling the first view: the median over rounds of both
   double pairs_saved = 0;              // listed pairs of that view
-  // 95 % interval of ns_per_pixel_light, from that of the median (median_interval); rounds: 0 if there is none, since
-  // pass times are known by their medians alone, or no pair is saved.
+  // 95 % interval of ns_per_pixel_light, from that of the median (median_interval); rounds: 0 if there is
+  // none, since pass times are known by their medians alone, or no pair is saved.
   double low = 0, high = 0;
   int rounds = 0;
 };
@@ -84,8 +88,9 @@ struct FrontierAnswer {
 // Pure. Parts of one sweep; throws Error(input) if they are of different requests or commits.
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
 
-// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row a run of
-// such a row) and culling.csv (one row a round in which its culling was timed): docs/frontier_json.md.
+// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row
+// a run of such a row) and culling.csv (one row a round in which its culling was timed):
+// docs/frontier_json.md.
 nlohmann::json to_json(const FrontierAnswer& answer);
 std::string csv_text(const FrontierAnswer& answer);
 std::string samples_csv_text(const FrontierAnswer& answer);

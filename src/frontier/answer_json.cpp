@@ -137,14 +137,15 @@ json to_json(const FrontierAnswer& answer) {
     return {{"scene", b.scene}, {"error", b.error}, {"point", b.point}, {"tied", b.tied}};
   });
   out["break_even"] = array_of(answer.break_even, [](const BreakEven& b) -> json {
-    return {{"scene", b.scene},
-            {"tighter", b.tighter},
-            {"looser", b.looser},
-            {"ns_per_pixel_light", finite_number(b.ns_per_pixel_light)},
-            {"ci95", b.rounds > 0 ? json{finite_number(b.low), finite_number(b.high)} : json{nullptr, nullptr}},
-            {"rounds", b.rounds},
-            {"extra_ms", finite_number(b.extra_ms)},
-            {"pairs_saved", finite_number(b.pairs_saved)}};
+    return {
+        {"scene", b.scene},
+        {"tighter", b.tighter},
+        {"looser", b.looser},
+        {"ns_per_pixel_light", finite_number(b.ns_per_pixel_light)},
+        {"ci95", b.rounds > 0 ? json{finite_number(b.low), finite_number(b.high)} : json{nullptr, nullptr}},
+        {"rounds", b.rounds},
+        {"extra_ms", finite_number(b.extra_ms)},
+        {"pairs_saved", finite_number(b.pairs_saved)}};
   });
   out["shading_costs"] = array_of(answer.shading_costs, [](const ShadingCost& c) -> json {
     return {{"scene", c.scene},

@@ -30,13 +30,12 @@ std::vector<const FrontierRecord*> profiled(Records records) {
   return first;
 }
 
-// Of culling, `a` over `b`: the differences of the rounds in which one process measured both; otherwise that of
-// the medians.
+// Of culling, `a` over `b`: the differences of the rounds in which one process measured both; otherwise that
+// of the medians.
 MedianInterval extra_ms_of(const FrontierRecord& a, const FrontierRecord& b) {
   std::vector<double> differences;
   const size_t rounds = a.shard == b.shard ? std::min(a.cull_ms.size(), b.cull_ms.size()) : 0;
-  for (size_t round = 0; round < rounds; ++round)
-    differences.push_back(a.cull_ms[round] - b.cull_ms[round]);
+  for (size_t round = 0; round < rounds; ++round) differences.push_back(a.cull_ms[round] - b.cull_ms[round]);
   if (!differences.empty()) return median_interval(differences);
   return {.median = a.pass_ms.at(cull_pass) - b.pass_ms.at(cull_pass)};
 }

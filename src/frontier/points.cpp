@@ -17,9 +17,10 @@ struct Star {
   int frames = 1;
 };
 
-// Each technique as it is; then the cull tests of two techniques, buffers of fewer bits, the capacity of lidr, a finer
-// volume; model errors of ranges, windows and BRDFs. What does not depend on the technique is varied on the fastest one.
-// So few that several views of each of the default scenes fit into the default budget: --vary measures further ones.
+// Each technique as it is; then the cull tests of two techniques, buffers of fewer bits, the capacity of
+// lidr, a finer volume; model errors of ranges, windows and BRDFs. What does not depend on the technique is
+// varied on the fastest one. So few that several views of each of the default scenes fit into the default
+// budget: --vary measures further ones.
 constexpr Star default_points[] = {
     {"forward", ""},
     {"forward_zprepass", ""},
@@ -105,7 +106,8 @@ int frames_of(const std::string& text) {
 
 std::vector<ChosenPoint> named(const std::vector<std::string>& items, const Settings& common) {
   std::vector<ChosenPoint> points;
-  for (const Contestant& c : named_contestants(items, common)) points.push_back(point(*c.technique, c.settings, 1));
+  for (const Contestant& c : named_contestants(items, common))
+    points.push_back(point(*c.technique, c.settings, 1));
   return points;
 }
 

@@ -1,6 +1,6 @@
-// What a frontier measures: one record for each point and view. Everything that the answer states (fronts, ties,
-// break-evens, growth, failures) is computed from records alone, so that parts measured by several processes are joined
-// by joining their records.
+// What a frontier measures: one record for each point and view. Everything that the answer states (fronts,
+// ties, break-evens, growth, failures) is computed from records alone, so that parts measured by several
+// processes are joined by joining their records.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,23 @@ namespace lightgrid {
 struct FrontierPoint {
   std::string scene;      // as given: a path or a built-in name
   std::string technique;  // its name
-  std::map<std::string, std::string> settings;  // those that it reads, all of them, by the keys of results.json
-  std::string label;      // "forward_plus:tile=8": what differs from the defaults
-  int frames = 1;         // averaged frames, each with other random ranges (range=stochastic); 1: not averaged
+  std::map<std::string, std::string>
+      settings;       // those that it reads, all of them, by the keys of results.json
+  std::string label;  // "forward_plus:tile=8": what differs from the defaults
+  int frames = 1;     // averaged frames, each with other random ranges (range=stochastic); 1: not averaged
 };
 
 // Errors of a picture relative to the brightest channel of the truth. Linear light.
 struct ErrorFigures {
   double max_rel = 0, rmse_rel = 0;
-  double relative_rmse = 0;  // of each channel's difference over the truth's channel (at least 1e-3 of the brightest)
-  double p99_rel = 0;        // of each pixel's largest channel error
+  double relative_rmse =
+      0;  // of each channel's difference over the truth's channel (at least 1e-3 of the brightest)
+  double p99_rel = 0;               // of each pixel's largest channel error
   std::optional<double> flip_mean;  // HDR-FLIP
 };
 
-// The picture against the truth in double, at a random pixel of each of `pixels` equal shares of the opaque ones.
+// The picture against the truth in double, at a random pixel of each of `pixels` equal shares of the opaque
+// ones.
 struct SampledErrors {
   int pixels = 0;
   ErrorFigures picture;           // without flip_mean
@@ -41,32 +44,33 @@ struct SampledErrors {
 
 // Errors kept apart (docs/frontier.md#errors). Truth: every light, no range window.
 struct PointErrors {
-  ErrorFigures model;      // what the settings mean (range, window, BRDF) against the truth, both by brute force
+  ErrorFigures model;  // what the settings mean (range, window, BRDF) against the truth, both by brute force
   ErrorFigures precision;  // brute force in float against the oracle in double, at a sample of pixels
   ErrorFigures technique;  // the picture against brute force of the same meaning
   ErrorFigures total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
-  // Of random ranges, over at least 16 seeds, relative like the others: root mean square over pixels of the mean's
-  // error and of the standard deviation of one frame.
+  // Of random ranges, over at least 16 seeds, relative like the others: root mean square over pixels of the
+  // mean's error and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
-  // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera turns by a
-  // quarter of a degree a frame; root mean square over pixels and frames.
+  // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
+  // turns by a quarter of a degree a frame; root mean square over pixels and frames.
   std::optional<double> temporal_rmse_rel;
 };
 
 struct FrontierRecord {
   FrontierPoint point;
-  int view = 0;              // index on the scene's path
-  int width = 0, height = 0; // pixels
-  int lights = 0;            // of the scene
-  double radius_scale = 1;   // of the lights' ranges, in the series "radius"
-  std::string series;        // empty: a point of the front; "lights", "pixels", "radius": of a growth curve
+  int view = 0;               // index on the scene's path
+  int width = 0, height = 0;  // pixels
+  int lights = 0;             // of the scene
+  double radius_scale = 1;    // of the lights' ranges, in the series "radius"
+  std::string series;         // empty: a point of the front; "lights", "pixels", "radius": of a growth curve
 
-  std::string refused;       // why it did not run; the fields below are then empty
+  std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
   std::map<std::string, double> pass_ms;      // medians of profiled frames
-  std::vector<double> cull_ms;  // of culling, one a round: entry i of points that differ in the cull test alone was
-                                // taken in one round. Empty: no such point, or another view than the first
+  std::vector<double>
+      cull_ms;  // of culling, one a round: entry i of points that differ in the cull test alone was
+                // taken in one round. Empty: no such point, or another view than the first
   uint64_t bytes_moved = 0;  // sum of the passes' counted bytes, on the first view; otherwise 0
   uint64_t memory_bytes = 0;
   uint64_t covered_pixels = 0;  // with an opaque surface
@@ -74,18 +78,18 @@ struct FrontierRecord {
   uint64_t nan_pixels = 0, overflow = 0;
   PointErrors errors;
   std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured
-  std::string image;         // name of its picture among the part's pictures, without extension; empty: none
-  int shard = 0;             // of the part that holds it, set by RecordFile and read_part: its times are of that machine
+  std::string image;  // name of its picture among the part's pictures, without extension; empty: none
+  int shard = 0;  // of the part that holds it, set by RecordFile and read_part: its times are of that machine
 };
 
 // What does not change between records of one process, and what a sceptic asks for.
 struct FrontierMachine {
   std::string cl_device, gl_device, cl_driver, gl_driver;
-  std::string cpu, governor;  // governor: "unknown" where the system does not tell
-  double clock_mhz = 0;       // at the start; 0: unknown
-  int threads = 0;            // of the OpenCL device: compute units
+  std::string cpu, governor;                  // governor: "unknown" where the system does not tell
+  double clock_mhz = 0;                       // at the start; 0: unknown
+  int threads = 0;                            // of the OpenCL device: compute units
   double load_at_start = 0, load_at_end = 0;  // the system's one-minute load average
-  int shard = 0;              // of the part that it measured, set by RecordFile and read_part
+  int shard = 0;                              // of the part that it measured, set by RecordFile and read_part
 };
 
 // A part: one process's records. Deterministic: shard i of n of the same request holds the same points.

@@ -48,7 +48,8 @@ GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags) {
   GLuint name = 0;
   glCreateBuffers(1, &name);
   GlBuffer buffer(name);
-  glNamedBufferStorage(name, GLsizeiptr(std::max<size_t>(bytes, 16)), nullptr, flags | GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(name, GLsizeiptr(std::max<size_t>(bytes, 16)), nullptr,
+                       flags | GL_DYNAMIC_STORAGE_BIT);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
     throw machine_error("OpenGL has no room for a buffer of {} bytes ({})", bytes, gl_error_name(error));
   }
@@ -63,7 +64,8 @@ GlTexture make_texture_2d(GLenum format, int width, int height, int levels) {
   GlTexture texture(name);
   glTextureStorage2D(name, levels, format, width, height);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR) {
-    throw machine_error("OpenGL has no room for a texture of {} x {} pixels ({})", width, height, gl_error_name(error));
+    throw machine_error("OpenGL has no room for a texture of {} x {} pixels ({})", width, height,
+                        gl_error_name(error));
   }
   return texture;
 }
@@ -100,7 +102,8 @@ GlFramebuffer make_framebuffer(const std::vector<GLuint>& colors, GLuint depth) 
   if (depth) {
     GLint stencil_bits = 0;
     glGetTextureLevelParameteriv(depth, 0, GL_TEXTURE_STENCIL_SIZE, &stencil_bits);
-    glNamedFramebufferTexture(name, stencil_bits ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depth, 0);
+    glNamedFramebufferTexture(name, stencil_bits ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depth,
+                              0);
   }
   if (buffers.empty()) {
     glNamedFramebufferDrawBuffer(name, GL_NONE);
@@ -110,7 +113,8 @@ GlFramebuffer make_framebuffer(const std::vector<GLuint>& colors, GLuint depth) 
   }
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw machine_error("OpenGL: framebuffer incomplete, status 0x{:x}; the image may be too large for this device", status);
+    throw machine_error(
+        "OpenGL: framebuffer incomplete, status 0x{:x}; the image may be too large for this device", status);
   }
   return framebuffer;
 }

@@ -35,7 +35,8 @@ void compile(const Shader& shader, const std::string& path, const std::vector<st
 
 }  // namespace
 
-GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines)
+GlProgram::GlProgram(const std::string& vertex, const std::string& fragment,
+                     const std::vector<std::string>& defines)
     : object_(glCreateProgram()) {
   const Shader vertex_shader(GL_VERTEX_SHADER), fragment_shader(GL_FRAGMENT_SHADER);
   compile(vertex_shader, vertex, defines);
@@ -45,7 +46,8 @@ GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, con
   link(vertex + " and " + fragment);
 }
 
-GlProgram::GlProgram(const std::string& compute, const std::vector<std::string>& defines) : object_(glCreateProgram()) {
+GlProgram::GlProgram(const std::string& compute, const std::vector<std::string>& defines)
+    : object_(glCreateProgram()) {
   const Shader shader(GL_COMPUTE_SHADER);
   compile(shader, compute, defines);
   glAttachShader(name(), shader.name);

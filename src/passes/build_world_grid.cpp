@@ -11,7 +11,8 @@ class WorldGridOfView : public PassState {
 
   bool follow(RenderView& v) override {
     const Settings& s = v.plan.settings;
-    const WorldGridKey key{s.world_grid, s.world_cell, v.plan.index_bits, s.ranges, s.raster == RasterApi::opengl};
+    const WorldGridKey key{s.world_grid, s.world_cell, v.plan.index_bits, s.ranges,
+                           s.raster == RasterApi::opengl};
     if (!grid || key != key_) grid = v.gpu.world_grid(v.renderer, key);
     key_ = key;
     return true;

@@ -4,7 +4,9 @@
 namespace lightgrid {
 namespace {
 
-size_t bytes_of(const LightGrid& grid) { return grid.cell_bytes + grid.index_bytes + grid.mask_bytes + grid.z_bin_bytes; }
+size_t bytes_of(const LightGrid& grid) {
+  return grid.cell_bytes + grid.index_bytes + grid.mask_bytes + grid.z_bin_bytes;
+}
 
 LightGrid cull(RenderView& v, const char* name, const TileBounds& bounds, SharedGridStorage& storage) {
   auto pass = v.timer.pass(name, "cl");

@@ -7,8 +7,9 @@ DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth) {
   const size_t bytes = v.pixels() * 4;
   auto pass = v.timer.pass("depth_to_cl", "gl");
   SharedBuffer& copy = v.shared_pixels("depth", 4);
-  v.renderer.pixel_copies.to_buffer({depth.framebuffer, GL_DEPTH_ATTACHMENT, v.targets.depth()}, GL_DEPTH_COMPONENT, GL_FLOAT,
-                                    v.view.width, v.view.height, copy.gl_buffer());
+  v.renderer.pixel_copies.to_buffer({depth.framebuffer, GL_DEPTH_ATTACHMENT, v.targets.depth()},
+                                    GL_DEPTH_COMPONENT, GL_FLOAT, v.view.width, v.view.height,
+                                    copy.gl_buffer());
   copy.hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return {copy.cl_buffer()};

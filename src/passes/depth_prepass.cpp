@@ -7,8 +7,8 @@ namespace lightgrid {
 
 // Alpha masks read more than positions.
 static uint32_t features_of_depth(uint32_t features) {
-  constexpr uint32_t read_by_masks = feature_textured | feature_uv1 | feature_uv_transform | feature_vertex_color |
-                                     feature_base_color_map | feature_mask;
+  constexpr uint32_t read_by_masks = feature_textured | feature_uv1 | feature_uv_transform |
+                                     feature_vertex_color | feature_base_color_map | feature_mask;
   return features & feature_mask ? features & read_by_masks : 0;
 }
 

@@ -15,9 +15,11 @@ size_t written_bytes(const GBuffer& gbuffer) {
 void clear(RenderView& v, const GBuffer& gbuffer) {
   const float background[4] = {v.scene.background.r, v.scene.background.g, v.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
-  if (gbuffer.base_lighting == BaseLighting::in_image) glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
+  if (gbuffer.base_lighting == BaseLighting::in_image)
+    glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
   for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
-  if (gbuffer.coats) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.coats_attachment(), nothing);
+  if (gbuffer.coats)
+    glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.coats_attachment(), nothing);
 }
 
 void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfaces) {
@@ -31,7 +33,8 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
   if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
   if (gbuffer.coats) source.defines.emplace_back("COATS");
   source.bind(v);
-  draw_list(v, surfaces, DrawStreams::all, v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));
+  draw_list(v, surfaces, DrawStreams::all,
+            v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));
 }
 
 }  // namespace

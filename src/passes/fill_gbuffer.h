@@ -9,6 +9,7 @@ namespace lightgrid {
 GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting = BaseLighting::in_image);
 
 // Only these surfaces, at the prepass' depth.
-GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_lighting = BaseLighting::in_image);
+GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces,
+                     BaseLighting base_lighting = BaseLighting::in_image);
 
 }  // namespace lightgrid

@@ -54,7 +54,8 @@ class LightSums : public PassState {
 void sums_to_gl(RenderView& v, const PrepassImage& image, SharedBuffer& from, GLuint to) {
   from.hand_to_gl(v.pixels() * image.bytes);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);  // rows of two bytes a pixel
-  v.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, v.view.width, v.view.height, to);
+  v.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, v.view.width, v.view.height,
+                                     to);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
@@ -65,8 +66,8 @@ NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals) {
   const size_t bytes = v.pixels() * image.bytes;
   const NormalsInCl in_cl = normals_in_cl_of(v, TargetUse::image);
   auto pass = v.timer.pass("normals_to_cl", "gl");
-  v.renderer.pixel_copies.to_buffer({normals.framebuffer, GL_COLOR_ATTACHMENT0, normals.texture}, image.pixel, image.type,
-                                    v.view.width, v.view.height, in_cl.image->gl_buffer());
+  v.renderer.pixel_copies.to_buffer({normals.framebuffer, GL_COLOR_ATTACHMENT0, normals.texture}, image.pixel,
+                                    image.type, v.view.width, v.view.height, in_cl.image->gl_buffer());
   in_cl.image->hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return in_cl;

@@ -41,11 +41,13 @@ void ObjectLights::update(const RenderView& v, const DrawList& list) {
   upload();
 }
 
-void ObjectLights::add_item(const RenderView& v, const DrawItem& item, const std::vector<uint32_t>& candidates) {
+void ObjectLights::add_item(const RenderView& v, const DrawItem& item,
+                            const std::vector<uint32_t>& candidates) {
   const GlMesh& mesh = v.gpu.in_gl().mesh(v.scene.instances[item.instance].mesh);
   const size_t first_object = objects_.size();
   for (const uint32_t cluster : item.clusters) {
-    const ViewBox box = box_in_view(v.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
+    const ViewBox box =
+        box_in_view(v.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
     const std::vector<uint32_t> lights = lights_reaching(box, reaches_, candidates);
     if (objects_.size() > first_object) {
       Object& last = objects_.back();

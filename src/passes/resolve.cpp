@@ -24,9 +24,7 @@ cl::NDRange whole_groups(const View& view) {
 class Resolving : public PassState {
  public:
   explicit Resolving(RenderView& v)
-      : lanes(shades_in_lanes(v)),
-        image(v.shared_pixels("image", 16)),
-        defines_(resolve_defines(v)) {
+      : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)), defines_(resolve_defines(v)) {
     lights.upload(v);
   }
 
@@ -46,7 +44,8 @@ class Resolving : public PassState {
   cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
     cl::Kernel& kernel = kernels_[stem + more_defines];
     if (!kernel()) {
-      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_ + more_defines);
+      kernel =
+          v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_ + more_defines);
     }
     return kernel;
   }
@@ -123,11 +122,13 @@ cl_float4 background(const RenderView& v) {
 template <typename Arguments, typename Launch>
 void with_lights(const GridInCl& in, const Arguments& arguments, const Launch& launch) {
   if (in.voxels) {
-    std::apply(launch, std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(), in.voxels->directions->cl_buffer(),
-                                                            in.voxels->lookup)));
+    std::apply(launch,
+               std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(),
+                                                    in.voxels->directions->cl_buffer(), in.voxels->lookup)));
   } else if (in.world) {
     WorldGrid& grid = *in.world->grid;
-    std::apply(launch, std::tuple_cat(arguments, std::tuple(grid.buckets(), grid.keys(), grid.params(), in.world->view)));
+    std::apply(launch, std::tuple_cat(arguments, std::tuple(grid.buckets(), grid.keys(), grid.params(),
+                                                            in.world->view)));
   } else {
     std::apply(launch, arguments);
   }
@@ -136,13 +137,15 @@ void with_lights(const GridInCl& in, const Arguments& arguments, const Launch& l
 std::string light_kernel_defines(const RenderView& v, const GridInCl& in) {
   if (in.world) return " -DWORLD_GRID";
   if (!in.voxels) return "";
-  const std::string exact = in.grid ? fmt::format(" -DVOXEL_EXACT={}", v.plan.settings.voxel_lights_exact) : "";
+  const std::string exact =
+      in.grid ? fmt::format(" -DVOXEL_EXACT={}", v.plan.settings.voxel_lights_exact) : "";
   return " -DLIGHTS_VOXELS" + in.voxels->kernel_defines + exact;
 }
 
 size_t grid_bytes(const GridInCl& in) {
   if (in.world) return in.world->grid->list_bytes();
-  return (in.voxels ? in.voxels->bytes : 0) + (in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0);
+  return (in.voxels ? in.voxels->bytes : 0) +
+         (in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0);
 }
 
 }  // namespace
@@ -152,8 +155,8 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
   cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("resolve", "cl");
   with_lights(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
-    launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle, visible.image.depth, shared...,
-           background(v), r.image.cl_buffer());
+    launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle,
+           visible.image.depth, shared..., background(v), r.image.cl_buffer());
   });
   pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
@@ -168,8 +171,9 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
   std::apply(
       [&](const auto&... shared) {
         launch(*v.renderer.cl, "resolve_gbuffer", kernel, r.items(v), r.group(), visible.image.triangle,
-               visible.image.depth, shared..., background(v), g.surfaces[0]->cl_buffer(), g.surfaces[1]->cl_buffer(),
-               g.coats ? g.surfaces[2]->cl_buffer() : cl::Buffer(), image ? g.image->cl_buffer() : cl::Buffer());
+               visible.image.depth, shared..., background(v), g.surfaces[0]->cl_buffer(),
+               g.surfaces[1]->cl_buffer(), g.coats ? g.surfaces[2]->cl_buffer() : cl::Buffer(),
+               image ? g.image->cl_buffer() : cl::Buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));
   pass.moves(v.pixels() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
@@ -185,8 +189,8 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
   auto pass = v.timer.pass("resolve_normals", "cl");
   std::apply(
       [&](const auto&... shared) {
-        launch(*v.renderer.cl, "resolve_normals", kernel, r.items(v), r.group(), visible.image.triangle, shared...,
-               normals.image->cl_buffer());
+        launch(*v.renderer.cl, "resolve_normals", kernel, r.items(v), r.group(), visible.image.triangle,
+               shared..., normals.image->cl_buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));
   pass.moves(v.pixels() * 4 + r.scene(v).memory_bytes(), v.pixels() * normals.layout->image.bytes);
@@ -196,14 +200,16 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
 ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, const LightBufferInCl& sums) {
   Resolving& r = v.state<Resolving>();
   const Settings& s = v.plan.settings;
-  cl::Kernel& kernel = r.kernel(v, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
+  cl::Kernel& kernel =
+      r.kernel(v, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
   auto pass = v.timer.pass("resolve_materials", "cl");
   std::apply(
       [&](const auto&... shared) {
         launch(*v.renderer.cl, "resolve_materials", kernel, r.items(v), r.group(), visible.image.triangle,
                visible.image.depth, shared..., background(v), sums.first->cl_buffer(),
                sums.second ? sums.second->cl_buffer() : cl::Buffer(), cl_float(stored_scale(v)),
-               cl_float(s.prepass_shininess), cl_float(reference_light(v.scene, v.plan)), r.image.cl_buffer());
+               cl_float(s.prepass_shininess), cl_float(reference_light(v.scene, v.plan)),
+               r.image.cl_buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));
   pass.moves(v.pixels() * (8 + sums.bytes()) + r.scene(v).memory_bytes(), v.pixels() * 16);
@@ -218,8 +224,9 @@ void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthB
   with_lights(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
     launch(*v.renderer.cl, "blend_resolved", kernel,
            r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
-           r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records, blended.lists.tile_begin,
-           blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values, shared..., r.image.cl_buffer());
+           r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
+           blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
+           shared..., r.image.cl_buffer());
   });
   pass.moves(v.pixels() * 20 + grid_bytes(lights), v.pixels() * 16);
 }

@@ -30,7 +30,8 @@ void blend(RenderView& v, const ShadedImage& image, const LightSource& lights, c
 }  // namespace
 
 void shade_blended(RenderView& v, const ShadedImage& image, const LightSource& lights) {
-  blend(v, image, lights, [&](ScenePrograms& programs) { draw_list(v, v.blended, DrawStreams::all, programs); });
+  blend(v, image, lights,
+        [&](ScenePrograms& programs) { draw_list(v, v.blended, DrawStreams::all, programs); });
 }
 
 void shade_blended(RenderView& v, const ShadedImage& image, const ObjectLights& objects) {

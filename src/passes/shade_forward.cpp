@@ -11,7 +11,8 @@ ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSo
   const ShadedImage image = begin_shading(v);
   glDisable(GL_BLEND);
   lights.bind(v);
-  draw_list(v, surfaces, DrawStreams::all, v.programs({"shaders/scene.vert", "shaders/forward.frag", lights.defines}));
+  draw_list(v, surfaces, DrawStreams::all,
+            v.programs({"shaders/scene.vert", "shaders/forward.frag", lights.defines}));
   pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + lights.bytes, v.pixels() * 16);
   return image;
 }

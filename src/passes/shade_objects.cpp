@@ -38,7 +38,8 @@ struct ObjectPrograms {
 // Draws one object. Alpha is 0 or 1.
 class ObjectDraws {
  public:
-  ObjectDraws(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object, InstanceDrawer& drawer)
+  ObjectDraws(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object,
+              InstanceDrawer& drawer)
       : v_(v), programs_(programs), object_(object), drawer_(drawer) {}
 
   // Replaces the image. Uses lights [0, count) of the object; 0: none.
@@ -55,7 +56,8 @@ class ObjectDraws {
     bind(programs_.lights, first, count);
     if (reversed_.counts.empty()) reversed_ = in_reverse(object_.ranges, v_.gpu.in_gl());
     glEnable(GL_BLEND);
-    glBlendFuncSeparate(alpha_ ? GL_DST_ALPHA : GL_ONE_MINUS_DST_ALPHA, GL_ONE, alpha_ ? GL_ZERO : GL_ONE, GL_ZERO);
+    glBlendFuncSeparate(alpha_ ? GL_DST_ALPHA : GL_ONE_MINUS_DST_ALPHA, GL_ONE, alpha_ ? GL_ZERO : GL_ONE,
+                        GL_ZERO);
     drawer_.draw(reversed_);
     alpha_ = !alpha_;
   }
@@ -64,7 +66,8 @@ class ObjectDraws {
   const SceneProgram& bind(ScenePrograms& programs, uint32_t first, uint32_t count) {
     const SceneProgram& program = programs.of(v_.plan.features_of_instance[object_.instance]);
     drawer_.bind(object_.instance, program);
-    if (program.lights_of_draw >= 0) glUniform2i(program.lights_of_draw, GLint(object_.first_light + first), GLint(count));
+    if (program.lights_of_draw >= 0)
+      glUniform2i(program.lights_of_draw, GLint(object_.first_light + first), GLint(count));
     return program;
   }
 
@@ -76,10 +79,11 @@ class ObjectDraws {
   int alpha_ = 1;
 };
 
-void draw_object(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object, uint32_t lights_a_draw,
-                 bool own_apart, InstanceDrawer& drawer) {
+void draw_object(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object,
+                 uint32_t lights_a_draw, bool own_apart, InstanceDrawer& drawer) {
   ObjectDraws draws(v, programs, object, drawer);
-  const bool unlit = v.scene.materials[v.scene.meshes[v.scene.instances[object.instance].mesh].material].unlit;
+  const bool unlit =
+      v.scene.materials[v.scene.meshes[v.scene.instances[object.instance].mesh].material].unlit;
   const uint32_t count = unlit ? 0 : object.light_count;
   uint32_t done = own_apart ? 0 : std::min(count, lights_a_draw);
   const uint32_t further = (count - done + lights_a_draw - 1) / lights_a_draw;
@@ -89,7 +93,8 @@ void draw_object(RenderView& v, ObjectPrograms& programs, const ObjectLights::Ob
 
 }  // namespace
 
-ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart) {
+ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t lights_a_draw,
+                          bool own_apart) {
   auto pass = v.timer.pass("shade_objects", "gl");
   const ShadedImage image = begin_shading(v);
   glBlendEquation(GL_FUNC_ADD);

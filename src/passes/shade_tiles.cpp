@@ -8,16 +8,17 @@ namespace lightgrid {
 namespace {
 
 // Whether the image already contains base lighting before the light pass.
-bool holds_base_lighting(const GBufferInCl& gbuffer) { return gbuffer.base_lighting == BaseLighting::in_image; }
+bool holds_base_lighting(const GBufferInCl& gbuffer) {
+  return gbuffer.base_lighting == BaseLighting::in_image;
+}
 
 // The lights and the kernels.
 class TileShading : public PassState {
  public:
-  explicit TileShading(RenderView& v)
-      : lanes(shades_in_lanes(v)),
-        defines_(defines_of_view(v)) {
+  explicit TileShading(RenderView& v) : lanes(shades_in_lanes(v)), defines_(defines_of_view(v)) {
     lights.upload(v);
-    if (v.plan.skin || v.plan.minnaert) models.put(*v.renderer.cl, "uploading models of materials", model_records(v.scene));
+    if (v.plan.skin || v.plan.minnaert)
+      models.put(*v.renderer.cl, "uploading models of materials", model_records(v.scene));
   }
 
   // Another camera at the same size, or moved lights; kernels are rebuilt only if the plan changed.
@@ -49,7 +50,8 @@ class TileShading : public PassState {
 
  private:
   std::string defines_of_view(RenderView& v) const {
-    std::string defines = light_defines(v, lanes, v.plan.settings.brdf) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
+    std::string defines =
+        light_defines(v, lanes, v.plan.settings.brdf) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
     for (const char* define : model_defines(v.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
@@ -58,9 +60,10 @@ class TileShading : public PassState {
   cl::Kernel kernels_[2];  // by holds_base_lighting
 };
 
-void copy_attachment(RenderView& v, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type, SharedBuffer& to) {
-  v.renderer.pixel_copies.to_buffer({gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture}, GL_RGBA, type,
-                                    v.view.width, v.view.height, to.gl_buffer());
+void copy_attachment(RenderView& v, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type,
+                     SharedBuffer& to) {
+  v.renderer.pixel_copies.to_buffer({gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture},
+                                    GL_RGBA, type, v.view.width, v.view.height, to.gl_buffer());
 }
 
 GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
@@ -69,16 +72,18 @@ GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
   const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
   std::vector<SharedBuffer::Written> copies;
-  for (size_t i = 0; i < in_cl.images(); ++i) copies.push_back({in_cl.surfaces[i], pixels * gbuffer.layout->images[i].bytes});
+  for (size_t i = 0; i < in_cl.images(); ++i)
+    copies.push_back({in_cl.surfaces[i], pixels * gbuffer.layout->images[i].bytes});
   if (base_lighting) copies.push_back({in_cl.image, pixels * 16});
   std::vector<SharedBuffer*> buffers;
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
   for (size_t i = 0; i < in_cl.images(); ++i) {
-    copy_attachment(v, gbuffer, i < 2 ? int(i) : gbuffer.coats_attachment(), gbuffer.textures[i], gbuffer.layout->images[i].type,
-                    *in_cl.surfaces[i]);
+    copy_attachment(v, gbuffer, i < 2 ? int(i) : gbuffer.coats_attachment(), gbuffer.textures[i],
+                    gbuffer.layout->images[i].type, *in_cl.surfaces[i]);
   }
-  if (base_lighting) copy_attachment(v, gbuffer, 2, v.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
+  if (base_lighting)
+    copy_attachment(v, gbuffer, 2, v.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
   SharedBuffer::hand_to_cl(copies);
   const size_t bytes = pixels * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
@@ -102,14 +107,17 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   const cl::NDRange items = s.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y)
                                     : cl::NDRange(whole(v.view.width), whole(v.view.height));
   const bool base_lighting = holds_base_lighting(gbuffer);
-  const glm::vec3 background = base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
+  const glm::vec3 background =
+      base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(), gbuffer.surfaces[1]->cl_buffer(),
-         gbuffer.coats ? gbuffer.surfaces[2]->cl_buffer() : cl::Buffer(),
-         s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
-         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(), gbuffer.image->cl_buffer(),
-         cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());
+         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(),
+         gbuffer.surfaces[1]->cl_buffer(), gbuffer.coats ? gbuffer.surfaces[2]->cl_buffer() : cl::Buffer(),
+         s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(),
+         s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
+         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(),
+         gbuffer.image->cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}},
+         s.lights.view.buffer());
   const size_t pixels = v.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
@@ -117,7 +125,8 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
 
 }  // namespace
 
-ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
+ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
+                        const LightGrid& grid) {
   const GBufferInCl in_cl = gbuffer_to_cl(v, gbuffer);
   add_light(v, in_cl, depth, grid);
   if (!v.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
@@ -125,7 +134,8 @@ ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer
   return gbuffer.image;
 }
 
-ShadedImage shade_tiles(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
+ShadedImage shade_tiles(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth,
+                        const LightGrid& grid) {
   add_light(v, gbuffer, depth, grid);
   return {0, gbuffer.image};
 }

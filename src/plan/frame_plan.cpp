@@ -38,7 +38,8 @@ constexpr FeatureName feature_names[] = {
 std::string instance_witness(const Scene& scene, int instance) {
   const Instance& i = scene.instances[instance];
   const int material = scene.meshes[i.mesh].material;
-  return fmt::format("material {} \"{}\" on node {} \"{}\"", material, scene.materials[material].name, instance, i.name);
+  return fmt::format("material {} \"{}\" on node {} \"{}\"", material, scene.materials[material].name,
+                     instance, i.name);
 }
 
 std::string light_witness(const Scene& scene, int light) {
@@ -57,12 +58,15 @@ bool is_plain(const Scene& scene, int instance) {
 
 // After surfaces and lights.
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
-  const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(), [&](int i) { return shows_base_lighting(scene, i); });
+  const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(),
+                                  [&](int i) { return shows_base_lighting(scene, i); });
   plan.base_lighting = plan.directional || first != plan.opaque.end();
-  plan.decisions.push_back({"base lighting", plan.base_lighting,
-                            plan.directional ? light_witness(scene, plan.directional_lights[0])
-                            : plan.base_lighting ? instance_witness(scene, *first)
-                                             : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});
+  plan.decisions.push_back(
+      {"base lighting", plan.base_lighting,
+       plan.directional ? light_witness(scene, plan.directional_lights[0])
+       : plan.base_lighting
+           ? instance_witness(scene, *first)
+           : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});
 }
 
 void plan_models(const Scene& scene, FramePlan& plan) {
@@ -78,10 +82,13 @@ void plan_models(const Scene& scene, FramePlan& plan) {
 void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const auto planned = [&](int i, const glm::dmat4& to_view) {
-    if (instances == PlannedInstances::in_view) return may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds);
+    if (instances == PlannedInstances::in_view)
+      return may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds);
     const bool coated = material_features(scene, scene.meshes[scene.instances[i].mesh]) & feature_clearcoat;
-    if (coated && (instances == PlannedInstances::plain || instances == PlannedInstances::uncoated)) return false;
-    return instances == PlannedInstances::every || instances == PlannedInstances::uncoated || is_plain(scene, i);
+    if (coated && (instances == PlannedInstances::plain || instances == PlannedInstances::uncoated))
+      return false;
+    return instances == PlannedInstances::every || instances == PlannedInstances::uncoated ||
+           is_plain(scene, i);
   };
   plan.features_of_instance.assign(scene.instances.size(), 0);
   int first_with[std::size(feature_names)];
@@ -109,8 +116,10 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
   for (const auto& [z, i] : blended) plan.blended.push_back(i);
   plan.blend = !blended.empty();
   plan.mask = plan.features & feature_mask;
-  plan.decisions.push_back({"blend", plan.blend, plan.blend ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
-                                                            : "no blended material in view"});
+  plan.decisions.push_back(
+      {"blend", plan.blend,
+       plan.blend ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
+                  : "no blended material in view"});
   for (size_t f = 0; f < std::size(feature_names); ++f) {
     const bool left_out = features_read(feature_names[f].bit, plan.settings.brdf) == 0;
     plan.decisions.push_back({feature_names[f].effect, first_with[f] >= 0,
@@ -139,10 +148,13 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const auto& local = plan.local;
   plan.decisions.push_back({"point and spot lights", plan.local_lights,
                             plan.local_lights ? light_witness(scene, local[0]) : "no light has a place"});
-  plan.decisions.push_back({"spot cones", plan.spots, plan.spots ? light_witness(scene, first_spot) : "no light is a spot"});
-  plan.decisions.push_back({"directional lights", plan.directional,
-                            plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
-  plan.decisions.push_back({"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
+  plan.decisions.push_back(
+      {"spot cones", plan.spots, plan.spots ? light_witness(scene, first_spot) : "no light is a spot"});
+  plan.decisions.push_back(
+      {"directional lights", plan.directional,
+       plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
+  plan.decisions.push_back(
+      {"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
 }
 
 // From the near plane to the farthest surface in view.
@@ -154,7 +166,8 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
   for (const auto* list : {&plan.opaque, &plan.blended}) {
     for (int i : *list) {
       const Instance& instance = scene.instances[i];
-      far_m = std::max(far_m, farthest_of_box(view_from_object(view, instance.world_from_object), scene.meshes[instance.mesh].bounds));
+      far_m = std::max(far_m, farthest_of_box(view_from_object(view, instance.world_from_object),
+                                              scene.meshes[instance.mesh].bounds));
     }
   }
   far_m = std::min(far_m, view.far_m);
@@ -170,9 +183,10 @@ void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& nee
        : plan.light_grid               ? "slices=1"
                                        : "no light grid"});
   plan.decisions.push_back({"z-bins", plan.z_bins > 1,
-                            plan.z_bins > 1      ? fmt::format("{} between the same distances", plan.z_bins)
-                            : !needs.z_bins      ? "the technique's shading reads none"
-                            : plan.light_grid ? "z-bins=off" : "no light grid"});
+                            plan.z_bins > 1   ? fmt::format("{} between the same distances", plan.z_bins)
+                            : !needs.z_bins   ? "the technique's shading reads none"
+                            : plan.light_grid ? "z-bins=off"
+                                              : "no light grid"});
 }
 
 bool reads_light_grid(const TechniqueNeeds& needs, const Settings& settings) {
@@ -204,8 +218,8 @@ std::vector<std::string> defines_of(uint32_t features) {
 }
 
 uint32_t features_read(uint32_t features, Brdf brdf) {
-  constexpr uint32_t coat =
-      feature_clearcoat | feature_clearcoat_map | feature_clearcoat_roughness_map | feature_clearcoat_normal_map;
+  constexpr uint32_t coat = feature_clearcoat | feature_clearcoat_map | feature_clearcoat_roughness_map |
+                            feature_clearcoat_normal_map;
   return brdf == Brdf::lambert ? features & ~coat : features;
 }
 
@@ -244,12 +258,13 @@ bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings) {
   return needs.opengl && !(needs.chosen_raster && settings.raster == RasterApi::opencl);
 }
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
-                     PlannedInstances instances) {
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings,
+                     const TechniqueNeeds& needs, PlannedInstances instances) {
   FramePlan plan;
   plan.settings = settings;
   plan.reversed_triangles = needs.reversed_triangles;
-  plan.stencil = needs.stencil || (draws_light_volumes(needs, settings) && settings.volume_culling == VolumeCulling::stencil);
+  plan.stencil = needs.stencil ||
+                 (draws_light_volumes(needs, settings) && settings.volume_culling == VolumeCulling::stencil);
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
@@ -258,34 +273,40 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.light_grid = reads_light_grid(needs, settings) && plan.local_lights;
   const bool bounded = settings.depth_bounds != DepthBoundsMode::none;
   plan.blend_grid = plan.light_grid && plan.blend && bounded;
-  plan.decisions.push_back({"light grid", plan.light_grid,
-                            !needs.light_grid                        ? "the technique reads none"
-                            : needs.exact_lights && !reads_light_grid(needs, settings) ? "voxel-lights-exact=0"
-                            : needs.prepass_lights && !reads_light_grid(needs, settings) ? "prepass-lights=volumes"
-                            : !reads_light_grid(needs, settings) ? "lights=all"
-                            : !plan.local_lights ? "no light has a place"
-                                                 : light_witness(scene, plan.local[0])});
-  plan.decisions.push_back({"blended light grid", plan.blend_grid,
-                            plan.blend_grid ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
-                            : !plan.light_grid ? "no light grid"
-                            : !plan.blend      ? "no blended material in view"
-                                               : "without depth bounds, one grid serves all surfaces"});
+  plan.decisions.push_back(
+      {"light grid", plan.light_grid,
+       !needs.light_grid                                            ? "the technique reads none"
+       : needs.exact_lights && !reads_light_grid(needs, settings)   ? "voxel-lights-exact=0"
+       : needs.prepass_lights && !reads_light_grid(needs, settings) ? "prepass-lights=volumes"
+       : !reads_light_grid(needs, settings)                         ? "lights=all"
+       : !plan.local_lights                                         ? "no light has a place"
+                                                                    : light_witness(scene, plan.local[0])});
+  plan.decisions.push_back(
+      {"blended light grid", plan.blend_grid,
+       plan.blend_grid ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
+       : !plan.light_grid ? "no light grid"
+       : !plan.blend      ? "no blended material in view"
+                          : "without depth bounds, one grid serves all surfaces"});
   plan.world_grid = needs.world_grid && plan.local_lights;
   if (needs.world_grid) {
     plan.decisions.push_back(
-        {"world grid", plan.world_grid, plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
+        {"world grid", plan.world_grid,
+         plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
   }
   plan_slices(scene, view, needs, plan);
-  plan.decisions.push_back({"shadows", false, "no light casts one: shadows are not part of any technique yet"});
+  plan.decisions.push_back(
+      {"shadows", false, "no light casts one: shadows are not part of any technique yet"});
   if (settings.everything_on) turn_everything_on(plan, needs);
   return plan;
 }
 
 std::string describe(const FramePlan& plan, const Scene& scene) {
-  std::string text = fmt::format("{} of {} instances in view ({} opaque, {} blended), {} of {} lights\n",
-                                 plan.opaque.size() + plan.blended.size(), scene.instances.size(), plan.opaque.size(),
-                                 plan.blended.size(), plan.lights_in_view, scene.lights.size());
-  for (const Decision& d : plan.decisions) text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
+  std::string text =
+      fmt::format("{} of {} instances in view ({} opaque, {} blended), {} of {} lights\n",
+                  plan.opaque.size() + plan.blended.size(), scene.instances.size(), plan.opaque.size(),
+                  plan.blended.size(), plan.lights_in_view, scene.lights.size());
+  for (const Decision& d : plan.decisions)
+    text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
   return text;
 }
 

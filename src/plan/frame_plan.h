@@ -46,25 +46,25 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh);
 struct Decision {
   std::string effect;  // "blend", "spot lights", "normal maps", ...
   bool needed = false;
-  std::string why;     // the witness: `material 3 "glass" on node 12 "window"`, or why not
+  std::string why;  // the witness: `material 3 "glass" on node 12 "window"`, or why not
 };
 
 // What a technique requires of the plan.
 struct TechniqueNeeds {
   bool light_grid = false;
-  bool slices = false;   // tiles are cut into depth slices
-  bool given_slices = false;  // the same, but only if the setting slices is given
-  bool stencil = false;  // beside the depth buffer
-  bool lists = false;    // light code reads lists only, not masks
-  bool z_bins = false;   // shading skips lights by z-bins, if the setting z-bins says so
-  bool light_volumes = false;  // lights are drawn one by one; with stencil if volume-culling uses it
-  bool prepass_lights = false;  // the setting prepass-lights chooses between light_grid and light_volumes
+  bool slices = false;              // tiles are cut into depth slices
+  bool given_slices = false;        // the same, but only if the setting slices is given
+  bool stencil = false;             // beside the depth buffer
+  bool lists = false;               // light code reads lists only, not masks
+  bool z_bins = false;              // shading skips lights by z-bins, if the setting z-bins says so
+  bool light_volumes = false;       // lights are drawn one by one; with stencil if volume-culling uses it
+  bool prepass_lights = false;      // the setting prepass-lights chooses between light_grid and light_volumes
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
   bool opengl = true;               // draws with OpenGL; false: OpenCL alone
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
-  bool exact_lights = false;  // whose light grid is read only with voxel-lights-exact
-  bool chosen_lights = false;  // whose light grid is left out by the setting lights=all
-  bool world_grid = false;     // light lists in cells of the world
+  bool exact_lights = false;        // whose light grid is read only with voxel-lights-exact
+  bool chosen_lights = false;       // whose light grid is left out by the setting lights=all
+  bool world_grid = false;          // light lists in cells of the world
 };
 
 // Whether a technique with these settings draws lights one by one.
@@ -80,27 +80,27 @@ struct FramePlan {
   std::vector<int> opaque, blended;
   std::vector<uint32_t> features_of_instance;  // one for each of the scene's instances; 0 if not in view
 
-  bool light_grid = false;     // culling kernels and the grid's buffers
-  bool world_grid = false;     // lists in cells of the world
-  bool local_lights = false;   // at least one point or spot light
-  bool spots = false;          // compile cone code
+  bool light_grid = false;    // culling kernels and the grid's buffers
+  bool world_grid = false;    // lists in cells of the world
+  bool local_lights = false;  // at least one point or spot light
+  bool spots = false;         // compile cone code
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // a light grid for blended surfaces
-  bool base_lighting = false;      // an opaque surface shows more than point, spot and plain ambient light
+  bool base_lighting = false;  // an opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
-  bool clearcoat = false;      // an opaque surface has a coat
-  // An opaque surface of the scene, in view or not, is skin or Minnaert's: what light passes over all surfaces are built
-  // for, so that a camera that turns builds nothing.
+  bool clearcoat = false;  // an opaque surface has a coat
+  // An opaque surface of the scene, in view or not, is skin or Minnaert's: what light passes over all
+  // surfaces are built for, so that a camera that turns builds nothing.
   bool skin = false, minnaert = false;
-  bool stencil = false;        // 8 bits beside depth
+  bool stencil = false;  // 8 bits beside depth
   bool reversed_triangles = false;
   int index_bits = 16;
-  int z_bins = 1;              // 1: off
-  int slices = 1;              // cells a tile, ...
+  int z_bins = 1;                            // 1: off
+  int slices = 1;                            // cells a tile, ...
   double slice_near_m = 0, slice_far_m = 0;  // ... between these distances
-  uint32_t features = 0;       // union over the instances in view: decides which vertex streams and textures
-                               // exist
+  uint32_t features = 0;  // union over the instances in view: decides which vertex streams and textures
+                          // exist
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
   int lights_in_view = 0;                      // lights whose range touches the view's frustum
@@ -109,12 +109,12 @@ struct FramePlan {
 };
 
 // The instances that a plan is for. The last two serve to build in advance what other views of the scene need
-// (RenderView::prepare): all instances; those alone that are opaque, unmasked and show no base lighting (plain), with and
-// without those under a coat; and all without those under a coat.
+// (RenderView::prepare): all instances; those alone that are opaque, unmasked and show no base lighting
+// (plain), with and without those under a coat; and all without those under a coat.
 enum class PlannedInstances { in_view, every, plain, plain_or_coated, uncoated };
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
-                     PlannedInstances instances = PlannedInstances::in_view);
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings,
+                     const TechniqueNeeds& needs, PlannedInstances instances = PlannedInstances::in_view);
 
 // The plan as `lightgrid plan` prints it.
 std::string describe(const FramePlan& plan, const Scene& scene);

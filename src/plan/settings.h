@@ -1,4 +1,5 @@
-// The settings that trade accuracy for time, by the names of the command line (docs/command_line.md#settings).
+// The settings that trade accuracy for time, by the names of the command line
+// (docs/command_line.md#settings).
 #pragma once
 
 #include <map>
@@ -22,28 +23,33 @@ enum class LidrVolumes { stencil, front_faces };
 enum class LidrUnpack { integers, floats };
 enum class LidrOrder { priority, scene };
 
-// Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/rasterizer.h), which then needs no
-// OpenGL.
+// Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/rasterizer.h), which then
+// needs no OpenGL.
 enum class RasterApi { opengl, opencl };
 
 // How the resolve passes keep a material's maps (renderer/surface_texels.h), and which lights it adds up.
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
-// Light pre-pass (docs/techniques/light_prepass.md): who adds up the light buffer, the specular term that it keeps, and
-// the format of the image of normals.
+// Light pre-pass (docs/techniques/light_prepass.md): who adds up the light buffer, the specular term that it
+// keeps, and the format of the image of normals.
 enum class PrepassLights { tiles, volumes };
 enum class PrepassSpecular { plain, fifth_term, luminance, bent };
 enum class NormalFormat { floats, octahedral, spheremap, xyz8 };
 
-enum class VolumeMeshes { automatic, icosahedron, box };  // what stands for a light's ball: docs/light_volumes.md
+enum class VolumeMeshes {
+  automatic,
+  icosahedron,
+  box
+};  // what stands for a light's ball: docs/light_volumes.md
 
-// The voxel light buffer (docs/techniques/voxel_lights.md): which space its samples divide, and when it is filled.
+// The voxel light buffer (docs/techniques/voxel_lights.md): which space its samples divide, and when it is
+// filled.
 enum class VoxelSpace { world, view };
 enum class VoxelSize { s16x16x4, s32x32x8, s64x64x16, s128x128x16, s128x128x32, s128x128x64, s256x256x64 };
 
-// How world_grid cuts the world into cells (docs/techniques/world_grid.md): columns over its ground, cubes of one size, or cubes
-// of sizes that suit each light.
+// How world_grid cuts the world into cells (docs/techniques/world_grid.md): columns over its ground, cubes of
+// one size, or cubes of sizes that suit each light.
 enum class WorldGridShape { columns, cubes, hashed };
 
 struct Settings {
@@ -51,7 +57,7 @@ struct Settings {
   LightRanges ranges;
   CullTest cull_test = CullTest::planes_aabb;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
-  int tile = 16;  // pixels a side: 8, 16, 32 or 64
+  int tile = 16;    // pixels a side: 8, 16, 32 or 64
   int slices = 24;  // depth slices, for techniques that use them (TechniqueNeeds::given_slices: where it is
                     // given): 1, 2, 4, 8, 16, 24, 32 or 64
   SliceSpacing slice_spacing = SliceSpacing::exponential;
@@ -82,10 +88,12 @@ struct Settings {
   int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   WorldGridShape world_grid = WorldGridShape::cubes;
-  double world_cell = 0;       // a cell's edge over the radius of lights: 2, 1, 0.5, 0.25, or 0: what suits the lights
-  bool portable = false;       // kernels without the builtins of one kind of CPU
-  int group_size = 0;          // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
-  bool everything_on = false;  // every effect's code and buffers, called for or not: what a plan is tested against
+  double world_cell =
+      0;  // a cell's edge over the radius of lights: 2, 1, 0.5, 0.25, or 0: what suits the lights
+  bool portable = false;  // kernels without the builtins of one kind of CPU
+  int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
+  bool everything_on =
+      false;  // every effect's code and buffers, called for or not: what a plan is tested against
   std::set<std::string> given{};  // keys that apply_setting has set
 };
 

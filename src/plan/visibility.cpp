@@ -6,7 +6,8 @@
 namespace lightgrid {
 
 Frustum frustum_of(const View& view) {
-  // Gribb and Hartmann (2001): the rows of the projection give its planes; here depth is in [0, w], near at w.
+  // Gribb and Hartmann (2001): the rows of the projection give its planes; here depth is in [0, w], near at
+  // w.
   const glm::dmat4 rows = glm::transpose(view.clip_from_view);
   const glm::dvec4 candidates[6] = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
                                     rows[3] - rows[1], rows[3] - rows[2], rows[2]};
@@ -26,7 +27,8 @@ bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, con
   const glm::dmat3 axes(view_from_object);
   for (int i = 0; i < frustum.count; ++i) {
     const glm::dvec3 normal(frustum.planes[i]);
-    const double reach = std::abs(glm::dot(normal, axes[0])) * half.x + std::abs(glm::dot(normal, axes[1])) * half.y +
+    const double reach = std::abs(glm::dot(normal, axes[0])) * half.x +
+                         std::abs(glm::dot(normal, axes[1])) * half.y +
                          std::abs(glm::dot(normal, axes[2])) * half.z;
     const double distance = glm::dot(normal, place) + frustum.planes[i].w;
     // 1e-6 covers the float rounding of the vertices in the box.
@@ -38,7 +40,8 @@ bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, con
 double farthest_of_box(const glm::dmat4& view_from_object, const Aabb& box) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z, 1);
+    const glm::dvec4 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                       corner & 4 ? box.max.z : box.min.z, 1);
     farthest = std::max(farthest, -(view_from_object * p).z);
   }
   return farthest;

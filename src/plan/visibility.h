@@ -15,7 +15,8 @@ struct Frustum {
 Frustum frustum_of(const View& view);
 
 bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, const Aabb& box);
-double farthest_of_box(const glm::dmat4& view_from_object, const Aabb& box);  // distance along the view axis, metres
+double farthest_of_box(const glm::dmat4& view_from_object,
+                       const Aabb& box);  // distance along the view axis, metres
 bool may_see_sphere(const Frustum& frustum, glm::dvec3 center_view, double radius);
 
 }  // namespace lightgrid

@@ -85,7 +85,9 @@ class RasterGroupPipeline : public RasterPipeline {
   cl::Kernel& kernel(const char* name, int pass, bool masks) {
     cl::Kernel& kernel = kernels_[{name, pass, masks}];
     if (kernel()) return kernel;
-    std::string defines = wide_ ? "-DATOMICS=64" : pass == 0 ? "-DATOMICS=32 -DPASS=1" : "-DATOMICS=32 -DPASS=2";
+    std::string defines = wide_       ? "-DATOMICS=64"
+                          : pass == 0 ? "-DATOMICS=32 -DPASS=1"
+                                      : "-DATOMICS=32 -DPASS=2";
     if (masks) defines += " -DALPHA_MASKS";
     return kernel = programs_.kernel(name, defines);
   }

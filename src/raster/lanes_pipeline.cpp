@@ -1,5 +1,5 @@
-// transform, clusters -> order -> setup -> scan -> fill -> tiles: for CPUs. Without tiles also for GPUs, where lists
-// have to be in drawing order.
+// transform, clusters -> order -> setup -> scan -> fill -> tiles: for CPUs. Without tiles also for GPUs,
+// where lists have to be in drawing order.
 #include <algorithm>
 
 #include "cl/avx512.h"

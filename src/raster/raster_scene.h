@@ -26,8 +26,8 @@ struct RasterMeshes {
   std::vector<RasterCluster> clusters;
 };
 
-// Clusters of triangles that lie together; with `drawing_order` those that follow one another in the mesh. Throws
-// Error(input) that names the mesh.
+// Clusters of triangles that lie together; with `drawing_order` those that follow one another in the mesh.
+// Throws Error(input) that names the mesh.
 RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_order = false);
 
 struct RasterInstances {

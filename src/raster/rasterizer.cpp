@@ -38,8 +38,9 @@ struct Rasterizer::State {
     const bool lanes =
         options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
     // Only the lanes' lists are in an order.
-    pipeline = lanes || options.drawing_order ? make_raster_lanes_pipeline(device, programs, options.portable)
-                     : make_raster_group_pipeline(device, programs, options.wide_atomics);
+    pipeline = lanes || options.drawing_order
+                   ? make_raster_lanes_pipeline(device, programs, options.portable)
+                   : make_raster_group_pipeline(device, programs, options.wide_atomics);
     params_buffer = device_buffer(device, sizeof(RasterParams));
     counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
   }
@@ -156,7 +157,8 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
 
 Visibility Rasterizer::draw() {
   run(true);
-  return {state_->image_triangles.get(), state_->image_depths.get(), state_->view->width, state_->view->height};
+  return {state_->image_triangles.get(), state_->image_depths.get(), state_->view->width,
+          state_->view->height};
 }
 
 RasterLists Rasterizer::list() {

@@ -15,21 +15,24 @@
 // divisions correctly, in every kernel shape, for any number of threads. docs/raster.md has the arithmetic;
 // in short:
 //
-// - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and snapped
+// - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and
+// snapped
 //   once to 1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left rule: a
-//   centre on an edge belongs to the triangle of which it is a left edge, or a horizontal top edge (rows count
-//   upwards).
+//   centre on an edge belongs to the triangle of which it is a left edge, or a horizontal top edge (rows
+//   count upwards).
 // - A triangle that crosses the near plane or leaves a guard band, 16,368 pixels on either side of the view's
-//   centre, is cut. Where an edge is cut depends on its two end points alone, so that neighbours meet without a
-//   gap.
+//   centre, is cut. Where an edge is cut depends on its two end points alone, so that neighbours meet without
+//   a gap.
 // - Depth is a plane through the snapped vertices, clamped to their depths. It is within
-//   2^-21 (|zx dx| + |zy dy| + z) of the exact one: dx, dy are the pixel's distance from the first vertex, zx and
-//   zy the gradients, z the greatest depth of the vertices. A depth below 2^-126, as at or past the far plane, is
-//   not drawn.
-// - The greatest depth wins (depth is reversed). Of equal ones the lowest triangle number wins, which is the one
+//   2^-21 (|zx dx| + |zy dy| + z) of the exact one: dx, dy are the pixel's distance from the first vertex, zx
+//   and zy the gradients, z the greatest depth of the vertices. A depth below 2^-126, as at or past the far
+//   plane, is not drawn.
+// - The greatest depth wins (depth is reversed). Of equal ones the lowest triangle number wins, which is the
+// one
 //   drawn first, as with OpenGL's GL_GREATER.
 // - A triangle with a corner that is not finite in clip space is left out and counted.
-// - Clusters of triangles that all face away are left out early. OpenGL draws such a triangle where it is so thin
+// - Clusters of triangles that all face away are left out early. OpenGL draws such a triangle where it is so
+// thin
 //   on the screen that snapping turns it towards the eye; so does RasterOptions::cluster_cones = false.
 //
 // Errors are of type Error (base/error.h) alone: input where an argument is wrong or a call is missing,
@@ -78,7 +81,7 @@ constexpr uint32_t no_triangle = 0xffffffffu;
 // gaps.
 struct Visibility {
   static constexpr size_t spare_pixels = 16;  // of depth, that kernels may read past its end
-  cl::Buffer triangle;  // uint a pixel: the nearest triangle's number, or no_triangle
+  cl::Buffer triangle;                        // uint a pixel: the nearest triangle's number, or no_triangle
   cl::Buffer
       depth;  // float a pixel: reversed z / w of clip_from_view, 0 where no triangle is: DepthInput::values
   int width = 0, height = 0;
@@ -104,13 +107,13 @@ struct RasterOptions {
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bytes
   bool portable = false;                       // no builtins of one kind of CPU; the same bytes
   bool cluster_cones = true;                   // leaves out clusters that face away
-  bool wide_atomics = true;  // group shape: false uses 32-bit atomics, in two passes; the same bytes
+  bool wide_atomics = true;    // group shape: false uses 32-bit atomics, in two passes; the same bytes
   bool drawing_order = false;  // for list(): triangles in drawing order; by the lanes shape on any device
 };
 
-// The triangles of each tile of RASTER_TILE x RASTER_TILE pixels (shared/raster_params.h), for passes that draw
-// them otherwise: tile t, x fastest from the lower left, has records[lists[i]] for i from tile_begin[t] to below
-// tile_begin[t + 1]. The rasteriser's own buffers, written again by the next draw() or list().
+// The triangles of each tile of RASTER_TILE x RASTER_TILE pixels (shared/raster_params.h), for passes that
+// draw them otherwise: tile t, x fastest from the lower left, has records[lists[i]] for i from tile_begin[t]
+// to below tile_begin[t + 1]. The rasteriser's own buffers, written again by the next draw() or list().
 struct RasterLists {
   cl::Buffer records, tile_begin, lists;
   uint32_t tiles_x = 0, tiles_y = 0;

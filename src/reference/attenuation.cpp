@@ -13,7 +13,8 @@ double window_at(const ViewLight& light, double distance) {
   return light.window == RangeWindow::smooth ? khr * khr : khr;
 }
 
-// The probability with which a light with random ranges reaches a point of this 1 / distance^2 (Tokuyoshi and Harada 2016).
+// The probability with which a light with random ranges reaches a point of this 1 / distance^2 (Tokuyoshi and
+// Harada 2016).
 double probability(const ViewLight& light, double falloff) {
   return light.least_falloff > 0 ? std::min(falloff / light.least_falloff, 1.0) : 1;
 }

@@ -19,10 +19,11 @@ inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, do
   return along / std::max(distance, std::numeric_limits<double>::min());
 }
 
-// Points and spots: window / (d^2 p), where the window is clamp(1 - (d / radius)^4, 0, 1), its square, or 1 inside the radius
-// (scene/light_ranges.h), and p the probability of reaching that far if the radius is a random one, else 1. Both are 1
-// without `window` and for an infinite radius; spots times t^2, t = clamp((cos - cos_outer) / (cos_inner - cos_outer), 0, 1). Directional lights: 1.
-// Positive exactly where is_lit holds, if `window` is set. Finite: at the light itself d^2 is the smallest normal double.
+// Points and spots: window / (d^2 p), where the window is clamp(1 - (d / radius)^4, 0, 1), its square, or 1
+// inside the radius (scene/light_ranges.h), and p the probability of reaching that far if the radius is a
+// random one, else 1. Both are 1 without `window` and for an infinite radius; spots times t^2, t = clamp((cos
+// - cos_outer) / (cos_inner - cos_outer), 0, 1). Directional lights: 1. Positive exactly where is_lit holds,
+// if `window` is set. Finite: at the light itself d^2 is the smallest normal double.
 double attenuation(const ViewLight& light, const glm::dvec3& position, bool window);
 
 }  // namespace lightgrid

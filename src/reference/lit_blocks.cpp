@@ -59,7 +59,8 @@ double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, Li
 
 }  // namespace
 
-LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights) {
+LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth,
+                          const std::vector<ViewLight>& lights) {
   assert(depth.size() == size_t(view.width) * view.height);
   constexpr int side = LitBlocks::side;
   LitBlocks out{.blocks_x = (view.width + side - 1) / side, .blocks_y = (view.height + side - 1) / side};
@@ -87,7 +88,8 @@ ListAccuracy measure_lists(const LitBlocks& blocks, int tile, const ListedLights
   std::vector<double> ratios;
   for (int t = 0; t < tiles_x * tiles_y; ++t) {
     const uint32_t* begin = lists.indices.data() + lists.first[t];
-    const double ratio = add_tile(gather(blocks, tile, t % tiles_x, t / tiles_x), begin, begin + lists.count[t], out);
+    const double ratio =
+        add_tile(gather(blocks, tile, t % tiles_x, t / tiles_x), begin, begin + lists.count[t], out);
     if (ratio > 0 || out.tiles_lit > ratios.size()) ratios.push_back(ratio);
   }
   if (ratios.empty()) return out;

@@ -20,20 +20,21 @@ struct LitBlocks {
 };
 
 // As count_pairs: `depth` is width * height, row 0 at the bottom, 0 for background; is_lit decides.
-LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights);
+LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth,
+                          const std::vector<ViewLight>& lights);
 
 // (pixel, light) pairs over the covered pixels, and their distribution over the tiles.
 struct ListAccuracy {
   uint64_t listed = 0, lit = 0;
-  uint64_t lost = 0;            // lit but not listed
-  uint64_t perfect = 0;         // listed, if each tile listed only the lights that light one of its pixels
-  uint64_t tiles_lit = 0;       // tiles with a lit pair
+  uint64_t lost = 0;          // lit but not listed
+  uint64_t perfect = 0;       // listed, if each tile listed only the lights that light one of its pixels
+  uint64_t tiles_lit = 0;     // tiles with a lit pair
   uint64_t tiles_unlit = 0;   // tiles that list lights, none of which lights a pixel
-  double p99 = 0, worst = 0;    // listed / lit of a tile, over tiles_lit
+  double p99 = 0, worst = 0;  // listed / lit of a tile, over tiles_lit
 };
 
-// `tile` is a multiple of LitBlocks::side; lists.first and .count hold one cell a tile, x fastest, then y from the
-// bottom. cell_of_pixel is not read.
+// `tile` is a multiple of LitBlocks::side; lists.first and .count hold one cell a tile, x fastest, then y
+// from the bottom. cell_of_pixel is not read.
 ListAccuracy measure_lists(const LitBlocks& blocks, int tile, const ListedLights& lists);
 
 }  // namespace lightgrid

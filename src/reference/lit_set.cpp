@@ -56,15 +56,16 @@ uint32_t length_of_list(const ListedLights& lists, uint32_t cell) {
   return cell < lists.count.size() ? lists.count[cell] : 0;
 }
 
-Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered, const std::vector<ViewLight>& lights,
-                 const ListedLights& lists, LitPairs& out) {
+Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
+                 const std::vector<ViewLight>& lights, const ListedLights& lists, LitPairs& out) {
   std::vector<size_t> order(tile.indices.size());
   std::iota(order.begin(), order.end(), size_t(0));
   const auto cell_at = [&](size_t i) { return cell_of(lists, covered[tile.indices[i]]); };
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return cell_at(a) < cell_at(b); });
   std::vector<uint32_t> pixels;
   std::vector<glm::dvec3> positions;
-  for (const size_t i : order) pixels.push_back(covered[tile.indices[i]]), positions.push_back(tile.positions[i]);
+  for (const size_t i : order)
+    pixels.push_back(covered[tile.indices[i]]), positions.push_back(tile.positions[i]);
 
   Tally tally;
   Membership listed(lights.size());
@@ -115,7 +116,9 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
   LitPairs out{none, none, none};
   const std::vector<uint32_t> covered = covered_pixels(depth);
   std::mutex adding;
-  const auto position_of = [&](uint32_t p) { return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]); };
+  const auto position_of = [&](uint32_t p) {
+    return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);
+  };
   for_each_tile(view.width, covered, position_of, lights, [&](const TileOfPixels& tile) {
     const Tally tally = tally_tile(tile, covered, lights, lists, out);
     std::lock_guard lock(adding);

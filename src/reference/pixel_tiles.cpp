@@ -9,7 +9,8 @@
 
 namespace lightgrid {
 
-std::vector<std::vector<uint32_t>> group_by_tile(int width, const std::vector<uint32_t>& pixels, uint32_t side) {
+std::vector<std::vector<uint32_t>> group_by_tile(int width, const std::vector<uint32_t>& pixels,
+                                                 uint32_t side) {
   const uint32_t across = (width + side - 1) / side;
   std::vector<std::vector<uint32_t>> tiles;
   for (uint32_t i = 0; i < pixels.size(); ++i) {
@@ -52,16 +53,20 @@ std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights,
   return near;
 }
 
-std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights, const std::vector<uint32_t>& among,
+std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights,
+                                          const std::vector<uint32_t>& among,
                                           const std::vector<glm::dvec3>& positions) {
   const Box box(positions);
   std::vector<uint32_t> near;
-  std::copy_if(among.begin(), among.end(), std::back_inserter(near), [&](uint32_t i) { return box.is_within_reach_of(lights[i]); });
+  std::copy_if(among.begin(), among.end(), std::back_inserter(near),
+               [&](uint32_t i) { return box.is_within_reach_of(lights[i]); });
   return near;
 }
 
-void for_each_tile(int width, const std::vector<uint32_t>& pixels, const std::function<glm::dvec3(uint32_t pixel)>& position_of,
-                   const std::vector<ViewLight>& lights, const std::function<void(const TileOfPixels&)>& body) {
+void for_each_tile(int width, const std::vector<uint32_t>& pixels,
+                   const std::function<glm::dvec3(uint32_t pixel)>& position_of,
+                   const std::vector<ViewLight>& lights,
+                   const std::function<void(const TileOfPixels&)>& body) {
   const auto regions = group_by_tile(width, pixels, 128);
   parallel_for(int(regions.size()), [&](int r) {
     const std::vector<uint32_t>& of_region = regions[size_t(r)];
@@ -74,7 +79,8 @@ void for_each_tile(int width, const std::vector<uint32_t>& pixels, const std::fu
     const std::vector<uint32_t> near = lights_within_reach(lights, positions);
     for (const std::vector<uint32_t>& of_tile : group_by_tile(width, pixels_here)) {
       TileOfPixels tile;
-      for (const uint32_t i : of_tile) tile.indices.push_back(of_region[i]), tile.positions.push_back(positions[i]);
+      for (const uint32_t i : of_tile)
+        tile.indices.push_back(of_region[i]), tile.positions.push_back(positions[i]);
       tile.lights = lights_within_reach(lights, near, tile.positions);
       body(tile);
     }

@@ -49,8 +49,8 @@ dvec3 subsurface_of(const Surface& s, const dvec3& to_light) {
   return s.subsurface_color * (std::max(0.0, sub_lamb) / std::numbers::pi);
 }
 
-// Reflection of constant radiance by the diffuse part: the integral of N.L^k over the hemisphere is 2 pi / (k + 1). That
-// of skin's term is pi R.
+// Reflection of constant radiance by the diffuse part: the integral of N.L^k over the hemisphere is 2 pi / (k
+// + 1). That of skin's term is pi R.
 dvec3 diffuse_ambient(const Surface& s, const dvec3& to_eye) {
   return s.base_color * (2 / (s.minnaert_k + 1) * minnaert_of_viewer(s, to_eye));
 }
@@ -83,7 +83,8 @@ double blinn_lobe(const dvec3& normal, const dvec3& half, double alpha) {
   return (exponent + 2) / (8 * std::numbers::pi) * std::pow(cosine, exponent);
 }
 
-double specular_of(const dvec3& normal, double perceptual_roughness, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
+double specular_of(const dvec3& normal, double perceptual_roughness, const dvec3& to_eye,
+                   const dvec3& to_light, Brdf lobe) {
   const dvec3 half = glm::normalize(to_eye + to_light);
   const double roughness = std::max(perceptual_roughness, 0.045), alpha = roughness * roughness;
   if (lobe == Brdf::blinn) return blinn_lobe(normal, half, alpha);
@@ -92,8 +93,8 @@ double specular_of(const dvec3& normal, double perceptual_roughness, const dvec3
   return smith_visibility(n_dot_v, n_dot_l, alpha) * ggx_distribution(normal, half, alpha);
 }
 
-// Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there, so the diffuse part
-// is 0.
+// Opposite directions have no half vector (a surface seen from behind). Fresnel is 1 there, so the diffuse
+// part is 0.
 bool are_opposite(const dvec3& a, const dvec3& b) { return glm::dot(a + b, a + b) < 1e-8; }
 
 // The coat's share of the result: KHR_materials_clearcoat, fresnel_coat.
@@ -138,7 +139,8 @@ dvec3 reflected(const Surface& surface, const dvec3& to_eye, const dvec3& to_lig
   const double coat_n_dot_l = std::clamp(glm::dot(surface.coat_normal, to_light), 0.0, 1.0);
   const bool dark = coat_n_dot_l == 0 || are_opposite(to_eye, to_light);
   const double coat =
-      dark ? 0 : specular_of(surface.coat_normal, surface.coat_roughness, to_eye, to_light, lobe) * coat_n_dot_l;
+      dark ? 0
+           : specular_of(surface.coat_normal, surface.coat_roughness, to_eye, to_light, lobe) * coat_n_dot_l;
   return glm::mix(base, dvec3(coat), share);
 }
 
@@ -162,17 +164,21 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
                                 const std::vector<uint32_t>& pixels) {
   assert(depth.size() == size_t(view.width) * view.height);
   std::vector<dvec3> radiance(pixels.size());
-  const auto position_of = [&](uint32_t p) { return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]); };
+  const auto position_of = [&](uint32_t p) {
+    return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);
+  };
   // Without a window every light reaches everything, so all lights are used.
   const std::vector<ViewLight> none;
-  for_each_tile(view.width, pixels, position_of, settings.window ? lights : none, [&](const TileOfPixels& tile) {
-    std::vector<ViewLight> near;
-    for (const uint32_t light : tile.lights) near.push_back(lights[light]);
-    for (size_t k = 0; k < tile.indices.size(); ++k) {
-      const uint32_t index = tile.indices[k];
-      radiance[index] = shade(surface_at(pixels[index]), tile.positions[k], view.orthographic, settings.window ? near : lights, settings);
-    }
-  });
+  for_each_tile(view.width, pixels, position_of, settings.window ? lights : none,
+                [&](const TileOfPixels& tile) {
+                  std::vector<ViewLight> near;
+                  for (const uint32_t light : tile.lights) near.push_back(lights[light]);
+                  for (size_t k = 0; k < tile.indices.size(); ++k) {
+                    const uint32_t index = tile.indices[k];
+                    radiance[index] = shade(surface_at(pixels[index]), tile.positions[k], view.orthographic,
+                                            settings.window ? near : lights, settings);
+                  }
+                });
   return radiance;
 }
 

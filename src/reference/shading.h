@@ -1,6 +1,7 @@
-// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B), with GGX or Blinn-Phong, or Lambert alone,
-// a coat over it (KHR_materials_clearcoat), and the diffuse models of docs/material_models.md, under KHR_lights_punctual.
-// docs/oracle.md#shading has the formulas that the GLSL follows too.
+// The shading of this project in double: glTF 2.0 metallic-roughness (specification, appendix B), with GGX or
+// Blinn-Phong, or Lambert alone, a coat over it (KHR_materials_clearcoat), and the diffuse models of
+// docs/material_models.md, under KHR_lights_punctual. docs/oracle.md#shading has the formulas that the GLSL
+// follows too.
 #pragma once
 
 #include <functional>
@@ -16,18 +17,21 @@ struct Surface {
   glm::dvec3 base_color{1}, emissive{0};
   double metallic = 0, roughness = 1;  // perceptual roughness; floored at 0.045
   double occlusion = 1;
-  bool unlit = false;  // base_color is the result
+  bool unlit = false;                   // base_color is the result
   double coat = 0, coat_roughness = 0;  // factor, 0: no coat; perceptual roughness, floored likewise
   glm::dvec3 coat_normal{0, 0, 1};      // as normal
   glm::dvec3 subsurface_color{0};       // of skin (scene/material_model.h)
   double roll_off = 0, minnaert_k = 1;
 };
 
-// Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr. Without the coat and what leaves skin.
-glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light, Brdf lobe = Brdf::ggx);
+// Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr. Without
+// the coat and what leaves skin.
+glm::dvec3 brdf(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light,
+                Brdf lobe = Brdf::ggx);
 
 // The same times the cosine at the surface, with the coat, whose cosine is that of its own normal.
-glm::dvec3 reflected(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light, Brdf lobe = Brdf::ggx);
+glm::dvec3 reflected(const Surface& surface, const glm::dvec3& to_eye, const glm::dvec3& to_light,
+                     Brdf lobe = Brdf::ggx);
 
 struct ShadeSettings {
   Brdf brdf = Brdf::ggx;

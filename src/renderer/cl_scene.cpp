@@ -59,8 +59,9 @@ ClScene::ClScene(ClDevice& device, const Scene& scene, TexelLayout layout)
   const SurfaceTexels texels = surface_texels(scene, used_materials, layout);
   materials_ = filled_buffer(device, "uploading materials", texels.materials);
   texels_4_ = filled_buffer(device, "uploading textures", texels.texels_4);
-  texels_8_ = layout == TexelLayout::packed_8 ? filled_buffer(device, "uploading packed textures", texels.small_texels_8)
-                                              : filled_buffer(device, "uploading packed textures", texels.texels_8);
+  texels_8_ = layout == TexelLayout::packed_8
+                  ? filled_buffer(device, "uploading packed textures", texels.small_texels_8)
+                  : filled_buffer(device, "uploading packed textures", texels.texels_8);
   alphas_ = filled_buffer(device, "uploading alphas", texels.alphas);
   material_bytes_ = texels.materials.size() * sizeof(SurfaceMaterial);
   texture_bytes_ = (texels.texels_4.size() + texels.texels_8.size()) * 2 + texels.small_texels_8.size() +

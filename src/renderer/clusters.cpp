@@ -46,7 +46,8 @@ std::vector<TriangleCluster> append_clusters(const Mesh& mesh, bool keep_order,
   return clusters;
 }
 
-void refresh_clusters(const Mesh& mesh, std::span<const uint32_t> indices, std::vector<TriangleCluster>& clusters) {
+void refresh_clusters(const Mesh& mesh, std::span<const uint32_t> indices,
+                      std::vector<TriangleCluster>& clusters) {
   if (clusters.size() == 1) {
     clusters[0].bounds = mesh.bounds;
     clusters[0].cone_cutoff = 2;
@@ -56,8 +57,8 @@ void refresh_clusters(const Mesh& mesh, std::span<const uint32_t> indices, std::
     const auto own = indices.subspan(cluster.first_index - clusters[0].first_index, cluster.index_count);
     cluster.bounds = {};
     for (const uint32_t i : own) cluster.bounds.add(mesh.positions[i]);
-    const meshopt_Bounds b = meshopt_computeClusterBounds(own.data(), own.size(), &mesh.positions[0].x, mesh.positions.size(),
-                                                          sizeof(glm::vec3));
+    const meshopt_Bounds b = meshopt_computeClusterBounds(own.data(), own.size(), &mesh.positions[0].x,
+                                                          mesh.positions.size(), sizeof(glm::vec3));
     cluster.cone_apex = {b.cone_apex[0], b.cone_apex[1], b.cone_apex[2]};
     cluster.cone_axis = {b.cone_axis[0], b.cone_axis[1], b.cone_axis[2]};
     cluster.cone_cutoff = b.cone_cutoff;

@@ -13,23 +13,28 @@ CullView cull_view(const View& view) {
 
 CullView cull_view(const View& view, const FramePlan& plan) {
   CullView culled = cull_view(view);
-  culled.slice_edges = slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
-  culled.z_bin_edges = slice_edges(plan.settings.slice_spacing, plan.z_bins, plan.slice_near_m, plan.slice_far_m);
+  culled.slice_edges =
+      slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+  culled.z_bin_edges =
+      slice_edges(plan.settings.slice_spacing, plan.z_bins, plan.slice_near_m, plan.slice_far_m);
   return culled;
 }
 
-std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges) {
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
+                                      const LightRanges& ranges) {
   std::vector<CullLight> lights;
   cull_lights_of(scene, indices, ranges, lights);
   return lights;
 }
 
-void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges, std::vector<CullLight>& lights) {
+void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges,
+                    std::vector<CullLight>& lights) {
   lights.resize(indices.size());
   const auto convert = [&](size_t begin, size_t end) {
     for (size_t at = begin; at < end; ++at) {
       const Light& light = scene.lights[size_t(indices[at])];
-      lights[at] = {light.position, range_of(light, size_t(indices[at]), ranges), glm::normalize(glm::dvec3(light.direction)),
+      lights[at] = {light.position, range_of(light, size_t(indices[at]), ranges),
+                    glm::normalize(glm::dvec3(light.direction)),
                     light.type == LightType::spot ? std::cos(double(light.outer_cone_rad)) : -1.0};
     }
   };

@@ -14,9 +14,11 @@ CullView cull_view(const View& view);
 CullView cull_view(const View& view, const FramePlan& plan);
 
 // The lights of a scene at `indices`. World space, metres.
-std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges = {});
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
+                                      const LightRanges& ranges = {});
 // The same into memory that is there.
-void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges, std::vector<CullLight>& lights);
+void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges,
+                    std::vector<CullLight>& lights);
 
 // The culler options of a plan.
 CullerOptions culler_options(const FramePlan& plan);

@@ -26,8 +26,10 @@ void InstanceDrawer::bind(int index, const SceneProgram& program) {
   }
   const InstanceTransform& t = v_.transforms[index];
   glUniformMatrix4fv(program.clip_from_object, 1, GL_FALSE, glm::value_ptr(t.clip_from_object));
-  if (program.view_from_object >= 0) glUniformMatrix3fv(program.view_from_object, 1, GL_FALSE, glm::value_ptr(t.directions));
-  if (program.normal_from_object >= 0) glUniformMatrix3fv(program.normal_from_object, 1, GL_FALSE, glm::value_ptr(t.normals));
+  if (program.view_from_object >= 0)
+    glUniformMatrix3fv(program.view_from_object, 1, GL_FALSE, glm::value_ptr(t.directions));
+  if (program.normal_from_object >= 0)
+    glUniformMatrix3fv(program.normal_from_object, 1, GL_FALSE, glm::value_ptr(t.normals));
   v_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
   glFrontFace(t.mirrored ? GL_CW : GL_CCW);
   program_ = &program;

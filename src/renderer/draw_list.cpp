@@ -71,7 +71,8 @@ Layers visible_clusters(const GlScene& gpu, const View& view, const Frustum& fru
   const Scene& scene = gpu.scene();
   const int mesh_index = scene.instances[instance].mesh;
   const GlMesh& mesh = gpu.mesh(mesh_index);
-  const bool one_sided = !scene.materials[scene.meshes[mesh_index].material].double_sided && !view.orthographic;
+  const bool one_sided =
+      !scene.materials[scene.meshes[mesh_index].material].double_sided && !view.orthographic;
   const glm::dvec3 eye = one_sided ? glm::dvec3(glm::inverse(view_from_object)[3]) : glm::dvec3(0);
   Layers layers;
   for (uint32_t i = 0; i < mesh.clusters.size(); ++i) {
@@ -105,7 +106,8 @@ DrawList make_draw_list(const GlScene& gpu, const View& view, const std::vector<
     for (int layer = 0; layer < distance_layers; ++layer) {
       if (layers[layer].empty()) continue;
       IndexRanges ranges = index_ranges(mesh, layers[layer]);
-      items[order == DrawOrder::front_to_back ? layer : 0].push_back({index, std::move(layers[layer]), std::move(ranges)});
+      items[order == DrawOrder::front_to_back ? layer : 0].push_back(
+          {index, std::move(layers[layer]), std::move(ranges)});
     }
   }
   for (int layer = 1; layer < distance_layers; ++layer) {
@@ -127,7 +129,8 @@ DrawList without_hidden(const DrawList& list, const GlScene& gpu,
       if (!hidden(mesh.clusters[i].bounds, view_from_object, view, distances)) kept.clusters.push_back(i);
     }
     if (kept.clusters.empty()) continue;
-    kept.ranges = kept.clusters.size() == item.clusters.size() ? item.ranges : index_ranges(mesh, kept.clusters);
+    kept.ranges =
+        kept.clusters.size() == item.clusters.size() ? item.ranges : index_ranges(mesh, kept.clusters);
     seen.push_back(std::move(kept));
   }
   return seen;

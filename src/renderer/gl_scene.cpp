@@ -236,7 +236,8 @@ void GlScene::upload_materials(const std::vector<bool>& used_meshes) {
     const Material& m = scene_.materials[i];
     const MaterialParams params = material_params(m, m.unlit ? 0 : model_number(models, m.model));
     std::memcpy(bytes.data() + i * material_stride_, &params, sizeof params);
-    for (int s = 0; s < MATERIAL_MAPS; ++s) slots_[i].texture[s] = (scene_.materials[i].*material_maps[s].slot).texture;
+    for (int s = 0; s < MATERIAL_MAPS; ++s)
+      slots_[i].texture[s] = (scene_.materials[i].*material_maps[s].slot).texture;
   }
   materials_ = make_buffer(bytes.size(), bytes.data());
   textures_.resize(scene_.textures.size());

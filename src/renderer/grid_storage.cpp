@@ -41,7 +41,8 @@ cl::Buffer& SharedGridStorage::z_bins(size_t bytes) { return grown(renderer_, z_
 
 size_t SharedGridStorage::allocated_bytes() const {
   size_t bytes = 0;
-  for (const SharedTexture* shared : {&cells_, &indices_, &masks_, &z_bins_}) bytes += shared->buffer ? shared->buffer->size() : 0;
+  for (const SharedTexture* shared : {&cells_, &indices_, &masks_, &z_bins_})
+    bytes += shared->buffer ? shared->buffer->size() : 0;
   return bytes;
 }
 

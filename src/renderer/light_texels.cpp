@@ -27,7 +27,8 @@ LightTexels light_texels(const Scene& scene, const View& view, const FramePlan& 
     texels.positions.emplace_back(glm::vec3(position), float(inverse_radius_squared));
     // A light of radius 0 lights nothing, not even its own position.
     const double least_falloff = std::min(light.least_falloff, max_float);
-    texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0), float(least_falloff));
+    texels.colors.emplace_back(light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0),
+                               float(least_falloff));
     if (!plan.spots) continue;
     // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product
     // and a sum.

@@ -19,7 +19,7 @@ struct PassRecord {
   std::string name, on;  // "gl" or "cl"
   std::vector<double> ms;
   std::vector<std::vector<KernelTime>> kernels;  // of OpenCL passes, by run
-  size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs
+  size_t bytes_read = 0, bytes_written = 0;      // counted from the pass's inputs and outputs
 };
 
 class PassTimer {
@@ -39,7 +39,8 @@ class PassTimer {
       started_ = {};
     }
     Scope(const Scope&) = delete;
-    // A pass whose clock fails is not recorded, since a destructor must not throw: the frame's next wait fails as well.
+    // A pass whose clock fails is not recorded, since a destructor must not throw: the frame's next wait
+    // fails as well.
     ~Scope() {
       if (!timer_) return;
       try {
@@ -52,7 +53,8 @@ class PassTimer {
     }
     // Bytes of the inputs read and the outputs written.
     void moves(size_t read, size_t written) {
-      if (timer_) timer_->records_[record_].bytes_read = read, timer_->records_[record_].bytes_written = written;
+      if (timer_)
+        timer_->records_[record_].bytes_read = read, timer_->records_[record_].bytes_written = written;
     }
 
    private:

@@ -28,8 +28,9 @@ PassTimer::Clock clock_of(Renderer& renderer) {
   return clock;
 }
 
-FramePlan tuned_plan(const Scene& scene, const View& view, const Settings& settings, const TechniqueNeeds& needs,
-                     const TunedSizes& tuned, PlannedInstances instances = PlannedInstances::in_view) {
+FramePlan tuned_plan(const Scene& scene, const View& view, const Settings& settings,
+                     const TechniqueNeeds& needs, const TunedSizes& tuned,
+                     PlannedInstances instances = PlannedInstances::in_view) {
   FramePlan plan = plan_frame(scene, view, settings, needs, instances);
   plan.settings = with_tuned(std::move(plan.settings), tuned);
   return plan;
@@ -123,7 +124,8 @@ void RenderView::drop_states() {
 }
 
 void RenderView::lights_changed() {
-  if (culler_ && plan.light_grid) culler_->set_lights(cull_lights_of(scene, plan.local, plan.settings.ranges));
+  if (culler_ && plan.light_grid)
+    culler_->set_lights(cull_lights_of(scene, plan.local, plan.settings.ranges));
 }
 
 void RenderView::draw_ranges(uint32_t seed) {
@@ -174,12 +176,14 @@ ScenePrograms& RenderView::programs(SurfaceShaders shaders) {
     found = programs_.try_emplace(key, renderer, shaders).first;
   }
   if (preparing_) {
-    for (const int i : shaders.blended ? plan.blended : plan.opaque) found->second.of(plan.features_of_instance[i]);
+    for (const int i : shaders.blended ? plan.blended : plan.opaque)
+      found->second.of(plan.features_of_instance[i]);
   }
   return found->second;
 }
 
-const GlProgram& RenderView::program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines) {
+const GlProgram& RenderView::program(const std::string& vertex, const std::string& fragment,
+                                     std::vector<std::string> defines) {
   return renderer.program(vertex, fragment, view_defines(std::move(defines)));
 }
 

@@ -34,11 +34,11 @@ class PassState {
 
 struct RenderView {
   // All outlive it; it may add reversed triangles to the GPU scene. Unless draws_with_opengl() nothing of the
-  // scene is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool the
-  // view has its own. Throws Error(input) if the settings do not fit the view, Error(machine) if it needs an
-  // OpenGL that the renderer lacks.
-  RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings, const TechniqueNeeds& needs,
-             std::shared_ptr<TargetPool> pool = nullptr);
+  // scene is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool
+  // the view has its own. Throws Error(input) if the settings do not fit the view, Error(machine) if it needs
+  // an OpenGL that the renderer lacks.
+  RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+             const TechniqueNeeds& needs, std::shared_ptr<TargetPool> pool = nullptr);
   RenderView(const RenderView&) = delete;
 
   // Another camera, another size, or other instances and lights in the scene. Targets are kept unless the
@@ -49,8 +49,8 @@ struct RenderView {
   // instances and for the plain ones, and without surfaces to draw. Buffers and states are then created anew.
   // After an exception of `draw` the view draws nothing until the next look().
   void prepare(const std::function<void()>& draw);
-  // Frees the passes' states, grids, the culler, and the pool's images (Targets::clear), until the next frame, which
-  // creates them again. Programs stay.
+  // Frees the passes' states, grids, the culler, and the pool's images (Targets::clear), until the next
+  // frame, which creates them again. Programs stay.
   void release();
   // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
@@ -67,15 +67,16 @@ struct RenderView {
   Targets targets;
 
   std::vector<InstanceTransform> transforms;  // by instance; set for those in the plan
-  DrawList opaque, blended;                   // nearest first; back to front. Empty unless draws_with_opengl()
+  DrawList opaque, blended;  // nearest first; back to front. Empty unless draws_with_opengl()
 
   // The programs of a pass over the scene's surfaces, by material features. All of them get `defines`.
   ScenePrograms& programs(SurfaceShaders shaders);
   // One program for draws without a material.
-  const GlProgram& program(const std::string& vertex, const std::string& fragment, std::vector<std::string> defines);
+  const GlProgram& program(const std::string& vertex, const std::string& fragment,
+                           std::vector<std::string> defines);
 
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
-  GLuint color_framebuffer();  // linear RGBA, 32-bit float, over the depth image
+  GLuint color_framebuffer();                 // linear RGBA, 32-bit float, over the depth image
   static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end
   size_t pixels() const { return size_t(view.width) * size_t(view.height); }
 

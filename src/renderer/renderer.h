@@ -42,10 +42,11 @@ class Renderer {
   std::unique_ptr<ProgramCache> kernels;
   BridgeKind bridge = BridgeKind::none;
   PixelCopies pixel_copies;  // by shader where the bridge is imported memory
-  TunedSizes tuned{};  // of settings that are not given
+  TunedSizes tuned{};        // of settings that are not given
 
   // A GLSL program, compiled at first use: embedded shader files, each after one "#define" per name.
-  const GlProgram& program(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines);
+  const GlProgram& program(const std::string& vertex, const std::string& fragment,
+                           const std::vector<std::string>& defines);
 
   RendererCounts counts() const;
   void note_scene_bytes(size_t bytes) const { scene_bytes_ += bytes; }

@@ -30,7 +30,8 @@ struct SurfaceShaders {
 
 class ScenePrograms {
  public:
-  ScenePrograms(Renderer& renderer, SurfaceShaders shaders) : renderer_(renderer), shaders_(std::move(shaders)) {}
+  ScenePrograms(Renderer& renderer, SurfaceShaders shaders)
+      : renderer_(renderer), shaders_(std::move(shaders)) {}
 
   // The program for a surface with these features, compiled at first use. The reference stays valid.
   const SceneProgram& of(uint32_t features);

@@ -15,7 +15,8 @@ struct SurfaceTexels {
   // Chains of 8 channels, all maps of a material in one texel: base colour (3), normal (3), roughness,
   // metalness. A map that the material lacks is 1 everywhere, and its factor alone counts.
   std::vector<uint16_t> texels_8;
-  // The same with TexelLayout::packed_8: bytes, of base colours their square roots, whose steps the eye sees alike.
+  // The same with TexelLayout::packed_8: bytes, of base colours their square roots, whose steps the eye sees
+  // alike.
   std::vector<uint8_t> small_texels_8;
   std::vector<uint32_t> alphas;  // chains of alpha_quads, of masked materials
 };

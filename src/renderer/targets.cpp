@@ -53,7 +53,8 @@ GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
 
 GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
 
-SharedBuffer& Targets::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes, TargetUse use) {
+SharedBuffer& Targets::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes,
+                              TargetUse use) {
   SharedBuffer& buffer = pool_->buffer(cl, bridge, name, bytes);
   buffers_[name] = {use, bytes};
   return buffer;

@@ -1,5 +1,5 @@
-// The images that passes draw into, and the buffers into which they are copied for OpenCL: of the view's size,
-// created at first use, kept by name from frame to frame.
+// The images that passes draw into, and the buffers into which they are copied for OpenCL: of the view's
+// size, created at first use, kept by name from frame to frame.
 #pragma once
 
 #include <compare>
@@ -18,8 +18,8 @@ namespace lightgrid {
 enum class TargetUse { image, gbuffer, light_index };
 
 // Images and framebuffers in OpenGL's memory, and buffers shared with OpenCL, by name, format and size. Views
-// that share a pool use the same ones in turn: each overwrites the others' contents. All belong to one context
-// and one OpenCL device, and live as long as the pool.
+// that share a pool use the same ones in turn: each overwrites the others' contents. All belong to one
+// context and one OpenCL device, and live as long as the pool.
 class TargetPool {
  public:
   struct Image {
@@ -56,7 +56,9 @@ class Targets {
   GLuint depth();  // reversed 32-bit float
 
   // A framebuffer over these images; depth 0: none.
-  GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) { return pool_->framebuffer(colors, depth); }
+  GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) {
+    return pool_->framebuffer(colors, depth);
+  }
 
   // The buffer of this name and size, for contents that last no longer than a frame.
   SharedBuffer& buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes,

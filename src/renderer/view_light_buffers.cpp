@@ -26,7 +26,8 @@ bool ViewLightBuffers::Sized::put(size_t size, const void* data) {
   return true;
 }
 
-void ViewLightBuffers::update(const Scene& scene, const View& view, const FramePlan& plan, const ViewParams& params) {
+void ViewLightBuffers::update(const Scene& scene, const View& view, const FramePlan& plan,
+                              const ViewParams& params) {
   view_block_.put(sizeof params, &params);
   const CullView culled = cull_view(view, plan);
   const auto put_keys = [](Sized& block, bool needed, std::span<const float> keys) {
@@ -40,7 +41,8 @@ void ViewLightBuffers::update(const Scene& scene, const View& view, const FrameP
   put_keys(slice_block_, plan.light_grid && plan.slices > 1, slice_keys(culled));
   put_keys(z_bin_block_, plan.z_bins > 1, z_bin_keys(culled));
   const LightTexels texels = light_texels(scene, view, plan);
-  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones, &texels.directional};
+  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones,
+                                             &texels.directional};
   const bool needed[4] = {plan.local_lights, plan.local_lights, plan.spots, plan.directional};
   light_bytes_ = 0;
   for (int i = 0; i < 4; ++i) {

@@ -96,7 +96,8 @@ class WorldGrid {
 
   WorldLayout layout_;
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
-  GrowingBuffer pairs_[2], totals_, total_, counts_, block_first_, members_, full_first_, full_members_, masks_;
+  GrowingBuffer pairs_[2], totals_, total_, counts_, block_first_, members_, full_first_, full_members_,
+      masks_;
   Shared buckets_, keys_, cells_, indices_;
   GlBuffer block_;
   size_t pair_count_ = 0, listed_count_ = 0, blocks_ = 0, entries_ = 0, list_bytes_ = 0;

@@ -35,8 +35,8 @@ struct WorldLayout {
   bool columns = false;
 
   std::vector<glm::vec4>
-      lights;  // position and radius with slack, in cells from the middle; radius -1: in no cell. The radius is an odd
-               // float if the light has a cone that is tested, else an even one
+      lights;  // position and radius with slack, in cells from the middle; radius -1: in no cell. The radius
+               // is an odd float if the light has a cone that is tested, else an even one
   std::vector<glm::vec4>
       cones;  // axis, and a cosine no larger than the outer half-angle's; below 0: none. Empty: no cones
   std::vector<uint32_t> levels;       // of each light; empty: 0
@@ -51,17 +51,18 @@ struct WorldCellEstimate {
   double entries = 0;  // of all lists
   double blocks = 0;   // of the grid, stored or not; 0: hashed
 };
-WorldCellEstimate estimate_world_cell(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                                      double cell);
+WorldCellEstimate estimate_world_cell(std::span<const CullLight> lights, const WorldBox& bounds,
+                                      WorldGridShape shape, double cell);
 
-// What world-cell=auto means for these lights: of its values the one of least cost, in entries (docs/techniques/world_grid.md
-// #cells-that-choose-themselves). The same on every device.
+// What world-cell=auto means for these lights: of its values the one of least cost, in entries
+// (docs/techniques/world_grid.md #cells-that-choose-themselves). The same on every device.
 double choose_world_cell(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape);
 
-// Replaces `layout`, whose arrays keep their memory. cell: the setting world-cell, 0: auto. bounds: of the surfaces; cells
-// cover where these and the lights are. view: the first one; the layout's reach is larger, so that a moving camera rarely leaves it.
-void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape, double cell,
-                   const View& view, WorldLayout& layout);
+// Replaces `layout`, whose arrays keep their memory. cell: the setting world-cell, 0: auto. bounds: of the
+// surfaces; cells cover where these and the lights are. view: the first one; the layout's reach is larger, so
+// that a moving camera rarely leaves it.
+void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
+                   double cell, const View& view, WorldLayout& layout);
 
 // The rows of a view.
 WorldViewParams world_view_params(const WorldLayout& layout, const View& view);

@@ -14,13 +14,19 @@
 namespace lightgrid {
 namespace {
 
-std::string size_of(const CompareReport& report) { return fmt::format("{} × {}", report.width, report.height); }
+std::string size_of(const CompareReport& report) {
+  return fmt::format("{} × {}", report.width, report.height);
+}
 
-double lights_of(const CompareReport& report) { return report.rows.empty() ? 0 : report.rows.front().lights_total; }
+double lights_of(const CompareReport& report) {
+  return report.rows.empty() ? 0 : report.rows.front().lights_total;
+}
 
 double pixels_of(const CompareReport& report) { return double(report.width) * report.height; }
 
-std::string lights_in_words(double lights) { return with_commas(uint64_t(lights)) + (lights == 1 ? " light" : " lights"); }
+std::string lights_in_words(double lights) {
+  return with_commas(uint64_t(lights)) + (lights == 1 ? " light" : " lights");
+}
 
 CurvePoint point_at(double x, const RunResult& row, size_t view, size_t index) {
   return {x, row.frame_ms.median, row.frame_ms.min, is_exact(row), view, index};
@@ -66,7 +72,8 @@ std::string leaders_in_words(const Chart& chart) {
     reigns.back().last = tick.label;
   }
   if (reigns.empty()) return "";
-  if (reigns.size() == 1) return fmt::format("{} is the fastest exact technique throughout.", reigns[0].leader->name);
+  if (reigns.size() == 1)
+    return fmt::format("{} is the fastest exact technique throughout.", reigns[0].leader->name);
   std::vector<std::string> parts;
   for (const Reign& r : reigns) {
     parts.push_back(r.first == r.last ? fmt::format("{} at {}", r.leader->name, r.first)
@@ -76,8 +83,8 @@ std::string leaders_in_words(const Chart& chart) {
 }
 
 std::string crossing_in_words(const Chart& chart, const Crossing& c) {
-  return fmt::format("{} and {} cross at about {} {} and {} ms: below, {} is faster; above, {}.", c.below, c.above,
-                     short_number(c.x), chart.axis, short_number(c.ms), c.below, c.above);
+  return fmt::format("{} and {} cross at about {} {} and {} ms: below, {} is faster; above, {}.", c.below,
+                     c.above, short_number(c.x), chart.axis, short_number(c.ms), c.below, c.above);
 }
 
 void finish(Chart& chart) {
@@ -99,14 +106,15 @@ struct Axis {
 const Axis over_lights = {
     "lights", lights_of, [](const CompareReport& r) { return with_commas(uint64_t(lights_of(r))); },
     [](const CompareReport& r) { return fmt::format("{}, {}", short_scene(r), size_of(r)); }};
-const Axis over_pixels = {
-    "pixels", pixels_of, size_of,
-    [](const CompareReport& r) { return fmt::format("{}, {}", short_scene(r), lights_in_words(lights_of(r))); }};
+const Axis over_pixels = {"pixels", pixels_of, size_of, [](const CompareReport& r) {
+                            return fmt::format("{}, {}", short_scene(r), lights_in_words(lights_of(r)));
+                          }};
 
 void add_view(Chart& chart, const Axis& axis, const std::vector<ReportView>& views, size_t v) {
   const CompareReport& report = views[v].report;
   const double x = axis.x(report);
-  if (x <= 0 || std::any_of(chart.ticks.begin(), chart.ticks.end(), [&](const Tick& t) { return t.x == x; })) return;
+  if (x <= 0 || std::any_of(chart.ticks.begin(), chart.ticks.end(), [&](const Tick& t) { return t.x == x; }))
+    return;
   chart.ticks.push_back({x, axis.label(report)});
   const auto names = row_names(report);
   for (size_t i = 0; i < names.size(); ++i) {
@@ -188,7 +196,8 @@ std::vector<Chart> charts_over_views(const std::vector<ReportView>& views) {
 
 std::vector<Chart> charts_over_settings(const std::vector<ReportView>& views, size_t view) {
   std::vector<Chart> charts;
-  for (const std::string& key : swept_settings(views[view].report)) charts.push_back(chart_over(key, views, view));
+  for (const std::string& key : swept_settings(views[view].report))
+    charts.push_back(chart_over(key, views, view));
   std::erase_if(charts, [](const Chart& chart) { return chart.ticks.size() < 2; });
   return charts;
 }

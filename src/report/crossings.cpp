@@ -32,7 +32,9 @@ double gap(const Pair& pair) { return std::log(pair.b->ms / pair.a->ms); }
 // The crossing of the lines between two x, interpolated in log x.
 Crossing crossing_between(const Pair& left, const Pair& right) {
   const double share = gap(left) / (gap(left) - gap(right));
-  const auto along = [&](double from, double to) { return std::exp(std::log(from) + share * std::log(to / from)); };
+  const auto along = [&](double from, double to) {
+    return std::exp(std::log(from) + share * std::log(to / from));
+  };
   Crossing crossing;
   crossing.x = along(left.a->x, right.a->x);
   crossing.ms = along(left.a->ms, right.a->ms);
@@ -58,11 +60,13 @@ bool leads(const std::vector<Curve>& curves, const Crossing& crossing, const Pai
   });
 }
 
-void add_crossings(const std::vector<Curve>& curves, const Curve& a, const Curve& b, std::vector<Crossing>& found) {
+void add_crossings(const std::vector<Curve>& curves, const Curve& a, const Curve& b,
+                   std::vector<Crossing>& found) {
   const std::vector<Pair> pairs = common_points(a, b);
   std::optional<size_t> decided;  // the last point with a clear order
   for (size_t i = 0; i < pairs.size(); ++i) {
-    const bool a_first = clearly_faster(*pairs[i].a, *pairs[i].b), b_first = clearly_faster(*pairs[i].b, *pairs[i].a);
+    const bool a_first = clearly_faster(*pairs[i].a, *pairs[i].b),
+               b_first = clearly_faster(*pairs[i].b, *pairs[i].a);
     if (!a_first && !b_first) continue;
     const bool was_a = decided && gap(pairs[*decided]) > 0;
     if (decided && was_a != a_first) {
@@ -87,7 +91,8 @@ std::vector<Crossing> crossings_of(const std::vector<Curve>& curves) {
       if (!(curves[i].flat && curves[j].flat)) add_crossings(curves, curves[i], curves[j], found);
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
   return found;
 }
 

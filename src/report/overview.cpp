@@ -38,7 +38,8 @@ std::vector<std::string> short_views(const std::vector<ReportView>& views) {
     const CompareReport& r = views[i].report;
     many_scenes |= scenes[i] != scenes[0];
     many_sizes |= r.width != first.width || r.height != first.height;
-    for (size_t j = 0; j < i; ++j) many_lights |= scenes[j] == scenes[i] && lights(views[j].report) != lights(r);
+    for (size_t j = 0; j < i; ++j)
+      many_lights |= scenes[j] == scenes[i] && lights(views[j].report) != lights(r);
   }
   std::vector<std::string> names;
   for (size_t i = 0; i < views.size(); ++i) {
@@ -64,7 +65,8 @@ std::string places_in_words(const Tally& tally) {
 }
 
 std::string count_in_words(size_t count, size_t of) {
-  return count == of ? (of == 2 ? "both views" : fmt::format("all {} views", of)) : fmt::format("{} of {} views", count, of);
+  return count == of ? (of == 2 ? "both views" : fmt::format("all {} views", of))
+                     : fmt::format("{} of {} views", count, of);
 }
 
 void sort_by_count(std::vector<Tally>& tallies) {
@@ -96,15 +98,17 @@ std::string winners_sentence(const std::vector<ReportView>& views, const std::ve
 // "faster" rows that are not exact, among those that `counts` accepts; with their speed relative to the
 // fastest exact one.
 template <typename Counts>
-std::string faster_sentence(const std::vector<ReportView>& views, const std::vector<std::string>& names, const char* but,
-                            const Counts& counts) {
+std::string faster_sentence(const std::vector<ReportView>& views, const std::vector<std::string>& names,
+                            const char* but, const Counts& counts) {
   std::vector<Tally> tallies;
   for (size_t i = 0; i < views.size(); ++i) {
     const RunResult* best = fastest_exact(views[i].report);
     for (const RunResult& row : views[i].report.rows) {
-      if (!best || row.frame_ms.runs == 0 || !counts(row) || row.frame_ms.median >= best->frame_ms.median) continue;
-      tally_of(tallies, row_name(views[i].report, row)).places.push_back(
-          {names[i], fmt::format("{} times", short_number(best->frame_ms.median / row.frame_ms.median))});
+      if (!best || row.frame_ms.runs == 0 || !counts(row) || row.frame_ms.median >= best->frame_ms.median)
+        continue;
+      tally_of(tallies, row_name(views[i].report, row))
+          .places.push_back(
+              {names[i], fmt::format("{} times", short_number(best->frame_ms.median / row.frame_ms.median))});
     }
   }
   if (tallies.empty()) return "";
@@ -114,7 +118,8 @@ std::string faster_sentence(const std::vector<ReportView>& views, const std::vec
   constexpr size_t most = 4;  // the page's table has all
   const size_t more = parts.size() > most ? parts.size() - most : 0;
   if (more) parts.resize(most);
-  return fmt::format("Faster than it, but {}: {}{}.", but, fmt::join(parts, "; "), more ? fmt::format("; and {} more", more) : "");
+  return fmt::format("Faster than it, but {}: {}{}.", but, fmt::join(parts, "; "),
+                     more ? fmt::format("; and {} more", more) : "");
 }
 
 // The fastest exact row of a technique; null if there is none.
@@ -148,9 +153,12 @@ std::string faster_where(const std::vector<ReportView>& views, const std::string
   }
   if (!both) return "";
   std::vector<std::string> parts;
-  if (of_a.places.size()) parts.push_back(fmt::format("{} is faster than {} in {}", a, b, places_in_words(of_a)));
-  if (of_b.places.size()) parts.push_back(fmt::format("{} is faster than {} in {}", b, a, places_in_words(of_b)));
-  if (of_none.places.size()) parts.push_back(fmt::format("{} and {} do not differ clearly in {}", a, b, places_in_words(of_none)));
+  if (of_a.places.size())
+    parts.push_back(fmt::format("{} is faster than {} in {}", a, b, places_in_words(of_a)));
+  if (of_b.places.size())
+    parts.push_back(fmt::format("{} is faster than {} in {}", b, a, places_in_words(of_b)));
+  if (of_none.places.size())
+    parts.push_back(fmt::format("{} and {} do not differ clearly in {}", a, b, places_in_words(of_none)));
   return fmt::format("{}.", fmt::join(parts, "; "));
 }
 
@@ -159,8 +167,10 @@ std::vector<std::string> overview_sentences(const std::vector<ReportView>& views
   const auto names = short_views(views);
   std::vector<std::string> sentences = {winners_sentence(views, names)};
   for (const std::string& sentence :
-       {faster_sentence(views, names, "lossy", [](const RunResult& row) { return passes_gates(row) && !is_exact(row); }),
-        faster_sentence(views, names, "with a gate failed", [](const RunResult& row) { return !passes_gates(row); }),
+       {faster_sentence(views, names, "lossy",
+                        [](const RunResult& row) { return passes_gates(row) && !is_exact(row); }),
+        faster_sentence(views, names, "with a gate failed",
+                        [](const RunResult& row) { return !passes_gates(row); }),
         faster_where(views, "forward_plus", "clustered")}) {
     if (!sentence.empty()) sentences.push_back(sentence);
   }

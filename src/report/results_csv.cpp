@@ -13,9 +13,9 @@ namespace {
 using Fields = std::vector<std::string>;
 
 Fields heading() {
-  Fields names = {"commit",    "cl",      "gl",        "scene",   "size", "lights", "in_view",    "technique", "settings",
-                  "row",       "refused", "min_ms",    "median_ms", "max_ms", "runs", "memory",   "light_grid", "gbuffer",
-                  "listed",    "lit",     "lost",      "wrong"};
+  Fields names = {"commit",     "cl",      "gl",      "scene",  "size",      "lights", "in_view", "technique",
+                  "settings",   "row",     "refused", "min_ms", "median_ms", "max_ms", "runs",    "memory",
+                  "light_grid", "gbuffer", "listed",  "lit",    "lost",      "wrong"};
   for (const ErrorMeasure& measure : error_measures()) names.emplace_back(measure.key);
   names.insert(names.end(), {"bit_identical", "nan_pixels", "overflow", "oracle_max_rel", "oracle_rmse_rel",
                              "oracle_of_reference_max_rel", "reference_pixels"});
@@ -48,13 +48,28 @@ Fields fields_of(const CompareReport& report, const RunResult& row, const std::s
   for (const auto& [key, value] : row.settings) settings.push_back(key + "=" + value);
   const PairCounts pairs = row.pairs.value_or(PairCounts{});
   const bool counted = row.pairs.has_value();
-  Fields fields = {report.commit, report.cl_device, report.gl_device, report.scene,
-                   fmt::format("{}x{}", report.width, report.height), number(true, row.lights_total),
-                   number(true, row.lights_in_view), row.technique, fmt::format("{}", fmt::join(settings, " ")), name,
-                   row.refused, number(timed, row.frame_ms.min), number(timed, row.frame_ms.median),
-                   number(timed, row.frame_ms.max), number(true, row.frame_ms.runs), number(ran, row.memory_total),
-                   number(ran, row.memory_light_grid), number(ran, row.memory_gbuffer), number(counted, pairs.listed),
-                   number(counted, pairs.lit), number(counted, pairs.lost), number(counted, pairs.wrong)};
+  Fields fields = {report.commit,
+                   report.cl_device,
+                   report.gl_device,
+                   report.scene,
+                   fmt::format("{}x{}", report.width, report.height),
+                   number(true, row.lights_total),
+                   number(true, row.lights_in_view),
+                   row.technique,
+                   fmt::format("{}", fmt::join(settings, " ")),
+                   name,
+                   row.refused,
+                   number(timed, row.frame_ms.min),
+                   number(timed, row.frame_ms.median),
+                   number(timed, row.frame_ms.max),
+                   number(true, row.frame_ms.runs),
+                   number(ran, row.memory_total),
+                   number(ran, row.memory_light_grid),
+                   number(ran, row.memory_gbuffer),
+                   number(counted, pairs.listed),
+                   number(counted, pairs.lit),
+                   number(counted, pairs.lost),
+                   number(counted, pairs.wrong)};
   add_error(fields, row.error);
   fields.push_back(number(ran, row.nan_pixels));
   fields.push_back(number(ran, row.overflow));
@@ -69,7 +84,8 @@ std::string results_csv(const std::vector<ReportView>& views) {
   std::string text = csv_line(heading());
   for (const ReportView& view : views) {
     const auto names = row_names(view.report);
-    for (size_t i = 0; i < names.size(); ++i) text += csv_line(fields_of(view.report, view.report.rows[i], names[i]));
+    for (size_t i = 0; i < names.size(); ++i)
+      text += csv_line(fields_of(view.report, view.report.rows[i], names[i]));
   }
   return text;
 }

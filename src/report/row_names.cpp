@@ -11,7 +11,8 @@ namespace lightgrid {
 namespace {
 
 // The settings of `row` that differ in another row of its technique: "tile=32,cull-test=aabb".
-std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row, const std::string& ignored) {
+std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row,
+                               const std::string& ignored) {
   std::vector<std::string> differing;
   for (const auto& [key, value] : row.settings) {
     if (key == ignored) continue;
@@ -45,12 +46,15 @@ std::vector<std::string> row_names_without(const CompareReport& report, const st
   return names;
 }
 
-std::vector<std::string> row_names(const CompareReport& report) { return made_distinct(row_names_without(report, "")); }
+std::vector<std::string> row_names(const CompareReport& report) {
+  return made_distinct(row_names_without(report, ""));
+}
 
 std::string file_stem(const std::string& name) {
   std::string stem = name;
   for (char& c : stem) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) || std::string_view("._=+-").find(c) != std::string::npos;
+    const bool plain =
+        std::isalnum(static_cast<unsigned char>(c)) || std::string_view("._=+-").find(c) != std::string::npos;
     if (!plain) c = '-';
   }
   return stem;

@@ -142,7 +142,9 @@ std::string unbeaten_clause(const CompareReport& report, const RunResult& refere
 std::string close_clause(const CompareReport& report, const RunResult& winner) {
   std::vector<std::string> close;
   for (const RunResult& row : report.rows) {
-    if (&row == &winner || !is_exact(row) || row.frame_ms.runs == 0 || row.frame_ms.min > winner.frame_ms.median) continue;
+    if (&row == &winner || !is_exact(row) || row.frame_ms.runs == 0 ||
+        row.frame_ms.min > winner.frame_ms.median)
+      continue;
     close.push_back(fmt::format("{} ({} ms)", name_of(report, row), short_number(row.frame_ms.median)));
   }
   return close.empty() ? "" : fmt::format(". Within the spread of the runs is {}", fmt::join(close, ", "));
@@ -159,8 +161,9 @@ std::string winner_clause(const CompareReport& report, const RunResult& row, con
 // The fastest of those that fail a gate.
 std::string failing_clause(const CompareReport& report, const RunResult& row) {
   const bool visible = row.error && !is_exact(*row.error);
-  return fmt::format(". {} is quicker still ({} ms) but has {}{}", name_of(report, row), short_number(row.frame_ms.median),
-                     failed_gates(row), visible ? ", and its image " + error_in_words(row) : "");
+  return fmt::format(". {} is quicker still ({} ms) but has {}{}", name_of(report, row),
+                     short_number(row.frame_ms.median), failed_gates(row),
+                     visible ? ", and its image " + error_in_words(row) : "");
 }
 
 std::string lossy_clause(const CompareReport& report, const RunResult& row) {
@@ -168,18 +171,23 @@ std::string lossy_clause(const CompareReport& report, const RunResult& row) {
                      short_number(row.frame_ms.median), error_in_words(row));
 }
 
-// Of a technique whose picture is another one: "visibility draws 34 frames a second (29.4 ms); its image differs by …".
+// Of a technique whose picture is another one: "visibility draws 34 frames a second (29.4 ms); its image
+// differs by …".
 std::string other_picture_figure(const CompareReport& report, const RunResult& row) {
   return fmt::format("{} draws {} frames a second ({} ms); its image {}", name_of(report, row),
-                     short_number(1000 / std::max(row.frame_ms.median, 1e-9)), short_number(row.frame_ms.median), error_in_words(row));
+                     short_number(1000 / std::max(row.frame_ms.median, 1e-9)),
+                     short_number(row.frame_ms.median), error_in_words(row));
 }
 
-bool quicker(const RunResult* row, const RunResult& than) { return row && row->frame_ms.median < than.frame_ms.median; }
+bool quicker(const RunResult* row, const RunResult& than) {
+  return row && row->frame_ms.median < than.frame_ms.median;
+}
 
 }  // namespace
 
 bool passes_gates(const RunResult& row) {
-  return row.refused.empty() && row.nan_pixels == 0 && (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
+  return row.refused.empty() && row.nan_pixels == 0 &&
+         (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
 }
 
 bool is_exact(const ImageError& error) {
@@ -192,7 +200,9 @@ bool is_exact(const ImageError& error) {
 
 bool is_exact(const RunResult& row) { return passes_gates(row) && (!row.error || is_exact(*row.error)); }
 
-const RunResult* fastest_exact(const CompareReport& report) { return fastest(report, [](const RunResult& row) { return is_exact(row); }); }
+const RunResult* fastest_exact(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return is_exact(row); });
+}
 
 const RunResult* fastest_lossy(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
@@ -208,7 +218,8 @@ std::vector<std::string> telling_figures(const CompareReport& report) {
   if (reference && reference != row && row->error) lines.push_back(image_figure(report, *row, *reference));
   if (listed_per_pixel(report, *row) >= 0) lines.push_back(lights_figure(report, *row));
   const auto* lossy = fastest_lossy(report);
-  if (lossy != row && quicker(lossy, *row) && lossy->error) lines.push_back(other_picture_figure(report, *lossy));
+  if (lossy != row && quicker(lossy, *row) && lossy->error)
+    lines.push_back(other_picture_figure(report, *lossy));
   return lines;
 }
 
@@ -217,11 +228,13 @@ std::string verdict(const CompareReport& report) {
   const auto* failing = fastest(report, [](const RunResult& r) { return !passes_gates(r); });
   if (!quickest) return "Nothing was timed.";
   if (!row && !lossy) {
-    return fmt::format("No technique passes: {} has {}.", name_of(report, *quickest), failed_gates(*quickest));
+    return fmt::format("No technique passes: {} has {}.", name_of(report, *quickest),
+                       failed_gates(*quickest));
   }
   if (!row) {
-    const auto text = fmt::format("No technique is exact: {} is the fastest that fails no gate, {} ms a frame, but its image {}",
-                                  name_of(report, *lossy), short_number(lossy->frame_ms.median), error_in_words(*lossy));
+    const auto text = fmt::format(
+        "No technique is exact: {} is the fastest that fails no gate, {} ms a frame, but its image {}",
+        name_of(report, *lossy), short_number(lossy->frame_ms.median), error_in_words(*lossy));
     return text + (quicker(failing, *lossy) ? failing_clause(report, *failing) : "") + ".";
   }
   const auto* reference = reference_row(report);

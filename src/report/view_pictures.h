@@ -41,6 +41,7 @@ size_t bytes_in_page(const ReportPictures& pictures);
 
 // Writes the pictures (report.h), with .exr files if requested, and returns what a page of at most
 // `most_bytes` shows: reduced as far as necessary, and at most 16 times. 0: no limit.
-ReportPictures save_pictures(const std::filesystem::path& folder, const CompareReport& report, bool exr, size_t most_bytes);
+ReportPictures save_pictures(const std::filesystem::path& folder, const CompareReport& report, bool exr,
+                             size_t most_bytes);
 
 }  // namespace lightgrid

@@ -26,7 +26,9 @@ double max_rel(const ImageDifference& d) {
   return d.brightest > 0 ? d.largest_of_all / d.brightest : infinity;
 }
 
-double rmse(const ImageDifference& d) { return std::sqrt(d.sum_of_squares / (3.0 * double(d.largest.size()))); }
+double rmse(const ImageDifference& d) {
+  return std::sqrt(d.sum_of_squares / (3.0 * double(d.largest.size())));
+}
 
 // The smallest error that at least 99 of 100 pixels do not exceed.
 double p99(const ImageDifference& d) {
@@ -46,7 +48,10 @@ constexpr ErrorMeasure measures[] = {
 }  // namespace
 
 ImageDifference::ImageDifference(const Image& image, const Image& reference)
-    : image(image), reference(reference), largest(image.pixels.size()), brightest(brightest_channel(reference)) {
+    : image(image),
+      reference(reference),
+      largest(image.pixels.size()),
+      brightest(brightest_channel(reference)) {
   assert(image.width == reference.width && image.height == reference.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
-// The measures of a technique's error, one row each. results.json, results.csv and the page's table read the rows, so that a
-// measure is a field of ImageError, a row and its function.
+// The measures of a technique's error, one row each. results.json, results.csv and the page's table read the
+// rows, so that a measure is a field of ImageError, a row and its function.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ struct ImageDifference {
 struct ErrorMeasure {
   const char* key;    // of results.json and results.csv
   const char* title;  // of the page's column; empty: no column
-  double ImageError::* value;
+  double ImageError::*value;
   double (*of)(const ImageDifference& difference);  // for images of at least one pixel; infinite if undefined
 };
 

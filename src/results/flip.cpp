@@ -24,7 +24,8 @@ struct Planes {
   std::vector<glm::dvec3> pixels;
 };
 
-// --- Colour spaces ---------------------------------------------------------------------------------------------------
+// --- Colour spaces
+// ---------------------------------------------------------------------------------------------------
 
 // Linear sRGB to CIE XYZ (D65), column by column: the rational numbers that follow from the primaries.
 const glm::dmat3 xyz_from_rgb(10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382,  //
@@ -57,9 +58,12 @@ glm::dvec3 hunt_lab_from_rgb(const glm::dvec3& rgb) {
 }
 
 // Abasi et al. 2020: a distance that holds for large differences too.
-double hyab(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(a.x - b.x) + glm::distance(glm::dvec2(a.y, a.z), glm::dvec2(b.y, b.z)); }
+double hyab(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::abs(a.x - b.x) + glm::distance(glm::dvec2(a.y, a.z), glm::dvec2(b.y, b.z));
+}
 
-// --- Filters ---------------------------------------------------------------------------------------------------------
+// --- Filters
+// ---------------------------------------------------------------------------------------------------------
 
 using Kernel = std::vector<double>;  // from -radius to radius
 
@@ -76,7 +80,8 @@ void normalize(Kernel& kernel) {
   for (double& w : kernel) w /= w > 0 ? positive : -negative;
 }
 
-// to[x] is the sum of kernel[i] * from[x + i * stride]; to is 0 before. Sixteen sums at once stay in registers.
+// to[x] is the sum of kernel[i] * from[x + i * stride]; to is 0 before. Sixteen sums at once stay in
+// registers.
 void filter_row(const double* from, size_t stride, const Kernel& kernel, int width, double* to) {
   constexpr int block = 16;
   int x = 0;
@@ -92,8 +97,10 @@ void filter_row(const double* from, size_t stride, const Kernel& kernel, int wid
   }
 }
 
-// Values of one channel, filtered by `across` along rows and `up` along columns. Beyond the image its edge goes on.
-std::vector<double> filtered(const std::vector<double>& in, int width, int height, const Kernel& across, const Kernel& up) {
+// Values of one channel, filtered by `across` along rows and `up` along columns. Beyond the image its edge
+// goes on.
+std::vector<double> filtered(const std::vector<double>& in, int width, int height, const Kernel& across,
+                             const Kernel& up) {
   const int radius_x = int(across.size() / 2), radius_y = int(up.size() / 2);
   const int padded = height + 2 * radius_y;  // rows, of which the first and the last are repeated
   std::vector<double> rows(size_t(padded) * width), out(in.size()), row(size_t(width) + across.size() - 1);
@@ -104,7 +111,9 @@ std::vector<double> filtered(const std::vector<double>& in, int width, int heigh
   }
   for (int y = 0; y < padded; ++y) {
     const int from = std::clamp(y, radius_y, radius_y + height - 1);
-    if (y != from) std::copy_n(rows.begin() + std::ptrdiff_t(from) * width, width, rows.begin() + std::ptrdiff_t(y) * width);
+    if (y != from)
+      std::copy_n(rows.begin() + std::ptrdiff_t(from) * width, width,
+                  rows.begin() + std::ptrdiff_t(y) * width);
   }
   for (int y = 0; y < height; ++y)
     filter_row(rows.data() + size_t(y) * width, size_t(width), up, width, out.data() + size_t(y) * width);
@@ -130,9 +139,11 @@ Kernel root_of_gaussian(const Sensitivity& s, int radius, double pixels_per_degr
   });
 }
 
-// The image as an eye sees it: each opponent channel blurred by its contrast sensitivity (2020, section 4.1.1).
+// The image as an eye sees it: each opponent channel blurred by its contrast sensitivity (2020,
+// section 4.1.1).
 Planes seen(const Planes& ycxcz, double pixels_per_degree) {
-  static const std::vector<Sensitivity> sensitivities[3] = {{{1, 0.0047}}, {{1, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}};
+  static const std::vector<Sensitivity> sensitivities[3] = {
+      {{1, 0.0047}}, {{1, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}};
   constexpr double widest = 0.04;
   const int radius = int(std::ceil(3 * std::sqrt(widest / (2 * pi * pi)) * pixels_per_degree));
   Planes out{ycxcz.width, ycxcz.height, std::vector<glm::dvec3>(ycxcz.pixels.size(), glm::dvec3(0))};
@@ -176,18 +187,21 @@ Features features_of(const Planes& ycxcz, double pixels_per_degree) {
   return {magnitude(edge), magnitude(point)};
 }
 
-// --- The difference --------------------------------------------------------------------------------------------------
+// --- The difference
+// --------------------------------------------------------------------------------------------------
 
 constexpr double color_exponent = 0.7;
 
-// The colour difference of two pixels in Hunt-adjusted CIELAB, from 0 to 1: large differences are compressed, since they all
-// look large.
+// The colour difference of two pixels in Hunt-adjusted CIELAB, from 0 to 1: large differences are compressed,
+// since they all look large.
 double color_difference(const glm::dvec3& test, const glm::dvec3& reference) {
   constexpr double knee_in = 0.4, knee_out = 0.95;
-  static const double largest = std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), color_exponent);
+  static const double largest =
+      std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), color_exponent);
   const double error = std::pow(hyab(test, reference), color_exponent);
   const double knee = knee_in * largest;
-  return error < knee ? error * knee_out / knee : knee_out + (error - knee) / (largest - knee) * (1 - knee_out);
+  return error < knee ? error * knee_out / knee
+                      : knee_out + (error - knee) / (largest - knee) * (1 - knee_out);
 }
 
 Planes ycxcz_of(const Image& image) {
@@ -210,7 +224,8 @@ struct SeenImage {
 SeenImage seen_image(const Image& image, double pixels_per_degree) {
   const Planes opponent = ycxcz_of(image);
   SeenImage s{seen(opponent, pixels_per_degree), features_of(opponent, pixels_per_degree), {}};
-  for (glm::dvec3& pixel : s.color.pixels) pixel = hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));
+  for (glm::dvec3& pixel : s.color.pixels)
+    pixel = hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));
   for (const glm::vec4& pixel : image.pixels) s.nan.push_back(has_nan(pixel));
   return s;
 }
@@ -221,17 +236,20 @@ std::vector<float> difference_map(const SeenImage& test, const SeenImage& refere
   std::vector<float> map(test.color.pixels.size());
   for (size_t i = 0; i < map.size(); ++i) {
     const double color = color_difference(test.color.pixels[i], reference.color.pixels[i]);
-    const double difference = std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
+    const double difference =
+        std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
     const double feature = std::sqrt(difference / std::numbers::sqrt2);
     map[i] = test.nan[i] || reference.nan[i] ? 1.0f : float(std::pow(color, 1 - feature));
   }
   return map;
 }
 
-// --- Exposures -------------------------------------------------------------------------------------------------------
+// --- Exposures
+// -------------------------------------------------------------------------------------------------------
 
 // Narkowicz' fit of ACES with the factor 0.6 that the authors use: (a x^2 + b x) / (c x^2 + d x + e).
-constexpr double aces_a = 0.6 * 0.6 * 2.51, aces_b = 0.6 * 0.03, aces_c = 0.6 * 0.6 * 2.43, aces_d = 0.6 * 0.59, aces_e = 0.14;
+constexpr double aces_a = 0.6 * 0.6 * 2.51, aces_b = 0.6 * 0.03, aces_c = 0.6 * 0.6 * 2.43,
+                 aces_d = 0.6 * 0.59, aces_e = 0.14;
 
 double aces(double x) { return (aces_a * x * x + aces_b * x) / (aces_c * x * x + aces_d * x + aces_e); }
 
@@ -262,7 +280,8 @@ std::vector<float> flip_map(const Image& test, const Image& reference, double pi
 std::optional<FlipExposures> flip_exposures(const Image& reference) {
   if (reference.pixels.empty()) return {};
   std::vector<double> luminances;
-  for (const glm::vec4& p : reference.pixels) luminances.push_back(0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b);
+  for (const glm::vec4& p : reference.pixels)
+    luminances.push_back(0.2126 * p.r + 0.7152 * p.g + 0.0722 * p.b);
   const auto middle = luminances.begin() + luminances.size() / 2;
   std::ranges::nth_element(luminances, middle);
   const double median = *middle, most = std::ranges::max(luminances), x = inverse_aces(0.85);
@@ -293,7 +312,8 @@ std::vector<float> HdrFlip::map(const Image& test) const {
   return worst;
 }
 
-std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures, double pixels_per_degree) {
+std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const FlipExposures& exposures,
+                                double pixels_per_degree) {
   return HdrFlip(reference, exposures, pixels_per_degree).map(test);
 }
 

@@ -1,6 +1,7 @@
-// FLIP, an estimate of the difference seen when alternating between two images: Andersson et al., "FLIP: A Difference Evaluator
-// for Alternating Images" (HPG 2020), and "Visualizing Errors in Rendered High Dynamic Range Images" (Eurographics Short Papers
-// 2021). Written from the papers; held to the authors' program (v1.6) by tests.
+// FLIP, an estimate of the difference seen when alternating between two images: Andersson et al., "FLIP: A
+// Difference Evaluator for Alternating Images" (HPG 2020), and "Visualizing Errors in Rendered High Dynamic
+// Range Images" (Eurographics Short Papers 2021). Written from the papers; held to the authors' program
+// (v1.6) by tests.
 #pragma once
 
 #include <functional>
@@ -14,9 +15,11 @@ namespace lightgrid {
 // Of a display 0.7 m away, 0.7 m and 3840 pixels wide: the authors' default.
 inline constexpr double default_pixels_per_degree = 67;
 
-// Per pixel, row 0 at the bottom, 0 (no visible difference) to 1. Both images have one size and are linear RGB from 0 to 1, of
-// which values outside are clamped. NaN in either image counts as 1 at that pixel, and as black in its neighbourhood.
-std::vector<float> flip_map(const Image& test, const Image& reference, double pixels_per_degree = default_pixels_per_degree);
+// Per pixel, row 0 at the bottom, 0 (no visible difference) to 1. Both images have one size and are linear
+// RGB from 0 to 1, of which values outside are clamped. NaN in either image counts as 1 at that pixel, and as
+// black in its neighbourhood.
+std::vector<float> flip_map(const Image& test, const Image& reference,
+                            double pixels_per_degree = default_pixels_per_degree);
 
 // Exposures of HDR-FLIP, in stops: `count` of them, evenly spaced.
 struct FlipExposures {
@@ -24,8 +27,9 @@ struct FlipExposures {
   int count = 0;
 };
 
-// The first exposure brings the reference's brightest luminance to 0.85 after the tone map, the last its median luminance. The
-// tone map is ACES (Narkowicz 2015). Empty if the median luminance is not positive or the largest one is not finite.
+// The first exposure brings the reference's brightest luminance to 0.85 after the tone map, the last its
+// median luminance. The tone map is ACES (Narkowicz 2015). Empty if the median luminance is not positive or
+// the largest one is not finite.
 std::optional<FlipExposures> flip_exposures(const Image& reference);
 
 // HDR-FLIP: per pixel the largest FLIP over the exposures. Linear, scene-referred images.
@@ -35,7 +39,8 @@ std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const
 // The same with the reference's part computed once, for many images.
 class HdrFlip {
  public:
-  HdrFlip(const Image& reference, const FlipExposures& exposures, double pixels_per_degree = default_pixels_per_degree);
+  HdrFlip(const Image& reference, const FlipExposures& exposures,
+          double pixels_per_degree = default_pixels_per_degree);
   std::vector<float> map(const Image& test) const;  // of the reference's size
 
  private:

@@ -14,7 +14,9 @@ bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit
 
 }  // namespace
 
-bool has_nan(const glm::vec4& pixel) { return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b); }
+bool has_nan(const glm::vec4& pixel) {
+  return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b);
+}
 
 float brightest_channel(const Image& image) {
   float brightest = 0;

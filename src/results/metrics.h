@@ -20,8 +20,8 @@ uint64_t count_inf_pixels(const Image& image);
 float brightest_channel(const Image& image);
 
 // |a - b| of the largest channel on a log scale: black is equal, then difference_ramp() from blue (1e-7 of
-// the reference's brightest channel and below) to red (1 and above); white is NaN in either. Linear RGB, to be
-// stored without a tone map (srgb_bytes_as_is).
+// the reference's brightest channel and below) to red (1 and above); white is NaN in either. Linear RGB, to
+// be stored without a tone map (srgb_bytes_as_is).
 Image difference_image(const Image& image, const Image& reference);
 
 // Counts as colours: 0 is black, then viridis_ramp() up to `top` and above. Stored like a difference image.

@@ -41,7 +41,8 @@ Image mean_of_blocks(const Image& image, int factor) {
   return result;
 }
 
-std::vector<uint32_t> largest_of_blocks(const std::vector<uint32_t>& counts, int width, int height, int factor) {
+std::vector<uint32_t> largest_of_blocks(const std::vector<uint32_t>& counts, int width, int height,
+                                        int factor) {
   std::vector<uint32_t> result(size_t(blocks_along(width, factor)) * blocks_along(height, factor), 0);
   for_each_pixel(width, height, factor,
                  [&](size_t block, size_t pixel) { result[block] = std::max(result[block], counts[pixel]); });

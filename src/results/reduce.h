@@ -16,7 +16,8 @@ inline int blocks_along(int side, int factor) { return (side + factor - 1) / fac
 Image mean_of_blocks(const Image& image, int factor);
 
 // The largest count of each block.
-std::vector<uint32_t> largest_of_blocks(const std::vector<uint32_t>& counts, int width, int height, int factor);
+std::vector<uint32_t> largest_of_blocks(const std::vector<uint32_t>& counts, int width, int height,
+                                        int factor);
 
 // For each block the pixel of `picture` where `image` differs most from `reference`; NaN counts as the
 // largest difference.

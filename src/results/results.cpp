@@ -58,7 +58,8 @@ json to_json(const ImageError& error) {
                  {"oracle", oracle},
                  {"silhouettes", silhouettes},
                  {"inside", inside}};
-  for (const ErrorMeasure& measure : error_measures()) values[measure.key] = finite_or_null(error.*measure.value);
+  for (const ErrorMeasure& measure : error_measures())
+    values[measure.key] = finite_or_null(error.*measure.value);
   return values;
 }
 
@@ -95,18 +96,21 @@ json to_json(const PassResult& pass) {
 }
 
 json to_json(const MovingResult& m) {
-  return {{"frames", m.frames},
-          {"frame_ms", to_json(m.frame_ms)},
-          {"resting_ms", to_json(m.resting_ms)},
-          {"error", {{"max_abs", finite_or_null(m.max_abs)},
-                     {"max_rel", finite_or_null(m.max_rel)},
-                     {"rmse_rel", finite_or_null(m.rmse_rel)}}},
-          {"temporal", {{"max_rel", finite_or_null(m.temporal_max_rel)}, {"rmse_rel", finite_or_null(m.temporal_rmse_rel)}}},
-          {"pairs", to_json(m.pairs)},
-          {"nan_pixels", m.nan_pixels},
-          {"gl_programs_compiled", m.gl_programs},
-          {"cl_programs_built", m.cl_programs},
-          {"scene_bytes_uploaded", m.scene_bytes}};
+  return {
+      {"frames", m.frames},
+      {"frame_ms", to_json(m.frame_ms)},
+      {"resting_ms", to_json(m.resting_ms)},
+      {"error",
+       {{"max_abs", finite_or_null(m.max_abs)},
+        {"max_rel", finite_or_null(m.max_rel)},
+        {"rmse_rel", finite_or_null(m.rmse_rel)}}},
+      {"temporal",
+       {{"max_rel", finite_or_null(m.temporal_max_rel)}, {"rmse_rel", finite_or_null(m.temporal_rmse_rel)}}},
+      {"pairs", to_json(m.pairs)},
+      {"nan_pixels", m.nan_pixels},
+      {"gl_programs_compiled", m.gl_programs},
+      {"cl_programs_built", m.cl_programs},
+      {"scene_bytes_uploaded", m.scene_bytes}};
 }
 
 }  // namespace
@@ -143,7 +147,8 @@ json to_json(const RunResult& result) {
               {"overflow", result.overflow},
               {"skipped", skipped}};
   for (const auto& pass : result.passes) {
-    if (pass.name == "build_world_grid") out["build"] = build_json(pass, result.frame_ms.median, result.world_cell);
+    if (pass.name == "build_world_grid")
+      out["build"] = build_json(pass, result.frame_ms.median, result.world_cell);
   }
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
@@ -170,7 +175,8 @@ const RunResult* reference_row(const CompareReport& report) {
 const Image& reference_image(const CompareReport& report) {
   const RunResult* row = reference_row(report);
   const size_t i = row ? size_t(row - report.rows.data()) : report.images.size();
-  return i < report.images.size() && !report.images[i].pixels.empty() ? report.images[i] : report.reference_image;
+  return i < report.images.size() && !report.images[i].pixels.empty() ? report.images[i]
+                                                                      : report.reference_image;
 }
 
 const Image& image_of(const CompareReport& report, size_t row) {

@@ -90,8 +90,8 @@ struct RunResult {
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
   std::optional<double> world_cell;  // that world_grid's lists were built with
-  std::optional<PairCounts> pairs;  // absent without the oracle
-  std::optional<ImageError> error;  // technique error: this image against the float image with every light
+  std::optional<PairCounts> pairs;   // absent without the oracle
+  std::optional<ImageError> error;   // technique error: this image against the float image with every light
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
   std::optional<MovingResult> moving;  // absent without a camera path
@@ -133,8 +133,8 @@ struct CompareReport {
 const RunResult* reference_row(const CompareReport& report);
 // The image that all are compared with: of its row, or reference_image. Empty if neither was kept.
 const Image& reference_image(const CompareReport& report);
-// The image of a row; empty if it has none. A row whose colours equal the reference's to the bit may keep no copy: its
-// image is then the reference's.
+// The image of a row; empty if it has none. A row whose colours equal the reference's to the bit may keep no
+// copy: its image is then the reference's.
 const Image& image_of(const CompareReport& report, size_t row);
 
 nlohmann::json to_json(const CompareReport& report);

@@ -13,7 +13,8 @@ std::string with_commas(uint64_t value);  // 2420 -> "2,420"
 // Three significant digits: "2,420", "214", "11.3", "0.59".
 std::string short_number(double value);
 
-std::string spelled_setting(std::string key);            // as the command line spells it: "lidr_overlap" -> "lidr-overlap"
+std::string spelled_setting(
+    std::string key);  // as the command line spells it: "lidr_overlap" -> "lidr-overlap"
 std::string short_scene(const CompareReport& report);    // without folders and extension
 std::string view_in_words(const CompareReport& report);  // "hall, 1280 × 720, 237 lights"
 

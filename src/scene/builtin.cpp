@@ -12,8 +12,10 @@ const std::vector<BuiltinScene>& builtin_scenes() {
       {"spheres", "600 spheres floating in the dark, 2 to 90 m away: depth steps everywhere", make_spheres},
       {"terrain", "hills under 255 small coloured lights, seen from above", make_terrain},
       {"street", "a wet street 360 m long at night: shops, lamp posts, cars, garlands", make_street},
-      {"particles", "a yard at night full of smoke: blended puffs that face the camera, lit by sparks", make_particles},
-      {"gallery", "busts of skin, wax and stone between velvet: materials that are not Lambert's", make_gallery},
+      {"particles", "a yard at night full of smoke: blended puffs that face the camera, lit by sparks",
+       make_particles},
+      {"gallery", "busts of skin, wax and stone between velvet: materials that are not Lambert's",
+       make_gallery},
   };
   return scenes;
 }

@@ -31,7 +31,8 @@ std::vector<View> turn(const View& start, int count) {
   std::vector<View> views = {start};
   for (int i = 1; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
-    views.push_back(moved(start, start.eye, glm::dmat3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)))));
+    views.push_back(
+        moved(start, start.eye, glm::dmat3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)))));
   }
   return views;
 }
@@ -41,7 +42,8 @@ std::vector<View> dolly(const Scene& scene, const View& start, int count) {
   const double length = box.empty() ? 1 : 0.25 * glm::length(box.max - box.min);
   const glm::dvec3 forward = -glm::transpose(glm::dmat3(start.view_from_world))[2];
   std::vector<View> views = {start};
-  for (int i = 1; i < count; ++i) views.push_back(moved(start, start.eye + forward * (length * i / count), glm::dmat3(1)));
+  for (int i = 1; i < count; ++i)
+    views.push_back(moved(start, start.eye + forward * (length * i / count), glm::dmat3(1)));
   return views;
 }
 
@@ -54,7 +56,8 @@ class KeyFile {
  public:
   explicit KeyFile(const std::string& path) : path_(path) {
     std::ifstream file(path);
-    if (!file) throw input_error("camera path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
+    if (!file)
+      throw input_error("camera path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
     try {
       json_ = nlohmann::json::parse(file);
     } catch (const nlohmann::json::exception&) {
@@ -73,7 +76,8 @@ class KeyFile {
       const double at = count > 1 ? double(i) * double(keys_.size() - 1) / double(count - 1) : 0;
       const size_t k = std::min(size_t(at), keys_.size() - 1), next = std::min(k + 1, keys_.size() - 1);
       const double t = at - double(k);
-      along.push_back({glm::mix(keys_[k].eye, keys_[next].eye, t), glm::mix(keys_[k].target, keys_[next].target, t),
+      along.push_back({glm::mix(keys_[k].eye, keys_[next].eye, t),
+                       glm::mix(keys_[k].target, keys_[next].target, t),
                        glm::mix(keys_[k].fov_deg, keys_[next].fov_deg, t)});
     }
     return along;
@@ -84,7 +88,8 @@ class KeyFile {
     if (!json_.contains("frames")) return keys_.size();
     const nlohmann::json& frames = json_["frames"];
     if (!frames.is_number_unsigned() || frames < 1u || frames > unsigned(most_views)) {
-      throw input_error("camera path {}: frames is {}, not a number from 1 to {}", path_, frames.dump(), most_views);
+      throw input_error("camera path {}: frames is {}, not a number from 1 to {}", path_, frames.dump(),
+                        most_views);
     }
     return frames.get<size_t>();
   }
@@ -92,13 +97,16 @@ class KeyFile {
   Key key(const nlohmann::json& object, size_t index) const {
     Key key{place(object, index, "eye"), place(object, index, "target")};
     if (!object.contains("fov")) return key;
-    if (!object["fov"].is_number()) throw input_error("camera path {}: key {}: fov is not a number", path_, index);
+    if (!object["fov"].is_number())
+      throw input_error("camera path {}: key {}: fov is not a number", path_, index);
     key.fov_deg = object["fov"].get<double>();
     return key;
   }
 
   glm::dvec3 place(const nlohmann::json& object, size_t index, const char* name) const {
-    const auto wrong = [&] { return input_error("camera path {}: key {}: {} is not three finite numbers", path_, index, name); };
+    const auto wrong = [&] {
+      return input_error("camera path {}: key {}: {} is not three finite numbers", path_, index, name);
+    };
     if (!object.is_object() || !object.contains(name)) throw wrong();
     const nlohmann::json& values = object[name];
     if (!values.is_array() || values.size() != 3) throw wrong();

@@ -129,7 +129,8 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
   }
   // Intensity is radius^2 / 8 (scatter_one).
   if (!(double(max_radius) * max_radius / 8 <= double(std::numeric_limits<float>::max()))) {
-    throw input_error("light-radius {:g}: the intensity of a light that wide passes the largest float", max_radius);
+    throw input_error("light-radius {:g}: the intensity of a light that wide passes the largest float",
+                      max_radius);
   }
   std::vector<Light> lights;
   lights.reserve(settings.count);
@@ -150,8 +151,10 @@ DefaultLights default_lights(const View& view) {
     light.intensity = illuminance_lux;
     return light;
   };
-  // Facing the viewer, cosines are 0.59 and 0.72: (2.3 * 0.59 + 0.7 * 0.72) / pi = 0.59 of radiance, and 0.2 ambient.
-  return {{directional("default key", {-0.6, 0.8, 0.73}, 2.3f), directional("default fill", {0.9, 0.1, 0.94}, 0.7f)},
+  // Facing the viewer, cosines are 0.59 and 0.72: (2.3 * 0.59 + 0.7 * 0.72) / pi = 0.59 of radiance, and 0.2
+  // ambient.
+  return {{directional("default key", {-0.6, 0.8, 0.73}, 2.3f),
+           directional("default fill", {0.9, 0.1, 0.94}, 0.7f)},
           glm::vec3(0.2f)};
 }
 

@@ -49,12 +49,14 @@ class Place : public Json::json_sax_t {
 
   bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
     const bool syntax = dynamic_cast<const Json::parse_error*>(&error);
-    throw input_error("{}: {}{}{}", path_.string(), place(), syntax ? "is not JSON: " : "", without_prefix(error.what()));
+    throw input_error("{}: {}{}{}", path_.string(), place(), syntax ? "is not JSON: " : "",
+                      without_prefix(error.what()));
   }
 
  private:
   bool deeper() {
-    if (++depth_ > max_json_depth) throw input_error("{}: nested deeper than {}", path_.string(), max_json_depth);
+    if (++depth_ > max_json_depth)
+      throw input_error("{}: nested deeper than {}", path_.string(), max_json_depth);
     return true;
   }
 
@@ -181,7 +183,8 @@ Light plain_light(const Fields& fields) {
   if (fields.has("color")) light.color = glm::vec3(fields.vector("color", 0, max_float));
   light.intensity = float(fields.number("intensity", 1, 0, max_float));
   if (intensity_overflows(light)) {
-    throw fields.error("intensity", fmt::format("times color passes the largest float, {:g}", max_float), light.intensity);
+    throw fields.error("intensity", fmt::format("times color passes the largest float, {:g}", max_float),
+                       light.intensity);
   }
   light.radius_m = float(fields.number("radius", light.radius_m, 0, max_float));
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));

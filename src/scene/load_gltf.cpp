@@ -19,7 +19,11 @@ bool has_channels(const Rig& rig) {
 Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits& limits) {
   gltf::Document doc = gltf::read_document(path, limits);
   std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(doc, scene_index);
-  Rig rig{.file = path.string(), .nodes = {}, .animations = gltf::read_animations(doc, nodes), .skins = {}, .meshes = {}};
+  Rig rig{.file = path.string(),
+          .nodes = {},
+          .animations = gltf::read_animations(doc, nodes),
+          .skins = {},
+          .meshes = {}};
   Scene scene;
   scene.name = path.stem().string();
   scene.materials = gltf::read_materials(doc);

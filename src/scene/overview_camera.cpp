@@ -51,7 +51,8 @@ Camera overview_camera(const Scene& scene, double aspect) {
   // Without triangles, or with numbers that overflow double, looks from the box's corner.
   const double size = box.empty() ? 1 : glm::length(box.max - box.min);
   glm::dvec3 eye = fit.eye();
-  if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z)) eye = {0, 0, std::isfinite(size) ? size : 1};
+  if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z))
+    eye = {0, 0, std::isfinite(size) ? size : 1};
   // The eye may touch the model, whose corner then fills the image and hides the rest: keep a distance.
   const double scale = size > 0 && std::isfinite(size) ? size : 1;
   if (std::isfinite(fit.nearest)) eye.z = std::max(eye.z, fit.nearest + 0.05 * scale);

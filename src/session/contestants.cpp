@@ -11,7 +11,8 @@ namespace lightgrid {
 namespace {
 
 // "KEY=A,B": each of the previous contestants with A, then each with B.
-std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before, const std::string& comparison) {
+std::vector<BenchContestant> multiplied(const std::vector<BenchContestant>& before,
+                                        const std::string& comparison) {
   const size_t equals = comparison.find('=');
   if (equals == std::string::npos) throw input_error("compare {}: not KEY=VALUE,VALUE,…", comparison);
   const std::string key = comparison.substr(0, equals + 1);
@@ -33,18 +34,21 @@ void apply_own_setting(Contestant& contestant, const std::string& assignment) {
   apply_setting(contestant.settings, assignment);
   const std::string key = assignment.substr(0, assignment.find('='));
   if (!reads_setting(*contestant.technique, key)) {
-    throw input_error("techniques {}:{}: {} does not read {}; it reads {}", contestant.technique->name, assignment,
-                      contestant.technique->name, key, fmt::join(contestant.technique->settings, ", "));
+    throw input_error("techniques {}:{}: {} does not read {}; it reads {}", contestant.technique->name,
+                      assignment, contestant.technique->name, key,
+                      fmt::join(contestant.technique->settings, ", "));
   }
 }
 
 // Each contestant with each value of the settings that it reads.
-std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
+std::vector<Contestant> swept(const std::vector<Contestant>& contestants,
+                              const std::vector<std::string>& comparisons) {
   std::vector<Contestant> all;
   for (const Contestant& contestant : contestants) {
     std::vector<std::string> own;
     for (const std::string& comparison : comparisons) {
-      if (reads_setting(*contestant.technique, comparison.substr(0, comparison.find('=')))) own.push_back(comparison);
+      if (reads_setting(*contestant.technique, comparison.substr(0, comparison.find('='))))
+        own.push_back(comparison);
     }
     for (const BenchContestant& c : contestants_of(contestant.settings, own, 64)) {
       all.push_back({contestant.technique, c.settings});
@@ -53,7 +57,8 @@ std::vector<Contestant> swept(const std::vector<Contestant>& contestants, const 
   return all;
 }
 
-void check_comparisons(const std::vector<Contestant>& contestants, const std::vector<std::string>& comparisons) {
+void check_comparisons(const std::vector<Contestant>& contestants,
+                       const std::vector<std::string>& comparisons) {
   for (const std::string& comparison : comparisons) {
     const std::string key = comparison.substr(0, comparison.find('='));
     const auto reads = [&](const Contestant& c) { return reads_setting(*c.technique, key); };
@@ -62,8 +67,8 @@ void check_comparisons(const std::vector<Contestant>& contestants, const std::ve
   }
 }
 
-// All are compared with one image of every light; with another BRDF or other ranges, the difference would count as
-// a technique's error.
+// All are compared with one image of every light; with another BRDF or other ranges, the difference would
+// count as a technique's error.
 void check_same_picture(const std::vector<Contestant>& contestants) {
   const Contestant& first = contestants.front();
   auto meant = to_strings(first.settings);
@@ -72,8 +77,8 @@ void check_same_picture(const std::vector<Contestant>& contestants) {
     for (const char* key : {"brdf", "range", "cutoff", "window", "alpha", "light_seed"}) {
       if (other.at(key) == meant.at(key)) continue;
       throw input_error(
-          "{0}: {1} with {0}={2} and {3} with {0}={4}: one reference cannot serve both; choose one for all", key,
-          first.technique->name, meant.at(key), c.technique->name, other.at(key));
+          "{0}: {1} with {0}={2} and {3} with {0}={4}: one reference cannot serve both; choose one for all",
+          key, first.technique->name, meant.at(key), c.technique->name, other.at(key));
     }
   }
 }
@@ -99,12 +104,13 @@ std::vector<BenchContestant> contestants_of(const Settings& base, const std::vec
                                             size_t most) {
   std::vector<BenchContestant> contestants{{"", base}};
   for (const std::string& comparison : comparisons) contestants = multiplied(contestants, comparison);
-  if (contestants.size() > most) throw input_error("compare: {} combinations; {} at most", contestants.size(), most);
+  if (contestants.size() > most)
+    throw input_error("compare: {} combinations; {} at most", contestants.size(), most);
   return contestants;
 }
 
-std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
-                                                 size_t most) {
+std::vector<BenchContestant> culling_contestants(const Settings& base,
+                                                 const std::vector<std::string>& comparisons, size_t most) {
   const std::vector<BenchContestant> contestants = contestants_of(base, comparisons, most);
   for (const std::string& comparison : comparisons) {
     const std::string key = comparison.substr(0, comparison.find('='));

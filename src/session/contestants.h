@@ -14,13 +14,14 @@ namespace lightgrid {
 std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
                                             size_t most);
 
-// The same for settings that culling reads. Throws Error(input) for others, whose values would all run the same.
-std::vector<BenchContestant> culling_contestants(const Settings& base, const std::vector<std::string>& comparisons,
-                                                 size_t most);
+// The same for settings that culling reads. Throws Error(input) for others, whose values would all run the
+// same.
+std::vector<BenchContestant> culling_contestants(const Settings& base,
+                                                 const std::vector<std::string>& comparisons, size_t most);
 
 // Items of a list of techniques, split at its commas, each over `common`: "forward", "forward_plus:tile=32",
-// "cull-test=aabb"; an item with "=" and without a name before a colon is another setting of the name before it. Throws
-// Error(input) for a setting that a technique does not read.
+// "cull-test=aabb"; an item with "=" and without a name before a colon is another setting of the name before
+// it. Throws Error(input) for a setting that a technique does not read.
 std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common);
 
 // techniques: a list split at its commas, such as "forward", "forward_plus:tile=32", "cull-test=aabb"; an

@@ -31,7 +31,8 @@ bool parse_pair(const std::string& text, char separator, T& a, T& b) {
 
 void check_light_radius(const SceneChoice& choice) {
   if (!choice.light_radius.empty() && (choice.lights < 0 || !choice.lights_file.empty())) {
-    throw input_error("light-radius {}: applies only to lights that \"lights\" scatters", choice.light_radius);
+    throw input_error("light-radius {}: applies only to lights that \"lights\" scatters",
+                      choice.light_radius);
   }
 }
 
@@ -40,7 +41,8 @@ void scatter_over(Scene& scene, const SceneChoice& choice) {
   scatter.count = choice.lights;
   scatter.seed = choice.seed;
   float &low = scatter.min_radius_m, &high = scatter.max_radius_m;
-  if (!choice.light_radius.empty() && (!parse_pair(choice.light_radius, ',', low, high) || !(low > 0) || !(high >= low) || std::isinf(high))) {
+  if (!choice.light_radius.empty() && (!parse_pair(choice.light_radius, ',', low, high) || !(low > 0) ||
+                                       !(high >= low) || std::isinf(high))) {
     throw input_error("light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", choice.light_radius);
   }
   scene.lights = scatter_lights(scene, scatter);
@@ -79,8 +81,8 @@ Scene load_scene(const std::string& name) {
 
 ImageSize parse_size(const std::string& text) {
   ImageSize size;
-  if (!parse_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1 || size.width > max_image_side ||
-      size.height > max_image_side) {
+  if (!parse_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1 ||
+      size.width > max_image_side || size.height > max_image_side) {
     throw input_error("size {}: not WxH with sides from 1 to {}", text, max_image_side);
   }
   return size;
@@ -97,9 +99,11 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
   } else if (choice.lights >= 0) {
     scatter_over(scene, choice);
   }
-  const View view = make_view(choose_camera(scene, camera, double(size.width) / size.height), size.width, size.height);
+  const View view =
+      make_view(choose_camera(scene, camera, double(size.width) / size.height), size.width, size.height);
   if (scene.lights.empty() && choice.lights < 0 && choice.lights_file.empty()) {
-    log_info("{}: no lights; adding a key and a fill light fixed to the camera (lights 0: none)", choice.scene);
+    log_info("{}: no lights; adding a key and a fill light fixed to the camera (lights 0: none)",
+             choice.scene);
     DefaultLights added = default_lights(view);
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;

@@ -8,7 +8,8 @@
 
 namespace lightgrid {
 
-Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const DepthBounds& bounds) {
+Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
+                      const DepthBounds& bounds) {
   if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
   Frame frame;
   frame.grid = cull_lights(v, bounds);

@@ -13,13 +13,14 @@ inline BaseLighting base_lighting_of(const RenderView& v) {
 
 // Culls lights, adds those of each tile's list to the geometry buffer's image, and blends blended surfaces
 // over it.
-Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth, const DepthBounds& bounds);
+Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
+                      const DepthBounds& bounds);
 
 // The same without point and spot lights: the geometry buffer's image lacks only blended surfaces.
 Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer);
 
-// The whole frame with raster=opencl: triangles, surfaces and light in OpenCL. Both techniques then have the depth
-// before the surfaces, and each pixel's material once.
+// The whole frame with raster=opencl: triangles, surfaces and light in OpenCL. Both techniques then have the
+// depth before the surfaces, and each pixel's material once.
 Frame tiled_light_in_cl(RenderView& v);
 
 }  // namespace lightgrid

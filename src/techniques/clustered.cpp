@@ -9,8 +9,8 @@ extern const Technique clustered{
     .summary = "light lists of tiles cut into depth slices",
     .source = "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
     .needs = {.light_grid = true, .slices = true, .z_bins = true},
-    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins", "grid-lists",
-                 "kernel-shape", "portable", "group-size"},
+    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
+                 "grid-lists", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

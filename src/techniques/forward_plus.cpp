@@ -8,8 +8,8 @@ extern const Technique forward_plus{
     .summary = "per-tile light lists",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012",
     .needs = {.light_grid = true, .z_bins = true},
-    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins", "grid-lists", "kernel-shape",
-                 "portable", "group-size"},
+    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins", "grid-lists",
+                 "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

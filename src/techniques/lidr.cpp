@@ -1,5 +1,5 @@
-// Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of the lights
-// that a pixel's indices name (docs/techniques/lidr.md).
+// Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of
+// the lights that a pixel's indices name (docs/techniques/lidr.md).
 #include "passes/depth_bounds.h"
 #include "passes/depth_prepass.h"
 #include "passes/find_object_lights.h"
@@ -39,8 +39,8 @@ extern const Technique lidr{
     .summary = "light volumes drawn into images of light indices",
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
     .needs = {.stencil = true},
-    .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack", "lidr-order", "volume-mesh",
-                 "depth-bounds", "tile"},
+    .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
+                 "lidr-order", "volume-mesh", "depth-bounds", "tile"},
     .render = render,
     .listed = listed,
     .limited_lists = true};

@@ -3,20 +3,21 @@
 
 namespace lightgrid {
 
-extern const Technique forward, forward_multipass, forward_zprepass, forward_plus, clustered, forward_plus_compute,
-    deferred, deferred_tiled, light_prepass, lidr, visibility, voxel_lights, world_grid;
+extern const Technique forward, forward_multipass, forward_zprepass, forward_plus, clustered,
+    forward_plus_compute, deferred, deferred_tiled, light_prepass, lidr, visibility, voxel_lights, world_grid;
 
 const std::vector<const Technique*>& techniques() {
   static const std::vector<const Technique*> all = {
-      &forward, &forward_multipass, &forward_zprepass, &forward_plus, &clustered, &forward_plus_compute,
-      &deferred, &deferred_tiled, &light_prepass, &lidr, &visibility,
-      &voxel_lights, &world_grid};
+      &forward,   &forward_multipass, &forward_zprepass, &forward_plus, &clustered,  &forward_plus_compute,
+      &deferred,  &deferred_tiled,    &light_prepass,    &lidr,         &visibility, &voxel_lights,
+      &world_grid};
   return all;
 }
 
 std::string technique_names() {
   std::string names;
-  for (const Technique* technique : techniques()) names += (names.empty() ? "" : ", ") + std::string(technique->name);
+  for (const Technique* technique : techniques())
+    names += (names.empty() ? "" : ", ") + std::string(technique->name);
   return names;
 }
 

@@ -17,10 +17,11 @@ struct Technique {
   TechniqueNeeds needs;
   std::vector<const char*> settings;  // keys of the settings that it reads (plan/settings.h)
   Frame (*render)(RenderView& v);
-  // The lights that the last frame used at each pixel of opaque surfaces, if the frame has no light grid. Null: every
-  // light.
+  // The lights that the last frame used at each pixel of opaque surfaces, if the frame has no light grid.
+  // Null: every light.
   ListedLights (*listed)(RenderView& v) = nullptr;
-  // The same for techniques whose lists follow from a pixel's depth: that of the frame's surfaces, row 0 at the bottom.
+  // The same for techniques whose lists follow from a pixel's depth: that of the frame's surfaces, row 0 at
+  // the bottom.
   ListedLights (*listed_at)(RenderView& v, const std::vector<float>& depth) = nullptr;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
@@ -28,8 +29,9 @@ struct Technique {
   bool approximate = false;
 };
 
-// Whether the technique with these settings rasterises and filters by its own code, in OpenCL: at silhouettes, where
-// surfaces share a depth and in minified textures its image differs from one that OpenGL draws.
+// Whether the technique with these settings rasterises and filters by its own code, in OpenCL: at
+// silhouettes, where surfaces share a depth and in minified textures its image differs from one that OpenGL
+// draws.
 inline bool own_surfaces(const Technique& technique, const Settings& settings) {
   return !draws_with_opengl(technique.needs, settings);
 }

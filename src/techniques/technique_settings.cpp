@@ -22,7 +22,8 @@ bool has_effect(const Settings& settings, const std::string& key) {
 }  // namespace
 
 const std::vector<const char*>& common_settings() {
-  static const std::vector<const char*> keys = {"range", "cutoff", "window", "alpha", "light-seed", "everything-on"};
+  static const std::vector<const char*> keys = {"range", "cutoff",     "window",
+                                                "alpha", "light-seed", "everything-on"};
   return keys;
 }
 

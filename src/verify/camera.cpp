@@ -38,12 +38,14 @@ void field_of_179(Check& c) { field(c, 179); }
 
 void off_centre(Check& c) {
   for (const double shift : {0.2, -0.4})
-    lights_of_all_kinds(c, view_through({.half_x = 0.8, .half_y = 0.5, .shift_x = shift, .shift_y = -shift / 2}, 127, 73));
+    lights_of_all_kinds(
+        c, view_through({.half_x = 0.8, .half_y = 0.5, .shift_x = shift, .shift_y = -shift / 2}, 127, 73));
 }
 
 void beside_the_axis(Check& c) {
   for (const double shift : {3.0, -20.0})
-    lights_of_all_kinds(c, view_through({.half_x = 0.5, .half_y = 0.3, .shift_x = shift, .shift_y = shift}, 127, 73));
+    lights_of_all_kinds(
+        c, view_through({.half_x = 0.5, .half_y = 0.3, .shift_x = shift, .shift_y = shift}, 127, 73));
 }
 
 // A tiny light at each pixel's own position: the tile that shading finds for the pixel must list it.
@@ -81,7 +83,8 @@ void orthographic_near_zero(Check& c) {
   for (const SliceSpacing spacing : {SliceSpacing::exponential, SliceSpacing::linear}) {
     view.slice_edges = slice_edges(spacing, 24, near_distance(view), 100);
     view.z_bin_edges = slice_edges(spacing, 64, near_distance(view), 100);
-    for (const float edge : view.slice_edges) c.that(std::isfinite(edge) && edge > 0 && edge < 100, "a slice ends at {} m", edge);
+    for (const float edge : view.slice_edges)
+      c.that(std::isfinite(edge) && edge > 0 && edge < 100, "a slice ends at {} m", edge);
     const auto [depth, lights] = scattered_over_depth(view, 100, true, 22);
     c.pixels(view, lights, depth, {CullerOptions{}});
   }
@@ -114,9 +117,13 @@ void sliver(Check& c) {
   lights_of_all_kinds(c, view_through({.half_x = 0.001, .half_y = 3}, 3, 700));
 }
 
-void pixels_not_square(Check& c) { lights_of_all_kinds(c, view_through({.half_x = 5, .half_y = 0.05}, 73, 127)); }
+void pixels_not_square(Check& c) {
+  lights_of_all_kinds(c, view_through({.half_x = 5, .half_y = 0.05}, 73, 127));
+}
 
-void sixteen_thousand_wide(Check& c) { lights_of_all_kinds(c, view_through({.half_x = 1, .half_y = 0.01}, 16384, 17), 64); }
+void sixteen_thousand_wide(Check& c) {
+  lights_of_all_kinds(c, view_through({.half_x = 1, .half_y = 0.01}, 16384, 17), 64);
+}
 
 void tiny_near(Check& c) {
   const CullView view = view_through({.near = 1e-6}, 63, 41);
@@ -127,12 +134,14 @@ void tiny_near(Check& c) {
 void huge_near(Check& c) {
   const CullView view = view_through({.half_x = 1e-3, .half_y = 1e-3, .near = 1e6}, 63, 41);
   std::vector<CullLight> lights;
-  for (int i = 0; i < 100; ++i) lights.push_back(point({(i % 10 - 5) * 200, (i / 10 - 5) * 200, -1.5e6}, 150));
+  for (int i = 0; i < 100; ++i)
+    lights.push_back(point({(i % 10 - 5) * 200, (i / 10 - 5) * 200, -1.5e6}, 150));
   c.grid(view, lights, {{1.4e6f, 1.6e6f}}), c.grid(view, lights, {{1.5e6f, 1.5e6f}});
 }
 
 void inside_a_light(Check& c) {
-  const HostGrid grid = c.grid(sixty(), {point({0, 0, 0}, 5), point({0.3, -0.2, 0.5}, 5), point({0, 0, -3}, 3.0001)}, {{0.1f, 4}});
+  const HostGrid grid = c.grid(
+      sixty(), {point({0, 0, 0}, 5), point({0.3, -0.2, 0.5}, 5), point({0, 0, -3}, 3.0001)}, {{0.1f, 4}});
   for (size_t i = 0; i < grid.cells.size(); ++i)
     c.that(grid.cells[i].y == 3, "tile {} lists {} of the 3 lights around the eye", i, grid.cells[i].y);
 }
@@ -141,7 +150,8 @@ void across_the_near_plane(Check& c) {
   std::vector<CullLight> lights;
   for (const double r : {0.01, 0.1, 1.0, 30.0})
     for (int i = -5; i <= 5; ++i) lights.push_back(point({0.3 * i * r, 0.1 * i * r, -0.1 + 0.09 * i * r}, r));
-  for (const DepthInterval b : {DepthInterval{0.1f, 0.1f}, DepthInterval{0.1f, 2}, DepthInterval{0, 1e18f}}) c.grid(sixty(), lights, {b});
+  for (const DepthInterval b : {DepthInterval{0.1f, 0.1f}, DepthInterval{0.1f, 2}, DepthInterval{0, 1e18f}})
+    c.grid(sixty(), lights, {b});
 }
 
 void behind(Check& c) {
@@ -151,13 +161,15 @@ void behind(Check& c) {
 
 void behind_and_reaching_in(Check& c) {
   std::vector<CullLight> lights;
-  for (int i = 0; i < 40; ++i) lights.push_back(point({(i % 8 - 4) * 2.0, (i / 8 - 2) * 2.0, 3}, 3.05 + i * 0.2));
+  for (int i = 0; i < 40; ++i)
+    lights.push_back(point({(i % 8 - 4) * 2.0, (i / 8 - 2) * 2.0, 3}, 3.05 + i * 0.2));
   c.grid(sixty(), lights, {{0.1f, 50}}), c.grid(field_of_view(170, 127, 73), lights, {{0.1f, 50}});
 }
 
 void beyond_far(Check& c) {
   const CullView view = view_through({.near = 0.1, .far = 100}, 127, 73);
-  const std::vector<CullLight> lights = {point({0, 0, -150}, 60), point({0, 0, -150}, 49), point({0, 0, -1e4}, 9950)};
+  const std::vector<CullLight> lights = {point({0, 0, -150}, 60), point({0, 0, -150}, 49),
+                                         point({0, 0, -1e4}, 9950)};
   c.grid(view, lights, {{90, 100}}), c.grid(view, lights, {every_distance});
 }
 
@@ -167,7 +179,9 @@ CullView sliced(CullView view) {
 }
 
 void beyond_the_last_slice(Check& c) {
-  const HostGrid grid = c.grid(sliced(sixty()), {point({0, 0, -1000}, 5), point({0, 0, -20}, 3), point({0, 0, -1e7}, 1e3)}, {every_distance});
+  const HostGrid grid =
+      c.grid(sliced(sixty()), {point({0, 0, -1000}, 5), point({0, 0, -20}, 3), point({0, 0, -1e7}, 1e3)},
+             {every_distance});
   const size_t tiles = tile_count(sixty(), 16);
   uint64_t in_last = 0, before = 0;
   for (size_t i = 0; i < grid.cells.size(); ++i) (i >= 5 * tiles ? in_last : before) += grid.cells[i].y;
@@ -175,7 +189,8 @@ void beyond_the_last_slice(Check& c) {
 }
 
 void before_the_first_slice(Check& c) {
-  c.grid(sliced(sixty()), {point({0, 0, -0.2}, 0.1), point({0, 0, -0.9}, 0.05), point({0, 0, 0}, 0.3)}, {every_distance});
+  c.grid(sliced(sixty()), {point({0, 0, -0.2}, 0.1), point({0, 0, -0.9}, 0.05), point({0, 0, 0}, 0.3)},
+         {every_distance});
   CullView view = view_through(box(5, -20, 20), 127, 73);
   view.slice_edges = {-10, 0, 10};
   c.grid(view, {point({0, 0, 15}, 1), point({0, 0, 10}, 0.5), point({0, 0, -12}, 1)}, {{-1e18f, 1e18f}});
@@ -219,42 +234,58 @@ void turned(Check& c) {
 std::vector<HardCase> camera_cases() {
   const char* g = "camera";
   return {
-      {g, "field_of_a_tenth", "0.1° across", "cross products of almost parallel rays cancel", "nothing lost", field_of_a_tenth},
+      {g, "field_of_a_tenth", "0.1° across", "cross products of almost parallel rays cancel", "nothing lost",
+       field_of_a_tenth},
       {g, "field_of_170", "170° across", "slivers; slopes of 11", "nothing lost", field_of_170},
-      {g, "field_of_179", "179° across", "slopes of 115, rounded by more than slack", "no pixel's centre loses a light", field_of_179},
-      {g, "off_centre", "the image's centre off the axis", "symmetric planes: wrong sides", "nothing lost", off_centre},
-      {g, "beside_the_axis", "the axis outside of the image, slopes of one sign up to 20", "min and max of x · near and x · far swapped",
-       "nothing lost", beside_the_axis},
-      {g, "pixels_in_their_tiles", "a tiny light at every pixel's position, in eight kinds of view", "planes from the field of view, pixels from the matrix",
+      {g, "field_of_179", "179° across", "slopes of 115, rounded by more than slack",
+       "no pixel's centre loses a light", field_of_179},
+      {g, "off_centre", "the image's centre off the axis", "symmetric planes: wrong sides", "nothing lost",
+       off_centre},
+      {g, "beside_the_axis", "the axis outside of the image, slopes of one sign up to 20",
+       "min and max of x · near and x · far swapped", "nothing lost", beside_the_axis},
+      {g, "pixels_in_their_tiles", "a tiny light at every pixel's position, in eight kinds of view",
+       "planes from the field of view, pixels from the matrix",
        "the tile that shading finds for a pixel lists its light", pixels_in_their_tiles},
-      {g, "orthographic_near_zero", "orthographic, near = 0; exponential and linear slices and z-bins from there", "log 0, division by 0 (Bevy #3316, #9614)", "nothing lost",
-       orthographic_near_zero},
-      {g, "orthographic_behind_the_eye", "orthographic, near = -50", "negative distances treated as empty or clamped",
-       "nothing lost", orthographic_behind_the_eye},
-      {g, "orthographic_off_centre", "a box 4 m across, 4 km beside the axis", "the offset treated as a slope", "nothing lost",
-       orthographic_off_centre},
-      {g, "orthographic_tiny_and_huge", "boxes of 0.2 mm and 200 km", "absolute epsilons", "nothing lost", orthographic_tiny_and_huge},
-      {g, "sliver", "2048 × 2 and 3 × 700 pixels, slopes of 40 beside 0.01", "one tolerance for both axes", "nothing lost", sliver},
-      {g, "pixels_not_square", "pixels a hundred times as wide as high", "one scale for both axes", "nothing lost", pixels_not_square},
-      {g, "sixteen_thousand_wide", "16384 × 17", "pixel coordinates in half precision or 14 bits", "nothing lost",
-       sixteen_thousand_wide},
+      {g, "orthographic_near_zero",
+       "orthographic, near = 0; exponential and linear slices and z-bins from there",
+       "log 0, division by 0 (Bevy #3316, #9614)", "nothing lost", orthographic_near_zero},
+      {g, "orthographic_behind_the_eye", "orthographic, near = -50",
+       "negative distances treated as empty or clamped", "nothing lost", orthographic_behind_the_eye},
+      {g, "orthographic_off_centre", "a box 4 m across, 4 km beside the axis",
+       "the offset treated as a slope", "nothing lost", orthographic_off_centre},
+      {g, "orthographic_tiny_and_huge", "boxes of 0.2 mm and 200 km", "absolute epsilons", "nothing lost",
+       orthographic_tiny_and_huge},
+      {g, "sliver", "2048 × 2 and 3 × 700 pixels, slopes of 40 beside 0.01", "one tolerance for both axes",
+       "nothing lost", sliver},
+      {g, "pixels_not_square", "pixels a hundred times as wide as high", "one scale for both axes",
+       "nothing lost", pixels_not_square},
+      {g, "sixteen_thousand_wide", "16384 × 17", "pixel coordinates in half precision or 14 bits",
+       "nothing lost", sixteen_thousand_wide},
       {g, "tiny_near", "near = 10⁻⁶ m, lights of that size", "absolute epsilons", "nothing lost", tiny_near},
-      {g, "huge_near", "near = 10⁶ m, a field of 0.1°", "a step of float is 0.1 m there", "nothing lost", huge_near},
-      {g, "inside_a_light", "the eye in a light's sphere", "a tangent of an imaginary angle", "every tile lists it", inside_a_light},
-      {g, "across_the_near_plane", "spheres through the near plane", "projected rectangles flip", "nothing lost", across_the_near_plane},
-      {g, "behind", "lights wholly behind the eye", "projected through the eye, upside down", "listed nowhere", behind},
-      {g, "behind_and_reaching_in", "centres behind the eye, spheres that reach in", "dropped with their centres", "nothing lost",
-       behind_and_reaching_in},
-      {g, "beyond_far", "centres beyond the far plane", "dropped with their centres (Filament #3141)", "nothing lost", beyond_far},
-      {g, "beyond_the_last_slice", "lights far behind the last slice's edge", "dropped (Godot #77112)", "the last slice is open-ended",
-       beyond_the_last_slice},
-      {g, "before_the_first_slice", "lights between the eye and the first slice's edge", "a gap before it (Armory #2125)",
-       "the first slice begins at the eye", before_the_first_slice},
-      {g, "world_at_1e6", "camera and lights moved by 10⁶ m", "a float's step is 0.06 m", "the same bytes", world_at_1e6},
+      {g, "huge_near", "near = 10⁶ m, a field of 0.1°", "a step of float is 0.1 m there", "nothing lost",
+       huge_near},
+      {g, "inside_a_light", "the eye in a light's sphere", "a tangent of an imaginary angle",
+       "every tile lists it", inside_a_light},
+      {g, "across_the_near_plane", "spheres through the near plane", "projected rectangles flip",
+       "nothing lost", across_the_near_plane},
+      {g, "behind", "lights wholly behind the eye", "projected through the eye, upside down",
+       "listed nowhere", behind},
+      {g, "behind_and_reaching_in", "centres behind the eye, spheres that reach in",
+       "dropped with their centres", "nothing lost", behind_and_reaching_in},
+      {g, "beyond_far", "centres beyond the far plane", "dropped with their centres (Filament #3141)",
+       "nothing lost", beyond_far},
+      {g, "beyond_the_last_slice", "lights far behind the last slice's edge", "dropped (Godot #77112)",
+       "the last slice is open-ended", beyond_the_last_slice},
+      {g, "before_the_first_slice", "lights between the eye and the first slice's edge",
+       "a gap before it (Armory #2125)", "the first slice begins at the eye", before_the_first_slice},
+      {g, "world_at_1e6", "camera and lights moved by 10⁶ m", "a float's step is 0.06 m", "the same bytes",
+       world_at_1e6},
       {g, "world_at_1e7", "by 10⁷ m", "a step of 1 m", "the same bytes", world_at_1e7},
       {g, "world_at_1e8", "by 10⁸ m", "a step of 8 m", "the same bytes", world_at_1e8},
-      {g, "between_two_floats", "lights at arm's length, most others 16 m away; the eye is half a float step from a float",
-       "the rounding error of the eye's position is lost (GCC 12.2 sets it to 0 in y and z)", "nothing lost", between_two_floats},
+      {g, "between_two_floats",
+       "lights at arm's length, most others 16 m away; the eye is half a float step from a float",
+       "the rounding error of the eye's position is lost (GCC 12.2 sets it to 0 in y and z)", "nothing lost",
+       between_two_floats},
       {g, "turned", "a turned and placed camera", "directions stay in world space", "nothing lost", turned},
   };
 }

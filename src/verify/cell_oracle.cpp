@@ -11,11 +11,11 @@
 namespace lightgrid::verify {
 namespace {
 
-constexpr double u = 0x1p-24;       // one rounding in float
-constexpr double far_away = 1e17;    // the kernels' infinity is 1e18
-constexpr double farthest = 1e30;    // end of the boxes of endless cells, past all lights and surfaces
+constexpr double u = 0x1p-24;           // one rounding in float
+constexpr double far_away = 1e17;       // the kernels' infinity is 1e18
+constexpr double farthest = 1e30;       // end of the boxes of endless cells, past all lights and surfaces
 constexpr double least_radius = 2e-18;  // metres, the least uploaded radius
-constexpr double gentle_slope = 2;    // up to this slope the exact test converges in its three Newton steps
+constexpr double gentle_slope = 2;      // up to this slope the exact test converges in its three Newton steps
 constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones need a finite near
 
 double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
@@ -27,8 +27,12 @@ struct Box {
 
 Box box_of(const Cell& c) {
   const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, farthest));
-  return {std::min(c.x0 * s0, c.x0 * s1), std::max(c.x1 * s0, c.x1 * s1), std::min(c.y0 * s0, c.y0 * s1),
-          std::max(c.y1 * s0, c.y1 * s1), c.near, c.far};
+  return {std::min(c.x0 * s0, c.x0 * s1),
+          std::max(c.x1 * s0, c.x1 * s1),
+          std::min(c.y0 * s0, c.y0 * s1),
+          std::max(c.y1 * s0, c.y1 * s1),
+          c.near,
+          c.far};
 }
 
 double distance_to_box(const Box& b, const glm::dvec3& p) {
@@ -42,7 +46,9 @@ double steepest_slope(const CullView& view) {
 }
 
 double tile_slope(const CullView& view, int tile) {
-  return tile * 2 * std::max(1 / (view.clip_from_view[0][0] * view.width), 1 / (view.clip_from_view[1][1] * view.height));
+  return tile * 2 *
+         std::max(1 / (view.clip_from_view[0][0] * view.width),
+                  1 / (view.clip_from_view[1][1] * view.height));
 }
 
 // Signed distances to the cell's side planes, outside positive; the largest.
@@ -58,7 +64,8 @@ bool cone_possibly_touches(const Box& b, const OracleLight& light, double margin
   const glm::dvec3 centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, -(b.d0 + b.d1) / 2);
   const double reach = std::hypot(b.x1 - b.x0, b.y1 - b.y0, b.d1 - b.d0) / 2 + margin;
   if (!(reach < far_away)) return true;
-  const double cosine = std::max(-1.0, light.cos_outer - 1e-6), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const double cosine = std::max(-1.0, light.cos_outer - 1e-6),
+               sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
   const glm::dvec3 v = centre - light.position;
   const double along = glm::dot(v, light.axis), across = glm::length(glm::cross(v, light.axis));
   const double more = margin + 64 * u * (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
@@ -79,13 +86,20 @@ std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const Cul
   }
   std::vector<OracleLight> all;
   for (const CullLight& light : lights) {
-    OracleLight t{to_view(view, light.position), glm::dmat3(view.view_from_world) * light.direction, light.radius_m,
-                light.cos_outer, 0, 0, false};
+    OracleLight t{to_view(view, light.position),
+                  glm::dmat3(view.view_from_world) * light.direction,
+                  light.radius_m,
+                  light.cos_outer,
+                  0,
+                  0,
+                  false};
     const glm::dvec3 offset = glm::abs(light.position - middle);
     t.position_error = 2 * u * (offset.x + offset.y + offset.z);
     const double length = glm::length(t.axis);
-    if (length > 0 && std::isfinite(length)) t.axis /= length;
-    else t.cos_outer = -1;
+    if (length > 0 && std::isfinite(length))
+      t.axis /= length;
+    else
+      t.cos_outer = -1;
     const double sum = light.position.x + light.position.y + light.position.z;
     t.lists_nothing = !(light.radius_m >= 0) || !std::isfinite(sum);
     all.push_back(t);
@@ -103,9 +117,13 @@ Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& 
   const size_t tiles = tile_count(view, tile), at = index % tiles, slice = index / tiles;
   const int tx = int(at % tiles_x(view, tile)), ty = int(at / tiles_x(view, tile));
   const double inset = pixel_centres ? 0.5 : 0;
-  Cell cell{view_x_of_pixel(v, tx * tile + inset), view_x_of_pixel(v, std::min((tx + 1) * tile, v.width) - inset),
-            view_y_of_pixel(v, ty * tile + inset), view_y_of_pixel(v, std::min((ty + 1) * tile, v.height) - inset),
-            bounds.near, bounds.far, v.orthographic};
+  Cell cell{view_x_of_pixel(v, tx * tile + inset),
+            view_x_of_pixel(v, std::min((tx + 1) * tile, v.width) - inset),
+            view_y_of_pixel(v, ty * tile + inset),
+            view_y_of_pixel(v, std::min((ty + 1) * tile, v.height) - inset),
+            bounds.near,
+            bounds.far,
+            v.orthographic};
   if (bounds.far >= far_away && bounds.near <= bounds.far) cell.far = no_end;
   if (v.orthographic && bounds.near <= -far_away) cell.near = endless_near;
   if (slice > 0) cell.near = std::max(cell.near, double(view.slice_edges[slice - 1]));
@@ -125,7 +143,8 @@ bool certainly_touches(const Cell& cell, const OracleLight& light) {
   return cone_touches_cell(cell, light.position, light.axis, light.cos_outer, light.radius) == Touch::yes;
 }
 
-bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light, CullTest test) {
+bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light,
+                      CullTest test) {
   if (light.lists_nothing || !(cell.near <= cell.far)) return false;
   const glm::dvec3& p = light.position;
   const double r = light.radius + light.position_error;
@@ -134,10 +153,12 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Or
   // coordinates.
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + r, steep = steepest_slope(view);
   const double reach_of_slopes = cell.orthographic ? 1 : std::abs(p.z) + r;
-  const double margin = least_radius + 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
+  const double margin =
+      least_radius + 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
   const double near = cell.near == endless_near ? 0 : std::abs(cell.near);
   const bool endless = cell.far > far_away || cell.near == endless_near;
-  const double ends = cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
+  const double ends =
+      cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
   const double box_margin = least_radius + 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
   const Box box = box_of(cell);
   if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
@@ -150,11 +171,12 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Or
     const double reach = std::hypot(box.x1 - box.x0, box.y1 - box.y0, box.d1 - box.d0) / 2;
     if (glm::length(p - centre) > reach * (1 + 40 * u) + r + box_margin) return false;
   }
-  return light.cos_outer < 0 || endless || cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
+  return light.cos_outer < 0 || endless ||
+         cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
 }
 
-Touching touching_lights(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
-                         int tile, bool pixel_centres) {
+Touching touching_lights(const CullView& view, std::span<const OracleLight> lights,
+                         std::span<const DepthInterval> bounds, int tile, bool pixel_centres) {
   const size_t tiles = bounds.size();
   Touching touching(tiles * (view.slice_edges.size() + 1));
   parallel_for(int(touching.size()), [&](int i) {

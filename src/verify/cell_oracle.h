@@ -15,9 +15,9 @@ struct OracleLight {
   glm::dvec3 axis;
   double radius, cos_outer;
   double position_error;  // of its position in float, which the culler stores relative to the median of all
-                       // lights' positions
-  double cone_error;   // the largest of these over all spots, added as slack to every cone
-  bool lists_nothing;  // radius or position is NaN, or the radius is negative
+                          // lights' positions
+  double cone_error;      // the largest of these over all spots, added as slack to every cone
+  bool lists_nothing;     // radius or position is NaN, or the radius is negative
 };
 std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights);
 
@@ -32,11 +32,12 @@ bool clearly_apart(const Cell& cell, const OracleLight& light);
 
 // Inside the region that the cull test covers, widened by its float error (docs/hard_cases.md#slack). `exact`
 // covers the cell itself if no slope of the view exceeds 2, else the intersection of planes and box.
-bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light, CullTest test);
+bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light,
+                      CullTest test);
 
 // The lights that certainly touch each cell, ascending.
 using Touching = std::vector<std::vector<uint32_t>>;
-Touching touching_lights(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
-                         int tile, bool pixel_centres);
+Touching touching_lights(const CullView& view, std::span<const OracleLight> lights,
+                         std::span<const DepthInterval> bounds, int tile, bool pixel_centres);
 
 }  // namespace lightgrid::verify

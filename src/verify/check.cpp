@@ -40,7 +40,8 @@ Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t i
       for (int s = 0; s < depth.samples; ++s) {
         const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples + s;
         const float value = depth.values[at];
-        if (!(value >= 0 && value <= 1) || (value == 0 && std::signbit(value))) scan.invalid = true;
+        if (!(value >= 0 && value <= 1) || (value == 0 && std::signbit(value)))
+          scan.invalid = true;
         else if (value != depth_of_nothing(view)) {
           const double distance = distance_at(view, value);
           scan.near = std::min(scan.near, distance), scan.far = std::max(scan.far, distance);
@@ -55,11 +56,14 @@ Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t i
 
 std::string to_string(const CullerOptions& o) {
   return fmt::format("{} {} tile {} {}", row_of(o.cull_test).name, row_of(o.depth_bounds).name, o.tile,
-                     o.shape == KernelShape::lanes ? "lanes" : o.shape == KernelShape::group ? "group" : "automatic");
+                     o.shape == KernelShape::lanes   ? "lanes"
+                     : o.shape == KernelShape::group ? "group"
+                                                     : "automatic");
 }
 
 std::span<const uint32_t> list_of(const HostGrid& grid, size_t cell) {
-  return grid.cells[cell].y ? std::span(grid.indices).subspan(grid.cells[cell].x, grid.cells[cell].y) : std::span<const uint32_t>();
+  return grid.cells[cell].y ? std::span(grid.indices).subspan(grid.cells[cell].x, grid.cells[cell].y)
+                            : std::span<const uint32_t>();
 }
 
 std::string malformed(const HostGrid& grid, size_t lights) {
@@ -69,10 +73,12 @@ std::string malformed(const HostGrid& grid, size_t lights) {
   for (uint32_t i = 0; i < cells; ++i) {
     if (grid.cells[i].y) order.push_back(i);
   }
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return grid.cells[a].x < grid.cells[b].x; });
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return grid.cells[a].x < grid.cells[b].x; });
   uint64_t next = 0;
   for (const uint32_t i : order) {
-    if (grid.cells[i].x != next) return fmt::format("cell {} begins at {}, not at {}", i, grid.cells[i].x, next);
+    if (grid.cells[i].x != next)
+      return fmt::format("cell {} begins at {}, not at {}", i, grid.cells[i].x, next);
     next += grid.cells[i].y;
     if (next > grid.indices.size()) return fmt::format("cell {} ends past the index list", i);
     const auto list = list_of(grid, i);
@@ -139,16 +145,19 @@ HostGrid Check::same_in_every_way(const CullView& view, const std::vector<CullLi
     HostGrid grid = engine.cull(shaped, view, lights, bounds);
     const std::string wrong = malformed(grid, lights.size());
     if (!wrong.empty()) throw machine_error("{}: {}", to_string(shaped), wrong);  // ends the case
-    if (shaped.shape == KernelShape::lanes) first = std::move(grid);
-    else that(first == grid, "{}: lanes and group differ", to_string(options));
+    if (shaped.shape == KernelShape::lanes)
+      first = std::move(grid);
+    else
+      that(first == grid, "{}: lanes and group differ", to_string(options));
   }
   return first;
 }
 
-void Check::hold_between(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
-                         const Touching& touching, const CullerOptions& options, const HostGrid& grid, bool counts) {
-  if (!that(grid.cells.size() == touching.size(), "{}: {} cells for {}", to_string(options), grid.cells.size(),
-            touching.size()))
+void Check::hold_between(const CullView& view, std::span<const OracleLight> lights,
+                         std::span<const DepthInterval> bounds, const Touching& touching,
+                         const CullerOptions& options, const HostGrid& grid, bool counts) {
+  if (!that(grid.cells.size() == touching.size(), "{}: {} cells for {}", to_string(options),
+            grid.cells.size(), touching.size()))
     return;
   for (size_t i = 0; i < touching.size(); ++i) {
     const auto list = list_of(grid, i);
@@ -156,23 +165,26 @@ void Check::hold_between(const CullView& view, std::span<const OracleLight> ligh
     for (const uint32_t light : touching[i]) {
       if (std::binary_search(list.begin(), list.end(), light)) continue;
       const OracleLight& l = lights[light];
-      lost("{}: cell {} [{:.9g}, {:.9g}] lost light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}", to_string(options), i,
-           cell.near, cell.far, light, l.position.x, l.position.y, l.position.z, l.radius);
+      lost("{}: cell {} [{:.9g}, {:.9g}] lost light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}",
+           to_string(options), i, cell.near, cell.far, light, l.position.x, l.position.y, l.position.z,
+           l.radius);
     }
     for (const uint32_t light : list) {
       if (possibly_touches(view, options.tile, cell, lights[light], options.cull_test)) continue;
       const OracleLight& l = lights[light];
-      fail(fmt::format("{}: cell {} [{:.9g}, {:.9g}] lists light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}, which cannot "
-                       "touch it", to_string(options), i, cell.near, cell.far, light, l.position.x, l.position.y,
-                       l.position.z, l.radius));
+      fail(fmt::format(
+          "{}: cell {} [{:.9g}, {:.9g}] lists light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}, which cannot "
+          "touch it",
+          to_string(options), i, cell.near, cell.far, light, l.position.x, l.position.y, l.position.z,
+          l.radius));
     }
     trials(touching[i].size() + list.size());
     if (counts) listed_ += list.size(), touching_ += touching[i].size();
   }
 }
 
-HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds,
-                     const std::vector<CullerOptions>& settings) {
+HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights,
+                     std::vector<DepthInterval> bounds, const std::vector<CullerOptions>& settings) {
   const std::vector<OracleLight> exact = oracle_lights(view, lights);
   HostGrid first;
   Touching touching;
@@ -202,41 +214,46 @@ HostGrid Check::grid_of_known_answer(const CullView& view, const std::vector<Cul
   return same_in_every_way(view, lights, bounds, options);
 }
 
-std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage& depth, const CullerOptions& options,
-                                      bool tight) {
+std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage& depth,
+                                         const CullerOptions& options, bool tight) {
   std::vector<DepthInterval> first;
   for (const CullerOptions& shaped : in_both_shapes(options)) {
     std::vector<DepthInterval> found = engine.depth_bounds(shaped, view, depth);
-    if (!that(found.size() == tile_count(view, options.tile), "{}: bounds of {} tiles", to_string(shaped), found.size()))
+    if (!that(found.size() == tile_count(view, options.tile), "{}: bounds of {} tiles", to_string(shaped),
+              found.size()))
       return {};
     for (size_t i = 0; i < found.size(); ++i) {
       const Scan scan = scan_tile(view, depth, options.tile, i);
       const DepthInterval b = found[i];
       if (scan.invalid || scan.far > farthest_surface) {  // the tile spans every distance
         that((is_orthographic(view) ? b.near <= -1e17f : b.near <= 0) && b.far >= 1e17f,
-             "{}: tile {} has an invalid depth, or a surface past 10^15 m, but is bounded to [{}, {}]", to_string(shaped), i, b.near, b.far);
+             "{}: tile {} has an invalid depth, or a surface past 10^15 m, but is bounded to [{}, {}]",
+             to_string(shaped), i, b.near, b.far);
       } else if (scan.near > scan.far) {
         that(b.near > b.far, "{}: tile {} is empty, but is [{}, {}]", to_string(shaped), i, b.near, b.far);
       } else {
         const double far = scan.far;
         trials(1);
         if (!(b.near <= scan.near && b.far >= far)) {
-          lost("{}: tile {} is [{:.9g}, {:.9g}], its surfaces are at [{:.9g}, {:.9g}]", to_string(shaped), i, b.near,
-               b.far, scan.near, scan.far);
+          lost("{}: tile {} is [{:.9g}, {:.9g}], its surfaces are at [{:.9g}, {:.9g}]", to_string(shaped), i,
+               b.near, b.far, scan.near, scan.far);
         }
-        const double scale = is_orthographic(view) ? std::abs(scan.near) + far + std::abs(distance_at(view, 0)) : far;
+        const double scale =
+            is_orthographic(view) ? std::abs(scan.near) + far + std::abs(distance_at(view, 0)) : far;
         const double more = 32 * 0x1p-24 * scale;
         that(!tight || (b.near >= scan.near - more && b.far <= far + more),
-             "{}: tile {} is [{:.9g}, {:.9g}], far wider than [{:.9g}, {:.9g}]", to_string(shaped), i, b.near, b.far,
-             scan.near, scan.far);
+             "{}: tile {} is [{:.9g}, {:.9g}], far wider than [{:.9g}, {:.9g}]", to_string(shaped), i, b.near,
+             b.far, scan.near, scan.far);
       }
     }
     const auto same = [](const DepthInterval& a, const DepthInterval& b) {
       return a.near == b.near && a.far == b.far;
     };
-    if (shaped.shape == KernelShape::lanes) first = found;
-    else that(std::equal(first.begin(), first.end(), found.begin(), found.end(), same), "{}: lanes and group differ",
-              to_string(options));
+    if (shaped.shape == KernelShape::lanes)
+      first = found;
+    else
+      that(std::equal(first.begin(), first.end(), found.begin(), found.end(), same),
+           "{}: lanes and group differ", to_string(options));
   }
   return first;
 }
@@ -258,10 +275,11 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
         const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples + s;
         const float value = depth.values[at];
         if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) continue;
-        const glm::dvec3 position =
-            depth.distances.empty() ? position_from_depth(v, x, y, value) : position_at(v, x, y, depth.distances[at]);
+        const glm::dvec3 position = depth.distances.empty() ? position_from_depth(v, x, y, value)
+                                                            : position_at(v, x, y, depth.distances[at]);
         for (uint32_t light = 0; light < exact.size(); ++light) {
-          if (lights_it(exact[light], position)) rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
+          if (lights_it(exact[light], position))
+            rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
         }
       }
     }
@@ -275,13 +293,17 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
       HostGrid grid = engine.cull_depth(shaped, view, lights, depth);
       const std::string wrong = malformed(grid, lights.size());
       if (!wrong.empty()) throw machine_error("{}: {}", to_string(shaped), wrong);
-      if (shaped.shape == KernelShape::lanes) lanes = std::move(grid);
-      else that(lanes == grid, "{}: lanes and group differ", to_string(options));
+      if (shaped.shape == KernelShape::lanes)
+        lanes = std::move(grid);
+      else
+        that(lanes == grid, "{}: lanes and group differ", to_string(options));
     }
-    that(lanes.z_bins.empty() || lanes.z_bins.size() == lights.size(), "{} words of z-bins", lanes.z_bins.size());
+    that(lanes.z_bins.empty() || lanes.z_bins.size() == lights.size(), "{} words of z-bins",
+         lanes.z_bins.size());
     const auto keys = z_bin_keys(view);
     const auto passed_over = [&](const Lit& pair) {
-      return !lanes.z_bins.empty() && !bins_hold(lanes.z_bins[pair.light], z_bin_of_key(depth_key(view, pair.depth), keys.data()));
+      return !lanes.z_bins.empty() &&
+             !bins_hold(lanes.z_bins[pair.light], z_bin_of_key(depth_key(view, pair.depth), keys.data()));
     };
     for (const auto& lit : rows) {
       for (const Lit& pair : lit) {
@@ -292,7 +314,8 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
         cell += slice * lanes.cells_x * lanes.cells_y;
         const auto list = list_of(lanes, cell);
         if (std::binary_search(list.begin(), list.end(), pair.light)) continue;
-        lost("{}: pixel {} {} at {:.9g} m lost light {}", to_string(options), pair.x, pair.y, pair.distance, pair.light);
+        lost("{}: pixel {} {} at {:.9g} m lost light {}", to_string(options), pair.x, pair.y, pair.distance,
+             pair.light);
       }
       trials(lit.size());
     }
@@ -311,7 +334,8 @@ void Check::same_as_twin(const CullView& view, const std::vector<CullLight>& lig
     HostGrid grid = run->grid;
     grid.masks.clear();  // the twin computes lists only
     grid.z_bins.clear();
-    const std::string bounds_off = difference(bounds, in.bounds), grid_off = difference(twin_grid(in, options.cull_test), grid);
+    const std::string bounds_off = difference(bounds, in.bounds),
+                      grid_off = difference(twin_grid(in, options.cull_test), grid);
     that(bounds_off.empty(), "{}: bounds are not the float twin's: {}", to_string(shaped), bounds_off);
     that(grid_off.empty(), "{}: lists are not the float twin's: {}", to_string(shaped), grid_off);
     trials(run->grid.cells.size() * lights.size());

@@ -12,7 +12,8 @@ namespace lightgrid::verify {
 
 class Check {
  public:
-  Check(CullEngine& engine, uint64_t adversarial_lights) : engine(engine), adversarial_lights(adversarial_lights) {}
+  Check(CullEngine& engine, uint64_t adversarial_lights)
+      : engine(engine), adversarial_lights(adversarial_lights) {}
 
   CullEngine& engine;
   const uint64_t adversarial_lights;  // number of tangent lights in the bulk case
@@ -26,7 +27,8 @@ class Check {
   // returns the first.
   HostGrid grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds,
                 const std::vector<CullerOptions>& settings);
-  HostGrid grid(const CullView& view, const std::vector<CullLight>& lights, std::vector<DepthInterval> bounds) {
+  HostGrid grid(const CullView& view, const std::vector<CullLight>& lights,
+                std::vector<DepthInterval> bounds) {
     return grid(view, lights, std::move(bounds), every_test());
   }
 
@@ -36,8 +38,8 @@ class Check {
 
   // Compares depth bounds with a plain scan in double: they contain every surface and, with `tight`, little
   // more.
-  std::vector<DepthInterval> bounds(const CullView& view, const DepthImage& depth, const CullerOptions& options,
-                                 bool tight = true);
+  std::vector<DepthInterval> bounds(const CullView& view, const DepthImage& depth,
+                                    const CullerOptions& options, bool tight = true);
 
   // From depth to lists: every light that lights a pixel's surface, at the pixel's centre, is in the list
   // that shading reads for it (slice and z-bin found from the stored depth, as in shared/slices.h), and in
@@ -78,8 +80,9 @@ class Check {
   std::vector<CullerOptions> in_both_shapes(const CullerOptions& options) const;
   HostGrid same_in_every_way(const CullView& view, const std::vector<CullLight>& lights,
                              const std::vector<DepthInterval>& bounds, const CullerOptions& options);
-  void hold_between(const CullView& view, std::span<const OracleLight> lights, std::span<const DepthInterval> bounds,
-                    const Touching& touching, const CullerOptions& options, const HostGrid& grid, bool counts);
+  void hold_between(const CullView& view, std::span<const OracleLight> lights,
+                    std::span<const DepthInterval> bounds, const Touching& touching,
+                    const CullerOptions& options, const HostGrid& grid, bool counts);
 
   Outcome outcome_;
   uint64_t listed_ = 0, touching_ = 0;  // under the first settings

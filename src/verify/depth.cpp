@@ -20,8 +20,8 @@ void all_sky(Check& c) {
   CullerOptions blended;
   blended.blend = true;
   const HostGrid grid = c.engine.cull_depth(blended, sixty_degrees(), {lights.data(), 1}, depth, true);
-  c.that(listed(grid) == grid.cells.size(), "blended surfaces before the sky have {} of {} lists", listed(grid),
-         grid.cells.size());
+  c.that(listed(grid) == grid.cells.size(), "blended surfaces before the sky have {} of {} lists",
+         listed(grid), grid.cells.size());
 }
 
 void sky_beside_surface(Check& c) {
@@ -33,8 +33,10 @@ void sky_beside_surface(Check& c) {
 }
 
 void empty_interval(Check& c) {
-  const std::vector<CullLight> lights = {point({0, 0, -5}, 1e20), point({0, 0, -5}, no_end), point({0, 0, 0}, 10)};
-  for (const DepthInterval b : {no_surface, DepthInterval{2, 1}, DepthInterval{1, std::nextafter(1.0f, 0.0f)}})
+  const std::vector<CullLight> lights = {point({0, 0, -5}, 1e20), point({0, 0, -5}, no_end),
+                                         point({0, 0, 0}, 10)};
+  for (const DepthInterval b :
+       {no_surface, DepthInterval{2, 1}, DepthInterval{1, std::nextafter(1.0f, 0.0f)}})
     c.that(listed(c.grid(sixty_degrees(), lights, {b})) == 0, "an empty tile lists lights");
 }
 
@@ -63,7 +65,8 @@ void odd_size(Check& c) {
   for (int y = 0; y < 721 / 16; ++y) {
     for (int x = 0; x < 1279 / 16; ++x) {
       const DepthInterval a = whole[size_t(y) * 81 + x], b = part[size_t(y) * 80 + x];
-      if (!c.that(a.near == b.near && a.far == b.far, "tile {} {} differs from the larger image's", x, y)) return;
+      if (!c.that(a.near == b.near && a.far == b.far, "tile {} {} differs from the larger image's", x, y))
+        return;
     }
   }
   c.grid(cut, scattered_lights(cut, 40, true, random), {{1, 20}}, {tile_of(16)});
@@ -78,7 +81,8 @@ void viewport(Check& c) {
     for (int x = 0; x < 71; ++x) cropped.values.push_back(inside.values[size_t(y + 23) * 130 + x + 19]);
   const auto lights = scattered_lights(part, 100, true, random);
   for (const CullerOptions& options : c.every_tile()) c.bounds(part, inside, options);
-  const HostGrid a = c.pixels(part, lights, inside, every_mode()), b = c.pixels(part, lights, cropped, every_mode());
+  const HostGrid a = c.pixels(part, lights, inside, every_mode()),
+                 b = c.pixels(part, lights, cropped, every_mode());
   c.that(a == b, "the viewport's grid is not that of the image cut out");
 }
 
@@ -95,7 +99,8 @@ void strange_value(Check& c, std::initializer_list<float> values) {
   }
 }
 
-constexpr float infinite = std::numeric_limits<float>::infinity(), not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinite = std::numeric_limits<float>::infinity(),
+                not_a_number = std::numeric_limits<float>::quiet_NaN();
 void nan_depth(Check& c) { strange_value(c, {not_a_number, -not_a_number}); }
 void infinite_depth(Check& c) { strange_value(c, {infinite, -infinite}); }
 void negative_depth(Check& c) { strange_value(c, {-0.5f, -1e-45f, -1e30f}); }
@@ -116,10 +121,12 @@ void reversed_against_standard(Check& c) {
   const auto distance = [](int x, int y) { return std::exp2(1 + (x / 7 + y / 5) % 6); };
   const DepthImage a = depth_of(reversed, distance), b = depth_of(standard, distance);
   std::vector<CullLight> lights;  // clear of the bounds by far more than their widening
-  for (int i = 0; i < 60; ++i) lights.push_back(point({i % 9 - 4, i % 7 - 3, -1.37 * std::exp2(i % 6)}, 0.61 + i % 5));
+  for (int i = 0; i < 60; ++i)
+    lights.push_back(point({i % 9 - 4, i % 7 - 3, -1.37 * std::exp2(i % 6)}, 0.61 + i % 5));
   c.bounds(reversed, a, tile_of(16), false);
   c.bounds(standard, b, tile_of(16), false);
-  const HostGrid ga = c.pixels(reversed, lights, a, every_mode()), gb = c.pixels(standard, lights, b, every_mode());
+  const HostGrid ga = c.pixels(reversed, lights, a, every_mode()),
+                 gb = c.pixels(standard, lights, b, every_mode());
   c.that(ga == gb, "reversed and standard depth give two grids");
 }
 
@@ -129,7 +136,8 @@ void endless_far(Check& c) {
     DepthImage depth = depth_of(view, [](int, int) { return 5.0; });
     for (int x = 0; x < 64; x += 3) depth.values[size_t(x) * 17] = least;
     const auto found = c.bounds(view, depth, tile_of(16), false);
-    for (const DepthInterval& b : found) c.that(std::isfinite(b.near) && std::isfinite(b.far), "[{}, {}]", b.near, b.far);
+    for (const DepthInterval& b : found)
+      c.that(std::isfinite(b.near) && std::isfinite(b.far), "[{}, {}]", b.near, b.far);
     c.pixels(view, {point({0, 0, -5}, 1), point({0, 0, -1e17}, 1e18)}, depth, every_mode());
   }
   // Up to the limit of the domain, each surface with a small light at its position and lights that just reach
@@ -155,7 +163,8 @@ void finite_far(Check& c) {
     const CullView view = view_through({.near = 0.5, .far = 100, .order = order}, 64, 48);
     const DepthImage depth = depth_of(view, [](int x, int y) { return x < 20 ? 99.5 : y < 20 ? sky : 60.0; });
     c.bounds(view, depth, tile_of(16), false);
-    c.pixels(view, {point({0, 0, -100}, 1), point({-60, 0, -99.5}, 30), point({0, 0, -60}, 5)}, depth, every_mode());
+    c.pixels(view, {point({0, 0, -100}, 1), point({-60, 0, -99.5}, 30), point({0, 0, -60}, 5)}, depth,
+             every_mode());
   }
 }
 
@@ -164,7 +173,8 @@ void at_near_plane(Check& c) {
     const CullView view = view_through({.near = 0.5, .order = order}, 64, 48);
     DepthImage depth = depth_of(view, [](int, int) { return 0.5; });
     c.bounds(view, depth, tile_of(16), false);
-    c.pixels(view, {point({0, 0, 0}, 0.55), point({0, 0, -1}, 0.55), point({0.4, 0.4, -0.5}, 0.01)}, depth, every_mode());
+    c.pixels(view, {point({0, 0, 0}, 0.55), point({0, 0, -1}, 0.55), point({0.4, 0.4, -0.5}, 0.01)}, depth,
+             every_mode());
   }
 }
 
@@ -177,35 +187,36 @@ std::vector<HardCase> depth_cases() {
        "no list in any mode; blended surfaces keep theirs", all_sky},
       {g, "sky_beside_surface", "sky and a wall at 2 m in each tile", "an interval from 2 m to far",
        "sky is left out of the maximum", sky_beside_surface},
-      {g, "empty_interval", "near > far, also by one ulp; lights of infinite radius", "an inverted box accepts or rejects by accident",
-       "an empty tile lists nothing", empty_interval},
-      {g, "one_pixel_image", "1 × 1", "items that return before a barrier hang; reads out of range", "as a plain scan; nothing lost",
-       one_pixel_image},
-      {g, "one_row_image", "17 × 1, 1 × 33", "the last tile's rows are read past the end", "as a plain scan; nothing lost",
-       one_row_image},
+      {g, "empty_interval", "near > far, also by one ulp; lights of infinite radius",
+       "an inverted box accepts or rejects by accident", "an empty tile lists nothing", empty_interval},
+      {g, "one_pixel_image", "1 × 1", "items that return before a barrier hang; reads out of range",
+       "as a plain scan; nothing lost", one_pixel_image},
+      {g, "one_row_image", "17 × 1, 1 × 33", "the last tile's rows are read past the end",
+       "as a plain scan; nothing lost", one_row_image},
       {g, "odd_size", "1279 × 721 cut from 1296 × 736", "partial tiles are dropped, or read past the image",
        "whole tiles as those of the larger image, partial ones as a plain scan", odd_size},
-      {g, "viewport", "a rectangle within a larger depth image", "tiles counted from the image's corner (Bevy #5946)",
-       "byte-equal to the rectangle cut out", viewport},
-      {g, "nan_depth", "NaN of both signs among surfaces", "min and max depend on the order", "the tile spans every distance",
-       nan_depth},
-      {g, "infinite_depth", "±infinity among surfaces", "inf - inf", "the tile spans every distance", infinite_depth},
-      {g, "negative_depth", "-0.5, -1e-45, -1e30", "integer minimum and maximum swap", "the tile spans every distance",
-       negative_depth},
+      {g, "viewport", "a rectangle within a larger depth image",
+       "tiles counted from the image's corner (Bevy #5946)", "byte-equal to the rectangle cut out", viewport},
+      {g, "nan_depth", "NaN of both signs among surfaces", "min and max depend on the order",
+       "the tile spans every distance", nan_depth},
+      {g, "infinite_depth", "±infinity among surfaces", "inf - inf", "the tile spans every distance",
+       infinite_depth},
+      {g, "negative_depth", "-0.5, -1e-45, -1e30", "integer minimum and maximum swap",
+       "the tile spans every distance", negative_depth},
       {g, "minus_zero", "-0 among surfaces", "as an integer it is the largest value and hides the rest",
        "the surfaces beside it keep their lights", minus_zero},
-      {g, "depth_above_one", "one ulp above 1; 1e30", "a distance nearer than the near plane, or negative", "the tile spans every distance",
-       depth_above_one},
-      {g, "reversed_against_standard", "the same surfaces in both depths", "min and max swapped", "the same grid",
-       reversed_against_standard},
-      {g, "endless_far", "infinite far; depth 1e-45 … 1e-20; surfaces and lights to 10¹⁵ m", "division by almost zero: infinity, NaN",
-       "bounds finite, surfaces inside, nothing lost",
-       endless_far},
-      {g, "denormal_depth", "surfaces whose depth is denormal", "flushed to 0: taken for sky", "nothing lost", denormal_depth},
-      {g, "finite_far", "surfaces just in front of a far plane, and sky", "far plane and background confused", "surfaces inside, sky out",
-       finite_far},
-      {g, "at_near_plane", "every surface on the near plane", "rounded to nearer than near and dropped", "nothing lost",
-       at_near_plane},
+      {g, "depth_above_one", "one ulp above 1; 1e30", "a distance nearer than the near plane, or negative",
+       "the tile spans every distance", depth_above_one},
+      {g, "reversed_against_standard", "the same surfaces in both depths", "min and max swapped",
+       "the same grid", reversed_against_standard},
+      {g, "endless_far", "infinite far; depth 1e-45 … 1e-20; surfaces and lights to 10¹⁵ m",
+       "division by almost zero: infinity, NaN", "bounds finite, surfaces inside, nothing lost", endless_far},
+      {g, "denormal_depth", "surfaces whose depth is denormal", "flushed to 0: taken for sky", "nothing lost",
+       denormal_depth},
+      {g, "finite_far", "surfaces just in front of a far plane, and sky", "far plane and background confused",
+       "surfaces inside, sky out", finite_far},
+      {g, "at_near_plane", "every surface on the near plane", "rounded to nearer than near and dropped",
+       "nothing lost", at_near_plane},
   };
 }
 

@@ -1,4 +1,5 @@
-// Hard cases of depth bounds: every kind of them, several samples, blended surfaces. depth_formats.cpp has formats.
+// Hard cases of depth bounds: every kind of them, several samples, blended surfaces. depth_formats.cpp has
+// formats.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +33,8 @@ void flat_wall(Check& c) {
 
 // Surfaces on each of the 33 edges of the mask's slots, which are exact in an orthographic view.
 void on_mask_edges(Check& c) {
-  const CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
+  const CullView box =
+      view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
   for (const CullView& view : {box, sixty_degrees()}) {
     const DepthImage depth = depth_of(view, [](int x, int y) { return 1.0 + (x + 7 * y) % 33; });
     c.pixels(view, lights_at_surfaces(view, depth, 1e-6), depth, every_mode());
@@ -47,9 +49,12 @@ void at_the_farthest(Check& c) {
 
 // Surfaces at both ends, exactly in the middle and one step of depth to either side of it.
 void on_half_z(Check& c) {
-  const CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
+  const CullView box =
+      view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 64, .orthographic = true}, 64, 48);
   for (const CullView& view : {box, sixty_degrees()}) {
-    DepthImage depth = depth_of(view, [](int x, int y) { return (x + y) % 3 == 0 ? 2.0 : (x + y) % 3 == 1 ? 6.0 : 4.0; });
+    DepthImage depth = depth_of(view, [](int x, int y) {
+      return (x + y) % 3 == 0 ? 2.0 : (x + y) % 3 == 1 ? 6.0 : 4.0;
+    });
     const float middle = float(depth_at(view, 4.0));
     for (size_t i = 0; i < depth.values.size(); i += 5) {
       if (depth.values[i] == middle) depth.values[i] = std::nextafter(middle, i % 2 ? 0.0f : 1.0f);
@@ -80,7 +85,8 @@ void two_layers(Check& c) {
     c.that(listed_by(mode) < minmax, "mode {} lists as much as min/max does: {}", int(mode), minmax);
 }
 
-// Each number of samples in two sizes of tile, and one of them in every mode: each combination is a kernel of its own.
+// Each number of samples in two sizes of tile, and one of them in every mode: each combination is a kernel of
+// its own.
 void several_samples(Check& c) {
   struct Reduction {
     int samples, tile;
@@ -109,9 +115,8 @@ void several_samples(Check& c) {
 // Tile i shows one surface, in its pixel i.
 void one_pixel_shows(Check& c) {
   const CullView view = field_of_view(60, 256, 256);
-  const DepthImage depth = depth_of(view, [](int x, int y) {
-    return x % 16 + y % 16 * 16 == x / 16 + y / 16 * 16 ? 7.0 : sky;
-  });
+  const DepthImage depth =
+      depth_of(view, [](int x, int y) { return x % 16 + y % 16 * 16 == x / 16 + y / 16 * 16 ? 7.0 : sky; });
   for (const int tile : {8, 16, 32, 64}) c.bounds(view, depth, tile_of(tile));
 }
 
@@ -129,14 +134,16 @@ void blended_before_opaque(Check& c) {
   CullerOptions options;
   options.blend = true;
   const DepthImage depth = depth_of(sixty_degrees(), [](int x, int) { return x < 32 ? 20.0 : sky; });
-  const std::vector<CullLight> lights = {point({-0.5, 0, -2}, 0.4), point({0.5, 0, -2}, 0.4), point({5, 0, -90}, 4),
-                                         point({-5, 0, -90}, 4)};
+  const std::vector<CullLight> lights = {point({-0.5, 0, -2}, 0.4), point({0.5, 0, -2}, 0.4),
+                                         point({5, 0, -90}, 4), point({-5, 0, -90}, 4)};
   for (const DepthInterval& b : c.engine.depth_bounds(options, sixty_degrees(), depth, true))
     c.that(b.near <= 0.1f && b.far >= 20, "blended surfaces between [{}, {}] only", b.near, b.far);
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     options.shape = shape;
     const HostGrid grid = c.engine.cull_depth(options, sixty_degrees(), lights, depth, true);
-    const auto lists = [&](uint32_t light) { return std::count(grid.indices.begin(), grid.indices.end(), light) > 0; };
+    const auto lists = [&](uint32_t light) {
+      return std::count(grid.indices.begin(), grid.indices.end(), light) > 0;
+    };
     c.that(lists(0) && lists(1), "a light before everything opaque is lost to the glass");
     c.that(lists(2), "a light behind the glass, with sky behind it, is lost");
     c.that(!lists(3), "a light behind a wall is listed for the glass before it");
@@ -147,7 +154,8 @@ void bounds_none(Check& c) {
   CullerOptions options;
   options.depth_bounds = DepthBoundsMode::none;
   const DepthImage depth = depth_of(sixty_degrees(), [](int, int) { return 5.0; });
-  const auto lights = std::vector<CullLight>{point({0, 0, -1}, 0.3), point({0, 0, -5}, 1), point({0, 0, -1e6}, 10)};
+  const auto lights =
+      std::vector<CullLight>{point({0, 0, -1}, 0.3), point({0, 0, -5}, 1), point({0, 0, -1e6}, 10)};
   const HostGrid grid = c.pixels(sixty_degrees(), lights, depth, {options});
   const HostGrid every = c.grid(sixty_degrees(), lights, {every_distance}, {options});
   c.that(grid == every, "without bounds the lists are not those of every distance");
@@ -171,27 +179,30 @@ void scattered(Check& c) {
 std::vector<HardCase> depth_bounds_cases() {
   const char* g = "depth";
   return {
-      {g, "flat_wall", "zmin = zmax in every tile; lights tangent to it", "division by zero in a mask's slots", "nothing lost in any mode",
-       flat_wall},
-      {g, "on_mask_edges", "surfaces exactly on the 33 edges of the mask's slots", "surface and light fall in different slots",
-       "nothing lost in any mode", on_mask_edges},
-      {g, "at_the_farthest", "lights tangent to zmin and zmax", "z = zmax is slot 32: an undefined shift", "nothing lost in any mode",
-       at_the_farthest},
-      {g, "on_half_z", "surfaces exactly in the middle of the interval and one step beside", "neither half contains them",
-       "nothing lost in any mode", on_half_z},
+      {g, "flat_wall", "zmin = zmax in every tile; lights tangent to it",
+       "division by zero in a mask's slots", "nothing lost in any mode", flat_wall},
+      {g, "on_mask_edges", "surfaces exactly on the 33 edges of the mask's slots",
+       "surface and light fall in different slots", "nothing lost in any mode", on_mask_edges},
+      {g, "at_the_farthest", "lights tangent to zmin and zmax", "z = zmax is slot 32: an undefined shift",
+       "nothing lost in any mode", at_the_farthest},
+      {g, "on_half_z", "surfaces exactly in the middle of the interval and one step beside",
+       "neither half contains them", "nothing lost in any mode", on_half_z},
       {g, "two_layers", "a post in front of a wall, lights in the gap", "one interval spans the gap",
        "nothing lost; modified half-z and mask list fewer than min/max", two_layers},
-      {g, "several_samples", "2, 4, 8 samples with a silhouette through each pixel", "one sample represents all",
-       "bounds contain every sample", several_samples},
-      {g, "one_pixel_shows", "one surface a tile, in each of its pixels in turn", "a reduction skips a lane or an item",
-       "as a plain scan", one_pixel_shows},
-      {g, "extremes_anywhere", "nearest and farthest in each pair of pixels", "minima and maxima merged wrongly (Daemon #1734)",
-       "as a plain scan", extremes_anywhere},
-      {g, "blended_before_opaque", "glass at any distance in front of a wall and of sky", "the opaque interval leaves it dark",
-       "from near to the farthest opaque surface, or to infinity", blended_before_opaque},
-      {g, "bounds_none", "depth bounds switched off", "an uninitialised interval", "the lists of every distance", bounds_none},
-      {g, "scattered", "random surfaces in eight kinds of view", "a single combination of mode, test and view",
-       "no pixel loses a light under any mode or test", scattered},
+      {g, "several_samples", "2, 4, 8 samples with a silhouette through each pixel",
+       "one sample represents all", "bounds contain every sample", several_samples},
+      {g, "one_pixel_shows", "one surface a tile, in each of its pixels in turn",
+       "a reduction skips a lane or an item", "as a plain scan", one_pixel_shows},
+      {g, "extremes_anywhere", "nearest and farthest in each pair of pixels",
+       "minima and maxima merged wrongly (Daemon #1734)", "as a plain scan", extremes_anywhere},
+      {g, "blended_before_opaque", "glass at any distance in front of a wall and of sky",
+       "the opaque interval leaves it dark", "from near to the farthest opaque surface, or to infinity",
+       blended_before_opaque},
+      {g, "bounds_none", "depth bounds switched off", "an uninitialised interval",
+       "the lists of every distance", bounds_none},
+      {g, "scattered", "random surfaces in eight kinds of view",
+       "a single combination of mode, test and view", "no pixel loses a light under any mode or test",
+       scattered},
   };
 }
 

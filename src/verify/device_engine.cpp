@@ -23,7 +23,11 @@ std::string name_of_device(const std::string& substring) {
 class DeviceEngine : public CullEngine {
  public:
   explicit DeviceEngine(const std::string& substring)
-      : substring_(substring), device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
+      : substring_(substring),
+        device_(substring),
+        programs_(device_),
+        storage_(device_),
+        name_(name_of_device(substring)) {}
 
   std::string name() const override { return name_; }
   bool is_the_library() const override { return true; }
@@ -35,8 +39,8 @@ class DeviceEngine : public CullEngine {
     return read_grid(device_, culler.cull(culler.bounds_of(bounds), storage_), storage_);
   }
 
-  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view, const DepthImage& depth,
-                                       bool blend) override {
+  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
+                                          const DepthImage& depth, bool blend) override {
     LightCuller& culler = culler_of(options, view, depth.samples);
     return culler.read_bounds(bounds_from(culler, depth, blend));
   }
@@ -48,8 +52,9 @@ class DeviceEngine : public CullEngine {
     return read_grid(device_, culler.cull(bounds_from(culler, depth, blend), storage_), storage_);
   }
 
-  std::optional<KernelRun> kernel_run(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                                      const DepthImage& depth, bool blend) override {
+  std::optional<KernelRun> kernel_run(const CullerOptions& options, const CullView& view,
+                                      std::span<const CullLight> lights, const DepthImage& depth,
+                                      bool blend) override {
     LightCuller& culler = culler_of(options, view, depth.samples);
     culler.set_lights(lights);
     const TileBounds bounds = bounds_from(culler, depth, blend);
@@ -57,8 +62,8 @@ class DeviceEngine : public CullEngine {
     return KernelRun{culler.read_inputs(bounds), std::move(grid)};
   }
 
-  std::optional<WorldLists> world_lists(const WorldListsOf& of, std::span<const CullLight> lights, const WorldBox& bounds,
-                                        const View& view) override {
+  std::optional<WorldLists> world_lists(const WorldListsOf& of, std::span<const CullLight> lights,
+                                        const WorldBox& bounds, const View& view) override {
     auto& grid = world_grids_[of];
     if (!grid) grid = std::make_unique<WorldGrid>(*renderer(), of.shape, of.cell, of.index_bits);
     grid->build(lights, bounds, view, 0);
@@ -81,27 +86,31 @@ class DeviceEngine : public CullEngine {
     RasterImage image;
     image.triangles.resize(size_t(visibility.width) * visibility.height);
     image.depths.resize(image.triangles.size());
-    read_buffer(device_, "triangles", visibility.triangle, image.triangles.data(), image.triangles.size() * sizeof(uint32_t));
-    read_buffer(device_, "depths", visibility.depth, image.depths.data(), image.depths.size() * sizeof(float));
+    read_buffer(device_, "triangles", visibility.triangle, image.triangles.data(),
+                image.triangles.size() * sizeof(uint32_t));
+    read_buffer(device_, "depths", visibility.depth, image.depths.data(),
+                image.depths.size() * sizeof(float));
     std::vector<RasterInstanceRecord> records(input.instances.size());
-    read_buffer(device_, "instances", rasterizer.buffers().instances, records.data(), records.size() * sizeof records[0]);
+    read_buffer(device_, "instances", rasterizer.buffers().instances, records.data(),
+                records.size() * sizeof records[0]);
     for (const RasterInstanceRecord& record : records) {
       std::vector<glm::vec4>& clip = image.clip.emplace_back(record.vertex_count);
-      read_buffer(device_, "positions in clip space", rasterizer.buffers().clip, clip.data(), clip.size() * sizeof clip[0],
-                  record.first_clip_vertex * sizeof clip[0]);
+      read_buffer(device_, "positions in clip space", rasterizer.buffers().clip, clip.data(),
+                  clip.size() * sizeof clip[0], record.first_clip_vertex * sizeof clip[0]);
     }
     image.invalid_triangles = rasterizer.counts().invalid_triangles;
     return image;
   }
 
  private:
-  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool, int, GridLists>;
+  using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool,
+                         int, GridLists>;
   static constexpr size_t most_cullers = 64;  // each has its own buffers
 
   LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
     o.samples = samples;
-    const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend, o.index_bits, o.portable,
-                  o.pixel_centres, o.group_size, o.lists);
+    const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend,
+                  o.index_bits, o.portable, o.pixel_centres, o.group_size, o.lists);
     if (cullers_.size() >= most_cullers && !cullers_.contains(key)) cullers_.clear();
     auto& culler = cullers_[key];
     if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
@@ -137,6 +146,8 @@ class DeviceEngine : public CullEngine {
 
 }  // namespace
 
-std::unique_ptr<CullEngine> device_engine(const std::string& substring) { return std::make_unique<DeviceEngine>(substring); }
+std::unique_ptr<CullEngine> device_engine(const std::string& substring) {
+  return std::make_unique<DeviceEngine>(substring);
+}
 
 }  // namespace lightgrid::verify

@@ -1,5 +1,5 @@
-// The engine that hard cases run on: it makes depth bounds, light grids and visibility. The library on an OpenCL device,
-// or, in the tests of the cases themselves, a culler with a planted fault.
+// The engine that hard cases run on: it makes depth bounds, light grids and visibility. The library on an
+// OpenCL device, or, in the tests of the cases themselves, a culler with a planted fault.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct DepthImage {
   std::vector<float> values;
   int row_pixels = 0;  // 0: the view's width
   int x = 0, y = 0;
-  int samples = 1;     // a pixel's samples are adjacent
+  int samples = 1;  // a pixel's samples are adjacent
   // For each value the surface's true distance along the view axis, before a depth format rounded it. Empty:
   // follows from the values. Never passed to culling.
   std::vector<double> distances{};
@@ -55,24 +55,26 @@ class CullEngine {
   virtual HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
                         std::span<const DepthInterval> bounds) = 0;
 
-  // One a tile, x fastest, y from the bottom. `blend`: those for blended surfaces (options.blend must be set).
+  // One a tile, x fastest, y from the bottom. `blend`: those for blended surfaces (options.blend must be
+  // set).
   virtual std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
-                                               const DepthImage& depth, bool blend = false) = 0;
+                                                  const DepthImage& depth, bool blend = false) = 0;
 
   // From depth to lists, as in a frame, with the depth-bounds mode applied.
-  virtual HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                              const DepthImage& depth, bool blend = false) = 0;
+  virtual HostGrid cull_depth(const CullerOptions& options, const CullView& view,
+                              std::span<const CullLight> lights, const DepthImage& depth,
+                              bool blend = false) = 0;
 
   // The same with the kernels' inputs; only for the library.
-  virtual std::optional<KernelRun> kernel_run(const CullerOptions&, const CullView&, std::span<const CullLight>,
-                                              const DepthImage&, bool /*blend*/) {
+  virtual std::optional<KernelRun> kernel_run(const CullerOptions&, const CullView&,
+                                              std::span<const CullLight>, const DepthImage&, bool /*blend*/) {
     return {};
   }
 
-  // Lists of the world grid as WorldGrid::build makes them, in the buffers that the last build of these settings used.
-  // Nothing from an engine that only culls.
-  virtual std::optional<WorldLists> world_lists(const WorldListsOf&, std::span<const CullLight>, const WorldBox& /*bounds*/,
-                                                const View&) {
+  // Lists of the world grid as WorldGrid::build makes them, in the buffers that the last build of these
+  // settings used. Nothing from an engine that only culls.
+  virtual std::optional<WorldLists> world_lists(const WorldListsOf&, std::span<const CullLight>,
+                                                const WorldBox& /*bounds*/, const View&) {
     return {};
   }
 

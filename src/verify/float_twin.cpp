@@ -37,12 +37,14 @@ Lists lists_by(const TwinInputs& in, CullTest test, DepthBoundsMode mode) {
 
 HostGrid twin_grid(const CullInputs& inputs, CullTest test) {
   const CullParams& p = inputs.params;
-  const Lists lists = lists_by({&p, inputs.lights.data(), inputs.bounds.data(), &inputs.slices[0].x}, test, inputs.mode);
+  const Lists lists =
+      lists_by({&p, inputs.lights.data(), inputs.bounds.data(), &inputs.slices[0].x}, test, inputs.mode);
   HostGrid grid{int(p.tiles_x), int(p.tiles_y), int(p.slices), std::vector<glm::uvec2>(lists.size()), {}};
   // Bins row by row, a bin's tiles by their slots, a tile's slices: the order of the lists in memory.
   for (uint i = 0; i < p.bins_x * p.bins_y * BIN_SIZE; ++i) {
     const uint bin = i / BIN_SIZE, slot = i % BIN_SIZE;
-    const uint tx = bin % p.bins_x * BIN_TILES + tile_x_of_slot(slot), ty = bin / p.bins_x * BIN_TILES + tile_y_of_slot(slot);
+    const uint tx = bin % p.bins_x * BIN_TILES + tile_x_of_slot(slot),
+               ty = bin / p.bins_x * BIN_TILES + tile_y_of_slot(slot);
     if (tx >= p.tiles_x || ty >= p.tiles_y) continue;
     for (uint slice = 0; slice < p.slices; ++slice) {
       const size_t cell = (size_t(slice) * p.tiles_y + ty) * p.tiles_x + tx;
@@ -61,14 +63,16 @@ std::vector<float> twin_bounds(const CullParams& params, DepthBoundsMode mode, b
 
 std::string difference(const HostGrid& twin, const HostGrid& grid) {
   if (twin == grid) return "";
-  if (twin.cells.size() != grid.cells.size()) return fmt::format("{} cells, not {}", grid.cells.size(), twin.cells.size());
+  if (twin.cells.size() != grid.cells.size())
+    return fmt::format("{} cells, not {}", grid.cells.size(), twin.cells.size());
   // Lists first: one extra entry moves all lists after it.
   for (size_t i = 0; i < twin.cells.size(); ++i) {
     const std::span<const uint32_t> a = list_of(twin, i), b = list_of(grid, i);
     for (const uint32_t light : a)
       if (!std::ranges::binary_search(b, light)) return fmt::format("cell {} lacks light {}", i, light);
     for (const uint32_t light : b)
-      if (!std::ranges::binary_search(a, light)) return fmt::format("cell {} has light {} too many", i, light);
+      if (!std::ranges::binary_search(a, light))
+        return fmt::format("cell {} has light {} too many", i, light);
   }
   return "the same lists in another order";
 }

@@ -1,4 +1,5 @@
-// The standing hunt for lost lights: random views, settings and lights until the time is up. `lightgrid verify --hunt`.
+// The standing hunt for lost lights: random views, settings and lights until the time is up. `lightgrid
+// verify --hunt`.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +17,7 @@ struct HuntOptions {
   double minutes = 1;
   uint64_t contacts = 0;  // 0: run until the time is up. Else: until this many are counted, whatever the time
   uint64_t seed = 1;
-  std::string filter;  // a regular expression searched in class names; empty: all
+  std::string filter;         // a regular expression searched in class names; empty: all
   bool few_settings = false;  // as in HuntSetting, for tests
   size_t lights_a_view = 32768;
   std::filesystem::path save;  // folder for losing views; empty: not saved
@@ -24,16 +25,16 @@ struct HuntOptions {
 };
 
 struct HuntTally {
-  std::string name;           // of the class
-  uint64_t contacts = 0;      // distinct (light, pixel) pairs that are certainly lit
-  uint64_t lost = 0;          // of them, not listed
+  std::string name;       // of the class
+  uint64_t contacts = 0;  // distinct (light, pixel) pairs that are certainly lit
+  uint64_t lost = 0;      // of them, not listed
   uint64_t views = 0;
-  uint64_t refused = 0;       // views inside the domain that the library refused
-  uint64_t shapes_differ = 0; // views for which the two kernel shapes made different grids
+  uint64_t refused = 0;        // views inside the domain that the library refused
+  uint64_t shapes_differ = 0;  // views for which the two kernel shapes made different grids
   double seconds = 0;
-  double cpu_ns_each = 0;     // processor time a contact, over all threads: the median over the views, which
-                              // excludes kernel builds
-  std::string why, refusal;   // the first loss, the first refusal
+  double cpu_ns_each = 0;    // processor time a contact, over all threads: the median over the views, which
+                             // excludes kernel builds
+  std::string why, refusal;  // the first loss, the first refusal
 };
 
 struct HuntReport {

@@ -18,7 +18,10 @@ constexpr size_t lights_at_once = 2048;  // lights from one sequence of random n
 class Maker {
  public:
   Maker(const HuntView& view, const HuntSetting& setting, uint64_t seed)
-      : h_(view), setting_(setting), v_(oracle_view(view.view)), seed_(seed),
+      : h_(view),
+        setting_(setting),
+        v_(oracle_view(view.view)),
+        seed_(seed),
         world_from_view_(glm::transpose(glm::dmat3(view.view.view_from_world))) {
     Random random(seed);
     elsewhere_ = view.view.eye + any_direction(random) * view.elsewhere_m;
@@ -29,8 +32,10 @@ class Maker {
     for (size_t i = begin; i < end; ++i) {
       Light& light = made.lights[i];
       const bool single = h_.elsewhere > 0 && i == 0;
-      if (single || chance(random, h_.elsewhere)) light = light_elsewhere(random);
-      else if (const auto contact = light_at_pixel(light, random)) contacts.push_back(*contact), contacts.back().light = uint32_t(i);
+      if (single || chance(random, h_.elsewhere))
+        light = light_elsewhere(random);
+      else if (const auto contact = light_at_pixel(light, random))
+        contacts.push_back(*contact), contacts.back().light = uint32_t(i);
     }
   }
 
@@ -44,7 +49,8 @@ class Maker {
     light.position = elsewhere_;
     const double most = std::numeric_limits<float>::max();
     for (int a = 0; a < 3; ++a) {
-      light.position[a] = std::clamp(light.position[a] + 1e-3 * h_.elsewhere_m * between(random, -1, 1), -most, most);
+      light.position[a] =
+          std::clamp(light.position[a] + 1e-3 * h_.elsewhere_m * between(random, -1, 1), -most, most);
     }
     light.radius_m = float(h_.elsewhere_radius_m);
     return light;
@@ -68,7 +74,8 @@ class Maker {
       c.x = uint16_t(choose(h_.view.width, corner.x)), c.y = uint16_t(choose(h_.view.height, corner.y));
       c.sample = uint16_t(random.next() % uint64_t(h_.depth.samples));
       if (!setting_.options.pixel_centres || h_.depth.samples > 1) {
-        c.in_x = float(corner.x ? (corner.x + 1) / 2 : unit(random)), c.in_y = float(corner.y ? (corner.y + 1) / 2 : unit(random));
+        c.in_x = float(corner.x ? (corner.x + 1) / 2 : unit(random)),
+        c.in_y = float(corner.y ? (corner.y + 1) / 2 : unit(random));
       }
       if (position_of(h_, c)) return c;
     }
@@ -102,7 +109,8 @@ class Maker {
   // take time.
   double random_size(const glm::dvec3& p, Random& random) const {
     const double d = v_.orthographic ? 1 : std::abs(p.z), pixels = setting_.options.tile;
-    const double wide = 2 / (v_.clip_from_view[0][0] * v_.width), high = 2 / (v_.clip_from_view[1][1] * v_.height);
+    const double wide = 2 / (v_.clip_from_view[0][0] * v_.width),
+                 high = 2 / (v_.clip_from_view[1][1] * v_.height);
     double one = std::log2(std::min(wide, high) * pixels * d);
     if (!v_.orthographic) one = std::min(one, std::log2(d));
     const double least = std::max(one - 16, std::log2(glm::length(p)) - 30), share = unit(random);
@@ -150,14 +158,17 @@ class Maker {
     across = glm::normalize(across);
     const double angle = half * pi / 180;
     light.type = LightType::spot;
-    light.direction = glm::vec3(glm::normalize(world_from_view_ * (to * std::cos(angle) + across * std::sin(angle))));
+    light.direction =
+        glm::vec3(glm::normalize(world_from_view_ * (to * std::cos(angle) + across * std::sin(angle))));
     if (chance(random, 0.5)) light.radius_m *= float(between(random, 1.1, 3));
     // The angle is measured from the rounded direction.
-    const glm::dvec3 axis = glm::normalize(glm::dmat3(v_.view_from_world) * glm::normalize(glm::dvec3(light.direction)));
+    const glm::dvec3 axis =
+        glm::normalize(glm::dmat3(v_.view_from_world) * glm::normalize(glm::dvec3(light.direction)));
     const double off = std::atan2(glm::length(glm::cross(axis, to)), glm::dot(axis, to));
     float outer = float(std::min(off * (1 + hair(random)), pi));
     const double cosine = glm::dot(axis, to);
-    while (outer < 3.14159f && !(std::cos(double(outer)) < cosine)) outer = std::nextafter(outer, float(no_end));
+    while (outer < 3.14159f && !(std::cos(double(outer)) < cosine))
+      outer = std::nextafter(outer, float(no_end));
     light.outer_cone_rad = std::min(outer, 3.1415925f), light.inner_cone_rad = light.outer_cone_rad / 2;
   }
 
@@ -189,7 +200,8 @@ std::vector<CullLight> cull_lights(std::span<const Light> lights) {
   made.reserve(lights.size());
   for (const Light& light : lights) {
     const bool spot = light.type == LightType::spot;
-    made.push_back({light.position, light.radius_m, spot ? glm::normalize(glm::dvec3(light.direction)) : glm::dvec3(0, 0, -1),
+    made.push_back({light.position, light.radius_m,
+                    spot ? glm::normalize(glm::dvec3(light.direction)) : glm::dvec3(0, 0, -1),
                     spot ? std::cos(double(light.outer_cone_rad)) : -1.0});
   }
   return made;
@@ -201,7 +213,8 @@ std::optional<glm::dvec3> position_of(const HuntView& h, const HuntContact& c) {
   if (depth == depth_of_nothing(h.view)) return {};
   const glm::dmat4& clip = h.view.clip_from_view;
   const bool flat = is_orthographic(h.view);
-  const double ndc_x = 2 * (c.x + double(c.in_x)) / h.view.width - 1, ndc_y = 2 * (c.y + double(c.in_y)) / h.view.height - 1;
+  const double ndc_x = 2 * (c.x + double(c.in_x)) / h.view.width - 1,
+               ndc_y = 2 * (c.y + double(c.in_y)) / h.view.height - 1;
   const double d = distance_at(h.view, depth);
   if (!(std::abs(d) < 1e30) || (!flat && !(d > 0))) return {};
   if (flat) return glm::dvec3((ndc_x - clip[3][0]) / clip[0][0], (ndc_y - clip[3][1]) / clip[1][1], -d);

@@ -42,7 +42,8 @@ Block random_block(const HuntView& h, Random& random) {
   block.kind = t < 0.05 ? Block::none : t < 0.45 ? Block::flat : t < 0.7 ? Block::layers : Block::rough;
   if (edges && chance(random, 0.35)) {
     block.kind = Block::edge;
-    block.value = value_on_edge(h, random), block.other = chance(random, 0.5) ? block.value : value_on_edge(h, random);
+    block.value = value_on_edge(h, random),
+    block.other = chance(random, 0.5) ? block.value : value_on_edge(h, random);
     return block;
   }
   if (block.kind == Block::rough && chance(random, 0.5)) block.b = block.a + (block.b - block.a) * 1e-3;
@@ -52,10 +53,14 @@ Block random_block(const HuntView& h, Random& random) {
 
 float value_in(const Block& block, const HuntView& h, Random& random) {
   switch (block.kind) {
-    case Block::none: return depth_of_nothing(h.view);
-    case Block::flat: return block.value;
-    case Block::rough: return stored_depth(h, between(random, block.a, block.b));
-    default: return chance(random, 0.5) ? block.value : block.other;
+    case Block::none:
+      return depth_of_nothing(h.view);
+    case Block::flat:
+      return block.value;
+    case Block::rough:
+      return stored_depth(h, between(random, block.a, block.b));
+    default:
+      return chance(random, 0.5) ? block.value : block.other;
   }
 }
 

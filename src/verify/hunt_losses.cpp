@@ -16,7 +16,11 @@ constexpr size_t contacts_at_once = 4096;
 class Finder {
  public:
   Finder(const HuntView& view, int tile, const HostGrid& grid)
-      : h_(view), tile_(tile), grid_(grid), slices_(slice_keys(view.view)), z_bins_(z_bin_keys(view.view)),
+      : h_(view),
+        tile_(tile),
+        grid_(grid),
+        slices_(slice_keys(view.view)),
+        z_bins_(z_bin_keys(view.view)),
         mask_words_(grid.cells.empty() ? 0 : grid.masks.size() / grid.cells.size()) {}
 
   // Empty if shading finds the light.
@@ -28,8 +32,10 @@ class Finder {
     if (cell >= grid_.cells.size()) return LostFrom::list;
     const auto list = list_of(grid_, cell);
     if (!std::binary_search(list.begin(), list.end(), c.light)) return LostFrom::list;
-    if (mask_words_ && !(grid_.masks[cell * mask_words_ + c.light / 32] >> c.light % 32 & 1)) return LostFrom::mask;
-    const bool held = grid_.z_bins.empty() || bins_hold(grid_.z_bins[c.light], z_bin_of_key(key, z_bins_.data()));
+    if (mask_words_ && !(grid_.masks[cell * mask_words_ + c.light / 32] >> c.light % 32 & 1))
+      return LostFrom::mask;
+    const bool held =
+        grid_.z_bins.empty() || bins_hold(grid_.z_bins[c.light], z_bin_of_key(key, z_bins_.data()));
     return held ? std::nullopt : std::optional(LostFrom::z_bins);
   }
 
@@ -53,7 +59,8 @@ std::vector<HuntLoss> lost_contacts(const HuntView& view, std::span<const HuntCo
   const Finder finder(view, tile, grid);
   std::vector<std::vector<HuntLoss>> parts((contacts.size() + contacts_at_once - 1) / contacts_at_once);
   parallel_for(int(parts.size()), [&](int i) {
-    for (size_t k = size_t(i) * contacts_at_once; k < std::min(contacts.size(), size_t(i + 1) * contacts_at_once); ++k) {
+    for (size_t k = size_t(i) * contacts_at_once;
+         k < std::min(contacts.size(), size_t(i + 1) * contacts_at_once); ++k) {
       if (const auto from = finder.lost_from(contacts[k])) parts[i].push_back({contacts[k], *from});
     }
   });

@@ -15,13 +15,13 @@ struct ShrunkLoss {
   HuntLoss lost;
   HostGrid grid;  // of these lights
 };
-ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view, const std::vector<Light>& lights,
-                       const HuntLoss& lost);
+ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view,
+                       const std::vector<Light>& lights, const HuntLoss& lost);
 
 // The frame with its grid (slices and z-bins included), and hunt.txt: the setting, the class, the seed and
 // the lost contact as text. Returns the folder. A frame cannot store samples other than the contact's, cells
 // of whole pixels, and the width of indices.
-std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntSetting& setting, const HuntView& view,
-                                const ShrunkLoss& loss, uint64_t seed);
+std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntSetting& setting,
+                                const HuntView& view, const ShrunkLoss& loss, uint64_t seed);
 
 }  // namespace lightgrid::verify

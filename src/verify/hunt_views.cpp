@@ -10,8 +10,8 @@ namespace lightgrid::verify {
 namespace {
 
 using std::numbers::pi;
-constexpr double steepest_half = 1145.9;   // tan(179.9 / 2 degrees)
-constexpr double gentlest_half = 0.0087;   // tan(1 / 2 degree)
+constexpr double steepest_half = 1145.9;  // tan(179.9 / 2 degrees)
+constexpr double gentlest_half = 0.0087;  // tan(1 / 2 degree)
 
 struct Size {
   int width, height;
@@ -35,9 +35,11 @@ double half_of(double low_deg, double high_deg, Random& random) {
 Plan mixed_plan(Random& random) {
   Plan p;
   p.orthographic = chance(random, 0.25);
-  p.half = p.orthographic ? log_between(random, 1e-4, 1e5) : log_between(random, gentlest_half, steepest_half);
+  p.half =
+      p.orthographic ? log_between(random, 1e-4, 1e5) : log_between(random, gentlest_half, steepest_half);
   p.standard = chance(random, 0.4), p.finite = p.orthographic || chance(random, 0.5);
-  if (chance(random, 0.3)) p.off = between(random, -1, 1) * (p.orthographic ? 100 * p.half : std::min(1000.0, 20 * p.half));
+  if (chance(random, 0.3))
+    p.off = between(random, -1, 1) * (p.orthographic ? 100 * p.half : std::min(1000.0, 20 * p.half));
   p.placed = chance(random, 0.5);
   p.unit_m = chance(random, 0.5) ? 1 : log_between(random, 1e-12, p.orthographic ? 1e6 : 1e12);
   p.eye_m = p.unit_m * log_between(random, 1, 1e6);
@@ -51,18 +53,33 @@ Plan plan_of(HuntClass hunted, Random& random) {
   p.placed = chance(random, 0.5), p.eye_m = log_between(random, 0.1, 1000);
   const bool of_few_bits = hunted == HuntClass::d16 || hunted == HuntClass::d24;
   switch (hunted) {
-    case HuntClass::narrow: p.half = half_of(1, 5, random); break;
-    case HuntClass::wide: p.half = half_of(150, 179.9, random); break;
+    case HuntClass::narrow:
+      p.half = half_of(1, 5, random);
+      break;
+    case HuntClass::wide:
+      p.half = half_of(150, 179.9, random);
+      break;
     case HuntClass::off_centre:
       p.half = log_between(random, 0.01, 5);
       p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
       break;
-    case HuntClass::turned_far: p.placed = true, p.eye_m = log_between(random, 1e3, 1e15); break;
-    case HuntClass::orthographic: p.orthographic = true; break;
-    case HuntClass::standard: p.standard = true, p.finite = chance(random, 0.5); break;
-    case HuntClass::finite_far: p.finite = true; break;
-    case HuntClass::scaled: p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m); break;
-    default: break;
+    case HuntClass::turned_far:
+      p.placed = true, p.eye_m = log_between(random, 1e3, 1e15);
+      break;
+    case HuntClass::orthographic:
+      p.orthographic = true;
+      break;
+    case HuntClass::standard:
+      p.standard = true, p.finite = chance(random, 0.5);
+      break;
+    case HuntClass::finite_far:
+      p.finite = true;
+      break;
+    case HuntClass::scaled:
+      p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
+      break;
+    default:
+      break;
   }
   if (of_few_bits) {
     p.standard = chance(random, 0.5), p.finite = chance(random, 0.5);
@@ -105,18 +122,22 @@ DepthFormat format_of(HuntClass hunted, Random& random) {
 CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
   const double aspect = double(size.width) / size.height, metres = p.orthographic ? p.unit_m : 1;
   Lens lens{.near = h.near, .orthographic = p.orthographic};
-  lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect), lens.half_y = metres * (aspect >= 1 ? p.half / aspect : p.half);
+  lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect),
+  lens.half_y = metres * (aspect >= 1 ? p.half / aspect : p.half);
   lens.shift_x = p.off * metres * (chance(random, 0.8) ? 1 : 0);
   lens.shift_y = p.off * metres * between(random, -1, 1);
   lens.order = p.standard ? DepthOrder::standard : DepthOrder::reversed;
-  if (p.finite) lens.far = p.orthographic ? h.near + (h.far - h.near) * between(random, 1.01, 3) : h.far * log_between(random, 1.001, 100);
+  if (p.finite)
+    lens.far = p.orthographic ? h.near + (h.far - h.near) * between(random, 1.01, 3)
+                              : h.far * log_between(random, 1.001, 100);
   return view_through(lens, size.width, size.height);
 }
 
 void choose_lights_elsewhere(HuntView& h, Random& random) {
   if (h.hunted == HuntClass::spread || (h.hunted == HuntClass::mixed && chance(random, 0.25))) {
     h.elsewhere = 0.55;
-    h.elsewhere_m = h.hunted == HuntClass::spread ? log_between(random, 1e3, 1e15) : h.far * log_between(random, 1e3, 1e6);
+    h.elsewhere_m = h.hunted == HuntClass::spread ? log_between(random, 1e3, 1e15)
+                                                  : h.far * log_between(random, 1e3, 1e6);
     h.elsewhere_radius_m = h.elsewhere_m * 1e-3;
   }
   if (h.hunted == HuntClass::parked) {
@@ -129,8 +150,9 @@ void choose_lights_elsewhere(HuntView& h, Random& random) {
 }  // namespace
 
 const char* name_of(HuntClass hunted) {
-  static constexpr const char* names[] = {"ordinary", "narrow", "wide", "off_centre", "turned_far", "orthographic", "standard",
-                                          "finite_far", "d16", "d24", "scaled", "spread", "parked", "mixed"};
+  static constexpr const char* names[] = {
+      "ordinary",   "narrow", "wide", "off_centre", "turned_far", "orthographic", "standard",
+      "finite_far", "d16",    "d24",  "scaled",     "spread",     "parked",       "mixed"};
   static_assert(std::size(names) == hunt_class_count);
   return names[int(hunted)];
 }
@@ -148,8 +170,10 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
     h.view = placed(h.view, eye * plan.eye_m, between(random, -pi, pi), between(random, -1.5, 1.5));
   }
   const double last_edge = h.near < hunt_most_edge_m / 2 ? std::min(h.far, hunt_most_edge_m) : 0;
-  if (last_edge > h.near && setting.slices > 1) h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, last_edge);
-  if (last_edge > h.near && setting.z_bins > 1) h.view.z_bin_edges = slice_edges(setting.spacing, setting.z_bins, h.near, last_edge);
+  if (last_edge > h.near && setting.slices > 1)
+    h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, last_edge);
+  if (last_edge > h.near && setting.z_bins > 1)
+    h.view.z_bin_edges = slice_edges(setting.spacing, setting.z_bins, h.near, last_edge);
   choose_lights_elsewhere(h, random);
   h.depth = random_surfaces(h, setting.options.samples, random);
   return h;

@@ -22,7 +22,8 @@ void spread_out(Check& c) {
     std::vector<CullLight> lights = grazing_lights(view, depth, 600, true, random);
     move_to_world(view, lights);
     for (int i = 0; i < 700; ++i)
-      lights.push_back(point(far * glm::dvec3(random.uniform(0.9f, 1.1f), 0.7, -0.3 - 0.1 * random.uniform()), 1));
+      lights.push_back(
+          point(far * glm::dvec3(random.uniform(0.9f, 1.1f), 0.7, -0.3 - 0.1 * random.uniform()), 1));
     c.pixels(view, lights, depth, c.every_test());
   }
 }
@@ -30,12 +31,14 @@ void spread_out(Check& c) {
 // Lights that are switched off by moving them far away.
 void parked(Check& c) {
   constexpr double most = 3.4028234663852886e38;
-  const glm::dvec3 positions[] = {{1e19, 0, 0}, {0, -1e30, 0}, {most, 0, 0}, {0, 0, -1e19}, {most, most, most}};
+  const glm::dvec3 positions[] = {
+      {1e19, 0, 0}, {0, -1e30, 0}, {most, 0, 0}, {0, 0, -1e19}, {most, most, most}};
   const DepthImage depth = wall(sixty_degrees(), 1);
   for (const glm::dvec3& position : positions) {
     for (const size_t count : {1, 2, 300}) {
       Random random(37);
-      std::vector<CullLight> lights = grazing_lights(sixty_degrees(), depth, count == 300 ? 100 : 1, false, random);
+      std::vector<CullLight> lights =
+          grazing_lights(sixty_degrees(), depth, count == 300 ? 100 : 1, false, random);
       lights.push_back(point({0, 0, -2}, 4));
       const size_t near = lights.size();
       lights.insert(lights.end(), count, point(position, 1));
@@ -48,7 +51,8 @@ void parked(Check& c) {
 
 void at_scale(Check& c, double unit) {
   CullView view = view_through({.half_x = 0.8, .half_y = 0.6, .near = 0.1 * unit}, 64, 48);
-  const DepthImage depth = depth_of(view, [&](int x, int y) { return unit * std::exp2((x * 3 + y * 5) % 16 / 4.0); });
+  const DepthImage depth =
+      depth_of(view, [&](int x, int y) { return unit * std::exp2((x * 3 + y * 5) % 16 / 4.0); });
   Random random(38);
   const std::vector<CullLight> lights = grazing_lights(view, depth, 400, true, random);
   c.pixels(view, lights, depth, c.every_test());
@@ -77,13 +81,16 @@ std::vector<HardCase> light_place_cases() {
   const char* g = "lights";
   return {
       {g, "spread_out", "points and spots that just reach a wall at 3 m, and as many lights 10³ … 10⁹ m away",
-       "positions rounded relative to the lights' median; cones without slack for that", "nothing lost", spread_out},
-      {g, "parked", "1, 2 and 300 lights at 10¹⁹, 10³⁰ and 3.4·10³⁸ m", "the others are far from the median, and dropped",
-       "nothing lost; parked lights are in no list", parked},
-      {g, "worlds_of_any_scale", "lights that just reach surfaces, in units of 10⁻¹⁴ … 10¹³ m", "absolute epsilons; finite numbers treated as infinite",
-       "nothing lost", worlds_of_any_scale},
-      {g, "outside_of_the_domain", "units of 10⁻²² … 10⁻¹⁹ and 10¹⁶, 10¹⁷ m", "squares that underflow, 10¹⁸ m treated as infinite",
-       "an input error, or nothing lost", outside_of_the_domain},
+       "positions rounded relative to the lights' median; cones without slack for that", "nothing lost",
+       spread_out},
+      {g, "parked", "1, 2 and 300 lights at 10¹⁹, 10³⁰ and 3.4·10³⁸ m",
+       "the others are far from the median, and dropped", "nothing lost; parked lights are in no list",
+       parked},
+      {g, "worlds_of_any_scale", "lights that just reach surfaces, in units of 10⁻¹⁴ … 10¹³ m",
+       "absolute epsilons; finite numbers treated as infinite", "nothing lost", worlds_of_any_scale},
+      {g, "outside_of_the_domain", "units of 10⁻²² … 10⁻¹⁹ and 10¹⁶, 10¹⁷ m",
+       "squares that underflow, 10¹⁸ m treated as infinite", "an input error, or nothing lost",
+       outside_of_the_domain},
   };
 }
 

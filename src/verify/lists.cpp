@@ -20,9 +20,11 @@ CullerOptions tile_of(int tile) {
 // Lights that every tile lists and lights that none lists, mixed so that each lane of a vector gets both.
 void counts(Check& c, std::initializer_list<size_t> numbers) {
   for (const size_t n : numbers) {
-    const HostGrid all = c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
+    const HostGrid all =
+        c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
     c.that(all.cells.size() == 6, "{} cells", all.cells.size());
-    for (size_t i = 0; i < all.cells.size(); ++i) c.that(all.cells[i].y == n, "tile {} lists {} of {}", i, all.cells[i].y, n);
+    for (size_t i = 0; i < all.cells.size(); ++i)
+      c.that(all.cells[i].y == n, "tile {} lists {} of {}", i, all.cells[i].y, n);
     std::vector<CullLight> mixed;
     std::vector<uint32_t> expected;
     for (uint32_t i = 0; i < n; ++i) {
@@ -32,8 +34,8 @@ void counts(Check& c, std::initializer_list<size_t> numbers) {
     }
     const HostGrid some = c.grid_of_known_answer(small(), mixed, {{4, 6}}, {});
     for (size_t i = 0; i < some.cells.size(); ++i)
-      c.that(std::ranges::equal(list_of(some, i), expected), "tile {} does not list the {} of {} lights that reach it", i,
-             expected.size(), n);
+      c.that(std::ranges::equal(list_of(some, i), expected),
+             "tile {} does not list the {} of {} lights that reach it", i, expected.size(), n);
   }
 }
 
@@ -46,12 +48,15 @@ void around_a_byte(Check& c) { counts(c, {254, 255, 256, 257}); }
 void around_16_bits(Check& c) { counts(c, {65534, 65535, 65536, 65537}); }
 void around_lanes(Check& c) { counts(c, {2, 3, 7, 8, 9, 15, 16, 17, 31, 32, 33, 47, 48, 49}); }
 void around_groups(Check& c) { counts(c, {63, 64, 65, 127, 128, 129}); }
-void around_batches(Check& c) { counts(c, {511, 512, 513, 1023, 1024, 1025, 2047, 2048, 2049, 4095, 4096, 4097}); }
+void around_batches(Check& c) {
+  counts(c, {511, 512, 513, 1023, 1024, 1025, 2047, 2048, 2049, 4095, 4096, 4097});
+}
 
 // Every length of one list from 0 to 70.
 void each_length(Check& c) {
   for (size_t n = 0; n <= 70; ++n) {
-    const HostGrid grid = c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
+    const HostGrid grid =
+        c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
     c.that(grid.indices.size() == 6 * n, "{} lights make {} entries in 6 lists", n, grid.indices.size());
   }
 }
@@ -67,13 +72,15 @@ void only_the_last(Check& c) {
   lights.back() = point({0, 0, -5}, 100);
   const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{4, 6}}, {});
   for (size_t i = 0; i < grid.cells.size(); ++i)
-    c.that(grid.cells[i].y == 1 && grid.indices[grid.cells[i].x] == 4999, "tile {} lists {}", i, grid.cells[i].y);
+    c.that(grid.cells[i].y == 1 && grid.indices[grid.cells[i].x] == 4999, "tile {} lists {}", i,
+           grid.cells[i].y);
 }
 
 void all_in_one_tile(Check& c) {
   const Cell cell = cell_of(sixty(), 16, 13, {4, 4}, true);
   const glm::dvec3 middle((cell.x0 + cell.x1) * 2, (cell.y0 + cell.y1) * 2, -4);
-  const HostGrid grid = c.grid(sixty(), std::vector<CullLight>(3000, point(middle, 0.01)), {{4, 4}}, {tile_of(16)});
+  const HostGrid grid =
+      c.grid(sixty(), std::vector<CullLight>(3000, point(middle, 0.01)), {{4, 4}}, {tile_of(16)});
   for (size_t i = 0; i < grid.cells.size(); ++i)
     c.that(grid.cells[i].y == (i == 13 ? 3000u : 0u), "tile {} lists {}", i, grid.cells[i].y);
 }
@@ -89,7 +96,8 @@ void first_and_last_tile(Check& c) {
     }
     const HostGrid grid = c.grid(view, lights, {{4, 4}}, {options});
     for (size_t i = 0; i < grid.cells.size(); ++i)
-      c.that(grid.cells[i].y == (i == 0 || i + 1 == tiles ? 1u : 0u), "tile {} of {} lists {}", i, tiles, grid.cells[i].y);
+      c.that(grid.cells[i].y == (i == 0 || i + 1 == tiles ? 1u : 0u), "tile {} of {} lists {}", i, tiles,
+             grid.cells[i].y);
   }
 }
 
@@ -105,20 +113,24 @@ void around_bins(Check& c) {
 void longer_than_expected(Check& c) {
   const CullView view = field_of_view(60, 321, 181);
   const size_t tiles = tile_count(view, 8);
-  const HostGrid grid = c.grid_of_known_answer(view, std::vector<CullLight>(2000, point({0, 0, -5}, no_end)), {{1, 9}}, tile_of(8));
+  const HostGrid grid = c.grid_of_known_answer(view, std::vector<CullLight>(2000, point({0, 0, -5}, no_end)),
+                                               {{1, 9}}, tile_of(8));
   c.that(grid.indices.size() == tiles * 2000, "{} entries of {}", grid.indices.size(), tiles * 2000);
-  for (size_t i = 0; i < grid.cells.size(); ++i) c.that(grid.cells[i].y == 2000, "tile {} lists {}", i, grid.cells[i].y);
+  for (size_t i = 0; i < grid.cells.size(); ++i)
+    c.that(grid.cells[i].y == 2000, "tile {} lists {}", i, grid.cells[i].y);
 }
 
 void other_sizes_between(Check& c) {
   Random random(42);
   const CullView large = field_of_view(60, 301, 211), tiny = field_of_view(60, 5, 3);
-  const auto few = scattered_lights(sixty(), 20, true, random), many = scattered_lights(sixty(), 900, true, random);
+  const auto few = scattered_lights(sixty(), 20, true, random),
+             many = scattered_lights(sixty(), 900, true, random);
   const HostGrid first = c.grid(sixty(), few, {{1, 30}}, {tile_of(16)});
   c.grid(large, many, {{1, 30}}, {tile_of(16)});
   c.grid(tiny, {}, {{1, 30}}, {tile_of(16)});
   c.grid(tiny, many, {{1, 30}}, {tile_of(16)});
-  c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}), "another frame in between changes the grid");
+  c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}),
+         "another frame in between changes the grid");
 }
 
 // Enough tiles for many work-groups, which finish in a different order each time; another frame runs between
@@ -133,7 +145,9 @@ void hundred_runs(Check& c) {
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     options.shape = shape;
     for (int run = 0; run < 100; ++run) {
-      if (run % 10 == 9) c.engine.cull(options, sixty(), {lights.data(), size_t(5 * run)}, {bounds.data(), tile_count(sixty(), 16)});
+      if (run % 10 == 9)
+        c.engine.cull(options, sixty(), {lights.data(), size_t(5 * run)},
+                      {bounds.data(), tile_count(sixty(), 16)});
       c.that(first == c.engine.cull(options, view, lights, bounds), "run {} gives another grid", run);
     }
   }
@@ -150,7 +164,8 @@ void turned_round(Check& c) {  // the lights in another order: the same lights i
     std::vector<uint32_t> turned(list_of(backward, i).begin(), list_of(backward, i).end());
     std::reverse(turned.begin(), turned.end());
     for (uint32_t& light : turned) light = uint32_t(lights.size()) - 1 - light;
-    c.that(std::ranges::equal(turned, list_of(forward, i)), "tile {}'s list depends on the order of the lights", i);
+    c.that(std::ranges::equal(turned, list_of(forward, i)),
+           "tile {}'s list depends on the order of the lights", i);
   }
 }
 
@@ -166,9 +181,11 @@ void in_32_bits(Check& c) {
 
 // A full list, and after it one that begins past 65,536 entries.
 void lists_past_16_bits(Check& c) {
-  const HostGrid grid = c.grid_of_known_answer(sixty(), std::vector<CullLight>(4000, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
+  const HostGrid grid =
+      c.grid_of_known_answer(sixty(), std::vector<CullLight>(4000, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
   for (size_t i = 0; i < grid.cells.size(); ++i)
-c.that(grid.cells[i].y == 4000 && grid.cells[i].x % 4000 == 0, "list {} is {} from {}", i, grid.cells[i].y, grid.cells[i].x);
+    c.that(grid.cells[i].y == 4000 && grid.cells[i].x % 4000 == 0, "list {} is {} from {}", i,
+           grid.cells[i].y, grid.cells[i].x);
 }
 
 // 64 slices and tiles of 8: 58,880 cells, each with its own list.
@@ -189,7 +206,8 @@ void past_32_bits(Check& c) {
   const std::vector<DepthInterval> bounds(tile_count(view, 8), every_distance);
   try {
     const HostGrid grid = c.engine.cull(options, view, lights, bounds);
-    c.that(grid.indices.size() == grid.cells.size() * lights.size(), "{} of 2^32 entries", grid.indices.size());
+    c.that(grid.indices.size() == grid.cells.size() * lights.size(), "{} of 2^32 entries",
+           grid.indices.size());
   } catch (const Error& error) {
     c.that(error.kind() == ErrorKind::machine, "{}", error.what());
   }
@@ -207,8 +225,10 @@ void float_twin(Check& c) {
     const DepthImage depth = scattered_depth(named.view, random);
     for (int i = 0; i < 5; ++i) {
       CullerOptions options = tile_of(8 << (i + turn) % 4);
-      if (slices) options.cull_test = CullTest(i);
-      else options.depth_bounds = DepthBoundsMode(i);
+      if (slices)
+        options.cull_test = CullTest(i);
+      else
+        options.depth_bounds = DepthBoundsMode(i);
       if (i == 4) options.cull_test = CullTest::exact;
       const auto bounds = c.engine.depth_bounds(options, named.view, depth);
       auto lights = scattered_lights(named.view, 100, true, random);
@@ -229,33 +249,45 @@ std::vector<HardCase> list_cases() {
   return {
       {g, "no_lights", "0 lights", "buffers of size 0", "every list empty", no_lights},
       {g, "light_zero_alone", "1 light", "index 0 means none", "light 0 is listed", light_zero_alone},
-      {g, "around_a_byte", "254 to 257 lights in a list", "an 8-bit count wraps to 0 (Bevy #3916)", "every light that reaches", around_a_byte},
-      {g, "around_16_bits", "65,534 to 65,537", "16-bit counts and indices wrap", "every light that reaches", around_16_bits},
-      {g, "around_lanes", "2 … 49: around multiples of 8 and 16", "the last vector's empty lanes are treated as lights", "every light that reaches",
-       around_lanes},
-      {g, "around_groups", "around 64 and 128", "items past the end", "every light that reaches", around_groups},
-      {g, "around_batches", "around 512 … 4096", "shared memory overwritten while read; capacities", "every light that reaches",
-       around_batches},
-      {g, "each_length", "0, 1, 2, … 70 lights", "a length that is near no power of two", "every list of that length", each_length},
-      {g, "none_in_view", "3000 lights behind the eye", "an empty frame divides by its count", "every list empty", none_in_view},
-      {g, "only_the_last", "5000 lights, only the last in view", "the last batch is cut", "it is listed", only_the_last},
-      {g, "all_in_one_tile", "3000 lights in one tile", "a capacity per tile", "all listed there, none in other tiles", all_in_one_tile},
-      {g, "first_and_last_tile", "one light in each", "offsets off by one", "one entry each, none elsewhere", first_and_last_tile},
-      {g, "around_bins", "7, 8, 9, 31, … 65 tiles across", "the last bin's tiles are cut or doubled", "nothing lost", around_bins},
-      {g, "longer_than_expected", "2000 lights of infinite range in 943 tiles", "the first estimate of memory overflows silently", "all lists complete",
-       longer_than_expected},
-      {g, "other_sizes_between", "a large and an empty frame between two equal ones", "stale contents of buffers are read",
-       "the same bytes", other_sizes_between},
-      {g, "hundred_runs", "one frame of 920 tiles a hundred times in each kernel shape, with others between", "atomics: another order each run", "the same bytes",
-       hundred_runs},
-      {g, "turned_round", "the lights in the opposite order", "lists depend on neighbours", "the same lights", turned_round},
+      {g, "around_a_byte", "254 to 257 lights in a list", "an 8-bit count wraps to 0 (Bevy #3916)",
+       "every light that reaches", around_a_byte},
+      {g, "around_16_bits", "65,534 to 65,537", "16-bit counts and indices wrap", "every light that reaches",
+       around_16_bits},
+      {g, "around_lanes", "2 … 49: around multiples of 8 and 16",
+       "the last vector's empty lanes are treated as lights", "every light that reaches", around_lanes},
+      {g, "around_groups", "around 64 and 128", "items past the end", "every light that reaches",
+       around_groups},
+      {g, "around_batches", "around 512 … 4096", "shared memory overwritten while read; capacities",
+       "every light that reaches", around_batches},
+      {g, "each_length", "0, 1, 2, … 70 lights", "a length that is near no power of two",
+       "every list of that length", each_length},
+      {g, "none_in_view", "3000 lights behind the eye", "an empty frame divides by its count",
+       "every list empty", none_in_view},
+      {g, "only_the_last", "5000 lights, only the last in view", "the last batch is cut", "it is listed",
+       only_the_last},
+      {g, "all_in_one_tile", "3000 lights in one tile", "a capacity per tile",
+       "all listed there, none in other tiles", all_in_one_tile},
+      {g, "first_and_last_tile", "one light in each", "offsets off by one", "one entry each, none elsewhere",
+       first_and_last_tile},
+      {g, "around_bins", "7, 8, 9, 31, … 65 tiles across", "the last bin's tiles are cut or doubled",
+       "nothing lost", around_bins},
+      {g, "longer_than_expected", "2000 lights of infinite range in 943 tiles",
+       "the first estimate of memory overflows silently", "all lists complete", longer_than_expected},
+      {g, "other_sizes_between", "a large and an empty frame between two equal ones",
+       "stale contents of buffers are read", "the same bytes", other_sizes_between},
+      {g, "hundred_runs", "one frame of 920 tiles a hundred times in each kernel shape, with others between",
+       "atomics: another order each run", "the same bytes", hundred_runs},
+      {g, "turned_round", "the lights in the opposite order", "lists depend on neighbours", "the same lights",
+       turned_round},
       {g, "in_32_bits", "16- and 32-bit indices", "one of the two untested", "the same lists", in_32_bits},
-      {g, "lists_past_16_bits", "160,000 entries", "16-bit offsets", "lists are adjacent without a gap", lists_past_16_bits},
-      {g, "many_cells", "64 slices × 920 tiles", "one list's range overlaps the next", "nothing lost, no overlap",
-       many_cells},
-      {g, "past_32_bits", "16 tiles × 64 slices × 2²² lights of infinite range", "cells × lights in 32 bits", "a machine error, or every entry",
-       past_32_bits},
-      {g, "float_twin", "lights tangent to the cells of random surfaces, under every test and every kind of bounds",
+      {g, "lists_past_16_bits", "160,000 entries", "16-bit offsets", "lists are adjacent without a gap",
+       lists_past_16_bits},
+      {g, "many_cells", "64 slices × 920 tiles", "one list's range overlaps the next",
+       "nothing lost, no overlap", many_cells},
+      {g, "past_32_bits", "16 tiles × 64 slices × 2²² lights of infinite range", "cells × lights in 32 bits",
+       "a machine error, or every entry", past_32_bits},
+      {g, "float_twin",
+       "lights tangent to the cells of random surfaces, under every test and every kind of bounds",
        "a coarse step drops a light that the fine one keeps; a device rounds differently",
        "bounds and lists have the float twin's bytes", float_twin},
   };

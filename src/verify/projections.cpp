@@ -39,7 +39,8 @@ void fields_to_179_9(Check& c) {
 
 // Halton's first points in bases 2 and 3, as engines move the image by parts of a pixel.
 void jittered(Check& c) {
-  constexpr double offsets[][2] = {{0, -1.0 / 6}, {-0.25, 1.0 / 6}, {0.25, -7.0 / 18}, {-0.375, -1.0 / 18}, {0.125, 5.0 / 18}, {0.5, 0.5}};
+  constexpr double offsets[][2] = {{0, -1.0 / 6},       {-0.25, 1.0 / 6},  {0.25, -7.0 / 18},
+                                   {-0.375, -1.0 / 18}, {0.125, 5.0 / 18}, {0.5, 0.5}};
   const CullView still = field_of_view(60, 64, 48);
   for (const auto& [x, y] : offsets) {
     CullView view = still;
@@ -64,25 +65,33 @@ struct NamedMatrix {
 // Each is either refused by name or loses nothing. Surfaces' positions come from the inverse matrix, which
 // handles every kind of projection.
 void other_projections(Check& c) {
-  constexpr NamedMatrix changes[] = {
-      {"shear of x by y", 1, 0, 0.3, false},         {"shear of y by x", 0, 1, -0.4, false},
-      {"oblique near plane in x", 0, 2, 0.004, false}, {"oblique near plane in y", 1, 2, -0.004, false},
-      {"w depends on x", 0, 3, 0.3, false},          {"w depends on y", 1, 3, -0.2, false},
-      {"x moved", 3, 0, 0.5, false},                 {"y moved", 3, 1, -0.5, false},
-      {"x depends on z", 2, 0, 0.05, true},          {"shear of x by y", 1, 0, 0.3, true},
-      {"depth depends on x", 0, 2, 0.01, true},      {"w depends on x", 0, 3, 0.05, true}};
+  constexpr NamedMatrix changes[] = {{"shear of x by y", 1, 0, 0.3, false},
+                                     {"shear of y by x", 0, 1, -0.4, false},
+                                     {"oblique near plane in x", 0, 2, 0.004, false},
+                                     {"oblique near plane in y", 1, 2, -0.004, false},
+                                     {"w depends on x", 0, 3, 0.3, false},
+                                     {"w depends on y", 1, 3, -0.2, false},
+                                     {"x moved", 3, 0, 0.5, false},
+                                     {"y moved", 3, 1, -0.5, false},
+                                     {"x depends on z", 2, 0, 0.05, true},
+                                     {"shear of x by y", 1, 0, 0.3, true},
+                                     {"depth depends on x", 0, 2, 0.01, true},
+                                     {"w depends on x", 0, 3, 0.05, true}};
   for (const NamedMatrix& change : changes) {
-    CullView view = change.orthographic
-                        ? view_through({.half_x = 4, .half_y = 3, .near = 0.5, .far = 50, .orthographic = true}, 64, 48)
-                        : view_through({.half_x = 1, .half_y = 0.75, .near = 0.1}, 64, 48);
+    CullView view =
+        change.orthographic
+            ? view_through({.half_x = 4, .half_y = 3, .near = 0.5, .far = 50, .orthographic = true}, 64, 48)
+            : view_through({.half_x = 1, .half_y = 0.75, .near = 0.1}, 64, 48);
     view.clip_from_view[change.column][change.row] += change.value;
     const glm::dmat4 view_from_clip = glm::inverse(view.clip_from_view);
     DepthImage depth;
     std::vector<CullLight> lights;
     for (int y = 0; y < view.height; ++y) {
       for (int x = 0; x < view.width; ++x) {
-        depth.values.push_back(change.orthographic ? 0.2f + 0.01f * float((x + y) % 60) : 0.1f / float(2 + (x * 5 + y) % 9));
-        const glm::dvec4 clip((x + 0.5) * 2 / view.width - 1, (y + 0.5) * 2 / view.height - 1, depth.values.back(), 1);
+        depth.values.push_back(change.orthographic ? 0.2f + 0.01f * float((x + y) % 60)
+                                                   : 0.1f / float(2 + (x * 5 + y) % 9));
+        const glm::dvec4 clip((x + 0.5) * 2 / view.width - 1, (y + 0.5) * 2 / view.height - 1,
+                              depth.values.back(), 1);
         const glm::dvec4 p = view_from_clip * clip;
         lights.push_back(point(glm::dvec3(p) / p.w, 1e-4 * glm::length(glm::dvec3(p) / p.w)));
       }
@@ -90,10 +99,12 @@ void other_projections(Check& c) {
     try {
       const HostGrid grid = c.engine.cull_depth(tile_of(16), view, lights, depth);
       for (uint i = 0; i < lights.size(); ++i) {
-        const auto list = list_of(grid, cell_of_pixel(i % view.width, i / view.width, 16, uint(grid.cells_x)));
+        const auto list =
+            list_of(grid, cell_of_pixel(i % view.width, i / view.width, 16, uint(grid.cells_x)));
         c.trials(1);
         if (!std::binary_search(list.begin(), list.end(), i))
-          c.lost("{}: accepted, and pixel {} {} loses its light", change.name, i % view.width, i / view.width);
+          c.lost("{}: accepted, and pixel {} {} loses its light", change.name, i % view.width,
+                 i / view.width);
       }
     } catch (const Error& error) {
       c.that(error.kind() == ErrorKind::input, "{}: {}", change.name, error.what());
@@ -109,9 +120,10 @@ std::vector<HardCase> projection_cases() {
       {g, "fields_to_179_9", "150 … 179.9° across; lights that just reach pixels about the axis",
        "a side's slope is the difference of two large ones", "nothing lost", fields_to_179_9},
       {g, "jittered", "six offsets by fractions of a pixel; a tiny light at each pixel's position",
-       "jitter in one pass alone (HDRP #5287)", "nothing lost; the same matrix twice gives the same grid", jittered},
-      {g, "other_projections", "shears, oblique near planes, tilted w, moved images", "only the diagonal is read",
-       "refused by name, or nothing lost", other_projections},
+       "jitter in one pass alone (HDRP #5287)", "nothing lost; the same matrix twice gives the same grid",
+       jittered},
+      {g, "other_projections", "shears, oblique near planes, tilted w, moved images",
+       "only the diagonal is read", "refused by name, or nothing lost", other_projections},
   };
 }
 

@@ -16,7 +16,9 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::pass ? "pass" : verdict == Verdict::fail ? "fail" : "skip";
 }
 
-std::string full_name(const HardCase& hard_case) { return fmt::format("{}/{}", hard_case.group, hard_case.name); }
+std::string full_name(const HardCase& hard_case) {
+  return fmt::format("{}/{}", hard_case.group, hard_case.name);
+}
 
 }  // namespace
 
@@ -29,7 +31,8 @@ std::vector<const HardCase*> chosen_cases(const std::string& filter) {
   } catch (const std::regex_error&) {
     throw input_error("filter: \"{}\" is not a regular expression", filter);
   }
-  if (chosen.empty()) throw input_error("filter: no case's name matches \"{}\"; names are like depth/all_sky", filter);
+  if (chosen.empty())
+    throw input_error("filter: no case's name matches \"{}\"; names are like depth/all_sky", filter);
   return chosen;
 }
 
@@ -49,7 +52,8 @@ Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversa
   return outcome_of(hard_case.run, engine, adversarial_lights);
 }
 
-VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, const VerifyOptions& options) {
+VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines,
+                       const VerifyOptions& options) {
   const std::vector<const HardCase*> chosen = chosen_cases(options.filter);
   VerifyReport report;
   const double all = double(engines.size() * chosen.size());
@@ -68,13 +72,18 @@ VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, 
 }
 
 nlohmann::ordered_json to_json(const VerifyReport& report) {
-  nlohmann::ordered_json json = {{"devices", report.devices}, {"cases", nlohmann::ordered_json::array()}, {"failed", report.failed}};
+  nlohmann::ordered_json json = {
+      {"devices", report.devices}, {"cases", nlohmann::ordered_json::array()}, {"failed", report.failed}};
   for (const CaseResult& result : report.cases) {
     const Outcome& o = result.outcome;
-    nlohmann::ordered_json row = {{"group", result.hard_case->group}, {"name", result.hard_case->name},
-                                  {"device", result.device},          {"trials", o.trials},
-                                  {"contacts", o.contacts},           {"lost", o.lost},
-                                  {"excess_ratio", nullptr},          {"result", name_of(o.verdict)},
+    nlohmann::ordered_json row = {{"group", result.hard_case->group},
+                                  {"name", result.hard_case->name},
+                                  {"device", result.device},
+                                  {"trials", o.trials},
+                                  {"contacts", o.contacts},
+                                  {"lost", o.lost},
+                                  {"excess_ratio", nullptr},
+                                  {"result", name_of(o.verdict)},
                                   {"why", o.why}};
     if (o.excess_ratio) row["excess_ratio"] = *o.excess_ratio;
     json["cases"].push_back(row);
@@ -85,8 +94,8 @@ nlohmann::ordered_json to_json(const VerifyReport& report) {
 std::vector<std::string> catalogue_rows(const std::vector<const HardCase*>& cases) {
   std::vector<std::string> rows;
   for (const HardCase* c : cases)
-    rows.push_back(fmt::format("| {} | `{}` | {} | {} | {} |", c - hard_cases().data() + 1, full_name(*c), c->input,
-                               c->breaks, c->invariant));
+    rows.push_back(fmt::format("| {} | `{}` | {} | {} | {} |", c - hard_cases().data() + 1, full_name(*c),
+                               c->input, c->breaks, c->invariant));
   return rows;
 }
 

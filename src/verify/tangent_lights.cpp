@@ -16,8 +16,10 @@ using std::numbers::pi;
 glm::dvec3 contact_point(const Cell& cell, Contact contact, Random& random) {
   const double far = std::min(cell.far, 100 * std::max(std::abs(cell.near), 0.1));
   const double near = std::max(cell.near, -far);
-  int at_end = contact == Contact::any ? 1 + int(random.next() % 3)
-               : contact == Contact::face ? 1 : contact == Contact::edge ? 2 : 3;
+  int at_end = contact == Contact::any    ? 1 + int(random.next() % 3)
+               : contact == Contact::face ? 1
+               : contact == Contact::edge ? 2
+                                          : 3;
   bool ends[3] = {};
   for (; at_end > 0; --at_end) {
     int axis = int(random.next() % 3);
@@ -71,14 +73,16 @@ OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact
   return over;
 }
 
-CullLight point(const glm::dvec3& position, double radius) { return {.position = position, .radius_m = radius}; }
+CullLight point(const glm::dvec3& position, double radius) {
+  return {.position = position, .radius_m = radius};
+}
 
 CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double radius, double outer_deg) {
   return {position, radius, glm::normalize(direction), std::cos(outer_deg * pi / 180)};
 }
 
-std::vector<CullLight> tangent_lights(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
-                                      Contact contact, int ulps, Random& random) {
+std::vector<CullLight> tangent_lights(const CullView& view, std::span<const DepthInterval> bounds, int tile,
+                                      size_t count, Contact contact, int ulps, Random& random) {
   std::vector<CullLight> lights;
   while (lights.size() < count) {
     const size_t i = some_cell(bounds, random);
@@ -97,8 +101,8 @@ std::vector<CullLight> tangent_lights(const CullView& view, std::span<const Dept
   return lights;
 }
 
-std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
-                                     Random& random) {
+std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile,
+                                     size_t count, Random& random) {
   std::vector<CullLight> lights;
   while (lights.size() < count) {
     const size_t i = some_cell(bounds, random);
@@ -126,7 +130,8 @@ std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& dep
   const float value = depth.values[at];
   if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) return {};
   const View v = oracle_view(view);
-  return depth.distances.empty() ? position_from_depth(v, x, y, value) : position_at(v, x, y, depth.distances[at]);
+  return depth.distances.empty() ? position_from_depth(v, x, y, value)
+                                 : position_at(v, x, y, depth.distances[at]);
 }
 
 std::vector<CullLight> lights_at_surfaces(const CullView& view, const DepthImage& depth, double share) {
@@ -140,8 +145,8 @@ std::vector<CullLight> lights_at_surfaces(const CullView& view, const DepthImage
   return lights;
 }
 
-std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots, Random& random,
-                                      const PixelRange& of, double relative) {
+std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots,
+                                      Random& random, const PixelRange& of, double relative) {
   const auto pick = [&](double low, double high, int size) {
     return std::clamp(int((low + (high - low) * random.uniform()) * size), 0, size - 1);
   };
@@ -177,14 +182,17 @@ std::vector<CullLight> scattered_lights(const CullView& view, size_t count, bool
   constexpr double angles[] = {0.1, 10, 30, 60, 89.9, 90, 100, 120, 180};
   std::vector<CullLight> lights;
   for (size_t i = 0; i < count; ++i) {
-    const double px = v.width * (1.4 * random.uniform() - 0.2), py = v.height * (1.4 * random.uniform() - 0.2);
+    const double px = v.width * (1.4 * random.uniform() - 0.2),
+                 py = v.height * (1.4 * random.uniform() - 0.2);
     const double d = 0.05 * std::exp2(11 * random.uniform()) * (i % 10 == 0 ? -1 : 1);
     const double scale = v.orthographic ? 1 : d;
     const glm::dvec3 p(view_x_of_pixel(v, px) * scale, view_y_of_pixel(v, py) * scale, -d);
     const double image = (view_x_of_pixel(v, v.width) - view_x_of_pixel(v, 0)) * std::abs(scale);
     const float radius = float(image * std::exp2(-9 * random.uniform()));
-    if (spots && i % 2) lights.push_back(spot(p, any_direction(random), 4 * radius, angles[i / 2 % 9]));
-    else lights.push_back(point(p, radius));
+    if (spots && i % 2)
+      lights.push_back(spot(p, any_direction(random), 4 * radius, angles[i / 2 % 9]));
+    else
+      lights.push_back(point(p, radius));
   }
   return lights;
 }
@@ -193,8 +201,9 @@ std::vector<DepthInterval> scattered_bounds(const CullView& view, int tile, Rand
   std::vector<DepthInterval> bounds(tile_count(view, tile));
   for (DepthInterval& b : bounds) {
     const float near = 0.1f * std::exp2(9 * random.uniform());
-    const DepthInterval kinds[] = {no_surface, every_distance, {near, near}, {0.1f, near}, {near, 1e18f},
-                                {near, near * (1 + random.uniform())}, {near, near * 1.01f}};
+    const DepthInterval kinds[] = {no_surface,          every_distance, {near, near},
+                                   {0.1f, near},        {near, 1e18f},  {near, near * (1 + random.uniform())},
+                                   {near, near * 1.01f}};
     b = kinds[random.next() % 7];
   }
   return bounds;
@@ -205,7 +214,8 @@ DepthImage scattered_depth(const CullView& view, Random& random) {
   depth.values.resize(size_t(view.width) * view.height);
   for (float& value : depth.values) {
     const double distance = 0.3 * std::exp2(8 * random.uniform());
-    value = random.uniform() < 0.1f ? depth_of_nothing(view) : float(std::clamp(depth_at(view, distance), 0.0, 1.0));
+    value = random.uniform() < 0.1f ? depth_of_nothing(view)
+                                    : float(std::clamp(depth_at(view, distance), 0.0, 1.0));
   }
   return depth;
 }

@@ -11,12 +11,12 @@ enum class Contact { face, edge, corner, any };
 // Each touches one of the cells with its surface, within `ulps` units in the last place of the radius (as a
 // float) to either side; with 0, exactly or by the rounding of the radius upward. Small and huge, near and
 // far; in view space.
-std::vector<CullLight> tangent_lights(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
-                                      Contact contact, int ulps, Random& random);
+std::vector<CullLight> tangent_lights(const CullView& view, std::span<const DepthInterval> bounds, int tile,
+                                      size_t count, Contact contact, int ulps, Random& random);
 
 // Spots whose cone touches a cell with its side: half-angles up to 90 degrees.
-std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile, size_t count,
-                                     Random& random);
+std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile,
+                                     size_t count, Random& random);
 
 // Lights that barely reach one pixel's own surface: by at most `relative` of the radius, down to 2^-10 of
 // that. Pixels are drawn from those within `of` of the image, as fractions of its width and height. In view
@@ -27,11 +27,11 @@ struct PixelRange {
 };
 // The surface at a pixel (its first sample), in view space; empty if there is none.
 std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y);
-std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots, Random& random,
-                                      const PixelRange& of = {}, double relative = 0x1p-24);
+std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots,
+                                      Random& random, const PixelRange& of = {}, double relative = 0x1p-24);
 
-// A light at each pixel that shows a surface, on it, in the pixels' order. Its radius is `share` of the surface's
-// distance, which counts as at least 0.01 m. In view space.
+// A light at each pixel that shows a surface, on it, in the pixels' order. Its radius is `share` of the
+// surface's distance, which counts as at least 0.01 m. In view space.
 std::vector<CullLight> lights_at_surfaces(const CullView& view, const DepthImage& depth, double share);
 
 // All over the view and beyond, of sizes between a pixel and the whole image; with `spots`, every second one
@@ -54,8 +54,10 @@ struct OverTiles {
   std::vector<CullLight> lights;
 };
 OverDepth scattered_over_depth(const CullView& view, size_t count, bool spots, uint64_t seed);
-OverTiles scattered_over_tiles(const CullView& view, size_t count, bool spots, uint64_t seed);  // of 16 pixels
-OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact, uint64_t seed, int ulps = 0);
+OverTiles scattered_over_tiles(const CullView& view, size_t count, bool spots,
+                               uint64_t seed);  // of 16 pixels
+OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact, uint64_t seed,
+                             int ulps = 0);
 
 CullLight point(const glm::dvec3& position, double radius);
 CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double radius, double outer_deg);

@@ -52,7 +52,8 @@ const CullView& sixty() {
 }
 
 View oracle_view(const CullView& view) {
-  View v{.width = view.width, .height = view.height, .view_from_world = view.view_from_world, .eye = view.eye};
+  View v{
+      .width = view.width, .height = view.height, .view_from_world = view.view_from_world, .eye = view.eye};
   v.clip_from_view = view.clip_from_view;
   v.orthographic = is_orthographic(view);
   return v;
@@ -107,17 +108,23 @@ void move_to_world(const CullView& view, std::vector<CullLight>& lights) {
 
 std::vector<NamedView> hard_views(int width, int height) {
   const CullView sixty = field_of_view(60, width, height);
-  return {{"60 degrees", sixty},
-          {"0.1 degrees", field_of_view(0.1, width, height)},
-          {"170 degrees", field_of_view(170, width, height)},
-          {"179 degrees", field_of_view(179, width, height)},
-          {"off centre", view_through({.half_x = 0.5, .half_y = 0.3, .far = 200, .shift_x = 0.9, .shift_y = -0.7},
-                                      width, height)},
-          {"orthographic", view_through({.half_x = 5.0 * width / height, .half_y = 5, .near = 0, .far = 100,
-                                         .shift_x = 3, .orthographic = true}, width, height)},
-          {"standard depth", view_through({.half_x = 1, .half_y = 0.6, .far = 1000, .order = DepthOrder::standard},
-                                          width, height)},
-          {"turned, 10^7 m out", placed(sixty, {1e7, -3e6, 2e7}, 0.7, -0.4)}};
+  return {
+      {"60 degrees", sixty},
+      {"0.1 degrees", field_of_view(0.1, width, height)},
+      {"170 degrees", field_of_view(170, width, height)},
+      {"179 degrees", field_of_view(179, width, height)},
+      {"off centre", view_through({.half_x = 0.5, .half_y = 0.3, .far = 200, .shift_x = 0.9, .shift_y = -0.7},
+                                  width, height)},
+      {"orthographic", view_through({.half_x = 5.0 * width / height,
+                                     .half_y = 5,
+                                     .near = 0,
+                                     .far = 100,
+                                     .shift_x = 3,
+                                     .orthographic = true},
+                                    width, height)},
+      {"standard depth",
+       view_through({.half_x = 1, .half_y = 0.6, .far = 1000, .order = DepthOrder::standard}, width, height)},
+      {"turned, 10^7 m out", placed(sixty, {1e7, -3e6, 2e7}, 0.7, -0.4)}};
 }
 
 }  // namespace lightgrid::verify

@@ -27,8 +27,8 @@ const CullView& sixty();  // degrees; 127 x 73
 // The same view for the oracle (reference/position.h), which reads size, matrices and kind of projection.
 View oracle_view(const CullView& view);
 
-float depth_of_nothing(const CullView& view);       // 0 reversed, 1 standard
-double depth_at(const CullView& view, double distance);     // z/w in double
+float depth_of_nothing(const CullView& view);            // 0 reversed, 1 standard
+double depth_at(const CullView& view, double distance);  // z/w in double
 double distance_at(const CullView& view, double depth);
 // View space: the point at `distance` along the view axis through the centre of pixel (px, py). `view` is
 // oracle_view's.
@@ -46,7 +46,8 @@ struct NamedView {
   std::string name;
   CullView view;
 };
-// Fields of 0.1, 60, 170 and 179 degrees, off centre, orthographic, standard depth, far from the origin and turned.
+// Fields of 0.1, 60, 170 and 179 degrees, off centre, orthographic, standard depth, far from the origin and
+// turned.
 std::vector<NamedView> hard_views(int width, int height);
 
 }  // namespace lightgrid::verify

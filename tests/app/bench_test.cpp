@@ -25,14 +25,16 @@ std::filesystem::path write_small_frame(const std::filesystem::path& folder) {
   const auto frame = folder / "wall";
   std::filesystem::create_directories(frame);
   const std::vector<float> depth(size_t(width) * height, 0.1f / 10.0f);
-  std::ofstream(frame / "depth.f32", std::ios::binary).write(reinterpret_cast<const char*>(depth.data()), long(depth.size() * 4));
+  std::ofstream(frame / "depth.f32", std::ios::binary)
+      .write(reinterpret_cast<const char*>(depth.data()), long(depth.size() * 4));
   std::ofstream(frame / "view.json") << R"({"size": [320, 180], "tile": 16, "near": 0.1, "far": null,
     "clip_from_view": [1,0,0,0, 0,1.7777777778,0,0, 0,0,0,0.1, 0,0,-1,0],
     "view_from_world": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})";
   std::ofstream lights(frame / "lights.json");
   lights << "{\"lights\": [";
   for (int i = 0; i < 40; ++i) {
-    lights << (i ? "," : "") << R"({"position": [)" << std::sin(i) * 8 << "," << std::cos(i) * 4 << R"(,-10], "radius": 2})";
+    lights << (i ? "," : "") << R"({"position": [)" << std::sin(i) * 8 << "," << std::cos(i) * 4
+           << R"(,-10], "radius": 2})";
   }
   lights << "]}";
   return frame;
@@ -62,8 +64,8 @@ TEST(BenchCommand, HasTheKeysThatOthersRead) {
   EXPECT_THAT(keys(report["limits"]), IsSupersetOf({"read_gb_s", "gflop_s"}));
   ASSERT_FALSE(report["rows"].empty());
   for (const auto& row : report["rows"]) {
-    EXPECT_THAT(keys(row), IsSupersetOf({"name", "device", "params", "runs", "min_ms", "median_ms", "p90_ms", "bytes",
-                                         "flops", "limit_ms", "share_of_limit"}));
+    EXPECT_THAT(keys(row), IsSupersetOf({"name", "device", "params", "runs", "min_ms", "median_ms", "p90_ms",
+                                         "bytes", "flops", "limit_ms", "share_of_limit"}));
     EXPECT_LE(row["min_ms"], row["median_ms"]);
     EXPECT_LE(row["median_ms"], row["p90_ms"]);
     EXPECT_EQ(row["runs"], row["params"]["kind"] == "transfer" ? 5 : 4);
@@ -72,8 +74,8 @@ TEST(BenchCommand, HasTheKeysThatOthersRead) {
 
 TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
   const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "4"});
-  for (const char* name : {"pipeline", "pipeline_device", "launch_overhead", "depth_bounds", "plain_read", "lights_upload",
-                           "grid_download"}) {
+  for (const char* name : {"pipeline", "pipeline_device", "launch_overhead", "depth_bounds", "plain_read",
+                           "lights_upload", "grid_download"}) {
     EXPECT_EQ(rows_named(report, name).size(), 1u) << name;
   }
   double kernels = 0;
@@ -82,7 +84,8 @@ TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
   }
   const auto device = rows_named(report, "pipeline_device").at(0);
   EXPECT_GT(kernels, 0);
-  EXPECT_LE(kernels, device["min_ms"].get<double>() * 1.0001) << "the sum of a run is at least the sum of the least";
+  EXPECT_LE(kernels, device["min_ms"].get<double>() * 1.0001)
+      << "the sum of a run is at least the sum of the least";
   const auto pipeline = rows_named(report, "pipeline").at(0);
   EXPECT_EQ(pipeline["params"]["lights"], 40);
   EXPECT_EQ(pipeline["params"]["size"], nlohmann::json({width, height}));
@@ -91,7 +94,8 @@ TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
 
 // Plausible rates: within a factor of a hundred of an ordinary machine.
 TEST(BenchCommand, MeasuresPlausibleLimitsThatNoKernelPasses) {
-  const auto report = bench_of_small_frame({"--filter", "^limits/read|^limits/arith|depth_bounds", "--frames", "100"});
+  const auto report =
+      bench_of_small_frame({"--filter", "^limits/read|^limits/arith|depth_bounds", "--frames", "100"});
   EXPECT_GT(report["limits"]["read_gb_s"], 0.5);
   EXPECT_LT(report["limits"]["read_gb_s"], 20000);
   EXPECT_GT(report["limits"]["gflop_s"], 0.5);
@@ -105,8 +109,9 @@ TEST(BenchCommand, MeasuresPlausibleLimitsThatNoKernelPasses) {
 }
 
 TEST(BenchCommand, ComparesSettingsInTurnAndPrintsRatios) {
-  const auto report = bench_of_small_frame({"--filter", "/pipeline$", "--compare", "cull-test=planes+aabb,sphere",
-                                            "--compare", "tile=16,32", "--frames", "3"});
+  const auto report =
+      bench_of_small_frame({"--filter", "/pipeline$", "--compare", "cull-test=planes+aabb,sphere",
+                            "--compare", "tile=16,32", "--frames", "3"});
   const auto rows = rows_named(report, "pipeline");
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0]["params"]["compared"], "cull-test=planes+aabb tile=16");
@@ -119,9 +124,9 @@ TEST(BenchCommand, ComparesSettingsInTurnAndPrintsRatios) {
 }
 
 TEST(BenchCommand, RunsTheKernelsThatTheSettingsAskForAndWaitsForThem) {
-  const auto report =
-      bench_of_small_frame({"--filter", "wall/", "--frames", "2", "--set", "slice-spacing=linear", "--compare", "slices=1,8",
-                            "--compare", "z-bins=off,64", "--compare", "grid-lists=lists,masks"});
+  const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "2", "--set",
+                                            "slice-spacing=linear", "--compare", "slices=1,8", "--compare",
+                                            "z-bins=off,64", "--compare", "grid-lists=lists,masks"});
   const auto rows = rows_named(report, "pipeline");
   ASSERT_EQ(rows.size(), 8u);
   const auto z_bins = rows_named(report, "light_z_bins"), masks = rows_named(report, "lists_to_masks");
@@ -153,21 +158,24 @@ TEST(BenchCommand, ListsPerSliceWhatTheCullCommandLists) {
   const std::string frame = write_small_frame(folder.path);
   for (const std::vector<std::string>& set : {std::vector<std::string>{"--set", "depth-bounds=none"},
                                               {"--set", "depth-bounds=none", "--set", "slices=16"}}) {
-    std::vector<std::string> culls = {"cull", frame, "-o", folder.path / "grid", "--frames", "1", "--json", "-"};
+    std::vector<std::string> culls = {"cull",     frame, "-o",     folder.path / "grid",
+                                      "--frames", "1",   "--json", "-"};
     culls.insert(culls.end(), set.begin(), set.end());
     const ProgramRun cull = run_program(culls);
     ASSERT_EQ(cull.status, 0) << cull.err;
     const auto listed = nlohmann::json::parse(cull.out)["grid"]["indices"];
     std::vector<std::string> more = {"--filter", "/pipeline$", "--frames", "1"};
     more.insert(more.end(), set.begin(), set.end());
-    EXPECT_EQ(rows_named(bench_of_small_frame(more), "pipeline").at(0)["params"]["indices"], listed) << set.back();
+    EXPECT_EQ(rows_named(bench_of_small_frame(more), "pipeline").at(0)["params"]["indices"], listed)
+        << set.back();
   }
 }
 
 // A case a frame, each the same frame that `capture` writes.
 TEST(BenchCommand, TimesTheFramesOfACameraPath) {
   const TempFolder folder;
-  const std::vector<std::string> scene = {"spheres", "--camera-path", "dolly:3", "--size", "160x90", "--lights", "40"};
+  const std::vector<std::string> scene = {"spheres", "--camera-path", "dolly:3", "--size",
+                                          "160x90",  "--lights",      "40"};
   const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
     const ProgramRun run = run_program(words);
@@ -175,10 +183,12 @@ TEST(BenchCommand, TimesTheFramesOfACameraPath) {
     return run.out;
   };
   run({"capture", "-o", folder.path / "frames"}, scene);
-  std::vector<std::string> bench = {"bench", "--filter", "/pipeline$", "--frames", "1", "--warmup", "0", "--json", "-"};
+  std::vector<std::string> bench = {"bench",    "--filter", "/pipeline$", "--frames", "1",
+                                    "--warmup", "0",        "--json",     "-"};
   const auto rows = rows_named(nlohmann::json::parse(run(bench, scene)), "pipeline");
   ASSERT_EQ(rows.size(), 3u);
-  for (const char* number : {"0000", "0001", "0002"}) bench.insert(bench.end(), {"--replay", folder.path / "frames" / number});
+  for (const char* number : {"0000", "0001", "0002"})
+    bench.insert(bench.end(), {"--replay", folder.path / "frames" / number});
   const auto replayed = rows_named(nlohmann::json::parse(run(bench, {})), "pipeline");
   ASSERT_EQ(replayed.size(), 3u);
   std::set<nlohmann::json> indices;
@@ -209,7 +219,8 @@ TEST(BenchCommand, RefusesToCompareWhatCullingDoesNotRead) {
 
 TEST(BenchCommand, PrintsATable) {
   const TempFolder folder;
-  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--frames", "2", "--filter", "pipeline"});
+  const ProgramRun run = run_program(
+      {"bench", "--replay", write_small_frame(folder.path), "--frames", "2", "--filter", "pipeline"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("wall"));
   EXPECT_THAT(run.out, HasSubstr("pipeline_device"));
@@ -217,7 +228,8 @@ TEST(BenchCommand, PrintsATable) {
 
 TEST(BenchCommand, EndsWithTwoWhereNoRowMatches) {
   const TempFolder folder;
-  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--filter", "nosuchrow", "--json", "-"});
+  const ProgramRun run = run_program(
+      {"bench", "--replay", write_small_frame(folder.path), "--filter", "nosuchrow", "--json", "-"});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("nosuchrow"));
 }

@@ -18,14 +18,16 @@ using testing::StartsWith;
 
 // A row as docs/results_json.md has it.
 void expect_row(const nlohmann::json& row) {
-  EXPECT_THAT(keys(row), IsSupersetOf({"technique", "settings", "lights", "frame_ms", "passes", "memory_bytes", "pairs",
-                                       "error", "nan_pixels", "inf_pixels", "overflow", "skipped"}));
+  EXPECT_THAT(keys(row),
+              IsSupersetOf({"technique", "settings", "lights", "frame_ms", "passes", "memory_bytes", "pairs",
+                            "error", "nan_pixels", "inf_pixels", "overflow", "skipped"}));
   EXPECT_THAT(keys(row["lights"]), IsSupersetOf({"total", "in_view"}));
   EXPECT_THAT(keys(row["frame_ms"]), IsSupersetOf({"min", "median", "max", "runs"}));
   EXPECT_THAT(keys(row["memory_bytes"]), IsSupersetOf({"total", "light_grid", "gbuffer"}));
   ASSERT_FALSE(row["passes"].empty());
   for (const auto& pass : row["passes"]) {
-    EXPECT_THAT(keys(pass), IsSupersetOf({"name", "on", "median_ms", "bytes_read", "bytes_written", "kernels"}));
+    EXPECT_THAT(keys(pass),
+                IsSupersetOf({"name", "on", "median_ms", "bytes_read", "bytes_written", "kernels"}));
   }
   for (const auto& effect : row["skipped"]) EXPECT_THAT(keys(effect), IsSupersetOf({"effect", "why"}));
 }
@@ -62,8 +64,8 @@ TEST(RenderCommand, WritesTheSameBytesTwice) {
 
 TEST(RenderCommand, PrintsOneRowOfResultsOnStdout) {
   const TempFolder folder;
-  const ProgramRun run = run_program({"render", "spheres", "--size", "64x36", "--set", "tile=32", "--frames", "3",
-                                      "--json", "-", "-o", folder.path / "x.png"});
+  const ProgramRun run = run_program({"render", "spheres", "--size", "64x36", "--set", "tile=32", "--frames",
+                                      "3", "--json", "-", "-o", folder.path / "x.png"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto row = nlohmann::json::parse(run.out);
   expect_row(row);
@@ -78,8 +80,9 @@ TEST(RenderCommand, TakesTheFirstLightsOfALightsFile) {
   const TempFolder folder;
   std::ofstream(folder.path / "two.json")
       << R"({"lights": [{"position": [0, 1, 0], "radius": 2}, {"position": [1, 1, 0], "radius": 2}]})";
-  const ProgramRun run = run_program({"render", "spheres", "--size", "16x9", "--lights-file", folder.path / "two.json",
-                                      "--lights", "1", "--json", "-", "-o", folder.path / "x.png"});
+  const ProgramRun run =
+      run_program({"render", "spheres", "--size", "16x9", "--lights-file", folder.path / "two.json",
+                   "--lights", "1", "--json", "-", "-o", folder.path / "x.png"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["lights"]["total"], 1);
 }
@@ -95,8 +98,8 @@ TEST(RenderCommand, EndsWithThreeAndNamesThePackageWithoutAnOpenClDevice) {
 
 TEST(RenderCommand, EndsWithThreeAndListsDevicesWhereNoneHasTheName) {
   const TempFolder folder;
-  const ProgramRun run =
-      run_program({"render", "spheres", "--size", "16x9", "--device", "nosuchdevice", "-o", folder.path / "x.png"});
+  const ProgramRun run = run_program(
+      {"render", "spheres", "--size", "16x9", "--device", "nosuchdevice", "-o", folder.path / "x.png"});
   EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("\"nosuchdevice\""));
   EXPECT_THAT(run.err, HasSubstr("There are:"));
@@ -130,7 +133,8 @@ TEST(CompareCommand, WritesAPageImagesAndResults) {
   for (const auto& row : results["rows"]) {
     expect_row(row);
     EXPECT_THAT(keys(row["pairs"]), IsSupersetOf({"listed", "lit", "lost", "wrong"}));
-    EXPECT_THAT(keys(row["error"]), IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean", "bit_identical", "oracle"}));
+    EXPECT_THAT(keys(row["error"]),
+                IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean", "bit_identical", "oracle"}));
     EXPECT_THAT(keys(row["error"]["oracle"]), IsSupersetOf({"max_rel", "rmse_rel", "of_reference_max_rel"}));
     EXPECT_GT(row["error"]["oracle"]["of_reference_max_rel"], 0);
     EXPECT_EQ(row["pairs"]["lost"], 0);
@@ -141,8 +145,9 @@ TEST(CompareCommand, WritesAPageImagesAndResults) {
 
 TEST(CompareCommand, ShadesTheReferenceAtASampleOfPixelsWhereAskedTo) {
   const TempFolder folder;
-  const ProgramRun run = run_program({"compare", "spheres", "--size", "640x360", "--lights", "200", "--frames", "1", "--warmup", "0",
-                                      "-t", "forward,forward_plus", "--reference", "sampled", "-o", folder.path});
+  const ProgramRun run =
+      run_program({"compare", "spheres", "--size", "640x360", "--lights", "200", "--frames", "1", "--warmup",
+                   "0", "-t", "forward,forward_plus", "--reference", "sampled", "-o", folder.path});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("the reference is forward at 65,536 of 230,400 pixels"));
   const auto results = nlohmann::json::parse(file_bytes(folder.path / "results.json"));
@@ -154,10 +159,12 @@ TEST(CompareCommand, ShadesTheReferenceAtASampleOfPixelsWhereAskedTo) {
 
 TEST(Progress, IsALineNowAndThenWithoutATerminal) {
   const TempFolder folder;
-  const std::vector<std::string> compare = {"compare", "spheres", "--size", "64x36", "-t", "forward_plus", "-o", folder.path};
+  const std::vector<std::string> compare = {"compare", "spheres",      "--size", "64x36",
+                                            "-t",      "forward_plus", "-o",     folder.path};
   const ProgramRun run = run_program(compare, {"LIGHTGRID_PROGRESS_S=0.05"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.err, testing::ContainsRegex("after 1 s.*: (compare|forward_plus|reference: forward|oracle)"));
+  EXPECT_THAT(run.err,
+              testing::ContainsRegex("after 1 s.*: (compare|forward_plus|reference: forward|oracle)"));
   std::vector<std::string> quiet = compare;
   quiet.insert(quiet.begin(), "--quiet");
   const ProgramRun silent = run_program(quiet, {"LIGHTGRID_PROGRESS_S=0.05"});
@@ -168,12 +175,14 @@ TEST(Progress, IsALineNowAndThenWithoutATerminal) {
 TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {
   const TempFolder folder;
   const auto report = folder.path / "report";
-  const ProgramRun run = run_program({"compare", "-t", "forward,forward_plus:tile=32,grid-lists=masks", "terrain", "spheres", "--size",
-                                      "17x9,32x18", "--lights", "3,40", "--frames", "1", "--warmup", "0", "-o", report, "--json",
-                                      folder.path / "again.json"});
+  const ProgramRun run =
+      run_program({"compare", "-t", "forward,forward_plus:tile=32,grid-lists=masks", "terrain", "spheres",
+                   "--size", "17x9,32x18", "--lights", "3,40", "--frames", "1", "--warmup", "0", "-o", report,
+                   "--json", folder.path / "again.json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, StartsWith((report / "index.html").string() + "\n"));
-  for (const char* name : {"index.html", "results.csv", "terrain-17x9-3/forward.png", "spheres-32x18-40/forward_plus.heat.png"}) {
+  for (const char* name : {"index.html", "results.csv", "terrain-17x9-3/forward.png",
+                           "spheres-32x18-40/forward_plus.heat.png"}) {
     EXPECT_TRUE(std::filesystem::exists(report / name)) << name;
   }
   EXPECT_EQ(file_bytes(report / "results.json"), file_bytes(folder.path / "again.json"));
@@ -193,8 +202,9 @@ TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {
 
 TEST(CompareCommand, SweepsASettingOverTheTechniquesThatReadIt) {
   const TempFolder folder;
-  const ProgramRun run = run_program({"compare", "terrain", "--size", "17x9", "--frames", "1", "--warmup", "0", "-t",
-                                      "forward,clustered", "--compare", "slices=4,8", "--json", "-", "-o", folder.path / "r"});
+  const ProgramRun run =
+      run_program({"compare", "terrain", "--size", "17x9", "--frames", "1", "--warmup", "0", "-t",
+                   "forward,clustered", "--compare", "slices=4,8", "--json", "-", "-o", folder.path / "r"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto rows = nlohmann::json::parse(run.out)["rows"];
   ASSERT_EQ(rows.size(), 3u);
@@ -221,11 +231,13 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
 TEST(ScenesCommand, ListsTheBuiltInScenes) {
   const ProgramRun run = run_program({"scenes"});
   EXPECT_EQ(run.status, 0);
-  for (const char* name : {"hall", "spheres", "terrain", "street", "particles", "gallery"}) EXPECT_THAT(run.out, HasSubstr(name));
+  for (const char* name : {"hall", "spheres", "terrain", "street", "particles", "gallery"})
+    EXPECT_THAT(run.out, HasSubstr(name));
 }
 
 TEST(Help, GoesToStdoutAndEndsWithZero) {
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"render", "--help"}}) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"render", "--help"}}) {
     const ProgramRun run = run_program(arguments);
     EXPECT_EQ(run.status, 0);
     EXPECT_THAT(run.out, HasSubstr("render"));

@@ -88,20 +88,24 @@ TEST_F(Frames, CaptureWritesAFrameAndCullMakesItsGridAgain) {
 
 TEST_F(Frames, CaptureAlongAPathGivesAFolderAFrame) {
   const auto path = folder_.path / "path", still = folder_.path / "still";
-  const ProgramRun moving = run_program({"capture", "spheres", "--size", "64x48", "--camera-path", "turn:3", "-o", path, "--json", "-"});
+  const ProgramRun moving = run_program(
+      {"capture", "spheres", "--size", "64x48", "--camera-path", "turn:3", "-o", path, "--json", "-"});
   ASSERT_EQ(moving.status, 0) << moving.err;
   ASSERT_EQ(run_program({"capture", "spheres", "--size", "64x48", "-o", still}).status, 0);
-  for (const char* frame : {"0000", "0001", "0002"}) EXPECT_TRUE(std::filesystem::is_directory(path / frame)) << frame;
+  for (const char* frame : {"0000", "0001", "0002"})
+    EXPECT_TRUE(std::filesystem::is_directory(path / frame)) << frame;
   EXPECT_FALSE(std::filesystem::exists(path / "0003"));
   EXPECT_EQ(nlohmann::json::parse(moving.out).size(), 3u);
-  EXPECT_TRUE(file_bytes(path / "0000" / "depth.f32") == file_bytes(still / "depth.f32")) << "a path starts at the camera";
+  EXPECT_TRUE(file_bytes(path / "0000" / "depth.f32") == file_bytes(still / "depth.f32"))
+      << "a path starts at the camera";
   EXPECT_FALSE(file_bytes(path / "0001" / "depth.f32") == file_bytes(still / "depth.f32"));
   EXPECT_EQ(run_program({"bench", "--replay", path / "0001", "--frames", "1", "--warmup", "0"}).status, 0);
 }
 
 TEST_F(Frames, OfClusteredHaveItsSlicesAndItsMasks) {
   const auto frame = folder_.path / "sliced", culled = folder_.path / "culled";
-  const std::vector<std::string> options = {"-t", "clustered", "--set", "slices=8", "--set", "z-bins=16", "--set", "grid-lists=masks"};
+  const std::vector<std::string> options = {"-t",    "clustered", "--set", "slices=8",
+                                            "--set", "z-bins=16", "--set", "grid-lists=masks"};
   const auto run = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramRun program = run_program(arguments);
@@ -110,14 +114,17 @@ TEST_F(Frames, OfClusteredHaveItsSlicesAndItsMasks) {
   };
   EXPECT_THAT(run({"capture", "street", "--size", "93x61", "-o", frame}), HasSubstr("6x4x8 cells"));
   run({"cull", frame, "-o", culled});
-  EXPECT_THAT(names_in(culled), ElementsAre("grid.json", "grid.u32", "indices.u32", "masks.u32", "z_bins.u32"));
-  for (const std::string& name : names_in(culled)) EXPECT_TRUE(file_bytes(culled / name) == file_bytes(frame / name)) << name;
+  EXPECT_THAT(names_in(culled),
+              ElementsAre("grid.json", "grid.u32", "indices.u32", "masks.u32", "z_bins.u32"));
+  for (const std::string& name : names_in(culled))
+    EXPECT_TRUE(file_bytes(culled / name) == file_bytes(frame / name)) << name;
   const auto grid = nlohmann::json::parse(file_bytes(culled / "grid.json"));
   EXPECT_EQ(grid["cells"], nlohmann::json({6, 4, 8}));
   EXPECT_EQ(grid["slice_edges"].size(), 7u);
   EXPECT_EQ(grid["z_bin_edges"].size(), 15u);
   EXPECT_EQ(grid["settings"]["slices"], 8);
-  EXPECT_THAT(run({"inspect", frame, "-o", folder_.path / "maps"}), HasSubstr("0 (pixel, light) pairs lost, 0 wrong"));
+  EXPECT_THAT(run({"inspect", frame, "-o", folder_.path / "maps"}),
+              HasSubstr("0 (pixel, light) pairs lost, 0 wrong"));
 }
 
 TEST_F(Frames, HaveSlicesWhereTheSettingSaysSoAndNoneFromATechniqueWithoutAGrid) {

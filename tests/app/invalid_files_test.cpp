@@ -26,7 +26,8 @@ std::set<fs::path> files_below(const fs::path& folder) {
 std::string fault_of(const fs::path& file, const TempFolder& folder, int& status) {
   const fs::path output = folder.path / "x.png";
   fs::remove(output);
-  const ProgramRun run = run_program({"render", file, "--size", "16x16", "-o", output, "--quiet"}, {}, std::chrono::seconds(5));
+  const ProgramRun run =
+      run_program({"render", file, "--size", "16x16", "-o", output, "--quiet"}, {}, std::chrono::seconds(5));
   status = run.status;
   if (run.timed_out) return "did not end";
   if (run.signal) return "ended by signal " + std::to_string(run.signal);
@@ -37,7 +38,8 @@ std::string fault_of(const fs::path& file, const TempFolder& folder, int& status
   if (run.status == 0) return lines == 0 ? "" : "printed " + run.err;
   if (run.status != 2) return "ended with " + std::to_string(run.status) + ": " + run.err;
   if (lines != 1) return "printed " + std::to_string(lines) + " lines: " + run.err;
-  if (run.err.find(file.filename().string()) == std::string::npos) return "does not name the file: " + run.err;
+  if (run.err.find(file.filename().string()) == std::string::npos)
+    return "does not name the file: " + run.err;
   return "";
 }
 

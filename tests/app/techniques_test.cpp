@@ -24,7 +24,9 @@ std::string text_of(const fs::path& path) {
 
 const fs::path docs = fs::path(source_folder) / "docs";
 
-std::string page_of(const std::string& technique) { return text_of(docs / "techniques" / (technique + ".md")); }
+std::string page_of(const std::string& technique) {
+  return text_of(docs / "techniques" / (technique + ".md"));
+}
 
 std::set<std::string> registered() {
   std::set<std::string> names;
@@ -48,13 +50,15 @@ std::vector<std::string> telling_words(const std::string& source) {
 
 TEST(Techniques, HaveAPageEachAndEachPageHasATechnique) {
   std::set<std::string> pages;
-  for (const auto& entry : fs::directory_iterator(docs / "techniques")) pages.insert(entry.path().stem().string());
+  for (const auto& entry : fs::directory_iterator(docs / "techniques"))
+    pages.insert(entry.path().stem().string());
   EXPECT_EQ(pages, registered());
 }
 
 TEST(Techniques, ArePagesThatNameTheirSource) {
   for (const Technique* t : techniques()) {
-    for (const std::string& word : telling_words(t->source)) EXPECT_THAT(page_of(t->name), HasSubstr(word)) << t->name;
+    for (const std::string& word : telling_words(t->source))
+      EXPECT_THAT(page_of(t->name), HasSubstr(word)) << t->name;
   }
 }
 
@@ -95,7 +99,8 @@ TEST(Techniques, AreListedWithSettingsDefaultsAndSource) {
     EXPECT_THAT(text.out, HasSubstr(t->name));
     EXPECT_THAT(text.out, HasSubstr(t->source));
   }
-  EXPECT_THAT(text.out, HasSubstr("settings: brdf=ggx cull-test=planes+aabb depth-bounds=minmax tile=16 slices=24"));
+  EXPECT_THAT(text.out,
+              HasSubstr("settings: brdf=ggx cull-test=planes+aabb depth-bounds=minmax tile=16 slices=24"));
 }
 
 TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {

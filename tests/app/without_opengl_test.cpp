@@ -76,8 +76,8 @@ TEST(WithoutOpenGl, RenderDrawsTheBytesThatItDrawsWithIt) {
   EXPECT_TRUE(file_bytes(folder.path / "with.exr") == file_bytes(folder.path / "without.exr"));
   EXPECT_EQ(render("not.exr", {"--gl", "none", "-t", "lidr"}).status, 3);
   EXPECT_EQ(render("not.exr", {"--gl", "none", "-t", "deferred_tiled"}).status, 3);
-  const ProgramRun chosen =
-      render("chosen.exr", {"--gl", "none", "-t", "deferred_tiled", "--set", "raster=opencl", "--lights", "0"});
+  const ProgramRun chosen = render(
+      "chosen.exr", {"--gl", "none", "-t", "deferred_tiled", "--set", "raster=opencl", "--lights", "0"});
   EXPECT_EQ(chosen.status, 0) << chosen.err;
 }
 

@@ -34,16 +34,19 @@ double mean_listed(const CapturedFrame& frame) {
   const int across = (frame.view.width + 15) / 16;
   const std::vector<Tile> tiles = tiles_of(frame);
   const auto inside = [&](int axis, int tile, int pixels, const Light& light) {
-    const double d = -light.position.z, v = light.position[axis], scale = frame.view.clip_from_view[axis][axis];
+    const double d = -light.position.z, v = light.position[axis],
+                 scale = frame.view.clip_from_view[axis][axis];
     const double low = (tile * 32.0 / pixels - 1) / scale, high = ((tile + 1) * 32.0 / pixels - 1) / scale;
-    return (v - low * d) / std::hypot(1, low) >= -light.radius_m && (high * d - v) / std::hypot(1, high) >= -light.radius_m;
+    return (v - low * d) / std::hypot(1, low) >= -light.radius_m &&
+           (high * d - v) / std::hypot(1, high) >= -light.radius_m;
   };
   size_t listed = 0;
   for (size_t t = 0; t < tiles.size(); ++t) {
     for (const Light& light : frame.lights) {
       const double d = -light.position.z;
       listed += d + light.radius_m >= tiles[t].near && d - light.radius_m <= tiles[t].far &&
-                inside(0, int(t % across), frame.view.width, light) && inside(1, int(t / across), frame.view.height, light);
+                inside(0, int(t % across), frame.view.width, light) &&
+                inside(1, int(t / across), frame.view.height, light);
     }
   }
   return double(listed) / double(tiles.size());
@@ -78,8 +81,9 @@ TEST(StandardFrames, KeepTheirLightsAtEverySize) {
 TEST(StandardCases, HaveNamesOfTheirOwn) {
   std::vector<std::string> names;
   for (const BenchCase& c : standard_cases()) names.push_back(c.name);
-  for (const char* name : {"floor-256", "floor-1024", "floor-4096", "floor-65536", "spheres-1024", "floor-1000000", "lights-1",
-                           "lights-1000000", "tile-8", "tile-64", "size-640x360", "size-7680x4320"}) {
+  for (const char* name :
+       {"floor-256", "floor-1024", "floor-4096", "floor-65536", "spheres-1024", "floor-1000000", "lights-1",
+        "lights-1000000", "tile-8", "tile-64", "size-640x360", "size-7680x4320"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
 }

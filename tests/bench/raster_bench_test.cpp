@@ -13,15 +13,16 @@ namespace {
 
 TEST(RasterCosts, AreTheBytesThatEachStepCannotAvoid) {
   KernelWork w;
-  w.pixels = 1000, w.tiles = 6, w.vertices = 10, w.triangles = 640, w.clusters = 4, w.records = 3, w.tile_entries = 5;
+  w.pixels = 1000, w.tiles = 6, w.vertices = 10, w.triangles = 640, w.clusters = 4, w.records = 3,
+  w.tile_entries = 5;
   const auto bytes = [&](const char* label) { return kernel_cost(label, w)->bytes; };
   EXPECT_EQ(bytes("raster_transform"), 10 * (12 + 16));  // a position read, clip space written
   EXPECT_EQ(kernel_cost("raster_transform", w)->flops, 10 * 24);
-  EXPECT_EQ(bytes("raster_clusters"), 10 * 64);        // 640 triangles are at least 10 clusters
-  EXPECT_EQ(bytes("raster_order"), 10 + 4 * 4);        // their buckets, and the list of those in view
-  EXPECT_EQ(bytes("raster_setup"), 3 * (12 + 64));     // corners read, a record written
-  EXPECT_EQ(bytes("raster_scan"), 6 * (4 + 4));        // counts read, beginnings written
-  EXPECT_EQ(bytes("raster_fill"), 3 * 8 + 5 * 4);      // boxes read, entries written
+  EXPECT_EQ(bytes("raster_clusters"), 10 * 64);     // 640 triangles are at least 10 clusters
+  EXPECT_EQ(bytes("raster_order"), 10 + 4 * 4);     // their buckets, and the list of those in view
+  EXPECT_EQ(bytes("raster_setup"), 3 * (12 + 64));  // corners read, a record written
+  EXPECT_EQ(bytes("raster_scan"), 6 * (4 + 4));     // counts read, beginnings written
+  EXPECT_EQ(bytes("raster_fill"), 3 * 8 + 5 * 4);   // boxes read, entries written
   EXPECT_EQ(bytes("raster_tiles"), 5 * 4 + 3 * 64 + 1000 * 8);
   EXPECT_EQ(bytes("raster_keys"), 1000 * 16);
   EXPECT_FALSE(kernel_cost("raster_small", w).has_value());
@@ -64,7 +65,8 @@ TEST(RasterBench, HasARowForEachKernelWithItsBytes) {
 
 TEST(RasterBench, RefusesASceneThatDoesNotExist) {
   ClDevice device;
-  const BenchOptions options{.cases = {{"raster-none", {}, {}, 0, "none"}}, .contestants = {{"", {}}}, .filter = "^raster-none/"};
+  const BenchOptions options{
+      .cases = {{"raster-none", {}, {}, 0, "none"}}, .contestants = {{"", {}}}, .filter = "^raster-none/"};
   EXPECT_THROW(run_bench(device, options), Error);
 }
 

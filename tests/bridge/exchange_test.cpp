@@ -201,7 +201,8 @@ TEST_P(BridgeExchange, BringsEveryWordAndTexelInBothDirections) {
     glUniform1ui(2, round);
     glUniform1ui(3, GLuint(most_texels));
     dispatch_words(check, slot.words, seed + 1);
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);  // the next round may write this buffer: GPUs overlap dispatches without a barrier
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);  // the next round may write this buffer: GPUs overlap dispatches
+                                           // without a barrier
   }
   std::vector<cl_uint> in_cl(zeros.size()), in_gl(zeros.size());
   read_buffer(cl, "counts", cl_counts, in_cl.data(), count_bytes);

@@ -30,7 +30,8 @@ struct SharedBufferOf : testing::TestWithParam<Parameters> {
       GTEST_SKIP() << error.what();
     }
     if (kind == BridgeKind::imported) {
-      if (const std::string why = why_not_imported(cl, *gl); !why.empty()) GTEST_SKIP() << "no imported memory: " << why;
+      if (const std::string why = why_not_imported(cl, *gl); !why.empty())
+        GTEST_SKIP() << "no imported memory: " << why;
     }
     if (kind == BridgeKind::mapped && choose_bridge(cl, *gl) != kind)
       GTEST_SKIP() << cl.info().name << " and " << gl->renderer << " do not share their memory";
@@ -242,9 +243,8 @@ TEST_P(SharedBufferOf, WaitsForTheLastCopyBeforeItHandsOverAgain) {
     write_squares(buffer, count, 1);
     buffer.hand_to_gl(count * 4);
     // OpenGL's contents after the first copy.
-    LateCopies::pending.push_back([&] {
-      glGetNamedBufferSubData(buffer.gl_buffer(), 0, count * 4, first_frame.data());
-    });
+    LateCopies::pending.push_back(
+        [&] { glGetNamedBufferSubData(buffer.gl_buffer(), 0, count * 4, first_frame.data()); });
     write_squares(buffer, count, 1000);
     buffer.hand_to_gl(count * 4);
   }
@@ -270,13 +270,15 @@ TEST_P(SharedBufferOf, HandsSeveralToKernelsWithOneWait) {
     std::vector<GlBuffer> sources;
     for (size_t i = 0; i < buffers.size(); ++i) {
       sources.push_back(make_buffer(buffers[i].size(), squares(counts[i], 1000 * frame).data()));
-      glCopyNamedBufferSubData(sources[i].name(), buffers[i].gl_buffer(), 0, 0, GLsizeiptr(buffers[i].size()));
+      glCopyNamedBufferSubData(sources[i].name(), buffers[i].gl_buffer(), 0, 0,
+                               GLsizeiptr(buffers[i].size()));
     }
     LateCopies::finishes = 0;
     SharedBuffer::hand_to_cl(written);
     EXPECT_EQ(LateCopies::finishes, 1);
     for (size_t i = 0; i < buffers.size(); ++i)
-      EXPECT_EQ(read_in_cl(buffers[i], counts[i]), squares(counts[i], 1000 * frame)) << counts[i] << ", frame " << frame;
+      EXPECT_EQ(read_in_cl(buffers[i], counts[i]), squares(counts[i], 1000 * frame))
+          << counts[i] << ", frame " << frame;
   }
 }
 
@@ -297,13 +299,15 @@ TEST_P(SharedBufferOf, DoesNotTakeAnEarlierErrorForItsOwn) {
 }
 
 std::string pair_name(const testing::TestParamInfo<Parameters>& info) {
-  return std::string(std::get<0>(info.param) == GlBackend::osmesa ? "osmesa_" : "egl_") + to_string(std::get<1>(info.param));
+  return std::string(std::get<0>(info.param) == GlBackend::osmesa ? "osmesa_" : "egl_") +
+         to_string(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(Pairs, SharedBufferOf,
                          testing::Combine(testing::Values(GlBackend::osmesa, GlBackend::egl),
                                           testing::Values(BridgeKind::mapped, BridgeKind::staged)),
                          pair_name);
-INSTANTIATE_TEST_SUITE_P(Gpu, SharedBufferOf, testing::Values(Parameters(GlBackend::egl, BridgeKind::imported)), pair_name);
+INSTANTIATE_TEST_SUITE_P(Gpu, SharedBufferOf,
+                         testing::Values(Parameters(GlBackend::egl, BridgeKind::imported)), pair_name);
 
 struct BridgeChoice : testing::Test {
   void TearDown() override { unsetenv("LIGHTGRID_BRIDGE"); }
@@ -315,7 +319,8 @@ TEST_F(BridgeChoice, IsMappedExactlyWhereBothSidesAreTheCpu) {
   EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, may_share_memory(cl.info(), gl->software));
 }
 
-// Of a context in software that pretends to be a graphics card: on a CPU no import is tried, on a GPU it fails.
+// Of a context in software that pretends to be a graphics card: on a CPU no import is tried, on a GPU it
+// fails.
 TEST_F(BridgeChoice, IsStagedWhereNothingCanBeShared) {
   if (!gl->software) GTEST_SKIP() << gl->renderer << " is no software";
   gl->software = false;

@@ -98,7 +98,8 @@ TEST(FrameFile, WrongMasksAndZBinsAreTold) {
   FrameGrid grid = grid_with_masks();
   grid.lists.masks[7] |= 1u << 21;
   write_frame_grid(folder.path, grid);
-  EXPECT_THAT(fault_of(folder.path), testing::AllOf(testing::HasSubstr("masks.u32: word 7"), testing::HasSubstr("21 lights")));
+  EXPECT_THAT(fault_of(folder.path),
+              testing::AllOf(testing::HasSubstr("masks.u32: word 7"), testing::HasSubstr("21 lights")));
   write_frame_grid(folder.path, grid_with_masks());
   EXPECT_EQ(fault_of(folder.path), "");
   write_bytes(folder.path / "z_bins.u32", "1234");

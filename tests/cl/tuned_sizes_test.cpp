@@ -34,7 +34,8 @@ TEST(TunedSizes, AreNoneWhereTheFileIsAbsentOrBroken) {
   const auto file = folder.path / "tuned.json";
   EXPECT_EQ(read_tuned_sizes(device("a"), file), TunedSizes());
   EXPECT_EQ(read_tuned_sizes(device("a"), folder.path), TunedSizes());
-  for (const char* text : {"", "{", "[]", "{\"p | a | v | 1.0\": 3}", "{\"p | a | v | 1.0\": {\"x\": 3}}", "\xff\xfe"}) {
+  for (const char* text :
+       {"", "{", "[]", "{\"p | a | v | 1.0\": 3}", "{\"p | a | v | 1.0\": {\"x\": 3}}", "\xff\xfe"}) {
     std::ofstream(file) << text;
     EXPECT_EQ(read_tuned_sizes(device("a"), file), TunedSizes()) << text;
   }

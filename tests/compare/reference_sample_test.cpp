@@ -35,7 +35,8 @@ TEST(ReferenceSample, IsSpreadOverTheImage) {
   blocks.resize(blocks.size() / 10);
   int quarters[4] = {};
   for (const PixelBlock& block : blocks) ++quarters[(block.x >= 320) + 2 * (block.y >= 180)];
-  for (const int count : quarters) EXPECT_NEAR(count, double(blocks.size()) / 4, 6 * std::sqrt(double(blocks.size())) / 4);
+  for (const int count : quarters)
+    EXPECT_NEAR(count, double(blocks.size()) / 4, 6 * std::sqrt(double(blocks.size())) / 4);
 }
 
 TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
@@ -70,7 +71,8 @@ TEST(ReferenceSample, HasFewerPixelsTheMoreLightsThereAre) {
 CompareReport compared(ReferencePixels reference, double most_ms, std::string* notice = nullptr) {
   const Scene scene = small_scene().scene;
   const View view = small_view(640, 360);
-  CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 50, .reference = reference, .most_reference_ms = most_ms};
+  CompareOptions options{
+      .frames = 1, .warmup = 0, .shaded_samples = 50, .reference = reference, .most_reference_ms = most_ms};
   if (notice) options.notice = [=](const std::string& what) { *notice = what; };
   return compare_techniques(software_devices(), scene, view,
                             {{&find_technique("forward"), {}}, {&find_technique("deferred"), {}}}, options);

@@ -41,7 +41,8 @@ inline bool certainly_touches(const Cell& cell, const ViewLight& light) {
 // Sorted lists without repetition, in ranges that together form the index list.
 inline void expect_well_formed(const CulledGrid& grid, size_t lights) {
   std::vector<glm::uvec2> ranges = grid.cells;
-  std::sort(ranges.begin(), ranges.end(), [](glm::uvec2 a, glm::uvec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
+  std::sort(ranges.begin(), ranges.end(),
+            [](glm::uvec2 a, glm::uvec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
   uint64_t next = 0;
   for (const glm::uvec2 range : ranges) {
     if (range.y == 0) continue;

@@ -59,18 +59,23 @@ TEST_P(CullMemory, NeedsNoFirstGuess) {
   const LightGrid grid = cull(10, storage);
   EXPECT_EQ(grid.index_count, 160u);
   const HostGrid host = read_grid(test_device(), grid, storage);
-  EXPECT_THAT(std::vector(host.indices.begin(), host.indices.begin() + 10), testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
+  EXPECT_THAT(std::vector(host.indices.begin(), host.indices.begin() + 10),
+              testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, CullMemory, testing::Values(KernelShape::lanes, KernelShape::group),
-                         [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
+                         [](const auto& info) {
+                           return info.param == KernelShape::lanes ? "lanes" : "group";
+                         });
 
 // 16 tiles x 64 slices x 2^22 lights are 2^32 indices of one block. Counting them takes half a minute on a
 // CPU and well under a second on a GPU, so a CPU does it only if LIGHTGRID_LONG_TESTS is set.
 TEST(CullMemoryLimits, IndicesOfABlockPastTwoToThe32AreRefusedWithTheirNumber) {
-  if (test_device().info().cpu && !std::getenv("LIGHTGRID_LONG_TESTS")) GTEST_SKIP() << "LIGHTGRID_LONG_TESTS is not set";
+  if (test_device().info().cpu && !std::getenv("LIGHTGRID_LONG_TESTS"))
+    GTEST_SKIP() << "LIGHTGRID_LONG_TESTS is not set";
   const View view = view_of(32, 32, 60);
-  LightCuller culler(test_device(), test_programs(), {.cull_test = CullTest::sphere, .shape = KernelShape::group, .tile = 8});
+  LightCuller culler(test_device(), test_programs(),
+                     {.cull_test = CullTest::sphere, .shape = KernelShape::group, .tile = 8});
   culler.set_lights(endless_lights(size_t(1) << 22));
   culler.set_view(cull_view_of(view, slice_edges(SliceSpacing::linear, 64, 0.1, 64)));
   ClGridStorage storage(test_device());

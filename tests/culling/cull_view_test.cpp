@@ -59,7 +59,8 @@ TEST(CullViewOf, PixelsAndDepthsLeadBackToThePlaceTheyWereMadeFrom) {
     const CullView view = view_through(made, 127, 73);
     const ViewParams v = view_params(view, 16);
     const CullParams p = cull_params(view, 16);
-    for (const glm::dvec3 place : {glm::dvec3(0, 0, -2), glm::dvec3(0.7, -0.4, -3), glm::dvec3(-2, 1.5, -40)}) {
+    for (const glm::dvec3 place :
+         {glm::dvec3(0, 0, -2), glm::dvec3(0.7, -0.4, -3), glm::dvec3(-2, 1.5, -40)}) {
       const glm::dvec4 clip = made.clip_from_view * glm::dvec4(place, 1);
       const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(view.width, view.height);
       const double d = -place.z, tip = made.orthographic ? 1 : d, depth = clip.z / clip.w;
@@ -110,7 +111,8 @@ struct WrongView {
 };
 
 TEST(CheckView, NamesWhatMakesNoView) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
   const std::vector<WrongView> wrong = {
       {[](CullView& v) { v.width = 0; }, "0 x 73 pixels"},
       {[](CullView& v) { v.height = -1; }, "127 x -1 pixels"},
@@ -119,8 +121,9 @@ TEST(CheckView, NamesWhatMakesNoView) {
       {[&](CullView& v) { v.view_from_world[1][0] = infinity; }, "view_from_world[0][1] is inf"},
       {[](CullView& v) { v.clip_from_view[2][3] = 1; }, "last row is [0 0 1 0], neither"},  // looks along +z
       {[](CullView& v) { v.clip_from_view[0][0] = 0; }, "clip_from_view[0][0] is 0, not above 0"},
-      {[](CullView& v) { v.clip_from_view[1][1] = -1; }, "clip_from_view[1][1] is -1, not above 0"},  // upside down
-      {[](CullView& v) { v.clip_from_view[3][2] = 0; }, "depth does not depend on distance"},   // near 0
+      {[](CullView& v) { v.clip_from_view[1][1] = -1; },
+       "clip_from_view[1][1] is -1, not above 0"},                                             // upside down
+      {[](CullView& v) { v.clip_from_view[3][2] = 0; }, "depth does not depend on distance"},  // near 0
       {[](CullView& v) { v.clip_from_view = glm::dmat4(0); }, "last row is [0 0 0 0], neither"},
       {[](CullView& v) { v.view_from_world[0][0] = 2; }, "view_from_world is not rigid"},
       {[](CullView& v) { v.view_from_world[2] = v.view_from_world[1]; }, "view_from_world is not rigid"},

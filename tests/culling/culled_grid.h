@@ -39,7 +39,8 @@ inline CullView cull_view_of(const View& view, const std::vector<float>& slice_e
 inline std::vector<CullLight> cull_lights_of(const std::vector<ViewLight>& lights) {
   std::vector<CullLight> out;
   for (const ViewLight& light : lights) {
-    out.push_back({light.position, light.radius_m, light.direction, light.type == LightType::spot ? light.cos_outer : -1.0});
+    out.push_back({light.position, light.radius_m, light.direction,
+                   light.type == LightType::spot ? light.cos_outer : -1.0});
   }
   return out;
 }
@@ -49,7 +50,8 @@ struct Intervals {
   std::vector<DepthInterval> opaque, blend;
 };
 
-inline Intervals depth_intervals(const View& view, const std::vector<float>& depth, const CullerOptions& options) {
+inline Intervals depth_intervals(const View& view, const std::vector<float>& depth,
+                                 const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
   culler.set_view(cull_view_of(view));
   const DepthBounds bounds = culler.depth_bounds({buffer_of(depth)});
@@ -90,8 +92,8 @@ inline CulledGrid cull_cells(const View& view, const std::vector<ViewLight>& lig
 }
 
 // From a depth image.
-inline CulledGrid cull_depth(const View& view, const std::vector<ViewLight>& lights, const std::vector<float>& depth,
-                             const CullerOptions& options) {
+inline CulledGrid cull_depth(const View& view, const std::vector<ViewLight>& lights,
+                             const std::vector<float>& depth, const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
   culler.set_lights(cull_lights_of(lights));
   culler.set_view(cull_view_of(view));

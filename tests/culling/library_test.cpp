@@ -27,15 +27,16 @@ using testing::Not;
 bool has_tool(const std::string& name) { return run_command("command -v " + name).status == 0; }
 
 // Lights whose sphere contains the surface at the centre of one of the tile's pixels.
-std::set<uint32_t> lights_of_tile(const std::vector<CullLight>& lights, const std::vector<float>& depth, int tx,
-                                  int ty) {
+std::set<uint32_t> lights_of_tile(const std::vector<CullLight>& lights, const std::vector<float>& depth,
+                                  int tx, int ty) {
   std::set<uint32_t> found;
   for (int y = ty * 16; y < ty * 16 + 16; ++y) {
     for (int x = tx * 16; x < tx * 16 + 16; ++x) {
       const double value = depth[size_t(y) * width + x];
       if (value == 0) continue;
       const double d = near_m / value;
-      const glm::dvec3 place(d * slope_x * ((x + 0.5) * 2 / width - 1), d * slope_y * ((y + 0.5) * 2 / height - 1), -d);
+      const glm::dvec3 place(d * slope_x * ((x + 0.5) * 2 / width - 1),
+                             d * slope_y * ((y + 0.5) * 2 / height - 1), -d);
       for (size_t i = 0; i < lights.size(); ++i) {
         if (glm::distance(place, lights[i].position) < lights[i].radius_m) found.insert(uint32_t(i));
       }
@@ -61,7 +62,8 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
     EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
     return outcome.output;
   };
-  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR, prefix));
+  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR,
+                   prefix));
   must(fmt::format("{} -S {}/docs/examples/cull_depth -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
                    source_folder, build, prefix));
   must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
@@ -83,7 +85,9 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
     pairs += count, tiles += count > 0;
   }
   std::smatch numbers;
-  ASSERT_TRUE(std::regex_search(out, numbers, std::regex("tiles, ([0-9]+) of[^]*500 lights, ([0-9]+) entries"))) << out;
+  ASSERT_TRUE(
+      std::regex_search(out, numbers, std::regex("tiles, ([0-9]+) of[^]*500 lights, ([0-9]+) entries")))
+      << out;
   EXPECT_GE(std::stoul(numbers[1]), tiles);
   EXPECT_GE(std::stoul(numbers[2]), pairs);
   EXPECT_LE(std::stoul(numbers[2]), 2 * pairs);
@@ -91,7 +95,8 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
   if (!has_tool("ldd")) GTEST_SKIP() << "there is no ldd to ask what the example links";
   const std::string libraries = must("ldd " + build + "/cull_depth");
   EXPECT_THAT(libraries, HasSubstr("libOpenCL"));
-  for (const char* name : {"libGL", "libEGL", "libOSMesa", "libglapi", "libX11", "libpng", "libspdlog", "libdraco"}) {
+  for (const char* name :
+       {"libGL", "libEGL", "libOSMesa", "libglapi", "libX11", "libpng", "libspdlog", "libdraco"}) {
     EXPECT_THAT(libraries, Not(HasSubstr(name)));
   }
 }
@@ -100,10 +105,10 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
 TEST(Library, AloneIsConfiguredWithoutThePackagesOfTheProgram) {
   if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
   const TempFolder temp;
-  std::string command = fmt::format("{} -S {} -B {} -DLIGHTGRID_PROGRAM=OFF", LIGHTGRID_CONFIGURE, source_folder,
-                                    temp.path.string());
-  for (const char* package : {"CLI11", "draco", "GTest", "meshoptimizer", "nlohmann_json", "OpenGL", "PkgConfig", "PNG",
-                              "spdlog", "TinyGLTF", "tinyexr"}) {
+  std::string command = fmt::format("{} -S {} -B {} -DLIGHTGRID_PROGRAM=OFF", LIGHTGRID_CONFIGURE,
+                                    source_folder, temp.path.string());
+  for (const char* package : {"CLI11", "draco", "GTest", "meshoptimizer", "nlohmann_json", "OpenGL",
+                              "PkgConfig", "PNG", "spdlog", "TinyGLTF", "tinyexr"}) {
     command += fmt::format(" -DCMAKE_DISABLE_FIND_PACKAGE_{}=ON", package);
   }
   const CommandOutcome outcome = run_command(command + " 2>&1");

@@ -20,7 +20,8 @@ std::vector<ViewLight> some_lights(int count, bool spots, uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     const double d = 0.5 + 20 * random.uniform();
     const glm::dvec3 place(d * random.uniform(-1, 1), d * random.uniform(-0.6f, 0.6f), -d);
-    lights.push_back(spots && i % 2 ? spot_light(place, {0.3, -1, 0.1}, 4, 0.5) : point_light(place, 0.2 * d));
+    lights.push_back(spots && i % 2 ? spot_light(place, {0.3, -1, 0.1}, 4, 0.5)
+                                    : point_light(place, 0.2 * d));
   }
   return lights;
 }
@@ -44,10 +45,11 @@ TEST_P(LightCullerOf, LightsAndViewsThatChangeGiveTheGridsOfAFreshOne) {
   const View small = view_of(127, 73, 60), large = view_of(640, 360, 90);
   const View flat = orthographic_view_of(127, 73, 5, 0, 100);
   const std::vector<float> edges = slice_edges(SliceSpacing::exponential, 8, 0.1, 50);
-  const std::vector<Scene> scenes = {{small, {}, some_lights(300, false, 1)}, {small, {}, some_lights(300, true, 2)},
-                                     {large, {}, some_lights(1000, true, 3)}, {small, {}, {}},
-                                     {flat, {}, some_lights(17, false, 4)},   {small, edges, some_lights(300, true, 5)},
-                                     {small, {}, some_lights(300, true, 5)},  {large, {}, some_lights(1, false, 6)}};
+  const std::vector<Scene> scenes = {
+      {small, {}, some_lights(300, false, 1)}, {small, {}, some_lights(300, true, 2)},
+      {large, {}, some_lights(1000, true, 3)}, {small, {}, {}},
+      {flat, {}, some_lights(17, false, 4)},   {small, edges, some_lights(300, true, 5)},
+      {small, {}, some_lights(300, true, 5)},  {large, {}, some_lights(1, false, 6)}};
   LightCuller culler(test_device(), test_programs(), options);
   for (size_t i = 0; i < scenes.size(); ++i) {
     LightCuller fresh(test_device(), test_programs(), options);
@@ -82,7 +84,9 @@ TEST_P(LightCullerOf, WithoutDepthBoundsTilesReachAsFarAsTheViewDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, LightCullerOf, testing::Values(KernelShape::lanes, KernelShape::group),
-                         [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
+                         [](const auto& info) {
+                           return info.param == KernelShape::lanes ? "lanes" : "group";
+                         });
 
 TEST(LightCuller, ChoosesTheShapeFromTheDevice) {
   const LightCuller culler(test_device(), test_programs(), {});
@@ -117,11 +121,13 @@ TEST(LightCuller, RefusesOptionsThatAreNone) {
 TEST(LightCuller, GivesTheSameGridWithAnyGroupSize) {
   const View view = view_of(127, 73, 60);
   std::vector<ViewLight> lights;
-  for (int i = 0; i < 70000; ++i) lights.push_back(point_light({0.01 * (i % 100) - 0.5, 0.002 * (i % 37), -1 - 0.0004 * i}, 0.2));
+  for (int i = 0; i < 70000; ++i)
+    lights.push_back(point_light({0.01 * (i % 100) - 0.5, 0.002 * (i % 37), -1 - 0.0004 * i}, 0.2));
   const std::vector<glm::vec2> intervals(tile_count(view, 16), {1, 9});
   const CulledGrid lanes = cull_cells(view, lights, intervals, {.shape = KernelShape::lanes});
   for (const int size : {0, 64, 128, 256, 512, 1024}) {
-    EXPECT_EQ(cull_cells(view, lights, intervals, {.shape = KernelShape::group, .group_size = size}), lanes) << size;
+    EXPECT_EQ(cull_cells(view, lights, intervals, {.shape = KernelShape::group, .group_size = size}), lanes)
+        << size;
   }
 }
 
@@ -134,7 +140,8 @@ TEST(LightCuller, FitsItsGroupsToTheDevice) {
     ClDevice device;
     ProgramCache programs(device);
     const_cast<ClDeviceInfo&>(device.info()).max_group_items = most_items;
-    const cl::Buffer values(device.context(), CL_MEM_COPY_HOST_PTR, depth.size() * sizeof(float), const_cast<float*>(depth.data()));
+    const cl::Buffer values(device.context(), CL_MEM_COPY_HOST_PTR, depth.size() * sizeof(float),
+                            const_cast<float*>(depth.data()));
     LightCuller culler(device, programs, {.shape = KernelShape::group});
     culler.set_lights(lights);
     culler.set_view(cull_view_of(view));
@@ -173,7 +180,8 @@ TEST(LightCuller, FindsSmallLightsAmongTwoMillionTiles) {
   const CulledGrid grid = cull_cells(view, lights, intervals, {.shape = KernelShape::lanes, .tile = tile});
   EXPECT_EQ(grid.params.region_bins, 16u);
   EXPECT_GT(grid.params.regions_x * grid.params.regions_y, 64u);
-  for (uint32_t i = 0; i < lights.size(); ++i) EXPECT_THAT(grid.list(cells[i]), testing::Contains(i)) << cells[i];
+  for (uint32_t i = 0; i < lights.size(); ++i)
+    EXPECT_THAT(grid.list(cells[i]), testing::Contains(i)) << cells[i];
   EXPECT_EQ(grid.indices.size(), lights.size());  // each in the middle of its tile
 }
 

@@ -1,5 +1,5 @@
-// Lights far from each other and from the eye: no light that reaches a pixel is lost, whatever the distance between lights.
-// Decided by the oracle in double.
+// Lights far from each other and from the eye: no light that reaches a pixel is lost, whatever the distance
+// between lights. Decided by the oracle in double.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,7 +17,9 @@ constexpr double wall_m = 3;
 
 View room() { return view_of(size, size, 60); }
 
-std::vector<float> wall_depth(double distance) { return std::vector<float>(size * size, float(0.1 / distance)); }
+std::vector<float> wall_depth(double distance) {
+  return std::vector<float>(size * size, float(0.1 / distance));
+}
 
 glm::dvec3 random_direction(Random& random) {
   glm::dvec3 d;
@@ -31,21 +33,26 @@ std::vector<ViewLight> lights_at_the_wall(size_t count, uint64_t seed) {
   Random random(seed);
   std::vector<ViewLight> lights;
   for (size_t i = 0; i < count; ++i) {
-    const glm::dvec3 at((random.uniform() - 0.5) * 4, (random.uniform() - 0.5) * 4, -wall_m + random.uniform() * 2);
+    const glm::dvec3 at((random.uniform() - 0.5) * 4, (random.uniform() - 0.5) * 4,
+                        -wall_m + random.uniform() * 2);
     const glm::dvec3 towards = random_direction(random) - glm::dvec3(0, 0, 1);
-    if (i % 2) lights.push_back(spot_light(at, towards, 2.5, 0.02 + 0.1 * random.uniform()));
-    else lights.push_back(point_light(at, 0.05 + random.uniform()));
+    if (i % 2)
+      lights.push_back(spot_light(at, towards, 2.5, 0.02 + 0.1 * random.uniform()));
+    else
+      lights.push_back(point_light(at, 0.05 + random.uniform()));
   }
   return lights;
 }
 
-LitPairs pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights, KernelShape shape) {
+LitPairs pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
+               KernelShape shape) {
   const CulledGrid grid = cull_depth(view, lights, depth, {.shape = shape});
   ListedLights lists;
   for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
   lists.indices = grid.indices;
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) lists.cell_of_pixel.push_back(uint32_t(y / 16 * grid.grid.cells_x + x / 16));
+    for (int x = 0; x < size; ++x)
+      lists.cell_of_pixel.push_back(uint32_t(y / 16 * grid.grid.cells_x + x / 16));
   }
   return count_pairs(view, depth, lights, lists);
 }
@@ -64,7 +71,8 @@ TEST_P(Loss, NoneWhereMostLightsAreFarFromTheRoom) {
     std::vector<ViewLight> lights = lights_at_the_wall(1000, 3);
     Random random(4);
     for (int i = 0; i < 1010; ++i) {
-      lights.push_back(point_light(glm::dvec3(1, 0.7, -0.3) * spread + random_direction(random) * (spread * 0.01), 2));
+      lights.push_back(
+          point_light(glm::dvec3(1, 0.7, -0.3) * spread + random_direction(random) * (spread * 0.01), 2));
     }
     expect_none_lost(lights);
   }
@@ -119,14 +127,17 @@ TEST_P(Loss, NoneInTheSmallest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Loss, testing::Values(KernelShape::lanes, KernelShape::group),
-                         [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
+                         [](const auto& info) {
+                           return info.param == KernelShape::lanes ? "lanes" : "group";
+                         });
 
 CullLight lamp(const glm::dvec3& position, double radius, double cos_outer = -1) {
   return {position, radius, {0, 0, -1}, cos_outer};
 }
 
 TEST(ChooseOrigin, IsTheMedianLightAsLongAsRoundingIsSmallBesideRadii) {
-  EXPECT_EQ(choose_origin(std::vector{lamp({1, 5, 0}, 1), lamp({2, 4, 0}, 1), lamp({9, 6, 1000}, 1)}).fixed, glm::dvec3(2, 5, 0));
+  EXPECT_EQ(choose_origin(std::vector{lamp({1, 5, 0}, 1), lamp({2, 4, 0}, 1), lamp({9, 6, 1000}, 1)}).fixed,
+            glm::dvec3(2, 5, 0));
   std::vector<CullLight> lights(100, lamp({1, 2, 3}, 1));
   lights[0].position.x = 1e7;  // one may be far
   EXPECT_EQ(choose_origin(lights).fixed, glm::dvec3(1, 2, 3));
@@ -135,13 +146,16 @@ TEST(ChooseOrigin, IsTheMedianLightAsLongAsRoundingIsSmallBesideRadii) {
 }
 
 TEST(ChooseOrigin, GivesConesTheLargestRoundingOfASpot) {
-  const LightOrigin origin = choose_origin(std::vector{lamp({0, 0, 0}, 1, 0.5), lamp({0, 0, 0}, 1), lamp({100, 20, 8}, 1, 0.5)});
+  const LightOrigin origin =
+      choose_origin(std::vector{lamp({0, 0, 0}, 1, 0.5), lamp({0, 0, 0}, 1), lamp({100, 20, 8}, 1, 0.5)});
   ASSERT_TRUE(origin.fixed);
   EXPECT_EQ(origin.cone_slack_m, 128 * 0x1p-24);
 }
 
 TEST(ChooseOrigin, LeavesOutParkedLights) {
-  EXPECT_EQ(choose_origin(std::vector{lamp({1e30, 0, 0}, 1), lamp({3, 4, 5}, 1), lamp({1e19, 0, 0}, 1)}).fixed, glm::dvec3(3, 4, 5));
+  EXPECT_EQ(
+      choose_origin(std::vector{lamp({1e30, 0, 0}, 1), lamp({3, 4, 5}, 1), lamp({1e19, 0, 0}, 1)}).fixed,
+      glm::dvec3(3, 4, 5));
 }
 
 }  // namespace

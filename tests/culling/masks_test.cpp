@@ -13,7 +13,8 @@ std::vector<ViewLight> mask_lights(int count) {
   Random random(3);
   std::vector<ViewLight> lights;
   for (int i = 0; i < count; ++i) {
-    lights.push_back(point_light({random.uniform(-4, 4), random.uniform(-3, 3), -random.uniform(1, 9)}, random.uniform(0.1f, 2)));
+    lights.push_back(point_light({random.uniform(-4, 4), random.uniform(-3, 3), -random.uniform(1, 9)},
+                                 random.uniform(0.1f, 2)));
   }
   return lights;
 }
@@ -30,7 +31,8 @@ TEST(Masks, SayWhatTheListsSay) {
   const View view = view_of(127, 73, 60);
   const std::vector<glm::vec2> intervals(tile_count(view, 16), {0, far_away});
   for (const int count : {0, 1, 31, 32, 33, 64, 257}) {
-    for (const auto& [edges, bits] : {std::pair(std::vector<float>(), 16), std::pair(std::vector<float>{2, 4}, 32)}) {
+    for (const auto& [edges, bits] :
+         {std::pair(std::vector<float>(), 16), std::pair(std::vector<float>{2, 4}, 32)}) {
       SCOPED_TRACE(fmt::format("{} lights, {} edges", count, edges.size()));
       CullerOptions options;
       options.index_bits = bits;
@@ -41,7 +43,8 @@ TEST(Masks, SayWhatTheListsSay) {
       EXPECT_EQ(grid, lists);
       ASSERT_EQ(grid.grid.mask_words, size_t(count + 31) / 32);
       ASSERT_EQ(grid.masks.size(), grid.cells.size() * grid.grid.mask_words);
-      for (size_t cell = 0; cell < grid.cells.size(); ++cell) ASSERT_EQ(set_bits(grid, cell), grid.list(cell)) << cell;
+      for (size_t cell = 0; cell < grid.cells.size(); ++cell)
+        ASSERT_EQ(set_bits(grid, cell), grid.list(cell)) << cell;
     }
   }
 }

@@ -16,14 +16,14 @@ namespace {
 
 constexpr int width = 83, height = 51;
 
-// A depth row whose near plane is dot(normal, p) = -distance, p in view space (Lengyel 2005): depth is one end there
-// and grows to the other.
+// A depth row whose near plane is dot(normal, p) = -distance, p in view space (Lengyel 2005): depth is one
+// end there and grows to the other.
 View mirror_view(double fov_deg, const glm::dvec3& normal, double distance, bool standard) {
   View view = view_of(width, height, fov_deg);
   const glm::dvec4 plane(-glm::normalize(normal), -distance);  // positive beyond the plane, seen from the eye
   glm::dmat4& clip = view.clip_from_view;
-  // Standard depth is a multiple of the plane's distance over w; reversed is 1 less that. The multiple makes the
-  // farthest corner's direction come to 1 at infinity.
+  // Standard depth is a multiple of the plane's distance over w; reversed is 1 less that. The multiple makes
+  // the farthest corner's direction come to 1 at infinity.
   double steepest = 0;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
@@ -38,7 +38,9 @@ View mirror_view(double fov_deg, const glm::dvec3& normal, double distance, bool
   return view;
 }
 
-CullView culled(const View& view) { return {view.width, view.height, view.clip_from_view, glm::dmat4(1), glm::dvec3(0)}; }
+CullView culled(const View& view) {
+  return {view.width, view.height, view.clip_from_view, glm::dmat4(1), glm::dvec3(0)};
+}
 
 struct Mirror {
   const char* name;
@@ -61,8 +63,8 @@ std::vector<float> random_surfaces(const Mirror& mirror, Random& random) {
     for (int x = 0; x < width; ++x) {
       const double front = -position_from_depth(mirror.view, x, y, mirror.standard ? 0 : 1).z;
       const double distance = front * std::exp(3.4 * random.uniform());
-      const glm::dvec3 at(view_x_of_pixel(mirror.view, x + 0.5) * distance, view_y_of_pixel(mirror.view, y + 0.5) * distance,
-                          -distance);
+      const glm::dvec3 at(view_x_of_pixel(mirror.view, x + 0.5) * distance,
+                          view_y_of_pixel(mirror.view, y + 0.5) * distance, -distance);
       const glm::dvec4 clip = mirror.view.clip_from_view * glm::dvec4(at, 1);
       depth.push_back(float(clip.z / clip.w));
     }
@@ -106,10 +108,12 @@ TEST(ObliqueView, NoPixelLosesALight) {
       const double reach = -at.z * std::pow(0.5, 10 * random.uniform());
       lights.push_back(point_light(at + glm::normalize(away) * reach, reach * (1 + 1e-6 * random.uniform())));
     }
-    for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32}) {
+    for (const DepthBoundsMode mode :
+         {DepthBoundsMode::minmax, DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32}) {
       for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
         SCOPED_TRACE(testing::Message() << mirror.name << " mode " << int(mode) << " shape " << int(shape));
-        const CulledGrid grid = cull_depth(mirror.view, lights, depth, {.depth_bounds = mode, .shape = shape});
+        const CulledGrid grid =
+            cull_depth(mirror.view, lights, depth, {.depth_bounds = mode, .shape = shape});
         const LitPairs pairs = count_pairs(mirror.view, depth, lights, lists_of(grid, 16));
         EXPECT_EQ(pairs.lost, 0u);
         EXPECT_GT(pairs.lit, 3000u);
@@ -130,7 +134,8 @@ TEST(ObliqueView, BoundsHoldSurfacesAndLittleMoreAndSkyIsNone) {
     }
     LightCuller culler(test_device(), test_programs(), {});
     culler.set_view(culled(mirror.view));
-    const std::vector<DepthInterval> bounds = culler.read_bounds(culler.depth_bounds({buffer_of(depth)}).opaque);
+    const std::vector<DepthInterval> bounds =
+        culler.read_bounds(culler.depth_bounds({buffer_of(depth)}).opaque);
     for (size_t tile = 0; tile < bounds.size(); ++tile) {
       const int tiles_x = (width + 15) / 16, tx = int(tile) % tiles_x * 16, ty = int(tile) / tiles_x * 16;
       double near = 1e300, far = 0;

@@ -36,7 +36,8 @@ inline Projection projection(std::string name, bool orthographic, bool standard,
   if (orthographic) {
     m[2][2] = 1 / span, m[3][2] = far_m / span;
   } else {
-    m[2][2] = std::isinf(far_m) ? 0 : near_m / span, m[3][2] = std::isinf(far_m) ? near_m : near_m * (far_m / span);
+    m[2][2] = std::isinf(far_m) ? 0 : near_m / span,
+    m[3][2] = std::isinf(far_m) ? near_m : near_m * (far_m / span);
   }
   if (standard) m[2][2] = -m[2][2] - tip, m[3][2] = (orthographic ? 1 : 0) - m[3][2];
   return {std::move(name), orthographic, standard, near_m, far_m, m};

@@ -10,8 +10,8 @@ namespace lightgrid {
 namespace {
 
 HostGrid cull_sliced(const View& view, const std::vector<ViewLight>& lights,
-                     const std::vector<DepthInterval>& intervals, const std::vector<float>& edges, KernelShape shape,
-                     CullParams* params = nullptr) {
+                     const std::vector<DepthInterval>& intervals, const std::vector<float>& edges,
+                     KernelShape shape, CullParams* params = nullptr) {
   LightCuller culler(test_device(), test_programs(), {.shape = shape});
   culler.set_lights(cull_lights_of(lights));
   CullView cull_view = cull_view_of(view);
@@ -53,9 +53,11 @@ TEST_P(Sliced, CellsListWhatTouchesThemAndNothingOfOtherTiles) {
   for (int s = 0; s < 8; ++s) {
     std::vector<glm::vec2> cut;
     for (const DepthInterval& i : intervals) {
-      cut.emplace_back(s > 0 ? std::max(i.near, edges[s - 1]) : i.near, s < 7 ? std::min(i.far, edges[s]) : i.far);
+      cut.emplace_back(s > 0 ? std::max(i.near, edges[s - 1]) : i.near,
+                       s < 7 ? std::min(i.far, edges[s]) : i.far);
     }
-    sliced.cells.assign(host.cells.begin() + s * intervals.size(), host.cells.begin() + (s + 1) * intervals.size());
+    sliced.cells.assign(host.cells.begin() + s * intervals.size(),
+                        host.cells.begin() + (s + 1) * intervals.size());
     touching += expect_none_lost(view, lights, cut, sliced, 0.5);
     for (size_t i = 0; i < intervals.size(); ++i) {
       const auto list = sliced.list(i);
@@ -69,12 +71,15 @@ TEST_P(Sliced, CellsListWhatTouchesThemAndNothingOfOtherTiles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Sliced, testing::Values(KernelShape::lanes, KernelShape::group),
-                         [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
+                         [](const auto& info) {
+                           return info.param == KernelShape::lanes ? "lanes" : "group";
+                         });
 
 TEST(Slices, GiveTheSameBytesInBothShapes) {
   const View view = view_of(127, 73, 60);
   std::vector<ViewLight> lights;
-  for (int i = 0; i < 100; ++i) lights.push_back(point_light({0.1 * (i % 10) - 0.5, 0, -1 - 0.2 * i}, 0.05 * i));
+  for (int i = 0; i < 100; ++i)
+    lights.push_back(point_light({0.1 * (i % 10) - 0.5, 0, -1 - 0.2 * i}, 0.05 * i));
   const std::vector<DepthInterval> intervals(tile_count(view, 16), {0.5f, 30});
   const std::vector<float> edges = slice_edges(SliceSpacing::linear, 5, 0.1, 20);
   EXPECT_TRUE(cull_sliced(view, lights, intervals, edges, KernelShape::lanes) ==

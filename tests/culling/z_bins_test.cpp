@@ -1,4 +1,5 @@
-// Which z-bins each light may reach, on cases solved by hand; agreement/z_bins_of_lights (src/verify) has the rest.
+// Which z-bins each light may reach, on cases solved by hand; agreement/z_bins_of_lights (src/verify) has the
+// rest.
 #include <gmock/gmock.h>
 
 #include "base/error.h"
@@ -10,8 +11,8 @@ namespace {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
-std::vector<uint32_t> bins_of(const std::vector<CullLight>& lights, const View& view, const std::vector<float>& edges,
-                              KernelShape shape = KernelShape::automatic) {
+std::vector<uint32_t> bins_of(const std::vector<CullLight>& lights, const View& view,
+                              const std::vector<float>& edges, KernelShape shape = KernelShape::automatic) {
   LightCuller culler(test_device(), test_programs(), {.shape = shape});
   culler.set_lights(lights);
   CullView culled = cull_view_of(view);
@@ -65,7 +66,8 @@ TEST(ZBins, AreTheSameInBothShapesAndOfAnyNumberOfLights) {
 
 TEST(ZBins, OfEdgesThatMakeNoneAreRefused) {
   const View view = view_of(64, 48, 60);
-  for (const std::vector<float>& edges : {std::vector<float>{2, 1}, {0, 1}, {1, INFINITY}, {1, NAN}, std::vector<float>(256, 1.0f)}) {
+  for (const std::vector<float>& edges :
+       {std::vector<float>{2, 1}, {0, 1}, {1, INFINITY}, {1, NAN}, std::vector<float>(256, 1.0f)}) {
     try {
       bins_of({{{0, 0, -1}, 1}}, view, edges);
       ADD_FAILURE() << testing::PrintToString(edges);

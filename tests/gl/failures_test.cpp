@@ -84,9 +84,10 @@ TEST_F(GlFailures, AProgramThatDoesNotCompileLeavesNoShaderBehind) {
 TEST_F(GlFailures, ResetStateIsThatOfANewContext) {
   const auto state = [] {
     std::vector<GLint> values;
-    for (const GLenum name : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND_SRC_RGB,
-                              GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_CULL_FACE_MODE, GL_FRONT_FACE, GL_DEPTH_FUNC,
-                              GL_DEPTH_WRITEMASK, GL_STENCIL_FUNC, GL_STENCIL_WRITEMASK, GL_STENCIL_FAIL, GL_STENCIL_BACK_WRITEMASK,
+    for (const GLenum name : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST,
+                              GL_BLEND_SRC_RGB, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_CULL_FACE_MODE,
+                              GL_FRONT_FACE, GL_DEPTH_FUNC, GL_DEPTH_WRITEMASK, GL_STENCIL_FUNC,
+                              GL_STENCIL_WRITEMASK, GL_STENCIL_FAIL, GL_STENCIL_BACK_WRITEMASK,
                               GL_PIXEL_PACK_BUFFER_BINDING, GL_VERTEX_ARRAY_BINDING, GL_SAMPLER_BINDING}) {
       glGetIntegerv(name, &values.emplace_back());
       const bool is_mask = name == GL_STENCIL_WRITEMASK || name == GL_STENCIL_BACK_WRITEMASK;
@@ -101,9 +102,12 @@ TEST_F(GlFailures, ResetStateIsThatOfANewContext) {
   const GlSampler sampler = make_sampler();
   const GlBuffer buffer = make_buffer(64, nullptr);
   const GlVertexArray array = make_vertex_array();
-  for (const GLenum test : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST}) glEnable(test);
-  glBlendEquation(GL_MAX), glBlendFunc(GL_ONE, GL_ONE), glCullFace(GL_FRONT), glFrontFace(GL_CW), glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE), glStencilMask(1), glStencilFunc(GL_EQUAL, 1, 1), glStencilOp(GL_ZERO, GL_ZERO, GL_ZERO);
+  for (const GLenum test : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST})
+    glEnable(test);
+  glBlendEquation(GL_MAX), glBlendFunc(GL_ONE, GL_ONE), glCullFace(GL_FRONT), glFrontFace(GL_CW),
+      glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE), glStencilMask(1), glStencilFunc(GL_EQUAL, 1, 1),
+      glStencilOp(GL_ZERO, GL_ZERO, GL_ZERO);
   glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.name());
   glBindVertexArray(array.name());

@@ -98,8 +98,8 @@ TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
     GTEST_SKIP() << "wrote " << golden;
   }
   const Bytes expected = load_golden(golden);
-  ASSERT_EQ(expected.size(), actual.size()) << golden << " is missing or no image of " << width << "x" << height
-                                            << "; UPDATE_GOLDEN=1 makes it (docs/testing.md)";
+  ASSERT_EQ(expected.size(), actual.size()) << golden << " is missing or no image of " << width << "x"
+                                            << height << "; UPDATE_GOLDEN=1 makes it (docs/testing.md)";
   const Difference d = difference_of(actual, expected);
   const bool near_enough = d.share_off <= allowed_share_off && d.beyond <= allowed_beyond;
   const bool equal = d.mean <= allowed_mean && near_enough;
@@ -110,12 +110,13 @@ TEST_P(GoldenImage, IsWhatTheSceneLooksLike) {
     write_file(folder / (name + ".expected.png"), encode_png(width, height, 3, expected));
     write_file(folder / (name + ".difference.png"), encode_png(width, height, 3, d.picture));
     const Renderer& devices = software_devices();
-    const std::string device = devices.gl->renderer + ", " + devices.gl->version + "\n" + devices.cl->info().name + "\n";
+    const std::string device =
+        devices.gl->renderer + ", " + devices.gl->version + "\n" + devices.cl->info().name + "\n";
     write_file(folder / (name + ".device.txt"), device);
-    ADD_FAILURE() << "mean " << d.mean << " (allowed " << allowed_mean << "), off by more than " << allowed_step << ": "
-                  << d.share_off << " of pixels (allowed " << allowed_share_off << "), largest " << d.largest
-                  << ", beyond the neighbours by " << d.beyond << " (allowed " << allowed_beyond << ")\non "
-                  << device << "see " << folder / (name + ".*.png");
+    ADD_FAILURE() << "mean " << d.mean << " (allowed " << allowed_mean << "), off by more than "
+                  << allowed_step << ": " << d.share_off << " of pixels (allowed " << allowed_share_off
+                  << "), largest " << d.largest << ", beyond the neighbours by " << d.beyond << " (allowed "
+                  << allowed_beyond << ")\non " << device << "see " << folder / (name + ".*.png");
   }
 }
 
@@ -125,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Of, GoldenImage,
                          [](const auto& info) {
                            return std::get<0>(info.param) + std::string("_") + std::get<1>(info.param);
                          });
-// By visibility it would only compile a further variant of its largest kernels: passes/resolve_test has skin and Minnaert.
+// By visibility it would only compile a further variant of its largest kernels: passes/resolve_test has skin
+// and Minnaert.
 INSTANTIATE_TEST_SUITE_P(OfModels, GoldenImage, testing::Values(std::tuple("gallery", "forward_plus")),
                          [](const auto& info) { return std::string(std::get<0>(info.param)); });
 

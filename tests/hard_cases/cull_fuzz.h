@@ -28,8 +28,10 @@ class Bytes {
 
   // Usually a plausible number, sometimes a special one, sometimes any bits.
   double number(double low, double high) {
-    constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    constexpr double special[] = {0, -0.0, nan, -nan, inf, -inf, 1e-45, -1e-45, 1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1, -1};
+    constexpr double inf = std::numeric_limits<double>::infinity(),
+                     nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double special[] = {0,      -0.0, nan,   -nan, inf,   -inf,  1e-45, -1e-45,
+                                  1e-310, 1e20, -1e20, 1e38, -1e38, 1e300, 1,     -1};
     const int kind = up_to(31);
     if (kind == 0) return take<double>();
     if (kind == 1) return take<float>();
@@ -53,7 +55,8 @@ struct FuzzInput {
 // Sizes and settings in their range; every number may be anything.
 inline FuzzInput fuzz_input(Bytes bytes) {
   FuzzInput in;
-  // Few settings, because each builds its own kernels: four combinations. Slices and standard depth are kernels of their own too.
+  // Few settings, because each builds its own kernels: four combinations. Slices and standard depth are
+  // kernels of their own too.
   constexpr struct {
     CullTest test;
     DepthBoundsMode mode;
@@ -62,14 +65,14 @@ inline FuzzInput fuzz_input(Bytes bytes) {
     GridLists lists;
     bool portable, blend, sliced;
     DepthOrder order;
-  } kinds[] = {{CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1, 0, GridLists::lists, false, false, false,
-                DepthOrder::reversed},
-               {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1, 32, GridLists::masks, false, true, true,
-                DepthOrder::standard},
-               {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4, 16, GridLists::lists, true, false,
-                true, DepthOrder::reversed},
-               {CullTest::aabb, DepthBoundsMode::halfz, DepthFormat::d32f, 32, 1, 16, GridLists::masks, true, true, false,
-                DepthOrder::standard}};
+  } kinds[] = {{CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1, 0, GridLists::lists,
+                false, false, false, DepthOrder::reversed},
+               {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1, 32, GridLists::masks, false,
+                true, true, DepthOrder::standard},
+               {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4, 16,
+                GridLists::lists, true, false, true, DepthOrder::reversed},
+               {CullTest::aabb, DepthBoundsMode::halfz, DepthFormat::d32f, 32, 1, 16, GridLists::masks, true,
+                true, false, DepthOrder::standard}};
   CullerOptions& o = in.options;
   const auto& kind = kinds[bytes.up_to(3)];
   o.cull_test = kind.test, o.depth_bounds = kind.mode, o.depth_format = kind.format, o.tile = kind.tile;
@@ -87,16 +90,20 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   lens.orthographic = bytes.up_to(3) == 0, lens.order = kind.order;
   if (lens.orthographic && std::isinf(lens.far)) lens.far = 1000;
   in.view = view_through(lens, 1 + bytes.up_to(40), 1 + bytes.up_to(24));
-  if (bytes.up_to(3) == 0) in.view = placed(in.view, {bytes.number(-1e7, 1e7), 0, 1}, bytes.number(-3, 3), bytes.number(-1, 1));
+  if (bytes.up_to(3) == 0)
+    in.view = placed(in.view, {bytes.number(-1e7, 1e7), 0, 1}, bytes.number(-3, 3), bytes.number(-1, 1));
   float edge = 0;
-  for (int slices = kind.sliced ? 1 + bytes.up_to(3) : 0; slices > 0; --slices) in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
+  for (int slices = kind.sliced ? 1 + bytes.up_to(3) : 0; slices > 0; --slices)
+    in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
   edge = 0;
-  for (int bins = bytes.up_to(7); bins > 0; --bins) in.view.z_bin_edges.push_back(edge += 0.1f * float(1 + bytes.up_to(99)));
+  for (int bins = bytes.up_to(7); bins > 0; --bins)
+    in.view.z_bin_edges.push_back(edge += 0.1f * float(1 + bytes.up_to(99)));
   for (size_t i = tile_count(in.view, o.tile); i > 0; --i)
     in.bounds.push_back({float(bytes.number(0, 20)), float(bytes.number(5, 100))});
   in.depth.samples = kind.samples;
   for (int i = in.view.width * in.view.height * in.depth.samples; i > 0; --i)
-    in.depth.values.push_back(bytes.up_to(7) ? float(bytes.take<uint8_t>()) / 255 : float(bytes.number(0, 1)));
+    in.depth.values.push_back(bytes.up_to(7) ? float(bytes.take<uint8_t>()) / 255
+                                             : float(bytes.number(0, 1)));
   while (!bytes.empty() && in.lights.size() < 100) {
     CullLight light;
     for (int axis = 0; axis < 3; ++axis) light.position[axis] = bytes.number(-20, 20);
@@ -120,7 +127,8 @@ inline std::string masks_differ(const HostGrid& grid) {
     for (uint32_t i = 0; i < 32 * words; ++i) {
       if (grid.masks[cell * words + i / 32] >> i % 32 & 1) named.push_back(i);
     }
-    if (!std::ranges::equal(named, list_of(grid, cell))) return fmt::format("the mask of cell {} is not its list", cell);
+    if (!std::ranges::equal(named, list_of(grid, cell)))
+      return fmt::format("the mask of cell {} is not its list", cell);
   }
   return "";
 }
@@ -146,7 +154,8 @@ inline std::string fuzz_once(CullEngine& engine, const FuzzInput& in, bool* refu
       for (const HostGrid* grid : {&lanes[i], &group[i]}) {
         for (const std::string& wrong : {malformed(*grid, in.lights.size()), masks_differ(*grid)})
           if (!wrong.empty()) return fmt::format("{}: {}", names[i], wrong);
-        if (grid->z_bins.size() != (in.view.z_bin_edges.empty() ? 0 : in.lights.size())) return "a word of z-bins for each light";
+        if (grid->z_bins.size() != (in.view.z_bin_edges.empty() ? 0 : in.lights.size()))
+          return "a word of z-bins for each light";
       }
       if (lanes[i] != group[i]) return fmt::format("lanes and group differ {}", names[i]);
     }

@@ -75,7 +75,8 @@ TEST(FloatTwin, SamplesOfAViewportInStandardDepthOf16Bits) {
 TEST(FloatTwin, StrangeDepths) {
   Frame frame = frame_of(field_of_view(60, 127, 73), 200, true);
   const float invalid[] = {NAN, -NAN, INFINITY, -INFINITY, -0.0f, -0.5f, 1.5f, 1e-45f, 0.0f, 1.0f};
-  for (size_t i = 0; i < frame.depth.values.size(); i += 397) frame.depth.values[i] = invalid[i / 397 % std::size(invalid)];
+  for (size_t i = 0; i < frame.depth.values.size(); i += 397)
+    frame.depth.values[i] = invalid[i / 397 % std::size(invalid)];
   for (int mode = 1; mode < 5; ++mode) {
     CullerOptions options;
     options.depth_bounds = DepthBoundsMode(mode);

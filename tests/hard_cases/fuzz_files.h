@@ -1,9 +1,9 @@
 // Fuzz inputs as files: every number is stored by its bits, independent of the code that makes inputs from
 // bytes.
 //
-// Text, one word after another: options (cull test, depth bounds, depth format, tile, samples, index bits, lists, portable,
-// blend), width, height, clip_from_view, view_from_world, eye, then with a count before each: slice edges, z-bin edges,
-// bounds, lights, depth. Floats and doubles are their bits in hexadecimal.
+// Text, one word after another: options (cull test, depth bounds, depth format, tile, samples, index bits,
+// lists, portable, blend), width, height, clip_from_view, view_from_world, eye, then with a count before
+// each: slice edges, z-bin edges, bounds, lights, depth. Floats and doubles are their bits in hexadecimal.
 #pragma once
 
 #include <bit>
@@ -33,7 +33,9 @@ class FuzzFile {
     items(in.view.slice_edges, [&](float& v) { bits(v); });
     items(in.view.z_bin_edges, [&](float& v) { bits(v); });
     items(in.bounds, [&](DepthInterval& b) { bits(b.near), bits(b.far); });
-    items(in.lights, [&](CullLight& l) { vector(l.position), bits(l.radius_m), vector(l.direction), bits(l.cos_outer); });
+    items(in.lights, [&](CullLight& l) {
+      vector(l.position), bits(l.radius_m), vector(l.direction), bits(l.cos_outer);
+    });
     items(in.depth.values, [&](float& v) { bits(v); });
     if (write_) stream_ << '\n';
     if (!stream_) throw std::runtime_error(path_.string() + ": cut short, or cannot be read or written");
@@ -43,8 +45,10 @@ class FuzzFile {
   template <typename T>
   void number(T& value) {
     uint64_t word = uint64_t(value);
-    if (write_) stream_ << word << ' ';
-    else stream_ >> word;
+    if (write_)
+      stream_ << word << ' ';
+    else
+      stream_ >> word;
     value = T(word);
   }
   void bits(float& value) {
@@ -83,6 +87,8 @@ inline FuzzInput read_fuzz_input(const std::filesystem::path& path) {
   return in;
 }
 
-inline void write_fuzz_input(const std::filesystem::path& path, FuzzInput in) { FuzzFile(path, true).input(in); }
+inline void write_fuzz_input(const std::filesystem::path& path, FuzzInput in) {
+  FuzzFile(path, true).input(in);
+}
 
 }  // namespace lightgrid::verify

@@ -30,7 +30,8 @@ void digest_settings(Check& check, const CullView& view, size_t lights) {
   for (const CullerOptions& options : check.every_test()) add(check.grid(view, scattered, bounds, {options}));
   for (CullerOptions options : check.every_tile()) {
     for (int mode = 0; mode < 5; ++mode) {
-      // Each combination is a kernel of its own: all modes for the first size of tile, the usual one for the others.
+      // Each combination is a kernel of its own: all modes for the first size of tile, the usual one for the
+      // others.
       if (options.tile != 16 && DepthBoundsMode(mode) != CullerOptions().depth_bounds) continue;
       options.depth_bounds = DepthBoundsMode(mode);
       options.blend = mode == 1;
@@ -65,9 +66,12 @@ int main(int argc, char** argv) {
     return 0;
   } else {
     digest_settings(check, field_of_view(60, 64, 48), 70);
-    digest_settings(check, view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 100, .orthographic = true}, 33, 17), 70);
+    digest_settings(
+        check, view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 100, .orthographic = true}, 33, 17),
+        70);
   }
   const Outcome outcome = check.outcome();
-  std::printf("%s %016lx %s\n", outcome.verdict == Verdict::pass ? "pass" : "fail", (unsigned long)digest, outcome.why.c_str());
+  std::printf("%s %016lx %s\n", outcome.verdict == Verdict::pass ? "pass" : "fail", (unsigned long)digest,
+              outcome.why.c_str());
   return outcome.verdict == Verdict::pass ? 0 : 1;
 }

@@ -31,11 +31,12 @@ class NaiveCuller : public CullEngine {
     return cull_masked(o, view, lights, bounds, {});
   }
 
-  std::vector<DepthInterval> depth_bounds(const CullerOptions& o, const CullView& view, const DepthImage& depth,
-                                       bool blend) override {
+  std::vector<DepthInterval> depth_bounds(const CullerOptions& o, const CullView& view,
+                                          const DepthImage& depth, bool blend) override {
     check(o, view, 0);
     std::vector<DepthInterval> bounds;
-    for (size_t tile = 0; tile < tile_count(view, o.tile); ++tile) bounds.push_back(scan(o, view, depth, tile, blend));
+    for (size_t tile = 0; tile < tile_count(view, o.tile); ++tile)
+      bounds.push_back(scan(o, view, depth, tile, blend));
     return bounds;
   }
 
@@ -45,7 +46,8 @@ class NaiveCuller : public CullEngine {
     if (o.depth_bounds == DepthBoundsMode::none)
       std::fill(bounds.begin(), bounds.end(), DepthInterval{is_orthographic(view) ? -1e18f : 0.0f, 1e18f});
     std::vector<Mask> masks;
-    const bool masked = fault_ == Fault::mask_bin_32 || fault_ == Fault::mask_of_stored_depth || fault_ == Fault::mask_in_float;
+    const bool masked = fault_ == Fault::mask_bin_32 || fault_ == Fault::mask_of_stored_depth ||
+                        fault_ == Fault::mask_in_float;
     check(o, view, lights.size());
     if (masked && o.depth_bounds == DepthBoundsMode::mask32) {
       for (size_t tile = 0; tile < bounds.size(); ++tile) masks.push_back(mask_of(o, view, depth, tile));
@@ -63,7 +65,8 @@ class NaiveCuller : public CullEngine {
 
   // Projections other than the two kinds, and more list entries than 32 bits count.
   void check(const CullerOptions& o, const CullView& view, size_t lights) const {
-    if (fault_ != Fault::totals_of_32_bits && lights * tile_count(view, o.tile) * (view.slice_edges.size() + 1) >> 32)
+    if (fault_ != Fault::totals_of_32_bits &&
+        lights * tile_count(view, o.tile) * (view.slice_edges.size() + 1) >> 32)
       throw machine_error("more list entries than 32 bits count");
     if (fault_ == Fault::projections_unchecked) return;
     const bool orthographic = is_orthographic(view);
@@ -71,7 +74,8 @@ class NaiveCuller : public CullEngine {
       for (int r = 0; r < 4; ++r) {
         const bool used = (c == r && c < 3) || (c == 3 && r == 2) || (r < 2 && c == (orthographic ? 3 : 2)) ||
                           (r == 3 && c == (orthographic ? 3 : 2));
-        if (!used && view.clip_from_view[c][r] != 0) throw input_error("clip_from_view[{}][{}] is not 0", r, c);
+        if (!used && view.clip_from_view[c][r] != 0)
+          throw input_error("clip_from_view[{}][{}] is not 0", r, c);
       }
     }
   }
@@ -89,7 +93,8 @@ class NaiveCuller : public CullEngine {
   template <typename Body>
   void for_each_value(const CullerOptions& o, const CullView& view, const DepthImage& depth, size_t tile,
                       const Body& body) const {
-    const int x0 = int(tile % tiles_x(view, o.tile)) * o.tile, y0 = int(tile / tiles_x(view, o.tile)) * o.tile;
+    const int x0 = int(tile % tiles_x(view, o.tile)) * o.tile,
+              y0 = int(tile / tiles_x(view, o.tile)) * o.tile;
     const int x1 = std::min(x0 + o.tile, view.width), y1 = std::min(y0 + o.tile, view.height);
     const int row = depth.row_pixels ? depth.row_pixels : view.width;
     const bool whole = fault_ == Fault::viewport_ignored;
@@ -98,12 +103,15 @@ class NaiveCuller : public CullEngine {
       for (int x = x0; x < x1; ++x) {
         if (fault_ == Fault::last_pixel_forgotten && x == x0 + o.tile - 1 && y == y0 + o.tile - 1) continue;
         for (int s = 0; s < (fault_ == Fault::first_sample_only ? 1 : depth.samples); ++s)
-          body(depth.values[((size_t(y) + (whole ? 0 : depth.y)) * row + x + (whole ? 0 : depth.x)) * depth.samples + s]);
+          body(depth.values[((size_t(y) + (whole ? 0 : depth.y)) * row + x + (whole ? 0 : depth.x)) *
+                                depth.samples +
+                            s]);
       }
     }
   }
 
-  DepthInterval scan(const CullerOptions& o, const CullView& view, const DepthImage& depth, size_t tile, bool blend) const {
+  DepthInterval scan(const CullerOptions& o, const CullView& view, const DepthImage& depth, size_t tile,
+                     bool blend) const {
     double near = no_end, far = -no_end, farthest = 0;
     bool invalid = false, sky = false;
     int32_t least = std::numeric_limits<int32_t>::max();
@@ -170,7 +178,8 @@ class NaiveCuller : public CullEngine {
     for (size_t i = 0; i < all.size(); ++i) {
       OracleLight& light = all[i];
       if (fault_ == Fault::float_world)
-        light.position = glm::mat3(view.view_from_world) * (glm::vec3(lights[i].position) - glm::vec3(view.eye));
+        light.position =
+            glm::mat3(view.view_from_world) * (glm::vec3(lights[i].position) - glm::vec3(view.eye));
       if (fault_ == Fault::radius_squared) light.radius = std::abs(light.radius), light.lists_nothing = false;
       if (fault_ == Fault::world_direction) light.axis = lights[i].direction;
       const glm::dvec3 from_middle = lights[i].position - middle;
@@ -179,7 +188,8 @@ class NaiveCuller : public CullEngine {
         light.radius += 2 * light.position_error;
       }
       const double far = glm::length(from_middle);
-      if (fault_ == Fault::dropped_by_the_median && far > 1e18 && light.radius < far / 4) light.lists_nothing = true;
+      if (fault_ == Fault::dropped_by_the_median && far > 1e18 && light.radius < far / 4)
+        light.lists_nothing = true;
     }
     return all;
   }
@@ -201,7 +211,8 @@ class NaiveCuller : public CullEngine {
   // and the surface's own depth was rounded to the format.
   DepthInterval64 edge_range(const CullerOptions& o, const CullView& view, double edge) const {
     DepthInterval64 range{edge, edge};
-    if (fault_ != Fault::edges_not_widened) widen(o, view, float(depth_at(view, edge)), range.near, range.far);
+    if (fault_ != Fault::edges_not_widened)
+      widen(o, view, float(depth_at(view, edge)), range.near, range.far);
     return range;
   }
 
@@ -215,8 +226,10 @@ class NaiveCuller : public CullEngine {
     if (slice > 0) c.near = std::max(c.near, edge_range(o, view, edges[slice - 1]).near);
     if (slice < edges.size()) c.far = std::min(c.far, edge_range(o, view, edges[slice]).far);
     if (fault_ == Fault::slopes_in_float) round_slopes(o, view, index % tiles, c);
-    if (fault_ == Fault::last_slice_closed && slice && slice == edges.size()) c.far = std::min(c.far, 2.0 * edges.back());
-    if (fault_ == Fault::first_slice_from_near && !edges.empty() && slice == 0) c.near = std::max(c.near, edges[0] / 2.0);
+    if (fault_ == Fault::last_slice_closed && slice && slice == edges.size())
+      c.far = std::min(c.far, 2.0 * edges.back());
+    if (fault_ == Fault::first_slice_from_near && !edges.empty() && slice == 0)
+      c.near = std::max(c.near, edges[0] / 2.0);
     return c;
   }
 
@@ -232,24 +245,30 @@ class NaiveCuller : public CullEngine {
   }
 
   static double with_slack(const OracleLight& l) {
-    return l.radius + 24 * 0x1p-24 * (std::abs(l.position.x) + std::abs(l.position.y) + std::abs(l.position.z) + l.radius);
+    return l.radius +
+           24 * 0x1p-24 *
+               (std::abs(l.position.x) + std::abs(l.position.y) + std::abs(l.position.z) + l.radius);
   }
 
   // The squared distance to the cell's box against the squared radius, in float.
   static bool box_in_float(const Cell& c, const OracleLight& l) {
     const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, 1e18));
     const glm::dvec3& p = l.position;
-    const float bx = float(std::max({std::min(c.x0 * s0, c.x0 * s1) - p.x, p.x - std::max(c.x1 * s0, c.x1 * s1), 0.0}));
-    const float by = float(std::max({std::min(c.y0 * s0, c.y0 * s1) - p.y, p.y - std::max(c.y1 * s0, c.y1 * s1), 0.0}));
+    const float bx =
+        float(std::max({std::min(c.x0 * s0, c.x0 * s1) - p.x, p.x - std::max(c.x1 * s0, c.x1 * s1), 0.0}));
+    const float by =
+        float(std::max({std::min(c.y0 * s0, c.y0 * s1) - p.y, p.y - std::max(c.y1 * s0, c.y1 * s1), 0.0}));
     const float bz = float(std::max({c.near + p.z, -p.z - c.far, 0.0})), r = float(with_slack(l));
     return bx * bx + by * by + bz * bz <= r * r;
   }
 
   // Planes and box in float, as in the kernels but without slack.
   static bool float_test(const Cell& c, const OracleLight& l, bool cross_products) {
-    const float x = float(l.position.x), y = float(l.position.y), d = float(-l.position.z), r = float(l.radius);
+    const float x = float(l.position.x), y = float(l.position.y), d = float(-l.position.z),
+                r = float(l.radius);
     const float x0 = float(c.x0), x1 = float(c.x1), y0 = float(c.y0), y1 = float(c.y1);
-    const float n = float(c.near), f = float(std::min(c.far, 1e18)), s0 = c.orthographic ? 1 : n, s1 = c.orthographic ? 1 : f;
+    const float n = float(c.near), f = float(std::min(c.far, 1e18)), s0 = c.orthographic ? 1 : n,
+                s1 = c.orthographic ? 1 : f;
     if (cross_products && !c.orthographic) {
       const glm::vec3 corners[4] = {{x0, y0, 1}, {x1, y0, 1}, {x1, y1, 1}, {x0, y1, 1}}, p(x, y, d);
       for (int i = 0; i < 4; ++i)
@@ -260,9 +279,11 @@ class NaiveCuller : public CullEngine {
     const float by = std::max({std::min(y0 * s0, y0 * s1) - y, y - std::max(y1 * s0, y1 * s1), 0.0f});
     const float bz = std::max({n - d, d - f, 0.0f});
     const float e = c.orthographic ? 1 : d, t = c.orthographic ? 0 : 1;
-    const auto side = [&](float value, float slope) { return value >= -r * std::sqrt(1 + t * slope * slope); };
-    return bx * bx + by * by + bz * bz <= r * r && side(x - x0 * e, x0) && side(x1 * e - x, x1) && side(y - y0 * e, y0) &&
-           side(y1 * e - y, y1);
+    const auto side = [&](float value, float slope) {
+      return value >= -r * std::sqrt(1 + t * slope * slope);
+    };
+    return bx * bx + by * by + bz * bz <= r * r && side(x - x0 * e, x0) && side(x1 * e - x, x1) &&
+           side(y - y0 * e, y0) && side(y1 * e - y, y1);
   }
 
   bool cone_sphere(const Cell& c, const OracleLight& l) const {
@@ -283,16 +304,19 @@ class NaiveCuller : public CullEngine {
       if (!float_test(c, l, fault_ == Fault::cross_product_planes)) return false;
     } else if (fault_ == Fault::projected_rectangle && !c.orthographic) {
       const double d = -l.position.z, x = l.position.x / d, y = l.position.y / d, r = l.radius / d;
-      if (x + r < c.x0 || x - r > c.x1 || y + r < c.y0 || y - r > c.y1 || d + l.radius < c.near || d - l.radius > c.far)
+      if (x + r < c.x0 || x - r > c.x1 || y + r < c.y0 || y - r > c.y1 || d + l.radius < c.near ||
+          d - l.radius > c.far)
         return false;
     } else if (fault_ == Fault::box_ends_swapped) {
       const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, 1e18));
       const glm::dvec3& p = l.position;
-      const double bx = std::max({c.x0 * s1 - p.x, p.x - c.x1 * s1, 0.0}), by = std::max({c.y0 * s0 - p.y, p.y - c.y1 * s0, 0.0});
+      const double bx = std::max({c.x0 * s1 - p.x, p.x - c.x1 * s1, 0.0}),
+                   by = std::max({c.y0 * s0 - p.y, p.y - c.y1 * s0, 0.0});
       if (std::hypot(bx, by) > l.radius || !sphere_touches_cell(c, p, l.radius)) return false;
     } else if (fault_ == Fault::squares_underflow) {
       if (!sphere_touches_cell(c, l.position, with_slack(l)) || !box_in_float(c, l)) return false;
-    } else if (!sphere_touches_cell(c, l.position, fault_ == Fault::slopes_in_float ? with_slack(l) : l.radius)) {
+    } else if (!sphere_touches_cell(c, l.position,
+                                    fault_ == Fault::slopes_in_float ? with_slack(l) : l.radius)) {
       return false;
     }
     if (fault_ == Fault::no_cones_past_90 && l.cos_outer > -1) return cone_sphere(c, l);
@@ -300,7 +324,8 @@ class NaiveCuller : public CullEngine {
     return l.cos_outer <= -1 || cone_touches_cell(c, l.position, l.axis, l.cos_outer, l.radius) != Touch::no;
   }
 
-  std::vector<uint32_t> z_bins(const CullerOptions& o, const CullView& view, const std::vector<OracleLight>& lights) const {
+  std::vector<uint32_t> z_bins(const CullerOptions& o, const CullView& view,
+                               const std::vector<OracleLight>& lights) const {
     const std::vector<float>& edges = view.z_bin_edges;
     std::vector<double> nearest, farthest;  // that each edge may represent
     for (const float edge : edges) {
@@ -340,7 +365,8 @@ class NaiveCuller : public CullEngine {
         if (!listed(view, c, all[light])) continue;
         if (!masks.empty()) {
           const Mask& mask = masks[size_t(i) % bounds.size()];
-          const double d = -all[light].position.z, from = mask.bin(d - all[light].radius), to = mask.bin(d + all[light].radius);
+          const double d = -all[light].position.z, from = mask.bin(d - all[light].radius),
+                       to = mask.bin(d + all[light].radius);
           uint32_t bits = 0;
           for (int bin = 0; bin < 32; ++bin) bits |= bin + 1 >= from && bin <= to ? 1u << bin : 0;
           if (!(bits & mask.bits)) continue;
@@ -349,7 +375,8 @@ class NaiveCuller : public CullEngine {
         lists[i].push_back(fault_ == Fault::sixteen_bit_indices ? light & 0xffff : light);
       }
       if (fault_ == Fault::eight_bit_counts) lists[i].resize(lists[i].size() & 0xff);
-      if (fault_ == Fault::order_by_chance && lists[i].size() > 1 && runs_++ % 2) std::swap(lists[i][0], lists[i][1]);
+      if (fault_ == Fault::order_by_chance && lists[i].size() > 1 && runs_++ % 2)
+        std::swap(lists[i][0], lists[i][1]);
     });
     for (const auto& list : lists) {
       grid.cells.emplace_back(grid.indices.size(), list.size());

@@ -29,7 +29,8 @@ TEST_P(ShapeDigest, IsThatOfOclgrindWhichFindsNoFault) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "AddressSanitizer and Oclgrind each have to be loaded first";
 #endif
-  if (run_command("command -v oclgrind").status != 0) GTEST_SKIP() << "no oclgrind here (Debian package oclgrind)";
+  if (run_command("command -v oclgrind").status != 0)
+    GTEST_SKIP() << "no oclgrind here (Debian package oclgrind)";
   const CommandOutcome watched =
       digest("LIGHTGRID_CL_CACHE=off oclgrind --build-options -cl-opt-disable --data-races", GetParam());
   EXPECT_EQ(watched.status, 0);

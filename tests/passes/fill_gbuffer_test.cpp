@@ -81,14 +81,15 @@ TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
   }
 }
 
-// Where a normal map bends the base but not its coat. Float stores the octahedral coordinates of the coat's normal, 24 bits
-// each.
+// Where a normal map bends the base but not its coat. Float stores the octahedral coordinates of the coat's
+// normal, 24 bits each.
 TEST(FillGbuffer, KeepsNormalsOfCoats) {
   Scene scene = wall_of_all_normals(100);
   scene.materials[0].clearcoat = 1;
   for (const bool bent : {false, true}) {
     if (bent) scene.materials[0].normal_map.texture = add_speckles(scene, false);
-    for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, bent ? 3e-5 : 0.0)}) {
+    for (const auto& [bits, bound_deg] :
+         {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, bent ? 3e-5 : 0.0)}) {
       const Surfaces s = surfaces_of(scene, wide_view(200, 200), bits);
       double largest = 0, apart = 0;
       for (size_t i = 0; i < s.drawn.coat_factor.pixels.size(); ++i) {
@@ -123,7 +124,8 @@ TEST(FillGbuffer, KeepsNormalsAlongAxesAsTheyAre) {
   }
 }
 
-// A model's number is stored exactly, in every layout and up to the last: its parameters are those of the material.
+// A model's number is stored exactly, in every layout and up to the last: its parameters are those of the
+// material.
 TEST(FillGbuffer, KeepsTheNumbersOfModels) {
   Scene scene = wall_of_all_normals(16);
   for (int i = 0; i < MOST_MODELS; ++i) {
@@ -137,7 +139,8 @@ TEST(FillGbuffer, KeepsTheNumbersOfModels) {
       for (size_t i = 0; i < s.kept.model.pixels.size(); ++i) {
         ASSERT_EQ(s.drawn.model.pixels[i].r, number);
         ASSERT_EQ(s.kept.model.pixels[i].r, number) << bits;
-        ASSERT_NEAR(s.kept.base_color_metallic.pixels[i].a, 0.6, bits == 8 ? 0.51 / 255 : 2e-5) << bits << ": beside it";
+        ASSERT_NEAR(s.kept.base_color_metallic.pixels[i].a, 0.6, bits == 8 ? 0.51 / 255 : 2e-5)
+            << bits << ": beside it";
         ASSERT_GT(s.kept.emissive_occlusion.pixels[i].a, 0) << "lit";
       }
     }
@@ -151,7 +154,9 @@ TEST(FillGbuffer, KeepsTheNumbersOfModels) {
     }
     return std::string("none");
   };
-  EXPECT_NE(refusal().find("255 models of skin and Minnaert; a geometry buffer numbers at most 254"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("255 models of skin and Minnaert; a geometry buffer numbers at most 254"),
+            std::string::npos)
+      << refusal();
 }
 
 // Half a step of the stored value, in 8 bits of a square root, whose slope is at most 2; plus float's
@@ -175,9 +180,11 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
       ASSERT_LE(
           std::abs(surfaces.kept.normal_roughness.pixels[i].a - surfaces.drawn.normal_roughness.pixels[i].a),
           bound);
-      ASSERT_LE(std::abs(surfaces.kept.coat_factor.pixels[i].r - surfaces.drawn.coat_factor.pixels[i].r), bound);
+      ASSERT_LE(std::abs(surfaces.kept.coat_factor.pixels[i].r - surfaces.drawn.coat_factor.pixels[i].r),
+                bound);
       if (surfaces.drawn.coat_factor.pixels[i].r > 0) {
-        ASSERT_LE(std::abs(surfaces.kept.coat_normal_roughness.pixels[i].a - surfaces.drawn.coat_normal_roughness.pixels[i].a),
+        ASSERT_LE(std::abs(surfaces.kept.coat_normal_roughness.pixels[i].a -
+                           surfaces.drawn.coat_normal_roughness.pixels[i].a),
                   bound);
         ++coated;
       }
@@ -212,7 +219,8 @@ TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
     for (const GBufferLayout& layout : gbuffer_layouts) {
       if (layout.bits == bits) {
         EXPECT_EQ(layout.bytes(false), size_t(bytes));
-        EXPECT_EQ(surfaces_of(coated.scene, wide_view(17, 9), bits).gbuffer_bytes, size_t(17 * 9 * bytes * 3 / 2));
+        EXPECT_EQ(surfaces_of(coated.scene, wide_view(17, 9), bits).gbuffer_bytes,
+                  size_t(17 * 9 * bytes * 3 / 2));
       }
     }
   }

@@ -41,12 +41,14 @@ TEST(LightReach, KeepsEveryBoxWithAPointThatTheLightReaches) {
   int kept = 0, reached = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const ViewLight light = random_light(random);
-    const ViewBox box{point_in(random, glm::dvec3(-4), glm::dvec3(4)), point_in(random, glm::dvec3(0), glm::dvec3(1.5))};
+    const ViewBox box{point_in(random, glm::dvec3(-4), glm::dvec3(4)),
+                      point_in(random, glm::dvec3(0), glm::dvec3(1.5))};
     bool some = false;
     for (int i = 0; i < 40 && !some; ++i) {
       // Half of the points are on the box's faces, edges and corners, where it is touched first.
       glm::dvec3 p = point_in(random, glm::dvec3(-1), glm::dvec3(1));
-      for (int axis = 0; i % 2 && axis < 3; ++axis) p[axis] = random.uniform() < 0.6f ? (p[axis] < 0 ? -1 : 1) : p[axis];
+      for (int axis = 0; i % 2 && axis < 3; ++axis)
+        p[axis] = random.uniform() < 0.6f ? (p[axis] < 0 ? -1 : 1) : p[axis];
       some = reaches(light, box.center + p * box.half);
     }
     const bool may = LightReach(light).may_reach(box);
@@ -62,8 +64,9 @@ TEST(LightReach, OfTangentBallsAndOfLightsWithoutEndOrExtent) {
   ViewLight light;
   light.position = {3, 0, -5};
   for (const auto& [radius, expected] :
-       {std::pair(2.0, true), std::pair(std::nextafter(2.0, 0.0), true), std::pair(1.9, false), std::pair(0.0, false),
-        std::pair(-1.0, false), std::pair(1e20, true), std::pair(std::numeric_limits<double>::infinity(), true)}) {
+       {std::pair(2.0, true), std::pair(std::nextafter(2.0, 0.0), true), std::pair(1.9, false),
+        std::pair(0.0, false), std::pair(-1.0, false), std::pair(1e20, true),
+        std::pair(std::numeric_limits<double>::infinity(), true)}) {
     light.radius_m = radius;
     EXPECT_EQ(LightReach(light).may_reach(box), expected) << radius;
   }

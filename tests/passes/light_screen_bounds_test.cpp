@@ -23,7 +23,8 @@ View random_view(Random& random) {
   camera.fov_y_rad = random.uniform(0.2f, 2.6f);
   View view = make_view(camera, width, height);
   if (!camera.orthographic) {  // off the centre
-    view.clip_from_view[2][0] = random.uniform(-0.5f, 0.5f), view.clip_from_view[2][1] = random.uniform(-0.5f, 0.5f);
+    view.clip_from_view[2][0] = random.uniform(-0.5f, 0.5f),
+    view.clip_from_view[2][1] = random.uniform(-0.5f, 0.5f);
   }
   return view;
 }
@@ -55,7 +56,8 @@ Trial random_trial(Random& random) {
 std::optional<glm::dvec3> seen(const View& view, const glm::dvec3& p) {
   if (-p.z < view.near_m || -p.z > view.far_m) return {};
   const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);
-  return glm::dvec3((clip.x / clip.w * 0.5 + 0.5) * width, (clip.y / clip.w * 0.5 + 0.5) * height, clip.z / clip.w);
+  return glm::dvec3((clip.x / clip.w * 0.5 + 0.5) * width, (clip.y / clip.w * 0.5 + 0.5) * height,
+                    clip.z / clip.w);
 }
 
 TEST(LightScreenBounds, HoldEveryPixelAndDepthOfTheBall) {

@@ -24,7 +24,8 @@ std::vector<Plane> planes_of(const LightMesh& mesh, const glm::dmat4& matrix) {
   std::vector<Plane> planes;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     glm::dvec3 p[3];
-    for (int k = 0; k < 3; ++k) p[k] = glm::dvec3(matrix * glm::dvec4(mesh.positions[mesh.indices[i + k]], 1));
+    for (int k = 0; k < 3; ++k)
+      p[k] = glm::dvec3(matrix * glm::dvec4(mesh.positions[mesh.indices[i + k]], 1));
     const glm::dvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
     planes.push_back({normal, glm::dot(normal, p[0])});
   }
@@ -53,7 +54,8 @@ TEST(LightMeshes, AreClosedAndConvexAndTurnedOutwards) {
       EXPECT_EQ((edges.count({edge.second, edge.first})), 1u);
     }
     for (const Plane& plane : planes_of(meshes[m], glm::dmat4(1))) {
-      for (const glm::vec3& p : meshes[m].positions) EXPECT_LE(glm::dot(plane.normal, glm::dvec3(p)), plane.offset + 1e-6);
+      for (const glm::vec3& p : meshes[m].positions)
+        EXPECT_LE(glm::dot(plane.normal, glm::dvec3(p)), plane.offset + 1e-6);
     }
   }
 }
@@ -72,8 +74,10 @@ ViewLight any_volume_light(Random& random) {
   ViewLight light;
   light.type = random.uniform() < 0.5 ? LightType::point : LightType::spot;
   const double distance = std::exp(random.uniform(-4, 8));
-  light.position = distance * glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 0.3)));
-  light.direction = glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+  light.position = distance * glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1),
+                                                        random.uniform(-1, 0.3)));
+  light.direction =
+      glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
   light.radius_m = std::exp(random.uniform(-7, 9));
   const double narrow = std::exp(random.uniform(-8, 0.45));
   light.cos_outer = std::cos(random.uniform() < 0.2 ? random.uniform(1.5, std::numbers::pi) : narrow);
@@ -97,7 +101,8 @@ bool is_extreme(const View& view, const ViewLight& light) {
   const double farthest = glm::length(light.position) + 2 * light.radius_m;
   const bool cone = light.type == LightType::spot && light.cos_outer > 1e-6;
   const double sine = cone ? std::sin(std::acos(light.cos_outer - 1e-6)) : 1;
-  return !view.orthographic && 32 * 0x1p-24 * farthest * farthest / view.near_m > 0.01 * light.radius_m * sine;
+  return !view.orthographic &&
+         32 * 0x1p-24 * farthest * farthest / view.near_m > 0.01 * light.radius_m * sine;
 }
 
 TEST(LightVolumes, ContainTheirBallsAndConesWithSlack) {
@@ -106,7 +111,8 @@ TEST(LightVolumes, ContainTheirBallsAndConesWithSlack) {
   for (int trial = 0; trial < 20'000; ++trial) {
     const View view = any_view(random);
     const ViewLight light = any_volume_light(random);
-    for (const VolumeMeshes meshes : {VolumeMeshes::automatic, VolumeMeshes::icosahedron, VolumeMeshes::box}) {
+    for (const VolumeMeshes meshes :
+         {VolumeMeshes::automatic, VolumeMeshes::icosahedron, VolumeMeshes::box}) {
       const auto volumes = light_volumes(view, {&light, 1}, meshes, subpixel_bits);
       if (volumes.empty()) continue;
       ++drawn;
@@ -129,9 +135,12 @@ TEST(LightVolumes, AreThereWhereALightReachesAPixel) {
     const ViewLight light = any_volume_light(random);
     glm::dvec3 offset(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     offset *= light.radius_m / std::max(1.0, glm::length(offset));
-    if (light.type == LightType::spot && glm::dot(offset, light.direction) <= light.cos_outer * glm::length(offset)) continue;
+    if (light.type == LightType::spot &&
+        glm::dot(offset, light.direction) <= light.cos_outer * glm::length(offset))
+      continue;
     const glm::dvec4 clip = view.clip_from_view * glm::dvec4(light.position + offset, 1);
-    if (!(clip.z <= clip.w && clip.z >= 0 && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w)) continue;
+    if (!(clip.z <= clip.w && clip.z >= 0 && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w))
+      continue;
     ++seen;
     const auto volumes = light_volumes(view, {&light, 1}, VolumeMeshes::automatic, subpixel_bits);
     ASSERT_EQ(volumes.size(), 1u) << "trial " << trial;

@@ -1,4 +1,5 @@
-// The geometry buffer that OpenCL fills: surfaces in double, the same bytes in every shape, and what fewer bits round.
+// The geometry buffer that OpenCL fills: surfaces in double, the same bytes in every shape, and what fewer
+// bits round.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +39,8 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   Filled f;
   for (size_t i = 0; i < 2; ++i) {
     f.bytes[i].resize(v.pixels() * g.layout->images[i].bytes);
-    read_buffer(*v.renderer.cl, "reading surfaces", g.surfaces[i]->cl_buffer(), f.bytes[i].data(), f.bytes[i].size());
+    read_buffer(*v.renderer.cl, "reading surfaces", g.surfaces[i]->cl_buffer(), f.bytes[i].data(),
+                f.bytes[i].size());
   }
   read_back(v, {0, g.image}, f.image);
   f.depth.resize(v.pixels());
@@ -112,11 +114,13 @@ TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
   std::erase_if(directional, [](const ViewLight& light) { return light.type != LightType::directional; });
   ASSERT_EQ(directional.size(), 1u);
   const auto radiance = shade_pixels(
-      odd_view(), f.depth, [&](uint32_t pixel) { return surfaces[pixel]; }, directional, {.ambient = scene.ambient}, pixels);
+      odd_view(), f.depth, [&](uint32_t pixel) { return surfaces[pixel]; }, directional,
+      {.ambient = scene.ambient}, pixels);
   for (size_t i = 0; i < pixels.size(); ++i) {
     base = std::max(base, largest_of(glm::dvec3(f.image.pixels[pixels[i]]) - radiance[i]));
   }
-  fmt::print("largest errors: normal {:.2g}, material {:.2g}, base lighting {:.2g}\n", normal, material, base);
+  fmt::print("largest errors: normal {:.2g}, material {:.2g}, base lighting {:.2g}\n", normal, material,
+             base);
   EXPECT_LT(normal, 1e-5);
   EXPECT_LT(material, 1e-5);
   EXPECT_LT(base, 2e-5 * brightest_channel(f.image));
@@ -132,11 +136,12 @@ TEST(ResolveGbuffer, HasTheSameBytesInBothShapes) {
   }
 }
 
-// Half a step of the stored value, and float's rounding of it; of a color in 8 bits half a step of its square root, whose slope is at most 2.
-// Angles: Cigolle et al. (2014), as in fill_gbuffer_test.
+// Half a step of the stored value, and float's rounding of it; of a color in 8 bits half a step of its square
+// root, whose slope is at most 2. Angles: Cigolle et al. (2014), as in fill_gbuffer_test.
 template <typename Channel>
 void expect_rounded(const Scene& scene, int bits, double steps, double one, double angle_deg) {
-  const Filled exact = filled(scene, odd_view(), {}), rounded = filled(scene, odd_view(), {.buffer_bits = bits});
+  const Filled exact = filled(scene, odd_view(), {}),
+               rounded = filled(scene, odd_view(), {.buffer_bits = bits});
   const double half = 0.502 / one;
   double largest = 0;
   for (size_t i = 0; i < exact.depth.size(); ++i) {
@@ -148,7 +153,8 @@ void expect_rounded(const Scene& scene, int bits, double steps, double one, doub
       continue;
     }
     const glm::dvec3 n = normal_of(p, steps);
-    largest = std::max(largest, glm::degrees(std::atan2(glm::length(glm::cross(n, glm::dvec3(a))), glm::dot(n, glm::dvec3(a)))));
+    largest = std::max(largest, glm::degrees(std::atan2(glm::length(glm::cross(n, glm::dvec3(a))),
+                                                        glm::dot(n, glm::dvec3(a)))));
     ASSERT_NEAR(p.z / one, a.w, half) << i;
     ASSERT_NEAR(p.w / one, metallic_of(b.w), half) << i;
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(q[c] / one, bits == 8 ? std::sqrt(b[c]) : b[c], half) << i;
@@ -163,7 +169,8 @@ TEST(ResolveGbuffer, RoundsTo16And8BitsAsTheLayoutSays) {
   expect_rounded<uint8_t>(scene, 8, 127, 255, 0.96);
 }
 
-// Half a step of a square root whose slope is at most 2; what is no color has the source's own bytes, magnified.
+// Half a step of a square root whose slope is at most 2; what is no color has the source's own bytes,
+// magnified.
 TEST(ResolveGbuffer, TexelsOf8BytesAreOffByHalfAStepOfAColorsRoot) {
   SmallScene s = small_scene();
   for (const char* name : {"base_color_map", "metallic_roughness_map", "normal_map"}) effect(name).add(s);

@@ -55,13 +55,16 @@ TEST(Settings, TakeWhatWasTunedWhereNothingElseIsSaid) {
   Settings settings;
   apply_setting(settings, "kernel-shape=auto");
   apply_setting(settings, "tile=32");
-  const Settings tuned = with_tuned(settings, {{"kernel-shape", "group"}, {"portable", "on"}, {"group-size", "128"}});
+  const Settings tuned =
+      with_tuned(settings, {{"kernel-shape", "group"}, {"portable", "on"}, {"group-size", "128"}});
   EXPECT_EQ(tuned.kernel_shape, KernelShape::automatic) << "said";
   EXPECT_TRUE(tuned.portable);
   EXPECT_EQ(tuned.group_size, 128);
   EXPECT_EQ(tuned.tile, 32);
-  const Settings wrong = with_tuned({}, {{"tile", "64"}, {"portable", "perhaps"}, {"no-such", "1"}, {"group-size", "100"}});
-  EXPECT_EQ(to_strings(wrong), to_strings(Settings{})) << "what changes results, or is nothing known, is passed over";
+  const Settings wrong =
+      with_tuned({}, {{"tile", "64"}, {"portable", "perhaps"}, {"no-such", "1"}, {"group-size", "100"}});
+  EXPECT_EQ(to_strings(wrong), to_strings(Settings{}))
+      << "what changes results, or is nothing known, is passed over";
 }
 
 TEST(Settings, AWrongKeyListsTheKeys) {

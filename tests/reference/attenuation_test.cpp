@@ -59,7 +59,8 @@ TEST(Attenuation, FadesByTheWindowOfTheLight) {
   EXPECT_EQ(attenuation(light, {0, 2, 0}, true), 0);
 }
 
-// Reached with p = min(f / alpha, 1), each contribution counts 1 / p times: here 1 / d^2 = 1 / 16 and alpha / I = 1 / 4.
+// Reached with p = min(f / alpha, 1), each contribution counts 1 / p times: here 1 / d^2 = 1 / 16 and alpha /
+// I = 1 / 4.
 TEST(Attenuation, CountsARandomRangeByTheInverseOfItsProbability) {
   ViewLight light{.radius_m = 5};
   light.window = RangeWindow::none;

@@ -49,8 +49,9 @@ TEST(Brdf, RoughDielectricLitAtSixtyDegrees) {
 }
 
 TEST(Brdf, PartialMetalIsTheMixOfADielectricAndAMetal) {
-  // N = V = L = H, alpha 1: the lobe is 1 / (4 pi). Dielectric: 0.96 base / pi + 0.04 / (4 pi); metal: base / (4 pi).
-  // For base 1, 0.5, 0 and a metalness of a quarter, times pi: 3/4 (0.97, 0.49, 0.01) + 1/4 (0.25, 0.125, 0).
+  // N = V = L = H, alpha 1: the lobe is 1 / (4 pi). Dielectric: 0.96 base / pi + 0.04 / (4 pi); metal: base /
+  // (4 pi). For base 1, 0.5, 0 and a metalness of a quarter, times pi: 3/4 (0.97, 0.49, 0.01) + 1/4 (0.25,
+  // 0.125, 0).
   const Surface surface{.base_color = {1, 0.5, 0}, .metallic = 0.25};
   expect_near(brdf(surface, {0, 0, 1}, {0, 0, 1}), dvec3(0.79, 0.39875, 0.0075) / pi, 1e-15);
   // At grazing angles Fresnel is next to 1: nothing diffuse is left, whatever the metal.
@@ -65,10 +66,11 @@ TEST(Brdf, BlinnPhongByHand) {
   // Roughness 0.5: alpha 1/4, n = 2 * 16 - 2 = 30. From straight above: 32 / (8 pi) = 4 / pi, as GGX.
   const Surface gold{.base_color = {1, 0.5, 0}, .metallic = 1, .roughness = 0.5};
   expect_near(brdf(gold, {0, 0, 1}, {0, 0, 1}, Brdf::blinn), dvec3(4 / pi, 2 / pi, 0), 1e-14);
-  // A white metal lit at sixty degrees: H at 30 degrees, F = 1: 4 / pi * cos^30(30 degrees) = 4 / pi * 0.75^15.
+  // A white metal lit at sixty degrees: H at 30 degrees, F = 1: 4 / pi * cos^30(30 degrees) = 4 / pi *
+  // 0.75^15.
   const dvec3 to_light(std::sqrt(0.75), 0, 0.5);
-  expect_near(brdf({.metallic = 1, .roughness = 0.5}, {0, 0, 1}, to_light, Brdf::blinn), dvec3(4 / pi * std::pow(0.75, 15)),
-              1e-14);
+  expect_near(brdf({.metallic = 1, .roughness = 0.5}, {0, 0, 1}, to_light, Brdf::blinn),
+              dvec3(4 / pi * std::pow(0.75, 15)), 1e-14);
 }
 
 const dvec3 overhead(0, 0, 1);
@@ -80,7 +82,8 @@ dvec3 at_cosine(double mu, double turn = 0) {
 }
 
 TEST(Skin, ByHand) {
-  // R = 1/2. At a cosine of 1/4: t = 1/2 of -1/2 .. 1, smoothstep 1/2; of 0 .. 1 it is 3/16 - 2/64 = 5/32. 1/2 - 5/32 = 11/32.
+  // R = 1/2. At a cosine of 1/4: t = 1/2 of -1/2 .. 1, smoothstep 1/2; of 0 .. 1 it is 3/16 - 2/64 = 5/32.
+  // 1/2 - 5/32 = 11/32.
   const Surface skin{.base_color = dvec3(0), .subsurface_color = {1, 0.5, 0}, .roll_off = 0.5};
   const auto lambert = [&](double mu) { return reflected(skin, overhead, at_cosine(mu), Brdf::lambert); };
   expect_near(lambert(0.25), dvec3(1, 0.5, 0) * (11.0 / 32 / pi), 1e-15);
@@ -90,10 +93,12 @@ TEST(Skin, ByHand) {
   EXPECT_EQ(lambert(-0.5), dvec3(0));
   EXPECT_EQ(lambert(-1), dvec3(0));
   EXPECT_EQ(lambert(1), dvec3(0));
-  // Added to what the surface reflects without it, whatever the lobe; under a coat of 0.04 at normal incidence.
+  // Added to what the surface reflects without it, whatever the lobe; under a coat of 0.04 at normal
+  // incidence.
   const Surface bare{.roughness = 0.5}, both{.roughness = 0.5, .subsurface_color = dvec3(1), .roll_off = 0.5};
   const dvec3 to_light = at_cosine(0.25);
-  expect_near(reflected(both, overhead, to_light) - reflected(bare, overhead, to_light), dvec3(11.0 / 32 / pi), 1e-15);
+  expect_near(reflected(both, overhead, to_light) - reflected(bare, overhead, to_light),
+              dvec3(11.0 / 32 / pi), 1e-15);
   const Surface coated{.base_color = dvec3(0), .coat = 1, .subsurface_color = dvec3(1), .roll_off = 0.5};
   expect_near(reflected(coated, overhead, at_cosine(-0.25)), dvec3(0.96 * 2.0 / 27 / pi), 1e-15);
 }
@@ -101,25 +106,32 @@ TEST(Skin, ByHand) {
 TEST(Minnaert, ByHand) {
   // k = 1/2, light at a cosine of 1/4, eye at 1/9: 1/2 * 1/3.
   const Surface moon{.base_color = {1, 0.5, 0}, .minnaert_k = 0.5};
-  expect_near(reflected(moon, at_cosine(1.0 / 9), at_cosine(0.25), Brdf::lambert), dvec3(1, 0.5, 0) * (1 / 6.0 / pi), 1e-15);
+  expect_near(reflected(moon, at_cosine(1.0 / 9), at_cosine(0.25), Brdf::lambert),
+              dvec3(1, 0.5, 0) * (1 / 6.0 / pi), 1e-15);
   // k = 2: 1/16 * 9.
   const Surface velvet{.base_color = {1, 0.5, 0}, .minnaert_k = 2};
-  expect_near(reflected(velvet, at_cosine(1.0 / 9), at_cosine(0.25), Brdf::lambert), dvec3(1, 0.5, 0) * (9 / 16.0 / pi), 1e-15);
+  expect_near(reflected(velvet, at_cosine(1.0 / 9), at_cosine(0.25), Brdf::lambert),
+              dvec3(1, 0.5, 0) * (9 / 16.0 / pi), 1e-15);
   EXPECT_EQ(reflected(moon, overhead, at_cosine(0), Brdf::lambert), dvec3(0));
   EXPECT_EQ(reflected(moon, overhead, at_cosine(-0.5), Brdf::lambert), dvec3(0));
   // Of a metal there is no diffuse part to change.
-  const Surface metal{.metallic = 1, .roughness = 0.5}, minnaert_metal{.metallic = 1, .roughness = 0.5, .minnaert_k = 0.5};
-  EXPECT_EQ(reflected(minnaert_metal, overhead, at_cosine(0.25)), reflected(metal, overhead, at_cosine(0.25)));
+  const Surface metal{.metallic = 1, .roughness = 0.5},
+      minnaert_metal{.metallic = 1, .roughness = 0.5, .minnaert_k = 0.5};
+  EXPECT_EQ(reflected(minnaert_metal, overhead, at_cosine(0.25)),
+            reflected(metal, overhead, at_cosine(0.25)));
 }
 
 // Constant radiance from all sides: the sum over all directions is the ambient term.
 TEST(Models, ReflectAmbientLightAsTheyReflectLightsFromAllSides) {
-  for (const auto& [roll_off, k] : {std::pair(0.3, 1.0), std::pair(1.0, 1.0), std::pair(0.0, 0.5), std::pair(0.6, 1.7)}) {
-    const Surface s{.base_color = {1, 0.5, 0.25}, .subsurface_color = {0.5, 1, 0}, .roll_off = roll_off, .minnaert_k = k};
+  for (const auto& [roll_off, k] :
+       {std::pair(0.3, 1.0), std::pair(1.0, 1.0), std::pair(0.0, 0.5), std::pair(0.6, 1.7)}) {
+    const Surface s{
+        .base_color = {1, 0.5, 0.25}, .subsurface_color = {0.5, 1, 0}, .roll_off = roll_off, .minnaert_k = k};
     const dvec3 to_eye = at_cosine(0.4);
     constexpr int steps = 2000;
     dvec3 sum(0);
-    for (int i = 0; i < steps; ++i) sum += reflected(s, to_eye, at_cosine(2 * (i + 0.5) / steps - 1), Brdf::lambert);
+    for (int i = 0; i < steps; ++i)
+      sum += reflected(s, to_eye, at_cosine(2 * (i + 0.5) / steps - 1), Brdf::lambert);
     const dvec3 ambient = shade(s, -3.0 * to_eye, false, {}, {.brdf = Brdf::lambert, .ambient = dvec3(1)});
     expect_near(sum * (4 * pi / steps), ambient, 1e-4);
   }
@@ -141,8 +153,8 @@ TEST(Coat, HasItsOwnNormalAndCosine) {
   const Surface coated{.normal = tilted, .coat = 1, .coat_roughness = 1, .coat_normal = up};
   const double base = brdf(coated, up, up).x * 0.5;
   expect_near(reflected(coated, up, up), dvec3(0.96 * base + 0.04 / (4 * pi)), 1e-15);
-  // Seen at 60 degrees from the coat's normal: Fresnel 0.04 + 0.96 / 32 = 0.07. A light behind the base, in front of
-  // the coat: the coat alone, V + L at 30 degrees from both.
+  // Seen at 60 degrees from the coat's normal: Fresnel 0.04 + 0.96 / 32 = 0.07. A light behind the base, in
+  // front of the coat: the coat alone, V + L at 30 degrees from both.
   const dvec3 across(-std::sqrt(0.75), 0, 0.5);
   const Surface behind{.normal = tilted, .coat = 1, .coat_roughness = 1, .coat_normal = up};
   EXPECT_EQ(reflected({.normal = tilted}, tilted, across), dvec3(0));
@@ -151,9 +163,11 @@ TEST(Coat, HasItsOwnNormalAndCosine) {
 }
 
 TEST(Coat, ReflectsAmbientLightAndDarkensWhatIsEmitted) {
-  const Surface coated{.base_color = dvec3(0.5), .emissive = dvec3(3), .metallic = 0.5, .occlusion = 0.5, .coat = 0.5};
+  const Surface coated{
+      .base_color = dvec3(0.5), .emissive = dvec3(3), .metallic = 0.5, .occlusion = 0.5, .coat = 0.5};
   // Without it 0.52 * 0.1 * 0.5 + 3 (Shade.Ambient...); the coat's share is 0.02 of 0.1 * 0.5.
-  expect_near(shade(coated, {0, 0, -3}, false, {}, {.ambient = dvec3(0.1)}), dvec3(0.98 * 3.026 + 0.02 * 0.05), 1e-15);
+  expect_near(shade(coated, {0, 0, -3}, false, {}, {.ambient = dvec3(0.1)}),
+              dvec3(0.98 * 3.026 + 0.02 * 0.05), 1e-15);
 }
 
 TEST(Coat, GivesBackNoMoreThanArrives) {
@@ -193,7 +207,8 @@ TEST(Brdf, LambertIsBaseColourOverPiWhateverTheRestOfTheMaterial) {
     for (const dvec3& to_light : {dvec3(0, 0, 1), dvec3(0.6, 0, 0.8), dvec3(0, 0, -1)}) {
       expect_near(brdf(surface, {0, 0, 1}, to_light, Brdf::lambert) * pi, {1, 0.5, 0.25}, 1e-15);
     }
-    expect_near(shade(surface, {0, 0, -3}, false, {}, {.brdf = Brdf::lambert, .ambient = dvec3(0.2)}), {0.2, 0.1, 0.05}, 1e-15);
+    expect_near(shade(surface, {0, 0, -3}, false, {}, {.brdf = Brdf::lambert, .ambient = dvec3(0.2)}),
+                {0.2, 0.1, 0.05}, 1e-15);
   }
 }
 

@@ -13,9 +13,13 @@ TEST(SharedBrdf, WhatAmbientAndEmittedLightBecomeUnderACoatIsTheReferences) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform;
   for (int i = 0; i < 1000; ++i) {
-    const Surface surface{.normal = {0, 0, 1}, .base_color = {uniform(random), uniform(random), uniform(random)},
-                          .emissive = {uniform(random), 0, 1}, .metallic = uniform(random), .roughness = uniform(random),
-                          .coat = uniform(random), .coat_normal = random_direction(random)};
+    const Surface surface{.normal = {0, 0, 1},
+                          .base_color = {uniform(random), uniform(random), uniform(random)},
+                          .emissive = {uniform(random), 0, 1},
+                          .metallic = uniform(random),
+                          .roughness = uniform(random),
+                          .coat = uniform(random),
+                          .coat_normal = random_direction(random)};
     const glm::dvec3 position(0, 0, -2), ambient(0.1, 0.2, 0.3);
     const glm::dvec3 want = shade(surface, position, false, {}, {.ambient = ambient});
     const ShadingPoint p = with_coat(shading_point(position, {0, 0, 1}, surface.normal, surface.base_color,
@@ -30,7 +34,8 @@ TEST(SharedBrdf, WhatAmbientAndEmittedLightBecomeUnderACoatIsTheReferences) {
 TEST(SharedBrdf, ACoatOfFactorZeroIsNone) {
   std::mt19937 random(9);
   for (int i = 0; i < 1000; ++i) {
-    const ShadingPoint p = shading_point({0, 0, -2}, {0, 0, 1}, random_direction(random), {0.5f, 0.3f, 0.1f}, 0.3f, 0.2f);
+    const ShadingPoint p =
+        shading_point({0, 0, -2}, {0, 0, 1}, random_direction(random), {0.5f, 0.3f, 0.1f}, 0.3f, 0.2f);
     const glm::vec3 to_light = random_direction(random);
     const ShadingPoint none = with_coat(p, random_direction(random), 0, 0.1f);
     const ShadingPoint other = with_coat(p, random_direction(random), 0, 0.9f);

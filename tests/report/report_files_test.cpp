@@ -26,8 +26,8 @@ TEST(WriteReport, MakesTheFolderAndTheDocumentedFiles) {
   const TempFolder folder;
   write_report(folder.path / "new" / "report", synthetic_report(17, 9));
   std::set<std::string> expected = {"index.html", "results.json", "lit.heat.png"};
-  for (const std::string row : {"forward", "forward_plus-cull-test=planes+aabb", "clustered", "deferred_tiled", "lidr",
-                                "forward_plus-cull-test=exact"}) {
+  for (const std::string row : {"forward", "forward_plus-cull-test=planes+aabb", "clustered",
+                                "deferred_tiled", "lidr", "forward_plus-cull-test=exact"}) {
     for (const char* end : {".png", ".exr", ".difference.png", ".heat.png"}) expected.insert(row + end);
   }
   EXPECT_EQ(names_in(folder.path / "new" / "report"), expected);
@@ -83,10 +83,12 @@ TEST(ViewsReport, MakesAFolderAViewAndOnePageForAll) {
   ViewsReport report(folder.path, 3, 1 << 20);
   for (int lights : {15, 60, 60}) report.add(synthetic_view("scenes/my hall.glb", 17, 9, lights));
   report.write();
-  EXPECT_EQ(names_in(folder.path), (std::set<std::string>{"index.html", "results.json", "results.csv", "my-hall-17x9-15",
-                                                          "my-hall-17x9-60", "my-hall-17x9-60-2"}));
+  EXPECT_EQ(names_in(folder.path),
+            (std::set<std::string>{"index.html", "results.json", "results.csv", "my-hall-17x9-15",
+                                   "my-hall-17x9-60", "my-hall-17x9-60-2"}));
   const auto pictures = names_in(folder.path / "my-hall-17x9-15");
-  EXPECT_TRUE(pictures.count("forward.png") && pictures.count("lidr.difference.png") && pictures.count("lit.heat.png"));
+  EXPECT_TRUE(pictures.count("forward.png") && pictures.count("lidr.difference.png") &&
+              pictures.count("lit.heat.png"));
   const auto json = nlohmann::json::parse(file_bytes(folder.path / "results.json"));
   ASSERT_EQ(json["views"].size(), 3u);
   EXPECT_EQ(json["views"][1], to_json(synthetic_view("scenes/my hall.glb", 17, 9, 60)));

@@ -18,7 +18,8 @@ constexpr const char* controls = "tests/report/report_page_controls.js";
 
 std::vector<std::string> strings(const json& list) { return list.get<std::vector<std::string>>(); }
 
-const std::string both_tests = "forward_plus:cull-test=planes+aabb", exact_test = "forward_plus:cull-test=exact";
+const std::string both_tests = "forward_plus:cull-test=planes+aabb",
+                  exact_test = "forward_plus:cull-test=exact";
 
 class ReportPage : public testing::Test {
  protected:
@@ -57,15 +58,16 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   EXPECT_EQ(seen["zoomed"], true);
 
   const std::string refused = "refused: blending rounds <0.5 of a step> here";
-  EXPECT_THAT(strings(seen["byTime"][0]), ElementsAre("lidr", exact_test, both_tests, "clustered", "deferred_tiled",
-                                                      "forward", "light_prepass"));
+  EXPECT_THAT(strings(seen["byTime"][0]), ElementsAre("lidr", exact_test, both_tests, "clustered",
+                                                      "deferred_tiled", "forward", "light_prepass"));
   EXPECT_THAT(strings(seen["byTime"][1]), ElementsAre("183", "205", "214", "232", "262", "2,420", refused));
-  EXPECT_THAT(strings(seen["byTimeDescending"]), ElementsAre("forward", "deferred_tiled", "clustered", both_tests,
-                                                             exact_test, "lidr", "light_prepass"));
-  EXPECT_THAT(strings(seen["byName"]), ElementsAre("clustered", "deferred_tiled", "forward", exact_test, both_tests,
-                                                   "lidr", "light_prepass"));
-  EXPECT_THAT(strings(seen["bySpeedUp"]), ElementsAre("lidr", exact_test, both_tests, "clustered", "deferred_tiled",
-                                                      "forward", "light_prepass"));
+  EXPECT_THAT(
+      strings(seen["byTimeDescending"]),
+      ElementsAre("forward", "deferred_tiled", "clustered", both_tests, exact_test, "lidr", "light_prepass"));
+  EXPECT_THAT(strings(seen["byName"]), ElementsAre("clustered", "deferred_tiled", "forward", exact_test,
+                                                   both_tests, "lidr", "light_prepass"));
+  EXPECT_THAT(strings(seen["bySpeedUp"]), ElementsAre("lidr", exact_test, both_tests, "clustered",
+                                                      "deferred_tiled", "forward", "light_prepass"));
   EXPECT_THAT(strings(seen["lost"]), ElementsAre("812", "0", "0", "0", "0", "0", ""));
   EXPECT_EQ(seen["sorted"], 2);
   EXPECT_EQ(seen["overviewHidden"], true);
@@ -76,10 +78,9 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
 
   EXPECT_THAT(seen["barWidths"].get<std::vector<double>>(), Each(testing::DoubleNear(100, 1e-6)));
   EXPECT_THAT(strings(seen["captions"]), testing::Contains("Lights listed per pixel: mean 60.0, max 60"));
-  EXPECT_THAT(strings(seen["skipped"]),
-              ElementsAre("light_prepass " + refused, "shadows: no light casts one",
-                          "transparency: no blended surface is in view (forward, " + both_tests +
-                              ", clustered, deferred_tiled, lidr)"));
+  EXPECT_THAT(strings(seen["skipped"]), ElementsAre("light_prepass " + refused, "shadows: no light casts one",
+                                                    "transparency: no blended surface is in view (forward, " +
+                                                        both_tests + ", clustered, deferred_tiled, lidr)"));
 }
 
 // The position of a time's dot, from the dots of the extreme times: axes are logarithmic.
@@ -104,8 +105,10 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
 
   // A technique a line: its name, then its time in each view; the fastest exact one of each has the star.
   ASSERT_EQ(several["matrix"].size(), 7u);
-  EXPECT_THAT(strings(several["matrix"][0]), ElementsAre("forward", "\u2605\u00a075.6 ms", "303 ms", "1,210 ms"));
-  EXPECT_THAT(strings(several["matrix"][5]), ElementsAre(exact_test, "145 ms", "\u2605\u00a0205 ms", "\u2605\u00a0290 ms"));
+  EXPECT_THAT(strings(several["matrix"][0]),
+              ElementsAre("forward", "\u2605\u00a075.6 ms", "303 ms", "1,210 ms"));
+  EXPECT_THAT(strings(several["matrix"][5]),
+              ElementsAre(exact_test, "145 ms", "\u2605\u00a0205 ms", "\u2605\u00a0290 ms"));
   EXPECT_THAT(strings(several["matrix"][6]), ElementsAre("light_prepass", "refused", "refused", "refused"));
   EXPECT_EQ(several["winners"], 3);
   EXPECT_THAT(strings(several["notes"]), testing::Contains("812 lost").Times(3));
@@ -115,15 +118,20 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
   ASSERT_EQ(chart["curves"].size(), 6u);
   EXPECT_EQ(chart["rings"], 1);
   const auto ms_of = [&](const json& dot) {
-    return results["views"][dot["view"].get<size_t>()]["rows"][dot["row"].get<size_t>()]["frame_ms"]["median"].get<double>();
+    return results["views"][dot["view"].get<size_t>()]["rows"][dot["row"].get<size_t>()]["frame_ms"]["median"]
+        .get<double>();
   };
   const json low = chart["curves"][0]["points"][0], high = chart["curves"][0]["points"][2];  // forward
   for (const json& curve : chart["curves"]) {
     ASSERT_EQ(curve["points"].size(), 3u) << curve;
     for (const json& dot : curve["points"]) {
-      EXPECT_NEAR(dot["y"].get<double>(), expected_y(ms_of(dot), ms_of(low), low["y"], ms_of(high), high["y"]), 0.2) << curve;
-      EXPECT_NEAR(dot["x"].get<double>(), curve["points"][0]["x"].get<double>() * (2 - dot["view"].get<double>()) / 2 +
-                                              curve["points"][2]["x"].get<double>() * dot["view"].get<double>() / 2, 0.2);
+      EXPECT_NEAR(dot["y"].get<double>(),
+                  expected_y(ms_of(dot), ms_of(low), low["y"], ms_of(high), high["y"]), 0.2)
+          << curve;
+      EXPECT_NEAR(dot["x"].get<double>(),
+                  curve["points"][0]["x"].get<double>() * (2 - dot["view"].get<double>()) / 2 +
+                      curve["points"][2]["x"].get<double>() * dot["view"].get<double>() / 2,
+                  0.2);
     }
   }
   EXPECT_EQ(several["hidden"], 1);
@@ -141,7 +149,8 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
 
 TEST_F(ReportPage, DrawsACurveOverASettingThatOneViewSweeps) {
   CompareReport swept = synthetic_report(34, 18);
-  for (size_t i : {1, 5}) swept.rows[i].settings["cull-test"] = "aabb", swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
+  for (size_t i : {1, 5})
+    swept.rows[i].settings["cull-test"] = "aabb", swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
   write_report(folder.path, swept);
   const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());

@@ -35,7 +35,8 @@ TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
   const auto row = csv_table(results_csv(views)).back();
   EXPECT_EQ(row.at("technique"), "light_prepass");
   EXPECT_EQ(row.at("refused"), "blending rounds <0.5 of a step> here");
-  for (const char* field : {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels", "oracle_max_rel"}) {
+  for (const char* field :
+       {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels", "oracle_max_rel"}) {
     EXPECT_EQ(row.at(field), "") << field;
   }
 }

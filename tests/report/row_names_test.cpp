@@ -17,16 +17,18 @@ CompareReport rows_of(std::vector<std::pair<std::string, std::map<std::string, s
 }
 
 TEST(RowNames, AreTechniquesWhereEachIsThereOnce) {
-  EXPECT_THAT(row_names(rows_of({{"forward", {{"tile", "16"}}}, {"lidr", {{"tile", "8"}}}})), ElementsAre("forward", "lidr"));
+  EXPECT_THAT(row_names(rows_of({{"forward", {{"tile", "16"}}}, {"lidr", {{"tile", "8"}}}})),
+              ElementsAre("forward", "lidr"));
 }
 
 TEST(RowNames, SayWhatDiffersBetweenRowsOfOneTechnique) {
-  EXPECT_THAT(row_names(rows_of({{"lidr", {{"tile", "16"}, {"lidr_packing", "sort"}, {"lidr_overlap", "4"}}},
-                                 {"lidr", {{"tile", "16"}, {"lidr_packing", "sort"}, {"lidr_overlap", "2"}}},
-                                 {"lidr", {{"tile", "16"}, {"lidr_packing", "bitshift"}, {"lidr_overlap", "4"}}},
-                                 {"forward", {{"tile", "8"}}}})),
-              ElementsAre("lidr:lidr-overlap=4,lidr-packing=sort", "lidr:lidr-overlap=2,lidr-packing=sort",
-                          "lidr:lidr-overlap=4,lidr-packing=bitshift", "forward"));
+  EXPECT_THAT(
+      row_names(rows_of({{"lidr", {{"tile", "16"}, {"lidr_packing", "sort"}, {"lidr_overlap", "4"}}},
+                         {"lidr", {{"tile", "16"}, {"lidr_packing", "sort"}, {"lidr_overlap", "2"}}},
+                         {"lidr", {{"tile", "16"}, {"lidr_packing", "bitshift"}, {"lidr_overlap", "4"}}},
+                         {"forward", {{"tile", "8"}}}})),
+      ElementsAre("lidr:lidr-overlap=4,lidr-packing=sort", "lidr:lidr-overlap=2,lidr-packing=sort",
+                  "lidr:lidr-overlap=4,lidr-packing=bitshift", "forward"));
 }
 
 TEST(RowNames, NumberRowsThatDifferInNothing) {

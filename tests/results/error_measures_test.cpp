@@ -23,7 +23,8 @@ ImageError known_error() {
 }
 
 TEST(ErrorMeasures, AreThoseWorkedOutByHand) {
-  const std::map<std::string, double> by_hand = {{"max_abs", 4}, {"max_rel", 1}, {"rmse", std::sqrt(25.0 / 6)}, {"p99", 4}};
+  const std::map<std::string, double> by_hand = {
+      {"max_abs", 4}, {"max_rel", 1}, {"rmse", std::sqrt(25.0 / 6)}, {"p99", 4}};
   const ImageError error = known_error();
   std::set<std::string> keys;
   for (const ErrorMeasure& measure : error_measures()) {

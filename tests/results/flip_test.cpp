@@ -102,7 +102,8 @@ TEST(FlipOfTheAuthors, IsThatOfTheirProgram) {
 Image noise(int width, int height, uint32_t seed) {
   Image image(width, height);
   for (glm::vec4& pixel : image.pixels) {
-    for (int c = 0; c < 3; ++c) pixel[c] = float((seed = seed * 1664525u + 1013904223u) >> 8) / float(1 << 24);
+    for (int c = 0; c < 3; ++c)
+      pixel[c] = float((seed = seed * 1664525u + 1013904223u) >> 8) / float(1 << 24);
   }
   return image;
 }
@@ -115,7 +116,8 @@ TEST(Flip, OfEqualImagesIsZero) {
   }
 }
 
-// Flat images have no edges and no points. Green and blue are the pair that sets the scale of colour differences.
+// Flat images have no edges and no points. Green and blue are the pair that sets the scale of colour
+// differences.
 TEST(Flip, OfFlatImagesIsTheColourDifferenceAlone) {
   Image black(40, 40), green(40, 40), blue(40, 40);
   for (glm::vec4& pixel : green.pixels) pixel = {0, 1, 0, 1};

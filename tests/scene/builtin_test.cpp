@@ -135,7 +135,8 @@ TEST_P(BuiltinScenes, TwiceTheSame) {
   for (size_t i = 0; i < a.meshes.size(); ++i) EXPECT_EQ(a.meshes[i].positions, b.meshes[i].positions);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::Values("hall", "spheres", "terrain", "street", "particles", "gallery"),
+INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes,
+                         testing::Values("hall", "spheres", "terrain", "street", "particles", "gallery"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(BuiltinSceneList, CountsAreThoseOfTheDocumentation) {
@@ -143,12 +144,9 @@ TEST(BuiltinSceneList, CountsAreThoseOfTheDocumentation) {
     const char* name;
     size_t triangles;
     int points, spots, directional;
-  } documented[] = {{"hall", 87'384, 221, 16, 0},
-                    {"spheres", 188'160, 1024, 0, 0},
-                    {"terrain", 52568, 255, 0, 1},
-                    {"street", 91'136, 658, 132, 1},
-                    {"particles", 4'320, 325, 12, 0},
-                    {"gallery", 216'108, 181, 29, 0}};
+  } documented[] = {{"hall", 87'384, 221, 16, 0},     {"spheres", 188'160, 1024, 0, 0},
+                    {"terrain", 52568, 255, 0, 1},    {"street", 91'136, 658, 132, 1},
+                    {"particles", 4'320, 325, 12, 0}, {"gallery", 216'108, 181, 29, 0}};
   ASSERT_EQ(builtin_scenes().size(), std::size(documented));
   for (const auto& expected : documented) {
     const Scene scene = find_builtin_scene(expected.name)->make();

@@ -17,7 +17,8 @@ glm::dvec3 forward(const View& view) { return -glm::transpose(glm::dmat3(view.vi
 
 void expect_direction(const View& view, const glm::dvec3& wanted) {
   EXPECT_LT(glm::length(forward(view) - wanted), 1e-12);
-  EXPECT_LT(glm::length(glm::dvec3(view.view_from_world * glm::dvec4(view.eye, 1))), 1e-12) << "the eye is the origin";
+  EXPECT_LT(glm::length(glm::dvec3(view.view_from_world * glm::dvec4(view.eye, 1))), 1e-12)
+      << "the eye is the origin";
 }
 
 TEST(CameraPath, TurnsAboutItsOwnPlace) {

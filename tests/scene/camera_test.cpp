@@ -229,7 +229,8 @@ TEST(ChooseCamera, DefaultSeesTheWholeScene) {
 Scene tripod(const glm::dmat4& matrix) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {2, 2, 2}};  // the last one belongs to no triangle
+  mesh.positions = {
+      {0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {2, 2, 2}};  // the last one belongs to no triangle
   mesh.indices = {0, 1, 2, 0, 2, 3, 0, 3, 1};
   for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
   scene.instances.push_back({"tripod", 0, matrix});
@@ -241,12 +242,15 @@ TEST(ChooseCamera, DefaultFillsTheImage) {
   for (const double size : {1e-6, 1.0, 1e9}) {
     for (const glm::dmat4& rotation : {glm::dmat4(1), turned, glm::scale(turned, {1e-9, 1, 1e-9})}) {
       for (const glm::ivec2 image : {glm::ivec2(1280, 720), glm::ivec2(100, 100), glm::ivec2(90, 700)}) {
-        const Scene scene = tripod(glm::translate(glm::dmat4(1), glm::dvec3(5, -3, 8) * size) * rotation * glm::dmat4(glm::dmat3(size)));
+        const Scene scene = tripod(glm::translate(glm::dmat4(1), glm::dvec3(5, -3, 8) * size) * rotation *
+                                   glm::dmat4(glm::dmat3(size)));
         const View view = make_view(choose_camera(scene, "", double(image.x) / image.y), image.x, image.y);
         glm::dvec2 low(2), high(-2);
         for (const uint32_t i : scene.meshes[0].indices) {
-          const glm::dvec4 world = scene.instances[0].world_from_object * glm::dvec4(glm::dvec3(scene.meshes[0].positions[i]), 1);
-          const glm::dvec3 screen = ndc(view, glm::dmat3(view.view_from_world) * (glm::dvec3(world) - view.eye));
+          const glm::dvec4 world =
+              scene.instances[0].world_from_object * glm::dvec4(glm::dvec3(scene.meshes[0].positions[i]), 1);
+          const glm::dvec3 screen =
+              ndc(view, glm::dmat3(view.view_from_world) * (glm::dvec3(world) - view.eye));
           low = glm::min(low, glm::dvec2(screen)), high = glm::max(high, glm::dvec2(screen));
           EXPECT_GT(screen.z, 0);
           EXPECT_LT(screen.z, 1);

@@ -106,7 +106,9 @@ TEST(GltfMaterial, a_clear_coat_is_read_with_its_maps) {
                {"clearcoatTexture", {{"index", 0}, {"extensions", transform}}},
                {"clearcoatRoughnessTexture", {{"index", 0}, {"texCoord", 1}}},
                {"clearcoatNormalTexture", {{"index", 1}, {"scale", 0.75}}}};
-  const auto load = [&] { return with_material({{"extensions", {{"KHR_materials_clearcoat", coat}}}}).load(); };
+  const auto load = [&] {
+    return with_material({{"extensions", {{"KHR_materials_clearcoat", coat}}}}).load();
+  };
   const Scene scene = load();
   const Material& material = scene.materials[0];
   EXPECT_EQ(material.clearcoat, 0.5f);
@@ -135,7 +137,8 @@ TEST(GltfMaterial, a_model_is_read_from_the_extras) {
   EXPECT_EQ(load_material({{"extras", "lightgrid"}}).model, MaterialModel());
   EXPECT_EQ(model_of({{"model", "skin"}, {"subsurfaceColor", {0.5, 0.25, 1}}, {"rollOff", 0.75}}),
             (MaterialModel{.subsurface_color = {0.5f, 0.25f, 1}, .roll_off = 0.75f}));
-  EXPECT_EQ(model_of({{"model", "skin"}}), (MaterialModel{.subsurface_color = {1, 0.2f, 0.2f}, .roll_off = 0.2f}));
+  EXPECT_EQ(model_of({{"model", "skin"}}),
+            (MaterialModel{.subsurface_color = {1, 0.2f, 0.2f}, .roll_off = 0.2f}));
   EXPECT_EQ(model_of({{"model", "minnaert"}, {"k", 0.5}}), (MaterialModel{.minnaert_k = 0.5f}));
 }
 
@@ -170,7 +173,8 @@ TEST(GltfMaterial, impossible_values_are_refused_by_name) {
       {{{"emissiveFactor", {1, 1, 1}},
         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}}},
        "emissiveStrength is -1"},
-      {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 2}}}}}}, "clearcoatFactor is 2, outside 0 to 1"},
+      {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 2}}}}}},
+       "clearcoatFactor is 2, outside 0 to 1"},
       {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", "much"}}}}}},
        "material 0: clearcoatRoughnessFactor is not a finite number"},
       {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 2}}}}}}}},

@@ -130,8 +130,9 @@ TEST_F(LightsFile, NamesTheLightAndTheField) {
   EXPECT_EQ(refused_light(R"("position": [0, 1e300, 0])"), "light 1: position 1e+300 is above 3.40282e+38");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "color": [1, -1, 1])"), "light 1: color -1 is below 0");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "intensity": -2)"), "light 1: intensity -2 is below 0");
-  EXPECT_EQ(refused_light(R"("name": "sun", "position": [0, 0, 0], "color": [0, 1e20, 1], "intensity": 1e30)"),
-            "light 1 \"sun\": intensity 1e+30 times color passes the largest float, 3.40282e+38");
+  EXPECT_EQ(
+      refused_light(R"("name": "sun", "position": [0, 0, 0], "color": [0, 1e20, 1], "intensity": 1e30)"),
+      "light 1 \"sun\": intensity 1e+30 times color passes the largest float, 3.40282e+38");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "type": "area")"),
             "light 1: type \"area\" is not point, spot or directional");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "type": 3)"), "light 1: type number is not a string");
@@ -152,7 +153,8 @@ TEST_F(LightsFile, NamesTheLightAndTheField) {
 }
 
 TEST_F(LightsFile, IntensityUpToTheLargestFloatIsTaken) {
-  EXPECT_EQ(load_one(R"("position": [0, 0, 0], "color": [0.5, 1, 0], "intensity": 3.4028234e38)").intensity, 3.4028234e38f);
+  EXPECT_EQ(load_one(R"("position": [0, 0, 0], "color": [0.5, 1, 0], "intensity": 3.4028234e38)").intensity,
+            3.4028234e38f);
   EXPECT_EQ(load_one(R"("position": [0, 0, 0], "color": [1e38, 0, 0], "intensity": 3.4)").color.r, 1e38f);
 }
 

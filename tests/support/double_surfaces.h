@@ -175,11 +175,13 @@ class Surfaces {
       return back ? -n : n;
     };
     s.normal = bent(m.normal_map, m.normal_scale);
-    s.subsurface_color = m.model.subsurface_color, s.roll_off = m.model.roll_off, s.minnaert_k = m.model.minnaert_k;
+    s.subsurface_color = m.model.subsurface_color, s.roll_off = m.model.roll_off,
+    s.minnaert_k = m.model.minnaert_k;
     if (m.clearcoat == 0) return s;
     s.coat = m.clearcoat, s.coat_roughness = m.clearcoat_roughness;
     if (m.clearcoat_map.texture >= 0) s.coat *= sampled(m.clearcoat_map, hit, at).r;
-    if (m.clearcoat_roughness_map.texture >= 0) s.coat_roughness *= sampled(m.clearcoat_roughness_map, hit, at).g;
+    if (m.clearcoat_roughness_map.texture >= 0)
+      s.coat_roughness *= sampled(m.clearcoat_roughness_map, hit, at).g;
     s.coat_normal = bent(m.clearcoat_normal_map, m.clearcoat_normal_scale);
     return s;
   }

@@ -1,4 +1,5 @@
-// LIGHTGRID_LONG_TESTS=1: the whole product of settings where a run of the tests else takes a part of it (docs/testing.md).
+// LIGHTGRID_LONG_TESTS=1: the whole product of settings where a run of the tests else takes a part of it
+// (docs/testing.md).
 #pragma once
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// The main function of every test program: 1 if a test failed; else 77 if one was skipped, which ctest shows as
-// skipped.
+// The main function of every test program: 1 if a test failed; else 77 if one was skipped, which ctest shows
+// as skipped.
 #include <gmock/gmock.h>
 
 int main(int argc, char** argv) {

@@ -29,12 +29,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinClustered, testing::Values("hall", "sphe
 
 // Each test, bound, spacing and shape, in few combinations, because each needs kernel builds.
 const Settings some_of_each[] = {
-    {.cull_test = CullTest::exact, .depth_bounds = DepthBoundsMode::halfz, .slices = 8, .slice_spacing = SliceSpacing::linear},
-    {.cull_test = CullTest::sphere, .depth_bounds = DepthBoundsMode::halfz_modified, .tile = 64, .slices = 64,
+    {.cull_test = CullTest::exact,
+     .depth_bounds = DepthBoundsMode::halfz,
+     .slices = 8,
+     .slice_spacing = SliceSpacing::linear},
+    {.cull_test = CullTest::sphere,
+     .depth_bounds = DepthBoundsMode::halfz_modified,
+     .tile = 64,
+     .slices = 64,
      .kernel_shape = KernelShape::group},
-    {.cull_test = CullTest::aabb, .depth_bounds = DepthBoundsMode::mask32, .tile = 8, .slices = 2,
+    {.cull_test = CullTest::aabb,
+     .depth_bounds = DepthBoundsMode::mask32,
+     .tile = 8,
+     .slices = 2,
      .grid_lists = GridLists::masks},
-    {.cull_test = CullTest::planes, .depth_bounds = DepthBoundsMode::none, .slices = 32,
+    {.cull_test = CullTest::planes,
+     .depth_bounds = DepthBoundsMode::none,
+     .slices = 32,
      .slice_spacing = SliceSpacing::linear},
 };
 
@@ -45,7 +56,8 @@ Scene crowded_scene() {
     if (effect.name == "blend" || effect.name == "spot") effect.add(s);
   }
   for (int i = 0; i < 60; ++i) {
-    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.2f + 0.01f * i);
+    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f,
+              0.2f + 0.01f * i);
   }
   return s.scene;
 }
@@ -78,12 +90,14 @@ TEST(GridMasks, HaveTheBytesOfEveryLightAtEveryPixel) {
     SCOPED_TRACE(more);
     SmallScene s = small_scene();
     effect("blend").add(s);
-    for (int i = 0; i < more; ++i) add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.2f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.8f);
+    for (int i = 0; i < more; ++i)
+      add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.2f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.8f);
     const View view = small_view(127, 73);
     const Image forward = render(s.scene, view, "forward");
     expect_exact(s.scene, view, {.grid_lists = GridLists::masks}, forward);
     expect_exact(s.scene, view, {.grid_lists = GridLists::masks}, forward, "clustered");
-    expect_exact(s.scene, view, {.depth_bounds = DepthBoundsMode::none, .grid_lists = GridLists::masks}, forward, "clustered");
+    expect_exact(s.scene, view, {.depth_bounds = DepthBoundsMode::none, .grid_lists = GridLists::masks},
+                 forward, "clustered");
   }
 }
 
@@ -103,8 +117,9 @@ TEST(GridMasks, OfNoLightsAreNothingAndEverythingOnChangesNoByte) {
   const View view = small_view(17, 9);
   for (const Scene& scene : {small_scene(false).scene, crowded_scene()}) {
     for (const bool everything : {false, true}) {
-      EXPECT_TRUE(identical(render(scene, view, "clustered", {.grid_lists = GridLists::masks, .everything_on = everything}),
-                            render(scene, view, "forward")));
+      EXPECT_TRUE(identical(
+          render(scene, view, "clustered", {.grid_lists = GridLists::masks, .everything_on = everything}),
+          render(scene, view, "forward")));
     }
   }
 }
@@ -135,7 +150,8 @@ TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
   effect("blend").add(s);
   Camera ends = look_at({0, 0, 0}, {0, 0, -1});
   ends.far_m = 4.5;
-  for (const View& view : {orthographic_small_view(0), orthographic_small_view(-3), make_view(ends, 127, 73)}) {
+  for (const View& view :
+       {orthographic_small_view(0), orthographic_small_view(-3), make_view(ends, 127, 73)}) {
     const Image forward = render(s.scene, view, "forward");
     EXPECT_GT(brightest_channel(forward), 0.2f);
     for (const DepthBoundsMode bounds : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
@@ -151,7 +167,8 @@ TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
   effect("blend").add(s);
   const View view = small_view(127, 73);
   for (const char* technique : {"clustered", "forward_plus"}) {
-    TechniqueRun run(test_devices(), s.scene, view, {.depth_bounds = DepthBoundsMode::none}, find_technique(technique));
+    TechniqueRun run(test_devices(), s.scene, view, {.depth_bounds = DepthBoundsMode::none},
+                     find_technique(technique));
     run.run_frame();
     EXPECT_FALSE(run.view().plan.blend_grid);
     EXPECT_FALSE(run.frame().blend_grid);
@@ -175,7 +192,8 @@ std::vector<float> telling_depths(const RenderView& v) {
 
 TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
   const Scene hall = find_builtin_scene("hall")->make(), small = small_scene().scene;
-  const std::pair<const Scene*, View> cases[] = {{&hall, default_view(hall, 127, 73)}, {&small, orthographic_small_view(0)}};
+  const std::pair<const Scene*, View> cases[] = {{&hall, default_view(hall, 127, 73)},
+                                                 {&small, orthographic_small_view(0)}};
   for (const auto& [scene, view] : cases) {
     for (const int slices : {1, 24, 64}) {
       TechniqueRun run(test_devices(), *scene, view, {.slices = slices}, find_technique("clustered"));

@@ -13,7 +13,8 @@ void add_sheet(Mesh& mesh, glm::vec3 low, float size, int side, const glm::vec4&
   const uint32_t base = uint32_t(mesh.positions.size());
   for (int y = 0; y <= side; ++y) {
     for (int x = 0; x <= side; ++x) {
-      mesh.positions.push_back(low + glm::vec3(size * float(x) / float(side), size * float(y) / float(side), 0));
+      mesh.positions.push_back(low +
+                               glm::vec3(size * float(x) / float(side), size * float(y) / float(side), 0));
       mesh.normals.emplace_back(0, 0, 1);
       // Half of a masked sheet's corners are above its cutoff.
       mesh.colors.emplace_back(glm::vec3(color), (x + y) % 2 ? color.a : 1);
@@ -23,12 +24,14 @@ void add_sheet(Mesh& mesh, glm::vec3 low, float size, int side, const glm::vec4&
   for (uint32_t y = 0; y + 1 < row; ++y) {
     for (uint32_t x = 0; x + 1 < row; ++x) {
       const uint32_t a = base + y * row + x;
-      for (const uint32_t corner : {a, a + 1, a + row + 1, a, a + row + 1, a + row}) mesh.indices.push_back(corner);
+      for (const uint32_t corner : {a, a + 1, a + row + 1, a, a + row + 1, a + row})
+        mesh.indices.push_back(corner);
     }
   }
 }
 
-constexpr glm::vec4 colors[] = {{0.9f, 0.1f, 0.1f, 1}, {0.1f, 0.9f, 0.1f, 1}, {0.1f, 0.1f, 0.9f, 1}, {0.8f, 0.8f, 0.1f, 1}};
+constexpr glm::vec4 colors[] = {
+    {0.9f, 0.1f, 0.1f, 1}, {0.1f, 0.9f, 0.1f, 1}, {0.1f, 0.1f, 0.9f, 1}, {0.8f, 0.8f, 0.1f, 1}};
 
 // Nineteen lamps in front of the wall: three draws of forward_zprepass, and both parities of
 // forward_multipass.
@@ -36,7 +39,8 @@ Scene lamps_alone(int lamps = 19) {
   Scene scene = small_scene(false).scene;
   scene.instances.clear(), scene.meshes.clear();
   for (int i = 0; i < lamps; ++i) {
-    add_point(scene, "lamp", {-1.7f + 0.2f * float(i), 0.3f * float(i % 5) - 0.6f, -3.4f}, {1, 0.9f, 0.8f}, 1, 2.5f);
+    add_point(scene, "lamp", {-1.7f + 0.2f * float(i), 0.3f * float(i % 5) - 0.6f, -3.4f}, {1, 0.9f, 0.8f}, 1,
+              2.5f);
   }
   return scene;
 }
@@ -73,7 +77,8 @@ bool in_one_sum(const std::string& technique) {
 void expect_each_as_forward(const Scene& scene, const View& view) {
   const Image forward = render(scene, view, "forward");
   for (const Technique* technique : techniques()) {
-    if (technique->name == std::string("lidr")) continue;  // holds fewer lights a pixel than there are here: below
+    if (technique->name == std::string("lidr"))
+      continue;  // holds fewer lights a pixel than there are here: below
     if (technique->approximate) continue;
     if (own_surfaces(*technique, {})) continue;  // shows the first one drawn, which has the lowest number
     SCOPED_TRACE(technique->name);
@@ -114,15 +119,16 @@ TEST_P(EqualDepth, WithFewerLightsThanADrawTakes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Stacks, EqualDepth,
-                         testing::Values(Stack{2, 1, true, false}, Stack{3, 4, true, false}, Stack{4, 4, true, false},
-                                         Stack{2, 12, true, false}, Stack{4, 12, true, true}, Stack{3, 3, true, true},
-                                         Stack{2, 2, false, false}, Stack{4, 12, false, false}, Stack{3, 5, false, true}),
-                         [](const auto& info) {
-                           const Stack& s = info.param;
-                           return fmt::format("{}{}Of{}Triangles{}", s.sheets, s.one_mesh ? "InOneMesh" : "InMeshesOfTheirOwn",
-                                              2 * s.side * s.side, s.masked ? "Masked" : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Stacks, EqualDepth,
+    testing::Values(Stack{2, 1, true, false}, Stack{3, 4, true, false}, Stack{4, 4, true, false},
+                    Stack{2, 12, true, false}, Stack{4, 12, true, true}, Stack{3, 3, true, true},
+                    Stack{2, 2, false, false}, Stack{4, 12, false, false}, Stack{3, 5, false, true}),
+    [](const auto& info) {
+      const Stack& s = info.param;
+      return fmt::format("{}{}Of{}Triangles{}", s.sheets, s.one_mesh ? "InOneMesh" : "InMeshesOfTheirOwn",
+                         2 * s.side * s.side, s.masked ? "Masked" : "");
+    });
 
 // The rule itself, by scenes of one sheet: of opaque sheets in small meshes the last one is visible.
 TEST(EqualDepth, TheLastOneDrawnIsSeen) {

@@ -35,8 +35,8 @@ TEST_P(EveryTechnique, DrawsForwardsPictureWithAllEffects) {
   expect_forwards_picture(s.scene, small_view(47, 31), *GetParam());
 }
 
-// Each effect alone has shaders and kernels of its own in each technique, which take a second to build: every technique draws
-// a third of them, and each third of the techniques draws all.
+// Each effect alone has shaders and kernels of its own in each technique, which take a second to build: every
+// technique draws a third of them, and each third of the techniques draws all.
 TEST_P(EveryTechnique, DrawsForwardsPictureWithOneEffect) {
   const size_t place = std::ranges::find(techniques(), GetParam()) - techniques().begin();
   for (size_t i = 0; i < effects().size(); ++i) {

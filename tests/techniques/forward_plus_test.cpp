@@ -58,7 +58,8 @@ TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 127, 73);
   const Image forward = render(scene, view, "forward");
-  for (const CullTest test : {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
+  for (const CullTest test :
+       {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
     for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
       SCOPED_TRACE(fmt::format("test {} shape {}", int(test), int(shape)));
       expect_exact(scene, view, {.cull_test = test, .kernel_shape = shape}, forward);

@@ -14,12 +14,14 @@ namespace {
 struct Row {
   int overlap, lights;
 };
-const Row table[] = {{1, 15}, {1, 255}, {1, 65535}, {2, 15}, {2, 255}, {2, 65535}, {4, 15}, {4, 255}, {4, 65535},
-                     {8, 15}, {8, 255}, {8, 65535}, {16, 15}, {16, 255}};
+const Row table[] = {{1, 15},  {1, 255},   {1, 65535}, {2, 15},  {2, 255},   {2, 65535}, {4, 15},
+                     {4, 255}, {4, 65535}, {8, 15},    {8, 255}, {8, 65535}, {16, 15},   {16, 255}};
 
 struct LidrTable : testing::TestWithParam<LidrPacking> {
   // As many lights as the row distinguishes, up to the capacity of the wall.
-  static Scene scene_of(const Row& row) { return clustered_lights(row.overlap, std::min({row.lights, 300, 196 * row.overlap})); }
+  static Scene scene_of(const Row& row) {
+    return clustered_lights(row.overlap, std::min({row.lights, 300, 196 * row.overlap}));
+  }
 };
 
 TEST_P(LidrTable, HasTheImageOfEveryLightInEveryRow) {
@@ -43,12 +45,14 @@ TEST_P(LidrTable, HasItBehindFrontFacesToo) {
     if (GetParam() == LidrPacking::maxblend && row.overlap > 4) continue;
     SCOPED_TRACE(fmt::format("{} overlaps of {} lights", row.overlap, row.lights));
     const Scene scene = scene_of(row);
-    expect_within_limit(scene, view, lidr_settings(GetParam(), row.overlap, row.lights, LidrVolumes::front_faces), uint32_t(row.overlap),
-                        render(scene, view, "forward"));
+    expect_within_limit(scene, view,
+                        lidr_settings(GetParam(), row.overlap, row.lights, LidrVolumes::front_faces),
+                        uint32_t(row.overlap), render(scene, view, "forward"));
   }
 }
 
-// With lights in the scene's order the sum is forward's, bit for bit; and unpacking in float reads the same lights.
+// With lights in the scene's order the sum is forward's, bit for bit; and unpacking in float reads the same
+// lights.
 TEST_P(LidrTable, HasTheBytesInTheScenesOrder) {
   const View view = small_view(96, 64);
   for (const Row& row : {Row{2, 255}, Row{4, 255}, Row{4, 65535}, Row{8, 255}, Row{16, 15}}) {
@@ -77,12 +81,14 @@ void expect_no_wrong_light(const Scene& scene, const View& view, const Settings&
   for (const LightVolume& v : volumes) volume_of[v.light] = &v;
   size_t listed = 0;
   for (uint32_t pixel : covered_pixels(depth)) {
-    const glm::dvec3 p = position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depth[pixel]);
+    const glm::dvec3 p =
+        position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depth[pixel]);
     for (uint32_t i = 0; i < lists.count[pixel]; ++i, ++listed) {
       const uint32_t light = lists.indices[lists.first[pixel] + i];
       ASSERT_LT(light, lights.size());
       ASSERT_NE(volume_of[light], nullptr);
-      ASSERT_LE(glm::length(p - volume_of[light]->center), 1.01 * volume_of[light]->radius) << "pixel " << pixel << " light " << light;
+      ASSERT_LE(glm::length(p - volume_of[light]->center), 1.01 * volume_of[light]->radius)
+          << "pixel " << pixel << " light " << light;
     }
   }
   EXPECT_GT(listed, 0u);
@@ -101,9 +107,12 @@ TEST_P(LidrTable, LosesLightsPastTheLimitAndMixesNone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Packings, LidrTable, testing::Values(LidrPacking::bitshift, LidrPacking::maxblend, LidrPacking::sort),
+INSTANTIATE_TEST_SUITE_P(Packings, LidrTable,
+                         testing::Values(LidrPacking::bitshift, LidrPacking::maxblend, LidrPacking::sort),
                          [](const auto& info) {
-                           return info.param == LidrPacking::sort ? "Sort" : info.param == LidrPacking::maxblend ? "Maxblend" : "Bitshift";
+                           return info.param == LidrPacking::sort       ? "Sort"
+                                  : info.param == LidrPacking::maxblend ? "Maxblend"
+                                                                        : "Bitshift";
                          });
 
 }  // namespace

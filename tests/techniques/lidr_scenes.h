@@ -9,19 +9,21 @@
 
 namespace lightgrid {
 
-inline Settings lidr_settings(LidrPacking packing, int overlap = 0, int lights = 0, LidrVolumes volumes = LidrVolumes::stencil) {
+inline Settings lidr_settings(LidrPacking packing, int overlap = 0, int lights = 0,
+                              LidrVolumes volumes = LidrVolumes::stencil) {
   return {.lidr_packing = packing, .lidr_overlap = overlap, .lidr_lights = lights, .lidr_volumes = volumes};
 }
 
-// Clusters of lights on the wall, `overlap` each, which neither touch nor cover each other on screen; `lights` in all.
+// Clusters of lights on the wall, `overlap` each, which neither touch nor cover each other on screen;
+// `lights` in all.
 inline Scene clustered_lights(int overlap, int lights) {
   SmallScene s = small_scene(false);
   s.scene.instances.resize(1);  // without the ball
   for (int i = 0; i < lights; ++i) {
     const int cluster = i / overlap, within = i % overlap;
     const glm::dvec3 center(-1.6 + 0.25 * (cluster % 14), -1.6 + 0.25 * (cluster / 14), -3.97);
-    add_point(s.scene, "lamp", center + 0.01 * glm::dvec3(std::cos(within), std::sin(within), 0), {1, 0.5f + 0.02f * within, 0.4f},
-              0.05f, 0.08f);
+    add_point(s.scene, "lamp", center + 0.01 * glm::dvec3(std::cos(within), std::sin(within), 0),
+              {1, 0.5f + 0.02f * within, 0.4f}, 0.05f, 0.08f);
   }
   return s.scene;
 }
@@ -44,7 +46,8 @@ inline Pairs pairs_of(const Scene& scene, const View& view, const Settings& sett
 // Sums are in a different order from forward's; each has the rounding of a few lights.
 inline constexpr double other_order = 1e-5;
 
-inline void expect_within_limit(const Scene& scene, const View& view, const Settings& settings, uint32_t limit, const Image& forward) {
+inline void expect_within_limit(const Scene& scene, const View& view, const Settings& settings,
+                                uint32_t limit, const Image& forward) {
   const Pairs p = pairs_of(scene, view, settings);
   EXPECT_LE(p.most_lit, limit) << "the scene is no test of this row";
   EXPECT_LE(p.most_listed, limit);

@@ -9,7 +9,8 @@ namespace {
 TEST(Lidr, KeepsTheBrightestWhereThereIsNoRoom) {
   SmallScene s = small_scene(false);
   for (int i = 0; i < 9; ++i) add_point(s.scene, "lamp", {0, 0, -3.5}, {1, 1, 1}, i == 6 ? 50.0f : 1.0f, 2);
-  TechniqueRun run(test_devices(), s.scene, small_view(32, 32), lidr_settings(LidrPacking::bitshift, 1), find_technique("lidr"));
+  TechniqueRun run(test_devices(), s.scene, small_view(32, 32), lidr_settings(LidrPacking::bitshift, 1),
+                   find_technique("lidr"));
   run.run_frame();
   const ListedLights lists = listed_lights(run, read_depth(run.view()));
   ASSERT_GT(lists.indices.size(), 100u);
@@ -33,7 +34,8 @@ TEST(Lidr, SixtyFiveThousandLights) {
   SmallScene s = small_scene(false);
   s.scene.instances.resize(1);
   for (int i = 0; i < 65535; ++i) {
-    add_point(s.scene, "lamp", {-1.8 + 0.0156 * (i % 256), -2 + 0.0156 * (i / 256), -3.999}, {1, 1, 1}, 1e-4f, 0.009f);
+    add_point(s.scene, "lamp", {-1.8 + 0.0156 * (i % 256), -2 + 0.0156 * (i / 256), -3.999}, {1, 1, 1}, 1e-4f,
+              0.009f);
   }
   const View view = small_view(48, 32);
   const Image forward = render(s.scene, view, "forward");
@@ -45,7 +47,8 @@ TEST(Lidr, SixtyFiveThousandLights) {
     render(s.scene, view, "lidr");
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), "lidr: 65536 point and spot lights are more than the 65535 that have an index");
+    EXPECT_EQ(std::string(error.what()),
+              "lidr: 65536 point and spot lights are more than the 65535 that have an index");
   }
 }
 
@@ -55,14 +58,16 @@ TEST(Lidr, MoreLightsThanAskedForAreRefused) {
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
-    EXPECT_EQ(std::string(error.what()), "lidr: 16 point and spot lights are more than the 15 that have an index; use lidr-lights=auto");
+    EXPECT_EQ(std::string(error.what()),
+              "lidr: 16 point and spot lights are more than the 15 that have an index; use lidr-lights=auto");
   }
 }
 
 TEST(Lidr, EveryFrameIsTheSameAndMakesNothingNew) {
   const Scene scene = awkward_lights();
   for (const LidrPacking packing : {LidrPacking::bitshift, LidrPacking::sort}) {
-    TechniqueRun run(test_devices(), scene, small_view(64, 48), lidr_settings(packing), find_technique("lidr"));
+    TechniqueRun run(test_devices(), scene, small_view(64, 48), lidr_settings(packing),
+                     find_technique("lidr"));
     run.run_frame();
     const Image first = run.image();
     const GlCounts before = gl_counts();
@@ -76,7 +81,8 @@ TEST(Lidr, EveryFrameIsTheSameAndMakesNothingNew) {
 TEST(Lidr, TakesTheMemoryThatItsPageComputes) {
   const Scene scene = clustered_lights(4, 255);
   const View view = small_view(640, 360);
-  TechniqueRun run(test_devices(), scene, view, lidr_settings(LidrPacking::bitshift, 16), find_technique("lidr"));
+  TechniqueRun run(test_devices(), scene, view, lidr_settings(LidrPacking::bitshift, 16),
+                   find_technique("lidr"));
   TechniqueRun forward(test_devices(), scene, view, {}, find_technique("forward"));
   run.run_frame(), forward.run_frame();
   const size_t pixels = 640 * 360;

@@ -17,11 +17,13 @@ TEST(Lidr, LightsAboutTheEyeTheNearPlaneAndEverything) {
   Camera ends = look_at({0, 0, 0}, {0, 0, -1});
   ends.far_m = 4.5;
   Camera orthographic = ends;
-  orthographic.orthographic = true, orthographic.half_width_m = orthographic.half_height_m = 2, orthographic.near_m = -3;
+  orthographic.orthographic = true, orthographic.half_width_m = orthographic.half_height_m = 2,
+  orthographic.near_m = -3;
   for (const View& view : {small_view(127, 73), make_view(ends, 127, 73), make_view(orthographic, 127, 73)}) {
     const Image forward = render(scene, view, "forward");
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
-      for (const VolumeMeshes meshes : {VolumeMeshes::automatic, VolumeMeshes::icosahedron, VolumeMeshes::box}) {
+      for (const VolumeMeshes meshes :
+           {VolumeMeshes::automatic, VolumeMeshes::icosahedron, VolumeMeshes::box}) {
         SCOPED_TRACE(fmt::format("near {} volumes {} mesh {}", view.near_m, int(volumes), int(meshes)));
         Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
         settings.volume_mesh = meshes;
@@ -47,7 +49,8 @@ TEST(Lidr, ImagesOfAnySize) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(1279, 721)}) {
     SCOPED_TRACE(size.x);
     const View view = small_view(size.x, size.y);
-    expect_within_limit(scene, view, lidr_settings(LidrPacking::bitshift, 16), 16, render(scene, view, "forward"));
+    expect_within_limit(scene, view, lidr_settings(LidrPacking::bitshift, 16), 16,
+                        render(scene, view, "forward"));
   }
 }
 
@@ -56,16 +59,19 @@ Scene random_scene(Random& random) {
   SmallScene s = small_scene(false);
   for (int i = 0; i < 15; ++i) {
     const double radius = std::exp(random.uniform(-5, 5));
-    const glm::dvec3 toward = glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+    const glm::dvec3 toward =
+        glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
     // Near the wall, at its distance from one of its points, or around the eye.
     const glm::dvec3 on_wall(random.uniform(-2, 2), random.uniform(-2, 2), -4);
-    const double away = random.uniform() < 0.5 ? radius * (1 - std::exp(random.uniform(-14, 0))) : radius * random.uniform();
+    const double away =
+        random.uniform() < 0.5 ? radius * (1 - std::exp(random.uniform(-14, 0))) : radius * random.uniform();
     const glm::dvec3 place = (random.uniform() < 0.2 ? glm::dvec3(0) : on_wall) + toward * away;
     if (random.uniform() < 0.5) {
       add_point(s.scene, "lamp", place, {1, 1, 1}, 1, float(radius));
     } else {
       const double outer = std::exp(random.uniform(-3, 5));
-      add_spot(s.scene, "torch", place, place - toward, {1, 1, 1}, 1, float(radius), 0, std::min(outer, 179.0));
+      add_spot(s.scene, "torch", place, place - toward, {1, 1, 1}, 1, float(radius), 0,
+               std::min(outer, 179.0));
     }
   }
   return s.scene;
@@ -99,7 +105,8 @@ TEST(Lidr, LosesNothingWhereThereIsRoom) {
     }
     EXPECT_GT(with_room, 1000u);
     EXPECT_EQ(p.pairs.wrong, 0u);
-    EXPECT_LT(double(p.pairs.listed), 1.5 * double(p.pairs.lit)) << "volumes are close to what they stand for";
+    EXPECT_LT(double(p.pairs.listed), 1.5 * double(p.pairs.lit))
+        << "volumes are close to what they stand for";
   }
 }
 
@@ -131,14 +138,17 @@ TEST(Lidr, LosesNothingOfRandomLightsInRandomViews) {
 
 // Fifteen lights that reach a pixel's surface by 10^-5 to 10^-7 of their radius, exactly where a face of
 // their mesh touches the sphere.
-Scene lights_tangent_to_faces(Random& random, const View& view, const LightMesh& mesh, const std::vector<float>& depth) {
+Scene lights_tangent_to_faces(Random& random, const View& view, const LightMesh& mesh,
+                              const std::vector<float>& depth) {
   SmallScene s = small_scene(false);
   const std::vector<uint32_t> pixels = covered_pixels(depth);
   for (int i = 0; i < 15 && !pixels.empty(); ++i) {
     const uint32_t pixel = pixels[random.next() % pixels.size()];
-    const glm::dvec3 p = position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depth[pixel]);
+    const glm::dvec3 p =
+        position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depth[pixel]);
     const size_t face = random.next() % (mesh.indices.size() / 3) * 3;
-    const glm::dvec3 a = mesh.positions[mesh.indices[face]], b = mesh.positions[mesh.indices[face + 1]], c = mesh.positions[mesh.indices[face + 2]];
+    const glm::dvec3 a = mesh.positions[mesh.indices[face]], b = mesh.positions[mesh.indices[face + 1]],
+                     c = mesh.positions[mesh.indices[face + 2]];
     const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
     const float radius = std::exp(random.uniform(-5, 4));
     const glm::dvec3 in_view = p - normal * (double(radius) * (1 - std::exp(random.uniform(-16, -11))));
@@ -159,7 +169,8 @@ TEST(Lidr, LosesNothingOfLightsTangentToTheirMeshes) {
     TechniqueRun empty(test_devices(), dark, view, {}, find_technique("forward"));
     empty.run_frame();
     const VolumeMeshes meshes = trial % 2 ? VolumeMeshes::icosahedron : VolumeMeshes::box;
-    const Scene scene = lights_tangent_to_faces(random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty.view()));
+    const Scene scene = lights_tangent_to_faces(
+        random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty.view()));
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
       settings.volume_mesh = meshes;

@@ -11,7 +11,7 @@ namespace lightgrid::light_prepass_by_hand {
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr PrepassSpecular variants[] = {PrepassSpecular::plain, PrepassSpecular::fifth_term,
-                                        PrepassSpecular::luminance, PrepassSpecular::bent};
+                                               PrepassSpecular::luminance, PrepassSpecular::bent};
 inline constexpr const char* variant_names[] = {"plain", "fifth-term", "luminance", "bent"};
 
 inline Settings volumes(PrepassSpecular specular, Brdf brdf = Brdf::blinn) {
@@ -42,10 +42,11 @@ inline Scene lit_wall(int lamps, bool white, glm::vec3 color, float metallic, do
 
 inline double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
-// What the model reflects of the diffuse sums, which are the same for all channels: the article's appendix, with the
-// luminance in units of `scale` for the cosine.
+// What the model reflects of the diffuse sums, which are the same for all channels: the article's appendix,
+// with the luminance in units of `scale` for the cosine.
 inline glm::dvec3 diffuse_by_hand(const Material& m, double n_dot_v, double luminance, double scale) {
-  const double cosine = std::min(16 * luminance / scale, 1.0), roll_off = double(m.model.roll_off), k = double(m.model.minnaert_k);
+  const double cosine = std::min(16 * luminance / scale, 1.0), roll_off = double(m.model.roll_off),
+               k = double(m.model.minnaert_k);
   const double minnaert = std::pow(cosine, k - 1) * std::pow(std::max(n_dot_v, 1.0 / 16), 1 - k);
   const double rolled = smooth_step((cosine + roll_off) / (1 + roll_off)) - smooth_step(cosine);
   const glm::dvec3 skin = glm::dvec3(m.model.subsurface_color) * std::min(rolled / cosine, 1.0);
@@ -54,8 +55,8 @@ inline glm::dvec3 diffuse_by_hand(const Material& m, double n_dot_v, double lumi
 
 // Equations 8.5.2 to 8.5.7 of the article with Schlick's Fresnel, as docs/techniques/light_prepass.md has
 // them.
-inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, int y, PrepassSpecular variant,
-                            double scale) {
+inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, int y,
+                                   PrepassSpecular variant, double scale) {
   const Material& m = scene.materials[0];
   const glm::dvec3 ndc(2 * (x + 0.5) / view.width - 1, 2 * (y + 0.5) / view.height - 1, 0);
   const glm::dvec3 p =
@@ -102,7 +103,8 @@ inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, 
   return reflected * diffuse + highlight * (f0 * (1 - share) + share);
 }
 
-inline double error_by_hand(const Scene& scene, const View& view, const Image& image, PrepassSpecular variant) {
+inline double error_by_hand(const Scene& scene, const View& view, const Image& image,
+                            PrepassSpecular variant) {
   const double scale = reference_light(scene, plan_frame(scene, view, {}, {.light_grid = true}));
   double most = 0, brightest = 0;
   for (int y = 0; y < view.height; ++y) {

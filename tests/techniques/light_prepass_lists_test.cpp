@@ -177,7 +177,8 @@ TEST(LightPrepass, TakesTheMemoryThatItsPageSays) {
 TEST(LightPrepass, EverythingOnChangesNoByte) {
   const Scene scene = small_scene().scene;
   const View view = small_view(33, 19);
-  EXPECT_TRUE(identical(render(scene, view, "light_prepass", {.everything_on = true}), render(scene, view, "light_prepass")));
+  EXPECT_TRUE(identical(render(scene, view, "light_prepass", {.everything_on = true}),
+                        render(scene, view, "light_prepass")));
 }
 
 }  // namespace

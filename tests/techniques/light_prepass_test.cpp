@@ -1,4 +1,5 @@
-// light_prepass: its equations evaluated in double at pixels of a wall, and forward's image where they are exact.
+// light_prepass: its equations evaluated in double at pixels of a wall, and forward's image where they are
+// exact.
 #include "techniques/light_prepass_by_hand.h"
 
 namespace lightgrid {
@@ -54,16 +55,19 @@ TEST(LightPrepass, IsItsEquationsForAnyNumberOfLights) {
 // Skin and Minnaert take the luminance of the sums for the cosine. Where no light arrives nothing glows.
 TEST(LightPrepass, GivesModelsTheLuminanceOfTheSums) {
   const View view = small_view(63, 37);
-  constexpr MaterialModel models[] = {{.subsurface_color = {0.9f, 0.3f, 0.2f}, .roll_off = 0.4f},
-                                      {.minnaert_k = 1.5f},
-                                      {.subsurface_color = {0.9f, 0.3f, 0.2f}, .roll_off = 0.4f, .minnaert_k = 0.6f}};
+  constexpr MaterialModel models[] = {
+      {.subsurface_color = {0.9f, 0.3f, 0.2f}, .roll_off = 0.4f},
+      {.minnaert_k = 1.5f},
+      {.subsurface_color = {0.9f, 0.3f, 0.2f}, .roll_off = 0.4f, .minnaert_k = 0.6f}};
   for (const MaterialModel& model : models) {
     Scene scene = lit_wall(2, false, {0.8f, 0.7f, 0.6f}, 0.5f, 200);
     scene.materials[0].model = model;
     const Image image = render(scene, view, "light_prepass", volumes(PrepassSpecular::luminance));
-    EXPECT_LT(error_by_hand(scene, view, image, PrepassSpecular::luminance), 2e-5) << model.roll_off << ' ' << model.minnaert_k;
+    EXPECT_LT(error_by_hand(scene, view, image, PrepassSpecular::luminance), 2e-5)
+        << model.roll_off << ' ' << model.minnaert_k;
     for (Light& light : scene.lights) light.position.z -= 50;
-    EXPECT_EQ(brightest_channel(render(scene, view, "light_prepass", volumes(PrepassSpecular::luminance))), 0);
+    EXPECT_EQ(brightest_channel(render(scene, view, "light_prepass", volumes(PrepassSpecular::luminance))),
+              0);
   }
 }
 

@@ -1,4 +1,5 @@
-// More lights than the iterations after which llvmpipe ends a shader's loops (65,535): no sum may lack a light in silence.
+// More lights than the iterations after which llvmpipe ends a shader's loops (65,535): no sum may lack a
+// light in silence.
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -11,7 +12,8 @@ Scene with_many_lights() {
   Scene scene = s.scene;
   scene.lights.clear();
   for (int i = 0; i < 70000; ++i)
-    add_point(scene, "spark", {0.001f * float(i % 100) - 0.05f, 0.001f * float(i / 100 % 100) - 0.05f, -1}, {1, 1, 1}, 1, 1e-3f);
+    add_point(scene, "spark", {0.001f * float(i % 100) - 0.05f, 0.001f * float(i / 100 % 100) - 0.05f, -1},
+              {1, 1, 1}, 1, 1e-3f);
   scene.lights.insert(scene.lights.end(), s.scene.lights.begin(), s.scene.lights.end());
   return scene;
 }

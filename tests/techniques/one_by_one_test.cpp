@@ -193,8 +193,8 @@ TEST_P(OneByOneEffect, IsThereAsInForwardAndWithEverythingOn) {
     const Way& way = ways[i];
     SCOPED_TRACE(way.name);
     for (const bool everything_on : {false, true}) {
-      // Each effect has shaders of its own in each technique, which take long to build: three of the eight draw it, and with
-      // the next effect the other ones.
+      // Each effect has shaders of its own in each technique, which take long to build: three of the eight
+      // draw it, and with the next effect the other ones.
       if (!everything_on && (i + 3 * place) % 8 > 2 && !long_tests()) continue;
       // Every effect's code takes long to build; two settings cover all shaders.
       if (everything_on && way.name != std::string("zprepass") && way.name != std::string("back_faces"))

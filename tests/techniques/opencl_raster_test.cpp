@@ -1,5 +1,5 @@
-// raster=opencl: deferred_tiled and forward_plus_compute with triangles and surfaces of OpenCL, against visibility, which
-// has the same surfaces and adds the same lights without a geometry buffer.
+// raster=opencl: deferred_tiled and forward_plus_compute with triangles and surfaces of OpenCL, against
+// visibility, which has the same surfaces and adds the same lights without a geometry buffer.
 #include "base/error.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -26,10 +26,10 @@ Drawn drawn(const char* technique, const Scene& scene, const View& view, const S
   return d;
 }
 
-// Lights are the same, and surfaces to the last bit of metalness. What differs is the rounding of the sums: visibility's
-// kernel rounds multiply-adds once, shade_tiles twice, and with base lighting the sum of lights is added to it, not begun
-// with it. A light's term has about 50 roundings of 2^-24 in either (oracle_test): 3e-6 of the brightest channel if all
-// went one way. Measured: 6.7e-7 at most.
+// Lights are the same, and surfaces to the last bit of metalness. What differs is the rounding of the sums:
+// visibility's kernel rounds multiply-adds once, shade_tiles twice, and with base lighting the sum of lights
+// is added to it, not begun with it. A light's term has about 50 roundings of 2^-24 in either (oracle_test):
+// 3e-6 of the brightest channel if all went one way. Measured: 6.7e-7 at most.
 constexpr double rounding = 2e-6;
 
 void expect_visibilitys_picture(const Scene& scene, const View& view) {
@@ -94,8 +94,9 @@ TEST(RasterInOpenCl, NoSettingOfTheListsChangesABit) {
   const Scene scene = every_effect();
   const View view = small_view(71, 37);
   const Image image = render(scene, view, "deferred_tiled", opencl);
-  for (Settings settings : {Settings{.depth_bounds = DepthBoundsMode::none}, Settings{.texels = TexelLayout::separate},
-                            Settings{.kernel_shape = KernelShape::group}}) {
+  for (Settings settings :
+       {Settings{.depth_bounds = DepthBoundsMode::none}, Settings{.texels = TexelLayout::separate},
+        Settings{.kernel_shape = KernelShape::group}}) {
     settings.raster = RasterApi::opencl;
     EXPECT_TRUE(identical(render(scene, view, "deferred_tiled", settings), image));
   }
@@ -119,7 +120,8 @@ TEST(RasterInOpenCl, BufferBitsTradeAccuracyForBytes) {
 }
 
 TEST(RasterInOpenCl, DrawsTheSameBytesWithoutOpenGl) {
-  static Renderer* const opencl_alone = new Renderer("", GlBackend::none);  // never closed, as support/devices.h says
+  static Renderer* const opencl_alone =
+      new Renderer("", GlBackend::none);  // never closed, as support/devices.h says
   const Scene scene = every_effect();
   const View view = small_view(71, 37);
   const Image image = render(scene, view, "deferred_tiled", opencl);
@@ -133,8 +135,8 @@ TEST(RasterInOpenCl, DrawsTheSameBytesWithoutOpenGl) {
 TEST(RasterInOpenCl, HasSurfacesOfItsOwnOnlyWhereItIsChosen) {
   for (const Technique* technique : techniques()) {
     const std::string name = technique->name;
-    const bool chooses = name == "deferred_tiled" || name == "forward_plus_compute" || name == "light_prepass" ||
-                         name == "voxel_lights" || name == "world_grid";
+    const bool chooses = name == "deferred_tiled" || name == "forward_plus_compute" ||
+                         name == "light_prepass" || name == "voxel_lights" || name == "world_grid";
     const bool visibility = technique->name == std::string("visibility");
     EXPECT_EQ(own_surfaces(*technique, {}), visibility) << technique->name;
     EXPECT_EQ(own_surfaces(*technique, opencl), chooses || visibility) << technique->name;

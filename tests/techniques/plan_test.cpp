@@ -39,13 +39,13 @@ struct Work {
 };
 
 std::ostream& operator<<(std::ostream& out, const Work& w) {
-  return out << fmt::format(
-             "{} buffers, {} textures, {} programs, {} kernels, {} launches, {} of them culls",
-             w.buffers, w.textures, w.programs, w.kernels, w.cl_launches, w.culls);
+  return out << fmt::format("{} buffers, {} textures, {} programs, {} kernels, {} launches, {} of them culls",
+                            w.buffers, w.textures, w.programs, w.kernels, w.cl_launches, w.culls);
 }
 
 // In the shape and form whose kernels are the same on every device.
-Work work_of(const Scene& scene, const Settings& settings = {.kernel_shape = KernelShape::lanes, .portable = true}) {
+Work work_of(const Scene& scene,
+             const Settings& settings = {.kernel_shape = KernelShape::lanes, .portable = true}) {
   Renderer devices("", GlBackend::automatic);  // with no program compiled yet
   const ClProfiler& profiler = devices.cl->profiler();
   const GlCounts before = gl_counts();
@@ -62,7 +62,7 @@ Work work_of(const Scene& scene, const Settings& settings = {.kernel_shape = Ker
   run.run_frame();
   const auto made = [&](GlKind kind) { return gl_counts().made[int(kind)] - before.made[int(kind)]; };
   // Its objects are destroyed while its context is current.
-  return {made(GlKind::buffer),      made(GlKind::texture),       made(GlKind::program),
+  return {made(GlKind::buffer),      made(GlKind::texture), made(GlKind::program),
           kernels_asked() - kernels, launched() - launches, profiler.count("cull_lights") - culls};
 }
 

@@ -140,7 +140,8 @@ TEST_F(Stochastic, TheMeanOverSeedsIsThePictureWithoutRangesAndTheVarianceFallsW
   const double brightest = *std::ranges::max_element(truth);
   EXPECT_GE(share_within_four_errors(single, truth, 1e-6 * brightest), 0.999);
   EXPECT_GT(share_that_varies(single), 0.5) << "little random is tested";
-  // Independent frames give 16. Few lights decide all pixels, and 64 means of 16 tell one light's variance to 18 %.
+  // Independent frames give 16. Few lights decide all pixels, and 64 means of 16 tell one light's variance to
+  // 18 %.
   EXPECT_NEAR(mean_variance(single) / mean_variance(of_16), 16, 3);
 }
 

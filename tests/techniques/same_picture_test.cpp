@@ -61,11 +61,13 @@ TEST(SamePicture, WhicheverWayTheBuffersTravel) {
     staged.gl->make_current();
     EXPECT_TRUE(identical(render(staged, scene, view, technique), image)) << technique;
   }
-  EXPECT_EQ(staged.pixel_copies.programs(), 3) << "of depth, the geometry buffer, the image for blended surfaces";
+  EXPECT_EQ(staged.pixel_copies.programs(), 3)
+      << "of depth, the geometry buffer, the image for blended surfaces";
 }
 
-// Two renderers may differ in depth's last places, at edges, and in how they filter textures: of the brightest channel,
-// llvmpipe and softpipe have an rmse of 2.0e-4, llvmpipe with the filters of AVX and of SSE 2 one of 6.5e-4.
+// Two renderers may differ in depth's last places, at edges, and in how they filter textures: of the
+// brightest channel, llvmpipe and softpipe have an rmse of 2.0e-4, llvmpipe with the filters of AVX and of
+// SSE 2 one of 6.5e-4.
 constexpr double two_renderers = 2e-3;
 
 // The same renderer with two backends must give equal pictures.

@@ -14,7 +14,8 @@ TEST(Sponza, HasTheBytesOfEveryLightAtEveryPixel) {
   Scene scene = load_gltf(shared_folder() / file);
   scene.lights = load_lights_file(shared_folder() / lights);
   scene.lights.resize(255);
-  const View view = make_view(choose_camera(scene, camera_of_lights_file(shared_folder() / lights)), 320, 180);
+  const View view =
+      make_view(choose_camera(scene, camera_of_lights_file(shared_folder() / lights)), 320, 180);
   const Image forward = render(scene, view, "forward");
   EXPECT_GT(brightest_channel(forward), 0.1f);
   for (const Settings& settings : {Settings{}, Settings{.z_bins = 64, .grid_lists = GridLists::masks}}) {

@@ -10,7 +10,8 @@ constexpr double exact_enough = 1e-5;  // of the brightest channel
 constexpr const char* both[] = {"forward_plus_compute", "deferred_tiled"};
 
 // Runs the technique and checks gates; returns the largest error, of the reference's brightest channel.
-double error_of(const char* technique, const Scene& scene, const View& view, const Image& forward, const Settings& settings = {}) {
+double error_of(const char* technique, const Scene& scene, const View& view, const Image& forward,
+                const Settings& settings = {}) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
@@ -25,7 +26,8 @@ TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
     const Scene scene = builtin.make();
     const View view = default_view(scene, 95, 53);
     const Image forward = render(scene, view, "forward");
-    for (const char* technique : both) EXPECT_LT(error_of(technique, scene, view, forward), exact_enough) << builtin.name << ' ' << technique;
+    for (const char* technique : both)
+      EXPECT_LT(error_of(technique, scene, view, forward), exact_enough) << builtin.name << ' ' << technique;
   }
 }
 
@@ -33,7 +35,8 @@ TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
 TEST(TiledLight, IsForwardsInTheHighlightsOfALargeImage) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 1280, 720);
-  EXPECT_LT(compare_images(render(scene, view, "deferred_tiled"), render(scene, view, "forward")).max_rel, 0.5 * exact_enough);
+  EXPECT_LT(compare_images(render(scene, view, "deferred_tiled"), render(scene, view, "forward")).max_rel,
+            0.5 * exact_enough);
 }
 
 TEST(TiledLight, InEverySizeAndTile) {
@@ -42,7 +45,8 @@ TEST(TiledLight, InEverySizeAndTile) {
     const View view = default_view(scene, width, height);
     const Image forward = render(scene, view, "forward");
     for (int tile : {8, 16, 64}) {
-      EXPECT_LT(error_of("deferred_tiled", scene, view, forward, {.tile = tile}), exact_enough) << width << ' ' << tile;
+      EXPECT_LT(error_of("deferred_tiled", scene, view, forward, {.tile = tile}), exact_enough)
+          << width << ' ' << tile;
     }
   }
 }
@@ -50,8 +54,9 @@ TEST(TiledLight, InEverySizeAndTile) {
 TEST(TiledLight, OfBothKernelShapesAndEveryLoop) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 79, 45);
-  for (const Settings& settings : {Settings{.kernel_shape = KernelShape::group}, Settings{.portable = true},
-                                   Settings{.brdf = Brdf::blinn}, Settings{.depth_bounds = DepthBoundsMode::none}}) {
+  for (const Settings& settings :
+       {Settings{.kernel_shape = KernelShape::group}, Settings{.portable = true},
+        Settings{.brdf = Brdf::blinn}, Settings{.depth_bounds = DepthBoundsMode::none}}) {
     const Image forward = render(scene, view, "forward", {.brdf = settings.brdf});
     EXPECT_LT(error_of("deferred_tiled", scene, view, forward, settings), exact_enough);
   }
@@ -69,7 +74,8 @@ TEST(TiledLight, IsNoneWhereThereAreNoLights) {
   scene.lights.clear();
   const View view = default_view(scene, 79, 45);
   const Image forward = render(scene, view, "forward");
-  for (const char* technique : both) EXPECT_TRUE(identical(render(scene, view, technique), forward)) << technique;
+  for (const char* technique : both)
+    EXPECT_TRUE(identical(render(scene, view, technique), forward)) << technique;
 }
 
 // docs/techniques/deferred_tiled.md#what-it-costs, computed by hand: 1024 point lights, no spot.
@@ -87,7 +93,8 @@ TEST(TiledLight, TakesTheMemoryThatItsPageSays) {
     for (const auto& [bits, bytes] : {std::pair<int, size_t>(8, 8), {16, 16}, {32, 32}}) {
       const RunResult result = result_of(technique, bits);
       EXPECT_EQ(result.memory_gbuffer, pixels * bytes) << technique << ' ' << bits;
-      EXPECT_EQ(result.memory_total - beside, pixels * bytes + (pixels + 16) * (bytes + 16) + lights) << technique << ' ' << bits;
+      EXPECT_EQ(result.memory_total - beside, pixels * bytes + (pixels + 16) * (bytes + 16) + lights)
+          << technique << ' ' << bits;
     }
   }
 }

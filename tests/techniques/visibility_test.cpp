@@ -16,15 +16,18 @@ TEST(VisibilityBuffer, IsNearForwardOnEveryBuiltinScene) {
   }
 }
 
-// Maps, normals and factors of coats are sampled by other code in OpenCL, which passes/resolve_test compares with doubles.
+// Maps, normals and factors of coats are sampled by other code in OpenCL, which passes/resolve_test compares
+// with doubles.
 TEST(VisibilityBuffer, IsNearForwardUnderCoats) {
   SmallScene s = small_scene();
   effect("clearcoat_maps").add(s);
-  s.scene.instances.resize(1);  // the wall
+  s.scene.instances.resize(1);                                               // the wall
   s.scene.materials[s.wall_material].base_color = {0.01f, 0.01f, 0.01f, 1};  // little but the coat is seen
   const View view = small_view(90, 90);
-  const ImageDistance distance = distance_of(render(s.scene, view, "visibility"), render(s.scene, view, "forward"));
-  // Measured: 3 pixels at the edges. With the roughness from another channel 1.3 %, with another normal scale 7 %.
+  const ImageDistance distance =
+      distance_of(render(s.scene, view, "visibility"), render(s.scene, view, "forward"));
+  // Measured: 3 pixels at the edges. With the roughness from another channel 1.3 %, with another normal scale
+  // 7 %.
   EXPECT_LT(distance.share_apart, 0.003);
 }
 
@@ -35,9 +38,11 @@ TEST(VisibilityBuffer, ListsAndEveryLightHaveTheSameBytes) {
     const View view = default_view(scene, 95, 53);
     const Image all = render(scene, view, "visibility", {.lights = ShadedLights::all});
     EXPECT_TRUE(identical(render(scene, view, "visibility"), all));
-    if (builtin.name != std::string("hall")) continue;  // with every effect; each setting is a kernel to compile
-    for (const Settings& settings : {Settings{.tile = 8, .everything_on = true}, Settings{.z_bins = 64, .everything_on = true},
-                                     Settings{.depth_bounds = DepthBoundsMode::none}}) {
+    if (builtin.name != std::string("hall"))
+      continue;  // with every effect; each setting is a kernel to compile
+    for (const Settings& settings :
+         {Settings{.tile = 8, .everything_on = true}, Settings{.z_bins = 64, .everything_on = true},
+          Settings{.depth_bounds = DepthBoundsMode::none}}) {
       EXPECT_TRUE(identical(render(scene, view, "visibility", settings), all));
     }
   }
@@ -104,7 +109,9 @@ TEST(VisibilityBuffer, BlendsByTheAlphaOfATexture) {
   const View view = small_view(127, 73);
   const Image image = render(s.scene, view, "visibility");
   expect_near(image, render(s.scene, view, "forward"));
-  EXPECT_LT(compare_images(image, render(s.scene, view, "visibility", {.texels = TexelLayout::separate})).max_rel, 1e-5);
+  EXPECT_LT(
+      compare_images(image, render(s.scene, view, "visibility", {.texels = TexelLayout::separate})).max_rel,
+      1e-5);
 }
 
 struct Distances {

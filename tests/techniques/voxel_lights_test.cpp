@@ -1,5 +1,5 @@
-// voxel_lights: its picture against forward's, one light by hand, and where it must hold. `lightgrid verify --filter voxels/`
-// holds samples to the formulas in double (src/verify/voxels.cpp).
+// voxel_lights: its picture against forward's, one light by hand, and where it must hold. `lightgrid verify
+// --filter voxels/` holds samples to the formulas in double (src/verify/voxels.cpp).
 #include "passes/build_voxels.h"
 #include "scene/random.h"
 #include "support/small_scene.h"

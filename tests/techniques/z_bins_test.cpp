@@ -55,7 +55,8 @@ TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
     unsetenv("LIGHTGRID_BRIDGE");
     const Scene scene = find_builtin_scene("hall")->make();
     const View view = default_view(scene, 95, 53);
-    for (const char* technique : in_opencl) expect_the_bytes_of_none(scene, view, {.z_bins = 64}, technique, staged);
+    for (const char* technique : in_opencl)
+      expect_the_bytes_of_none(scene, view, {.z_bins = 64}, technique, staged);
   }
   test_devices().gl->make_current();
 }
@@ -69,7 +70,8 @@ SmallScene scene_with_glass() {
     if (effect.name == "blend" || effect.name == "spot") effect.add(s);
   }
   for (int i = 0; i < 60; ++i) {
-    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.2f + 0.01f * i);
+    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f,
+              0.2f + 0.01f * i);
   }
   return s;
 }
@@ -85,7 +87,8 @@ TEST(ZBins, HaveTheBytesWithGlassMasksLinearBinsAndNoDepthBounds) {
     for (const Settings& settings :
          {Settings{.slice_spacing = SliceSpacing::linear, .z_bins = 16},
           Settings{.z_bins = 256, .grid_lists = GridLists::masks},
-          Settings{.depth_bounds = DepthBoundsMode::none, .z_bins = 64, .kernel_shape = KernelShape::group}}) {
+          Settings{
+              .depth_bounds = DepthBoundsMode::none, .z_bins = 64, .kernel_shape = KernelShape::group}}) {
       SCOPED_TRACE(testing::PrintToString(to_strings(settings)));
       expect_exact(scene, view, settings, forward);
       expect_exact(scene, view, settings, forward, "clustered");

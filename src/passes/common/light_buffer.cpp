@@ -90,7 +90,8 @@ LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer) {
   source.defines.emplace_back("LIGHTS_BUFFER");
   for (std::string& define : light_buffer_defines(v)) source.defines.push_back(std::move(define));
   // Where nothing reads it, lights of another brightness need no other program.
-  const bool read = v.plan.settings.prepass_specular == PrepassSpecular::bent || v.plan.skin || v.plan.minnaert;
+  const bool read =
+      v.plan.settings.prepass_specular == PrepassSpecular::bent || v.plan.skin || v.plan.minnaert;
   source.defines.push_back(
       fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(v.scene, v.plan) : 1.0));
   source.textures = {{12, buffer.first}};

@@ -7,8 +7,8 @@
 namespace lightgrid {
 namespace {
 
-// llvmpipe ends a shader's loops after 65,535 iterations together (shaders/lights/blocks.glsl); the loops over masks and z-bins
-// take two a light and one a word, those of voxel-lights-exact two a light.
+// llvmpipe ends a shader's loops after 65,535 iterations together (shaders/lights/blocks.glsl); the loops
+// over masks and z-bins take two a light and one a word, those of voxel-lights-exact two a light.
 constexpr size_t longest_plain_loop = 16384;
 
 LightSource with_lights(const RenderView& v) {
@@ -52,7 +52,8 @@ LightSource from_grid(const RenderView& v, const GridTextures& grid) {
 LightSource from_light_index(const RenderView& v, const LightIndexImages& index) {
   LightSource source = with_lights(v);
   source.defines.insert(source.defines.end(), index.defines.begin(), index.defines.end());
-  for (size_t i = 0; i < index.images.size(); ++i) source.textures.push_back({GLuint(12 + i), index.images[i]});
+  for (size_t i = 0; i < index.images.size(); ++i)
+    source.textures.push_back({GLuint(12 + i), index.images[i]});
   source.bytes = index.bytes;
   return source;
 }

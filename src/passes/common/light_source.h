@@ -18,7 +18,7 @@ struct LightSource {
     GLuint binding, buffer;
   };
   std::vector<Block> blocks;  // uniform blocks besides the view's
-  size_t bytes = 0;  // of the lists, for passes that count bytes read
+  size_t bytes = 0;           // of the lists, for passes that count bytes read
 
   void bind(const RenderView& v) const;  // binds these textures, the lights and the view
 };
@@ -31,7 +31,8 @@ LightSource from_grid(const RenderView& v, const GridTextures& grid);
 LightSource from_light_index(const RenderView& v, const LightIndexImages& index);
 // The lights of the current object (uniform lights_of_draw).
 LightSource from_objects(const RenderView& v, const ObjectLights& objects);
-// The light of a voxel light buffer (passes/build_voxels.h), and with voxel-lights-exact of lights of the pixel's cell.
+// The light of a voxel light buffer (passes/build_voxels.h), and with voxel-lights-exact of lights of the
+// pixel's cell.
 LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels, const GridTextures& grid);
 // No point or spot light: ambient, emissive and directional light alone.
 LightSource base_lighting(const RenderView& v);

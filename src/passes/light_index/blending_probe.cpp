@@ -60,7 +60,8 @@ std::vector<std::vector<uint32_t>> rounds_of(const LightIndexLayout& layout) {
 
 // Expected result of unpacking: lights in the order drawn or, for two at once, the lower first, without
 // repeats.
-std::vector<uint32_t> lights_drawn(const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds, size_t pixel) {
+std::vector<uint32_t> lights_drawn(const LightIndexLayout& layout,
+                                   const std::vector<std::vector<uint32_t>>& rounds, size_t pixel) {
   std::vector<uint32_t> lights;
   for (uint32_t first = 0; first < layout.overlap; first += layout.slots) {
     std::vector<uint32_t> group;
@@ -84,7 +85,8 @@ GlTexture index_image() {
   return image;
 }
 
-std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds) {
+std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& layout,
+                                      const std::vector<std::vector<uint32_t>>& rounds) {
   std::vector<GlTexture> images;
   std::vector<GLuint> names;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
@@ -98,13 +100,15 @@ std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& lay
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, probe_size, probe_size);
   glDisable(GL_DEPTH_TEST), glDisable(GL_STENCIL_TEST), glDisable(GL_CULL_FACE);
-  for (uint32_t i = 0; i < layout.targets(); ++i) glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, GLint(i), none);
+  for (uint32_t i = 0; i < layout.targets(); ++i)
+    glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, GLint(i), none);
   begin_light_indices(layout);
   glUseProgram(v.program("shaders/screen.vert", "shaders/light_index_probe.frag", layout.defines()).name());
   glBindVertexArray(nothing.name());
   glBindTextureUnit(12, indices.name());  // the units before are used by materials
   for (size_t r = 0; r < rounds.size(); ++r) {
-    glTextureSubImage2D(indices.name(), 0, 0, 0, probe_size, probe_size, GL_RED_INTEGER, GL_UNSIGNED_INT, rounds[r].data());
+    glTextureSubImage2D(indices.name(), 0, 0, 0, probe_size, probe_size, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                        rounds[r].data());
     write_group(layout, uint32_t(r) / layout.slots);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
@@ -126,7 +130,8 @@ std::string why_blending_fails(const LightIndexLayout& layout, const LightIndexB
     unpack_light_index(layout, {&channels[p * stride], stride}, false, unpacked);
     expected = lights_drawn(layout, rounds, p);
     if (unpacked == expected) continue;
-    if (failed++ == 0) first = fmt::format("lights {} become {}", fmt::join(expected, " "), fmt::join(unpacked, " "));
+    if (failed++ == 0)
+      first = fmt::format("lights {} become {}", fmt::join(expected, " "), fmt::join(unpacked, " "));
   }
   return failed ? fmt::format("{}, and so {} of {} states", first, failed, pixels) : "";
 }
@@ -137,11 +142,14 @@ void require_exact_blending(RenderView& v, const LightIndexLayout& layout) {
   const auto [found, added] = tried.try_emplace(gl.renderer + gl.version + layout.name());
   if (added) {
     found->second = why_blending_fails(
-        layout, [&](const LightIndexLayout& l, const std::vector<std::vector<uint32_t>>& rounds) { return blend_in_opengl(v, l, rounds); });
+        layout, [&](const LightIndexLayout& l, const std::vector<std::vector<uint32_t>>& rounds) {
+          return blend_in_opengl(v, l, rounds);
+        });
   }
   if (!found->second.empty()) {
-    throw machine_error("lidr: blending of \"{}\" does not keep light indices ({}): {}; lidr-packing=sort needs no blending", gl.renderer,
-                        layout.name(), found->second);
+    throw machine_error(
+        "lidr: blending of \"{}\" does not keep light indices ({}): {}; lidr-packing=sort needs no blending",
+        gl.renderer, layout.name(), found->second);
   }
 }
 

@@ -23,7 +23,8 @@ void begin_light_indices(const LightIndexLayout& layout) {
 void write_group(const LightIndexLayout& layout, uint32_t group) {
   for (uint32_t target = 0; target < layout.targets(); ++target) {
     GLboolean on[4];
-    for (uint32_t c = 0; c < 4; ++c) on[c] = group == all_channels || (target * 4 + c) / layout.channels == group;
+    for (uint32_t c = 0; c < 4; ++c)
+      on[c] = group == all_channels || (target * 4 + c) / layout.channels == group;
     glColorMaski(target, on[0], on[1], on[2], on[3]);
   }
 }
@@ -47,7 +48,8 @@ std::vector<uint16_t> read_channels(const LightIndexLayout& layout, int width, i
       image.assign(bytes.begin(), bytes.end());
     }
     for (size_t i = 0; i < pixels; ++i) {
-      for (uint32_t c = 0; c < layout.target_channels(); ++c) channels[i * stride + target * 4 + c] = image[i * 4 + c];
+      for (uint32_t c = 0; c < layout.target_channels(); ++c)
+        channels[i * stride + target * 4 + c] = image[i * 4 + c];
     }
   }
   glReadBuffer(GL_COLOR_ATTACHMENT0);

@@ -13,16 +13,18 @@ namespace lightgrid {
 
 struct LightIndexLayout {
   LidrPacking packing = LidrPacking::bitshift;
-  uint32_t overlap = 0;           // lights a pixel
-  uint32_t lights = 0;            // lights an index distinguishes: 15, 255 or 65,535
-  uint32_t groups = 1, slots = 1; // overlap = groups * slots; each group of slots has its own channels
-  uint32_t channels = 1;          // of a group
+  uint32_t overlap = 0;            // lights a pixel
+  uint32_t lights = 0;             // lights an index distinguishes: 15, 255 or 65,535
+  uint32_t groups = 1, slots = 1;  // overlap = groups * slots; each group of slots has its own channels
+  uint32_t channels = 1;           // of a group
   uint32_t channel_bits = 8;
-  uint32_t shift = 8;             // bitshift: bits of each channel that one slot takes
+  uint32_t shift = 8;  // bitshift: bits of each channel that one slot takes
 
   uint32_t most() const { return (1u << channel_bits) - 1; }
   uint32_t targets() const { return (groups * channels + 3) / 4; }
-  uint32_t target_channels() const { return targets() > 1 ? 4 : groups * channels; }  // channels of each image
+  uint32_t target_channels() const {
+    return targets() > 1 ? 4 : groups * channels;
+  }  // channels of each image
   GLenum format() const;
   size_t pixel_bytes() const { return size_t(targets()) * target_channels() * channel_bits / 8; }
 

@@ -22,7 +22,8 @@ class Neighbours {
  public:
   explicit Neighbours(const std::vector<LightExtent>& extents) : extents_(extents) {
     std::vector<double> sizes;
-    for (const LightExtent& e : extents) sizes.push_back(std::max({e.high.x - e.low.x, e.high.y - e.low.y, e.high.z - e.low.z}));
+    for (const LightExtent& e : extents)
+      sizes.push_back(std::max({e.high.x - e.low.x, e.high.y - e.low.y, e.high.z - e.low.z}));
     if (sizes.empty()) return;
     std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
     const double median = sizes[sizes.size() / 2];
@@ -30,7 +31,8 @@ class Neighbours {
   }
 
   void add(uint32_t extent) {
-    if (!each_cell(extents_[extent], [&](uint64_t cell) { in_cell_[cell].push_back(extent); })) large_.push_back(extent);
+    if (!each_cell(extents_[extent], [&](uint64_t cell) { in_cell_[cell].push_back(extent); }))
+      large_.push_back(extent);
     all_.push_back(extent);
   }
 
@@ -52,7 +54,8 @@ class Neighbours {
 
   template <typename Visit>
   bool each_cell(const LightExtent& e, const Visit& visit) const {
-    const glm::dvec3 low = glm::floor(e.low / cell_), high = glm::floor(e.high / cell_), count = high - low + 1.0;
+    const glm::dvec3 low = glm::floor(e.low / cell_), high = glm::floor(e.high / cell_),
+                     count = high - low + 1.0;
     if (!(count.x * count.y * count.z <= most_cells) || !(glm::length(low) < 1e15)) return false;
     for (double z = low.z; z <= high.z; ++z) {
       for (double y = low.y; y <= high.y; ++y) {
@@ -64,7 +67,8 @@ class Neighbours {
 
   // Hash collisions only add candidates.
   static uint64_t key(int64_t x, int64_t y, int64_t z) {
-    return uint64_t(x) * 0x9e3779b97f4a7c15 ^ uint64_t(y) * 0xc2b2ae3d27d4eb4f ^ uint64_t(z) * 0x165667b19e3779f9;
+    return uint64_t(x) * 0x9e3779b97f4a7c15 ^ uint64_t(y) * 0xc2b2ae3d27d4eb4f ^
+           uint64_t(z) * 0x165667b19e3779f9;
   }
 
   const std::vector<LightExtent>& extents_;

@@ -31,18 +31,19 @@ double plane_distance(const Shape& shape, const Triangle& t) {
 LightMesh finished(const Shape& shape) {
   LightMesh mesh;
   for (const glm::dvec3& p : shape.points) mesh.positions.emplace_back(p);
-  for (const Triangle& t : shape.triangles) mesh.indices.insert(mesh.indices.end(), {uint16_t(t[0]), uint16_t(t[1]), uint16_t(t[2])});
+  for (const Triangle& t : shape.triangles)
+    mesh.indices.insert(mesh.indices.end(), {uint16_t(t[0]), uint16_t(t[1]), uint16_t(t[2])});
   return mesh;
 }
 
 Shape icosahedron() {
   const double g = std::numbers::phi;
   Shape shape;
-  shape.points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  shape.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                     {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  shape.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  shape.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (glm::dvec3& p : shape.points) p = glm::normalize(p);
   return shape;
 }
@@ -58,7 +59,8 @@ Shape subdivided(const Shape& coarse) {
   };
   for (const Triangle& t : coarse.triangles) {
     const int ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
-    fine.triangles.insert(fine.triangles.end(), {{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}});
+    fine.triangles.insert(fine.triangles.end(),
+                          {{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}});
   }
   return fine;
 }
@@ -68,7 +70,8 @@ int add_ring(Shape& shape, double angle_rad) {
   const int first = int(shape.points.size());
   for (int i = 0; i < sides; ++i) {
     const double turn = 2 * pi * i / sides;
-    shape.points.emplace_back(std::sin(angle_rad) * std::cos(turn), std::sin(angle_rad) * std::sin(turn), std::cos(angle_rad));
+    shape.points.emplace_back(std::sin(angle_rad) * std::cos(turn), std::sin(angle_rad) * std::sin(turn),
+                              std::cos(angle_rad));
   }
   return first;
 }
@@ -96,11 +99,13 @@ LightMesh box_mesh() {
 
 LightMesh cone_mesh(double half_angle_rad) {
   // The flat sides are tangent to the cone along their centre lines, so their edges are slightly farther out.
-  const double edge_angle = std::atan2(std::sin(half_angle_rad), std::cos(half_angle_rad) * std::cos(pi / sides));
+  const double edge_angle =
+      std::atan2(std::sin(half_angle_rad), std::cos(half_angle_rad) * std::cos(pi / sides));
   Shape shape;
   const int tip = 0, apex = 1;
   shape.points = {{0, 0, 1}, {0, 0, 0}};
-  const int inner = add_ring(shape, edge_angle / 3), middle = add_ring(shape, edge_angle * 2 / 3), outer = add_ring(shape, edge_angle);
+  const int inner = add_ring(shape, edge_angle / 3), middle = add_ring(shape, edge_angle * 2 / 3),
+            outer = add_ring(shape, edge_angle);
   double nearest_cap = 1;
   for (int i = 0; i < sides; ++i) {
     const int j = (i + 1) % sides;
@@ -108,7 +113,8 @@ LightMesh cone_mesh(double half_angle_rad) {
     shape.triangles.push_back({tip, inner + i, inner + j});
     shape.quad(inner + i, middle + i, middle + j, inner + j);
     shape.quad(middle + i, outer + i, outer + j, middle + j);
-    for (size_t t = first; t < shape.triangles.size(); ++t) nearest_cap = std::min(nearest_cap, plane_distance(shape, shape.triangles[t]));
+    for (size_t t = first; t < shape.triangles.size(); ++t)
+      nearest_cap = std::min(nearest_cap, plane_distance(shape, shape.triangles[t]));
     shape.triangles.push_back({apex, outer + j, outer + i});
   }
   for (glm::dvec3& p : shape.points) p /= nearest_cap;

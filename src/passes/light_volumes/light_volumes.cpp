@@ -33,7 +33,8 @@ constexpr double farthest_corner = 1.74;
 constexpr double cut_once_px = 32, cut_twice_px = 250;
 
 double pixel_size(const View& view, double distance) {
-  const double x = 2 / (view.clip_from_view[0][0] * view.width), y = 2 / (view.clip_from_view[1][1] * view.height);
+  const double x = 2 / (view.clip_from_view[0][0] * view.width),
+               y = 2 / (view.clip_from_view[1][1] * view.height);
   return std::max(x, y) * (view.orthographic ? 1 : std::max(distance, view.near_m));
 }
 
@@ -47,19 +48,23 @@ double slack(const View& view, const ViewLight& light, double reach, int subpixe
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
   const double farthest = std::max(-p.z + reach, 0.0), nearest = std::max(-p.z - reach, view.near_m);
   const double in_depth = view.orthographic ? view.far_m - view.near_m : farthest * farthest / nearest;
-  return 24 * u * (sum + light.radius_m) + std::ldexp(pixel_size(view, farthest), 1 - subpixel_bits) + 32 * u * in_depth +
-         light.radius_m / 256;
+  return 24 * u * (sum + light.radius_m) + std::ldexp(pixel_size(view, farthest), 1 - subpixel_bits) +
+         32 * u * in_depth + light.radius_m / 256;
 }
 
 // The half-angle, widened for the rounding of the cosine in shading, as in culling: cosine minus 10^-6.
-double widened_angle(const ViewLight& light) { return std::acos(std::clamp(light.cos_outer - 1e-6, -1.0, 1.0)); }
+double widened_angle(const ViewLight& light) {
+  return std::acos(std::clamp(light.cos_outer - 1e-6, -1.0, 1.0));
+}
 
 // Slack that includes its own enlargement; none if that does not converge: a light before the near plane that
 // ends far away.
-std::optional<double> settled_slack(const View& view, const ViewLight& light, double per_slack, int subpixel_bits) {
+std::optional<double> settled_slack(const View& view, const ViewLight& light, double per_slack,
+                                    int subpixel_bits) {
   double given = 0;
   for (int i = 0; i < 8; ++i) {
-    const double needed = slack(view, light, farthest_corner * (light.radius_m + per_slack * given), subpixel_bits);
+    const double needed =
+        slack(view, light, farthest_corner * (light.radius_m + per_slack * given), subpixel_bits);
     if (!(needed < 1e15)) return {};
     if (needed <= given) return given;
     given = 1.05 * needed;
@@ -88,7 +93,8 @@ uint32_t ball_for(const View& view, const ViewLight& light, VolumeMeshes meshes)
 }
 
 // Sets mesh and matrix, or mesh `everything`.
-void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes, int subpixel_bits, LightVolume& volume) {
+void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes, int subpixel_bits,
+                  LightVolume& volume) {
   const double angle = light.type == LightType::spot ? widened_angle(light) : pi;
   const bool cone = angle < pi / 2 && meshes != VolumeMeshes::box;
   // A cone grown by its slack equals the cone moved back by slack / sin(angle).
@@ -107,7 +113,9 @@ void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes,
     volume.mesh = pyramid;
     axes[0] *= std::tan(angle), axes[1] *= std::tan(angle);
   } else {
-    volume.mesh = first_cone + uint32_t(std::clamp(std::ceil((angle - narrow_rad) / cone_step_rad), 1.0, double(cones))) - 1;
+    volume.mesh = first_cone +
+                  uint32_t(std::clamp(std::ceil((angle - narrow_rad) / cone_step_rad), 1.0, double(cones))) -
+                  1;
   }
   volume.view_from_mesh = placed(light.position - light.direction * (back * *given), axes);
 }
@@ -140,10 +148,12 @@ bool place_volume(const View& view, const Frustum& frustum, LightVolume& volume)
     corners.push_back(p);
     low = glm::min(low, p), high = glm::max(high, p), nearest = std::min(nearest, -p.z);
     for (int i = 0; i < frustum.count; ++i) {
-      inside[i] = std::max(inside[i], glm::dot(glm::dvec3(frustum.planes[i]), p) + frustum.planes[i].w >= 0 ? 1.0 : -1.0);
+      inside[i] = std::max(
+          inside[i], glm::dot(glm::dvec3(frustum.planes[i]), p) + frustum.planes[i].w >= 0 ? 1.0 : -1.0);
     }
     const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);
-    screen_low = glm::min(screen_low, glm::dvec2(clip) / clip.w), screen_high = glm::max(screen_high, glm::dvec2(clip) / clip.w);
+    screen_low = glm::min(screen_low, glm::dvec2(clip) / clip.w),
+    screen_high = glm::max(screen_high, glm::dvec2(clip) / clip.w);
   }
   for (int i = 0; i < frustum.count; ++i) {
     if (inside[i] < 0) return false;
@@ -171,8 +181,8 @@ const std::vector<LightMesh>& light_meshes() {
   return meshes;
 }
 
-std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLight> lights, VolumeMeshes meshes,
-                                       int subpixel_bits) {
+std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLight> lights,
+                                       VolumeMeshes meshes, int subpixel_bits) {
   const Frustum frustum = frustum_of(view);
   std::vector<LightVolume> volumes;
   for (size_t i = 0; i < lights.size(); ++i) {
@@ -195,7 +205,8 @@ LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> indices;
   for (const LightMesh& mesh : light_meshes()) {
-    ranges_.push_back({GLint(positions.size()), GLsizei(mesh.indices.size()), indices.size() * sizeof(uint16_t)});
+    ranges_.push_back(
+        {GLint(positions.size()), GLsizei(mesh.indices.size()), indices.size() * sizeof(uint16_t)});
     positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
     indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
   }
@@ -223,7 +234,9 @@ LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
 
 size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_; }
 
-bool LightVolumes::follow(RenderView& v) { return instance_bytes_ == v.plan.local.size() * sizeof(VolumeInstance); }
+bool LightVolumes::follow(RenderView& v) {
+  return instance_bytes_ == v.plan.local.size() * sizeof(VolumeInstance);
+}
 
 const std::vector<LightVolume>& LightVolumes::update(RenderView& v, VolumeMeshes meshes) {
   const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
@@ -237,7 +250,9 @@ void LightVolumes::upload(std::vector<LightVolume> volumes) {
   volumes_ = std::move(volumes);
   std::vector<VolumeInstance> instances;
   for (const LightVolume& volume : volumes_) instances.push_back({volume.clip_from_mesh, volume.light});
-  if (!instances.empty()) glNamedBufferSubData(instances_.name(), 0, GLsizeiptr(instances.size() * sizeof(VolumeInstance)), instances.data());
+  if (!instances.empty())
+    glNamedBufferSubData(instances_.name(), 0, GLsizeiptr(instances.size() * sizeof(VolumeInstance)),
+                         instances.data());
 }
 
 void LightVolumes::begin() const {
@@ -259,8 +274,8 @@ void LightVolumes::draw(size_t first, size_t count) const {
     while (next < first + count && volumes_[next].mesh == volumes_[i].mesh) ++next;
     const Range& range = ranges_[volumes_[i].mesh];
     glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, range.count, GL_UNSIGNED_SHORT,
-                                                  reinterpret_cast<const void*>(range.first_index_byte), GLsizei(next - i),
-                                                  range.base_vertex, GLuint(i));
+                                                  reinterpret_cast<const void*>(range.first_index_byte),
+                                                  GLsizei(next - i), range.base_vertex, GLuint(i));
   }
 }
 

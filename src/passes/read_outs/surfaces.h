@@ -7,13 +7,13 @@
 namespace lightgrid {
 
 struct SurfaceImages {
-  Image normal_roughness;      // view-space shading normal; perceptual roughness
+  Image normal_roughness;  // view-space shading normal; perceptual roughness
   Image base_color_metallic;
-  Image emissive_occlusion;    // occlusion -1: unlit
+  Image emissive_occlusion;                  // occlusion -1: unlit
   Image coat_normal_roughness, coat_factor;  // as above; red. Empty if no material in view has a coat
-  Image model;                               // red: the number. Empty if no material in view has a model but Lambert's
-  std::vector<MaterialModel> models;         // by number
-  std::vector<bool> blended;   // pixels covered by a blended surface
+  Image model;  // red: the number. Empty if no material in view has a model but Lambert's
+  std::vector<MaterialModel> models;  // by number
+  std::vector<bool> blended;          // pixels covered by a blended surface
 };
 
 // Draws and reads them. Uses the depth image of the last frame.

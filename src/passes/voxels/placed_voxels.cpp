@@ -168,9 +168,10 @@ void place_in_projection(PlacedVoxels& placed, const RenderView& v, const Visibl
   g.spacing_y = float(spacing.y);
   for (uint k = 0; k < g.size_z; ++k) {
     const double place = near * std::exp(k * step), next = near * std::exp((k + 1) * step);
-    // The box around the cell behind it, which is the larger one. Cells are sheared, most at the image's corners.
-    const glm::dvec3 cell(spacing.x * next + slope.x * (next - place), spacing.y * next + slope.y * (next - place),
-                          next - place);
+    // The box around the cell behind it, which is the larger one. Cells are sheared, most at the image's
+    // corners.
+    const glm::dvec3 cell(spacing.x * next + slope.x * (next - place),
+                          spacing.y * next + slope.y * (next - place), next - place);
     placed.slices.push_back(slice_of(place, cell, spacing.x * spacing.y * place * place * (step * place)));
   }
   set_places(placed.lookup, scaled_rows({1 / spacing.x, 1 / spacing.y, 1 / step}, glm::dmat3(1)),

@@ -108,7 +108,8 @@ void check_png_inflates_to_its_size(const Document& doc, const Encoded& image) {
 Bitmap decode_webp(const Document& doc, const Encoded& image) {
   Bitmap out{.width = image.width, .height = image.height};
   out.rgba.resize(size_t(image.width) * image.height * 4);
-  if (!WebPDecodeRGBAInto(image.bytes.data(), image.bytes.size(), out.rgba.data(), out.rgba.size(), image.width * 4))
+  if (!WebPDecodeRGBAInto(image.bytes.data(), image.bytes.size(), out.rgba.data(), out.rgba.size(),
+                          image.width * 4))
     throw doc.error("{}: cannot be decoded: its WebP data is broken", image.place);
   return out;
 }

@@ -65,7 +65,8 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text);
 // Moves the animations out of the JSON. Errors: wrong types, and indices that are not non-negative integers.
 std::vector<AnimationEntry> take_animations(const Reporter& report, nlohmann::json& root);
 
-// Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of a wrong type.
+// Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of
+// a wrong type.
 std::vector<ModelEntry> take_models(const Reporter& report, nlohmann::json& root);
 
 bool is_supported_extension(std::string_view name);

@@ -74,8 +74,8 @@ struct ExtensionTexture {
   double scale = 1;
 };
 
-ExtensionTexture read_extension_texture(const Document& doc, const tinygltf::Value& extension, const char* key,
-                                        const std::string& place) {
+ExtensionTexture read_extension_texture(const Document& doc, const tinygltf::Value& extension,
+                                        const char* key, const std::string& place) {
   if (!extension.Has(key)) return {};
   const tinygltf::Value& in = extension.Get(key);
   const std::string at = place + ": " + key;
@@ -92,16 +92,20 @@ ExtensionTexture read_extension_texture(const Document& doc, const tinygltf::Val
 
 // KHR_materials_clearcoat.
 void read_clearcoat(Document& doc, const tinygltf::Value& in, const std::string& place, Material& out) {
-  const auto factor = [&](const char* key) { return in_unit(doc, number_or(doc, in, key, 0, place), place, key); };
+  const auto factor = [&](const char* key) {
+    return in_unit(doc, number_or(doc, in, key, 0, place), place, key);
+  };
   const auto texture = [&](const char* key) { return read_extension_texture(doc, in, key, place); };
   out.clearcoat = factor("clearcoatFactor");
   out.clearcoat_roughness = factor("clearcoatRoughnessFactor");
   out.clearcoat_map = read_slot(doc, texture("clearcoatTexture"), place + ": clearcoatTexture");
-  out.clearcoat_roughness_map = read_slot(doc, texture("clearcoatRoughnessTexture"), place + ": clearcoatRoughnessTexture");
+  out.clearcoat_roughness_map =
+      read_slot(doc, texture("clearcoatRoughnessTexture"), place + ": clearcoatRoughnessTexture");
   const ExtensionTexture normal = texture("clearcoatNormalTexture");
   out.clearcoat_normal_map = read_slot(doc, normal, place + ": clearcoatNormalTexture");
   out.clearcoat_normal_scale = finite(doc, normal.scale, place, "clearcoatNormalTexture.scale");
-  if (out.clearcoat == 0) out.clearcoat_map = out.clearcoat_roughness_map = out.clearcoat_normal_map = {};  // not decoded
+  if (out.clearcoat == 0)
+    out.clearcoat_map = out.clearcoat_roughness_map = out.clearcoat_normal_map = {};  // not decoded
 }
 
 // Of NVIDIA's lambSkin where the file names none.
@@ -124,7 +128,8 @@ MaterialModel read_model(const Document& doc, const ModelEntry& in, const std::s
     throw doc.error("{}: subsurfaceColor or rollOff is given, but the model is minnaert", place);
   if (!in.k) throw doc.error("{}: k is missing", place);
   out.minnaert_k = finite(doc, *in.k, place, "k");
-  if (!(out.minnaert_k > 0 && out.minnaert_k <= 2)) throw doc.error("{}: k is {}; it is above 0 and at most 2", place, *in.k);
+  if (!(out.minnaert_k > 0 && out.minnaert_k <= 2))
+    throw doc.error("{}: k is {}; it is above 0 and at most 2", place, *in.k);
   return out;
 }
 
@@ -176,7 +181,8 @@ std::vector<Material> read_materials(Document& doc) {
     out.push_back(
         read_material(doc, material, label("material", static_cast<int>(out.size()), material.name)));
   for (const ModelEntry& model : doc.models) {
-    const std::string place = label("material", model.material, out[size_t(model.material)].name) + ": extras.lightgrid";
+    const std::string place =
+        label("material", model.material, out[size_t(model.material)].name) + ": extras.lightgrid";
     out[size_t(model.material)].model = read_model(doc, model, place);
   }
   out.push_back({.name = "default"});

@@ -31,7 +31,8 @@ glm::dmat4 affine_matrix(const Document& doc, const std::vector<double>& values,
   return out;
 }
 
-void read_node_transform(const Document& doc, const tinygltf::Node& node, const std::string& place, PlacedNode& out) {
+void read_node_transform(const Document& doc, const tinygltf::Node& node, const std::string& place,
+                         PlacedNode& out) {
   check_length(doc, node.matrix, 16, place, "matrix");
   check_length(doc, node.translation, 3, place, "translation");
   check_length(doc, node.rotation, 4, place, "rotation");
@@ -108,7 +109,8 @@ std::vector<PlacedNode> place_nodes(Document& doc, int scene) {
       throw doc.error("{}: is more than {} nodes deep", place, doc.limits.max_node_depth);
     PlacedNode& out = placed.emplace_back(PlacedNode{.node = next.node, .parent = next.parent});
     read_node_transform(doc, node, place, out);
-    const glm::dmat4 world_from_parent = next.parent < 0 ? glm::dmat4(1) : placed[next.parent].world_from_node;
+    const glm::dmat4 world_from_parent =
+        next.parent < 0 ? glm::dmat4(1) : placed[next.parent].world_from_node;
     out.world_from_node = world_from_parent * (out.matrix ? *out.matrix : parent_from_node(out.transform));
     if (!is_finite(out.world_from_node)) throw doc.error("{}: its world matrix is not finite", place);
     const int index = static_cast<int>(placed.size()) - 1;

@@ -162,7 +162,8 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
 }
 
 TangentNeed tangent_need(const Material& material) {
-  const TextureSlot& map = material.normal_map.texture >= 0 ? material.normal_map : material.clearcoat_normal_map;
+  const TextureSlot& map =
+      material.normal_map.texture >= 0 ? material.normal_map : material.clearcoat_normal_map;
   if (map.texture < 0) return TangentNeed::none;
   return map.uv_set == 0 ? TangentNeed::along_uv0 : TangentNeed::along_uv1;
 }

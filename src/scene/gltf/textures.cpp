@@ -57,7 +57,8 @@ int image_of_texture(const Document& doc, int index) {
   const tinygltf::Texture& texture = doc.model.textures[index];
   const tinygltf::Value* webp = find_extension(texture.extensions, "EXT_texture_webp");
   if (!webp || !webp->Has("source")) return texture.source;
-  return static_cast<int>(size_or(doc, *webp, "source", 0, fmt::format("texture {}: EXT_texture_webp", index)));
+  return static_cast<int>(
+      size_or(doc, *webp, "source", 0, fmt::format("texture {}: EXT_texture_webp", index)));
 }
 
 void add_textures(Document& doc, Scene& scene) {

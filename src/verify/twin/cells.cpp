@@ -30,11 +30,13 @@ Projected project(const TwinInputs& in) {
   return lights;
 }
 
-std::vector<uint32_t> lights_of_cell(const Projected& lights, uint tx, uint ty, const TestCell& cell, const CullParams* p) {
+std::vector<uint32_t> lights_of_cell(const Projected& lights, uint tx, uint ty, const TestCell& cell,
+                                     const CullParams* p) {
   std::vector<uint32_t> list;
   const int tile = int(tx | ty << 16);
   for (uint i = 0; i < p->light_count; ++i) {
-    if (rect_meets(lights.tiles[i], tile, tile) && light_may_touch(lights.values.data() + i, p->light_stride, &cell, p))
+    if (rect_meets(lights.tiles[i], tile, tile) &&
+        light_may_touch(lights.values.data() + i, p->light_stride, &cell, p))
       list.push_back(i);
   }
   return list;
@@ -52,7 +54,8 @@ std::vector<std::vector<uint32_t>> lights_of_cells<CULL_TEST, DEPTH_MODE>(const 
   for (uint slice = 0; slice < p->slices; ++slice) {
     for (uint ty = 0; ty < p->tiles_y; ++ty) {
       for (uint tx = 0; tx < p->tiles_x; ++tx) {
-        const uint bx = tx / BIN_TILES, by = ty / BIN_TILES, slot = slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
+        const uint bx = tx / BIN_TILES, by = ty / BIN_TILES,
+                   slot = slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
         const float* bounds = in.bounds + size_t(by * p->bins_x + bx) * BOUND_PLANES * BIN_SIZE;
         TestCell cell;
         const bool some = make_test_cell(bounds, bx, by, slot, slice, slices.data(), &cell, p);

@@ -18,7 +18,8 @@ std::vector<uint> keys_of_tile(const CullParams& p, uint tx, uint ty, int sample
   const uint size = p.tile_size;
   for (uint y = ty * size; y < min((ty + 1) * size, p.height); ++y) {
     const float* row = depth + p.depth_first + size_t(y) * p.depth_row;
-    for (uint x = tx * size * samples; x < min((tx + 1) * size, p.width) * samples; ++x) keys.push_back(KEY(as_uint(row[x])));
+    for (uint x = tx * size * samples; x < min((tx + 1) * size, p.width) * samples; ++x)
+      keys.push_back(KEY(as_uint(row[x])));
   }
   return keys;
 }
@@ -48,7 +49,8 @@ void bounds_of_tile(const std::vector<uint>& keys, int mode, const CullParams& p
   if (mode == DEPTH_HALFZ && all.high != 0) planes[1] = planes[2] = middle, planes[3] = whole_tile.far;
   if (mode == DEPTH_HALFZ_MODIFIED && depths) {
     const uint cut = KEY(as_uint(depth_of_distance(middle, &p)));
-    const Interval nearer = interval_of(extremes_of(keys, cut, 0xffffffffu), p), farther = interval_of(extremes_of(keys, 0, cut), p);
+    const Interval nearer = interval_of(extremes_of(keys, cut, 0xffffffffu), p),
+                   farther = interval_of(extremes_of(keys, 0, cut), p);
     planes[0] = nearer.near, planes[1] = nearer.far, planes[2] = farther.near, planes[3] = farther.far;
   }
   if (mode == DEPTH_MASK32) {
@@ -67,12 +69,15 @@ void blend_bounds_of_tile(const std::vector<uint>& keys, const CullParams& p, fl
   planes[0] = i.near, planes[1] = i.far;
 }
 
-int planes_of(int mode) { return mode == DEPTH_MASK32 ? 3 : mode == DEPTH_HALFZ || mode == DEPTH_HALFZ_MODIFIED ? 4 : 2; }
+int planes_of(int mode) {
+  return mode == DEPTH_MASK32 ? 3 : mode == DEPTH_HALFZ || mode == DEPTH_HALFZ_MODIFIED ? 4 : 2;
+}
 
 }  // namespace
 
 template <>
-std::vector<float> bounds_of_depth<standard>(const CullParams& p, int mode, bool blend, int samples, const float* depth) {
+std::vector<float> bounds_of_depth<standard>(const CullParams& p, int mode, bool blend, int samples,
+                                             const float* depth) {
   const int count = blend ? 2 : planes_of(mode);
   std::vector<float> values(size_t(p.bins_x) * p.bins_y * count * BIN_SIZE);
   for (size_t i = 0; i < values.size(); ++i) values[i] = i / BIN_SIZE % count % 2 == 0 ? FAR_AWAY : -FAR_AWAY;
@@ -81,8 +86,10 @@ std::vector<float> bounds_of_depth<standard>(const CullParams& p, int mode, bool
       float planes[4] = {p.orthographic ? -FAR_AWAY : 0.0f, FAR_AWAY};
       if (mode != DEPTH_NONE) {
         const std::vector<uint> keys = keys_of_tile(p, tx, ty, samples, depth);
-        if (blend) blend_bounds_of_tile(keys, p, planes);
-        else bounds_of_tile(keys, mode, p, planes);
+        if (blend)
+          blend_bounds_of_tile(keys, p, planes);
+        else
+          bounds_of_tile(keys, mode, p, planes);
       }
       const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
       for (int i = 0; i < count; ++i)

@@ -23,6 +23,7 @@ std::vector<std::vector<uint32_t>> lights_of_cells(const TwinInputs& in);
 
 // Raw bounds as the kernels write them, for one mode (or for blended surfaces), from depth values.
 template <bool standard_depth>
-std::vector<float> bounds_of_depth(const CullParams& params, int mode, bool blend, int samples, const float* depth);
+std::vector<float> bounds_of_depth(const CullParams& params, int mode, bool blend, int samples,
+                                   const float* depth);
 
 }  // namespace lightgrid::verify
