@@ -28,8 +28,8 @@ struct PointFigures {
   uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
   bool front = false;  // no point of its scene is better in both error.total.rmse_rel and ratio
-  std::vector<int>
-      tied_with;  // points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index
+  // Points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index.
+  std::vector<int> tied_with;
 };
 
 // "If you can bear an error of … use …": the point of least ratio whose error.total.rmse_rel is at most

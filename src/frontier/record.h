@@ -27,8 +27,8 @@ struct FrontierPoint {
 // Errors of a picture relative to the brightest channel of the truth. Linear light.
 struct ErrorFigures {
   double max_rel = 0, rmse_rel = 0;
-  double relative_rmse =
-      0;  // of each channel's difference over the truth's channel (at least 1e-3 of the brightest)
+  // Of each channel's difference over the truth's channel (at least 1e-3 of the brightest).
+  double relative_rmse = 0;
   double p99_rel = 0;               // of each pixel's largest channel error
   std::optional<double> flip_mean;  // HDR-FLIP
 };
@@ -68,9 +68,9 @@ struct FrontierRecord {
   std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
   std::map<std::string, double> pass_ms;      // medians of profiled frames
-  std::vector<double>
-      cull_ms;  // of culling, one a round: entry i of points that differ in the cull test alone was
-                // taken in one round. Empty: no such point, or another view than the first
+  // Of culling, one a round: entry i of points that differ in the cull test alone was taken in one round.
+  // Empty: no such point, or another view than the first.
+  std::vector<double> cull_ms;
   uint64_t bytes_moved = 0;  // sum of the passes' counted bytes, on the first view; otherwise 0
   uint64_t memory_bytes = 0;
   uint64_t covered_pixels = 0;  // with an opaque surface

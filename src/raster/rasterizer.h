@@ -16,10 +16,9 @@
 // in short:
 //
 // - A vertex is transformed in float, by a matrix that the host makes in double relative to the eye, and
-// snapped
-//   once to 1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left rule: a
-//   centre on an edge belongs to the triangle of which it is a left edge, or a horizontal top edge (rows
-//   count upwards).
+//   snapped once to 1/256 pixel. Coverage of the snapped triangle is exact, at pixel centres, by the top-left
+//   rule: a centre on an edge belongs to the triangle of which it is a left edge, or a horizontal top edge
+//   (rows count upwards).
 // - A triangle that crosses the near plane or leaves a guard band, 16,368 pixels on either side of the view's
 //   centre, is cut. Where an edge is cut depends on its two end points alone, so that neighbours meet without
 //   a gap.
@@ -28,12 +27,10 @@
 //   and zy the gradients, z the greatest depth of the vertices. A depth below 2^-126, as at or past the far
 //   plane, is not drawn.
 // - The greatest depth wins (depth is reversed). Of equal ones the lowest triangle number wins, which is the
-// one
-//   drawn first, as with OpenGL's GL_GREATER.
+//   one drawn first, as with OpenGL's GL_GREATER.
 // - A triangle with a corner that is not finite in clip space is left out and counted.
 // - Clusters of triangles that all face away are left out early. OpenGL draws such a triangle where it is so
-// thin
-//   on the screen that snapping turns it towards the eye; so does RasterOptions::cluster_cones = false.
+//   thin on the screen that snapping turns it towards the eye; so does RasterOptions::cluster_cones = false.
 //
 // Errors are of type Error (base/error.h) alone: input where an argument is wrong or a call is missing,
 // machine where the device or its memory does not suffice. Nothing is left out to make it fit: room that

@@ -76,8 +76,8 @@ class GlScene {
   std::vector<GlBuffer> streams_;
   GLuint stream_of_[6] = {};                        // by attribute location; 0: no material reads it
   std::map<int, std::vector<uint32_t>> deforming_;  // meshes that deform: their indices, cluster by cluster
-  GlBuffer indices_, materials_, model_records_,
-      absent_;  // absent_: zeros, then -1s, for streams that no mesh has
+  GlBuffer indices_, materials_, model_records_;
+  GlBuffer absent_;  // zeros, then -1s, for streams that no mesh has
   GlVertexArray positions_only_, all_streams_;
   size_t material_stride_ = 0;
   struct Slots {

@@ -34,11 +34,11 @@ struct WorldLayout {
   int bucket_bits = 0;  // a sort key's, whether hashed or not
   bool columns = false;
 
-  std::vector<glm::vec4>
-      lights;  // position and radius with slack, in cells from the middle; radius -1: in no cell. The radius
-               // is an odd float if the light has a cone that is tested, else an even one
-  std::vector<glm::vec4>
-      cones;  // axis, and a cosine no larger than the outer half-angle's; below 0: none. Empty: no cones
+  // Position and radius with slack, in cells from the middle; radius -1: in no cell. The radius is an odd
+  // float if the light has a cone that is tested, else an even one.
+  std::vector<glm::vec4> lights;
+  // Axis, and a cosine no larger than the outer half-angle's; below 0: none. Empty: no cones.
+  std::vector<glm::vec4> cones;
   std::vector<uint32_t> levels;       // of each light; empty: 0
   std::vector<uint32_t> first_pairs;  // of each light, among all pairs of a block and a light
   uint64_t pairs = 0;                 // may exceed 32 bits: first_pairs is then of no use

@@ -57,8 +57,8 @@ struct ImageError {
   std::optional<double> flip_mean;
   bool bit_identical = true;
   std::optional<OracleError> oracle;  // absent if not requested
-  std::optional<SilhouetteError>
-      silhouettes;  // absent where OpenGL draws the surfaces, and where the reference is a sample
+  // Absent where OpenGL draws the surfaces, and where the reference is a sample.
+  std::optional<SilhouetteError> silhouettes;
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest

@@ -22,8 +22,7 @@ struct ReplayOptions {
 // on each view:
 // - bounds and lists have the float twin's bytes in both kernel shapes (float_twin.h; the library only);
 // - no pixel loses a light that the oracle in double (reference/lit_set.h) says is lit there. `lost` of the
-// outcome
-//   counts such (pixel, light) pairs, over all settings; one lost pair fails the case.
+//   outcome counts such (pixel, light) pairs, over all settings; one lost pair fails the case.
 VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engines, const CapturedFrame& frame,
                           const ReplayOptions& options = {});
 

@@ -20,17 +20,15 @@ struct GBufferImage {
 //   8 and 16 bits
 //   [0]  octahedral normal u, v in view space; perceptual roughness; metallic
 //   [1]  base color red, green, blue, as their square roots in 8 bits; 1 where lights reach, else 0. Where
-//   the material's
-//        model has a number above 0 (scene/material_model.h), that number, 1 to 254, is the stored integer
+//        the material's model has a number above 0 (scene/material_model.h), that number, 1 to 254, is the
+//        stored integer
 //   32 bits
 //   [0]  normal x, y, z in view space; perceptual roughness
 //   [1]  base color red, green, blue; 1 + metallic + 2 * the model's number, -1 - metallic for unlit
-//   surfaces, 0 where
-//        nothing is
+//        surfaces, 0 where nothing is
 // With FramePlan::clearcoat a third image:
 //   [2]  of the coat: octahedral normal u, v in view space; perceptual roughness; factor, 0 where there is
-//   none. In 32 bits
-//        a negative factor: the normal is that of [0], stored without loss
+//        none. In 32 bits a negative factor: the normal is that of [0], stored without loss
 // Of a model only the number is stored: its parameters are exact at any number of bits.
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
@@ -38,9 +36,10 @@ struct GBufferLayout {
   int bits;
   const char* define;  // of shaders; null for 32 bits
   std::array<GBufferImage, 3> images;
+  // A pixel.
   size_t bytes(bool coats) const {
     return images[0].bytes + images[1].bytes + (coats ? images[2].bytes : 0);
-  }  // a pixel
+  }
 };
 
 inline constexpr GBufferLayout gbuffer_layouts[] = {
@@ -94,8 +93,8 @@ struct GBuffer {
   bool coats = false;               // there is a third image
   std::vector<const char*> models;  // defines; empty: Lambert's alone
   GLuint model_records = 0;         // MaterialModelRecord each; 0 without
-  GLuint framebuffer =
-      0;  // the first two images, for base lighting the image, then that of coats; over depth
+  // The first two images, for base lighting the image, then that of coats; over depth.
+  GLuint framebuffer = 0;
   std::array<GLuint, 3> textures{};
   GLuint depth = 0;
   DepthImage depth_image;

@@ -22,9 +22,8 @@ struct LightIndexLayout {
 
   uint32_t most() const { return (1u << channel_bits) - 1; }
   uint32_t targets() const { return (groups * channels + 3) / 4; }
-  uint32_t target_channels() const {
-    return targets() > 1 ? 4 : groups * channels;
-  }  // channels of each image
+  // Channels of each image.
+  uint32_t target_channels() const { return targets() > 1 ? 4 : groups * channels; }
   GLenum format() const;
   size_t pixel_bytes() const { return size_t(targets()) * target_channels() * channel_bits / 8; }
 
