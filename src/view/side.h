@@ -31,10 +31,8 @@ class Side {
   int width() const { return width_; }                // of the picture
   int height() const { return height_; }
   double frame_ms() const { return frame_ms_; }
-  size_t pictures() const {
-    return pictures_;
-  }  // number of different pictures drawn so far; identifies this
-     // one
+  // The number of different pictures drawn so far; identifies this one.
+  size_t pictures() const { return pictures_; }
 
  private:
   void keep_picture();
