@@ -19,10 +19,13 @@
 
 #if BUFFER_BITS == 32
 typedef float channel_t;
+typedef float4 channel4_t;
 #elif BUFFER_BITS == 16
 typedef ushort channel_t;
+typedef ushort4 channel4_t;
 #else
 typedef uchar channel_t;
+typedef uchar4 channel4_t;
 #endif
 
 // Four channels of LANES pixels.
@@ -46,7 +49,8 @@ static inline Texels load_texels(global const channel_t* first, global const cha
 }
 #else
 static inline Texels load_texel(global const channel_t* at) {
-  const Texels t = {(float)at[0], (float)at[1], (float)at[2], (float)at[3]};
+  const channel4_t c = *(global const channel4_t*)at;
+  const Texels t = {(float)c.x, (float)c.y, (float)c.z, (float)c.w};
   return t;
 }
 #endif

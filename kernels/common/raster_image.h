@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernels/common/raster_tiles.h"
+#include "kernels/common/small_float.h"
 
 #ifndef ATOMICS
 #define ATOMICS 64
@@ -22,7 +23,8 @@
 #include "kernels/common/raster_masks.h"
 
 typedef struct Image {
-  // A pixel: its depth's bits << 32 | ~number, or 0 where nothing is. Depths of one sign are ordered as their bits.
+  // A pixel: its depth's bits << 32 | ~number, or 0 where nothing is. Depths of one sign are ordered as their
+  // bits.
   global volatile ulong* keys;
   global volatile uint* triangles;
   global volatile uint* depths;
@@ -34,13 +36,13 @@ static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(d
 
 // Whether put_pixel would change the pixel. It is tested before the mask, whose lookup costs more.
 static inline bool would_change(const Image* image, size_t at, float depth, uint triangle) {
-  if (!(depth >= LEAST_DEPTH)) return false;
+  const bool drawn = depth >= LEAST_DEPTH;
 #if ATOMICS == 64
-  return image->keys[at] < key_of(depth, triangle);
+  return drawn & (image->keys[at] < key_of(depth, triangle));
 #elif PASS == 1
-  return image->depths[at] < as_uint(depth);
+  return drawn & (image->depths[at] < as_uint(depth));
 #else
-  return image->depths[at] == as_uint(depth) && image->triangles[at] > triangle;
+  return drawn && image->depths[at] == as_uint(depth) && image->triangles[at] > triangle;
 #endif
 }
 
@@ -54,29 +56,60 @@ static inline void put_pixel(const Image* image, size_t at, float depth, uint tr
 #endif
 }
 
-// The record's pixels in [x0, x1] x [y0, y1], at most RASTER_TILE either way, of which this work-item takes
-// every step_x-th and step_y-th from (first_x, first_y) on.
-static inline void draw_pixels(const RasterRecord* r, int x0, int y0, int x1, int y1, int first_x,
-                               int first_y, int step_x, int step_y, const Image* image) {
-  const Edge a = edge_at(r->x[0], r->y[0], r->x[1], r->y[1], x0, y0),
-             b = edge_at(r->x[1], r->y[1], r->x[2], r->y[2], x0, y0);
-  const Edge c = edge_at(r->x[2], r->y[2], r->x[0], r->y[0], x0, y0);
-  for (int y = first_y; y <= y1 - y0; y += step_y) {
-    const float dy = (float)((y0 + y) * 256 + 128 - r->y[0]) * (1.0f / 256), row = fma(r->zy, dy, r->z0);
-    for (int x = first_x; x <= x1 - x0; x += step_x) {
-      if (((a.c + a.a * x + a.b * y) | (b.c + b.a * x + b.b * y) | (c.c + c.a * x + c.b * y)) < 0) continue;
-      const float dx = (float)((x0 + x) * 256 + 128 - r->x[0]) * (1.0f / 256);
-      const float depth = max(min(fma(r->zx, dx, row), r->z_max), r->z_min);
-      const size_t at = (size_t)(y0 + y) * image->width + (size_t)(x0 + x);
-      if (!would_change(image, at, depth, r->triangle)) continue;
-#ifdef ALPHA_MASKS
-      const int px = x0 + x, py = y0 + y;
-      if (r->alpha_material >= 0 && !shown_by_mask(&image->masks, r->triangle, r->instance, (uint)r->alpha_material, (float)(px & ~3),
-                                                   (float)(py & ~3), (float)(px & 3), (float)(py & 3))) {
-        continue;
-      }
-#endif
-      put_pixel(image, at, depth, r->triangle);
-    }
+// A record as seen from a pixel (x0, y0).
+typedef struct PlacedTriangle {
+  Edge edges[3];
+  int x0, y0;
+  int width, height;  // of what lies in its box from there on, pixels
+  float dx, dy;       // of the pixel's centre from corner 0, pixels; exact: multiples of 1/256 below 2^16
+  float z0, zx, zy, z_min, z_max;
+  uint triangle, instance;
+  int alpha_material;
+} PlacedTriangle;
+
+static inline PlacedTriangle placed_triangle(const RasterRecord* r, int x0, int y0, int width, int height) {
+  PlacedTriangle t;
+  for (int k = 0; k < 3; ++k) {
+    const int next = k == 2 ? 0 : k + 1;
+    t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], x0, y0);
   }
+  t.x0 = x0, t.y0 = y0, t.width = width, t.height = height;
+  t.dx = (float)(x0 * 256 + 128 - r->x[0]) * (1.0f / 256),
+  t.dy = (float)(y0 * 256 + 128 - r->y[0]) * (1.0f / 256);
+  t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
+  t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
+  return t;
+}
+
+// A pixel, and whether drawing the triangle there would change the image, masks apart.
+typedef struct SeenPixel {
+  int x, y;
+  float depth;
+  bool changes;
+} SeenPixel;
+
+// The pixel x to the right of (x0, y0) and y above it, below RASTER_TILE, where `inside`. Reads a pixel of
+// the image in any case, so that several reads can be on their way.
+static inline SeenPixel see_pixel(const PlacedTriangle* t, int x, int y, bool inside, const Image* image) {
+  const Edge a = t->edges[0], b = t->edges[1], c = t->edges[2];
+  const bool covered =
+      inside & (((a.c + a.a * x + a.b * y) | (b.c + b.a * x + b.b * y) | (c.c + c.a * x + c.b * y)) >= 0);
+  const float dx = t->dx + small_float((uint)x), dy = t->dy + small_float((uint)y);
+  SeenPixel p;
+  p.depth = max(min(fma(t->zx, dx, fma(t->zy, dy, t->z0)), t->z_max), t->z_min);
+  p.x = t->x0 + (covered ? x : 0), p.y = t->y0 + (covered ? y : 0);
+  p.changes = covered & would_change(image, (size_t)p.y * image->width + (size_t)p.x, p.depth, t->triangle);
+  return p;
+}
+
+static inline void draw_seen(const PlacedTriangle* t, SeenPixel p, const Image* image) {
+  if (!p.changes) return;
+#ifdef ALPHA_MASKS
+  if (t->alpha_material >= 0 &&
+      !shown_by_mask(&image->masks, t->triangle, t->instance, (uint)t->alpha_material, (float)(p.x & ~3),
+                     (float)(p.y & ~3), (float)(p.x & 3), (float)(p.y & 3))) {
+    return;
+  }
+#endif
+  put_pixel(image, (size_t)p.y * image->width + (size_t)p.x, p.depth, t->triangle);
 }

@@ -55,9 +55,13 @@ typedef struct CornerAttributes {
 
 static inline CornerAttributes corner_attributes(global const SurfaceVertex* vertices, uint a, uint b,
                                                  uint c) {
-  const float16 third = vload16(c, (global const float*)vertices);
-  const CornerAttributes k = {vload16(a, (global const float*)vertices) - third,
-                              vload16(b, (global const float*)vertices) - third, third};
+#if LANES == 16
+#define CORNER(i) vload16(i, (global const float*)vertices)
+#else
+#define CORNER(i) ((global const float16*)vertices)[i]  // aligned, which vload does not know
+#endif
+  const float16 third = CORNER(c);
+  const CornerAttributes k = {CORNER(a) - third, CORNER(b) - third, third};
   return k;
 }
 

@@ -114,7 +114,8 @@ static inline TexturePlace place_in_map(global const SurfaceMap* map, TexturePla
   return q;
 }
 
-static inline __attribute__((always_inline)) Footprint footprint_of(global const SurfaceMap* map, TexturePlace place) {
+static inline __attribute__((always_inline)) Footprint footprint_of(global const SurfaceMap* map,
+                                                                    TexturePlace place) {
   const TexturePlace p = place_in_map(map, place);
   const float width = (float)map->width, height = (float)map->height;
   const uint flags = map->flags;
@@ -149,9 +150,15 @@ static inline __attribute__((always_inline)) Footprint footprint_of(global const
 typedef ushort unaligned_ushorts_8 __attribute__((ext_vector_type(8), aligned(2)));
 #define TEXELS_16(p) convert_float16(*(global const unaligned_ushorts*)(p))
 #define TEXELS_8(p) convert_float8(*(global const unaligned_ushorts_8*)(p))
-#else
+#elif LANES == 16
 #define TEXELS_16(p) convert_float16(vload16(0, p))
 #define TEXELS_8(p) convert_float8(vload8(0, p))
+#else
+// Texels are aligned to their size. vload does not know, and a GPU's compiler makes a load an element of it.
+#define TEXELS_16(p) \
+  convert_float16((ushort16)(((global const ushort8*)(p))[0], ((global const ushort8*)(p))[1]))
+#define TEXELS_8(p) \
+  convert_float8((ushort8)(((global const ushort4*)(p))[0], ((global const ushort4*)(p))[1]))
 #endif
 
 // Two packed texels (renderer/surface_texels.h), and what a step of a channel is then worth.
@@ -162,8 +169,10 @@ static inline float16 packed_texels(global const uchar* at) {
 #if defined(AVX512) && LANES == 16
   typedef uchar unaligned_uchars __attribute__((ext_vector_type(16), aligned(1)));
   const float16 t = convert_float16(*(global const unaligned_uchars*)at);
-#else
+#elif LANES == 16
   const float16 t = convert_float16(vload16(0, at));
+#else
+  const float16 t = convert_float16((uchar16)(((global const uchar8*)at)[0], ((global const uchar8*)at)[1]));
 #endif
   const float s = PACKED_STEP;
   const float16 of_colors = (float16)(s, s, s, 0, 0, 0, 0, 0, s, s, s, 0, 0, 0, 0, 0);

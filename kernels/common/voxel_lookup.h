@@ -15,7 +15,11 @@ typedef half stored_voxel_t;
 #define TWO_VOXELS(from) vload_half8(0, from)
 #else
 typedef float stored_voxel_t;
+#if LANES == 16
 #define TWO_VOXELS(from) vload8(0, from)
+#else
+#define TWO_VOXELS(from) ((float8)(*(global const float4*)(from), *(global const float4*)((from) + 4)))
+#endif
 #endif
 
 // Two samples along x, between rows and slices. `at`: the first of them; a row and a slice: the number of values in it.

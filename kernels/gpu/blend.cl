@@ -18,7 +18,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
-  float4 under = vload4(at, image);
+  float4 under = ((global const float4*)image)[at];
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
     const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);
     if (!covered_pixels(&r, bx, by, dx, dy)) continue;
@@ -34,5 +34,5 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     under =
         (float4)(color.x * s.alpha, color.y * s.alpha, color.z * s.alpha, s.alpha) + under * (1.0f - s.alpha);
   }
-  vstore4(under, at, image);
+  ((global float4*)image)[at] = under;
 }

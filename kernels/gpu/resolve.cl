@@ -25,5 +25,5 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
         radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, &lights, bin_edges, view);
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);
   }
-  vstore4(color, at, image);
+  ((global float4*)image)[at] = color;
 }

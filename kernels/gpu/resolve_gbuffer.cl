@@ -13,7 +13,7 @@
 #endif
 
 static inline void store_texel(global channel_t* to, Texels t, size_t at) {
-  vstore4(TO_CHANNELS((float4)(t.x, t.y, t.z, t.w)), at, to);
+  ((global channel4_t*)to)[at] = TO_CHANNELS((float4)(t.x, t.y, t.z, t.w));
 }
 
 kernel void resolve_gbuffer(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
@@ -47,5 +47,5 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   store_texel(first, normal, at);
   store_texel(second, color, at);
   if (coats) store_texel(coats, coat, at);
-  if (image) vstore4(shown, at, image);
+  if (image) ((global float4*)image)[at] = shown;
 }

@@ -33,5 +33,5 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
         radiance_of_sums(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, sums, of, &lights, view);
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);
   }
-  vstore4(color, at, image);
+  ((global float4*)image)[at] = color;
 }

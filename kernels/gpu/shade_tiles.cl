@@ -31,9 +31,9 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
     sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
   }
 #ifdef BASE_LIGHTING
-  const float4 under = vload4(at, image);
+  const float4 under = ((global const float4*)image)[at];
 #else
   const float4 under = (float4)(0.0f, 0.0f, 0.0f, 1.0f);
 #endif
-  vstore4(under + (float4)(sum.x, sum.y, sum.z, 0.0f), at, image);
+  ((global float4*)image)[at] = under + (float4)(sum.x, sum.y, sum.z, 0.0f);
 }

@@ -115,6 +115,10 @@ const std::map<std::string, Formula>& formulas() {
              id_bytes * w.tile_entries + sizeof(RasterRecord) * w.records + visible_pixel_bytes * w.pixels,
              0.0};
        }},
+      {"raster_clear",
+       [](const KernelWork& w) {
+         return KernelCost{visible_pixel_bytes * w.pixels, 0.0};
+       }},
       {"raster_keys",
        [](const KernelWork& w) {
          return KernelCost{2.0 * visible_pixel_bytes * w.pixels, 0.0};

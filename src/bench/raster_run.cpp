@@ -7,9 +7,9 @@ namespace lightgrid {
 
 const std::vector<std::string>& raster_rows() {
   static const std::vector<std::string> rows = {
-      "raster_transform", "raster_clusters", "raster_order",   "raster_setup", "raster_scan",
-      "raster_fill",      "raster_tiles",    "raster_small",   "raster_large", "raster_keys",
-      "pipeline",         "pipeline_device", "launch_overhead"};
+      "raster_transform", "raster_clusters", "raster_order",    "raster_setup",   "raster_scan",
+      "raster_fill",      "raster_tiles",    "raster_small",    "raster_large",   "raster_clear",
+      "raster_keys",      "pipeline",        "pipeline_device", "launch_overhead"};
   return rows;
 }
 

@@ -44,10 +44,16 @@ class Resolving : public PassState {
   cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
     cl::Kernel& kernel = kernels_[stem + more_defines];
     if (!kernel()) {
-      kernel =
-          v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem), defines_ + more_defines);
+      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem),
+                                          defines_ + more_defines + register_limit(v));
     }
     return kernel;
+  }
+
+  // NVIDIA's compiler gives these kernels 80 registers and more. Then too few groups run side by side to hide
+  // the memory's latency.
+  static const char* register_limit(RenderView& v) {
+    return v.renderer.cl->info().platform == "NVIDIA CUDA" ? " -cl-nv-maxrregcount=64" : "";
   }
 
   const ClScene& scene(RenderView& v) {

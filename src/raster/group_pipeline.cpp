@@ -46,10 +46,10 @@ class RasterGroupPipeline : public RasterPipeline {
     const cl::NDRange all(size_t(std::max(1, device_.info().compute_units)) * groups_a_unit * group_items);
     fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
     if (wide_) {
-      fill_buffer(device_, "rasterizer: image", keys_.get(), 0, pixels * sizeof(cl_ulong));
+      launch_fill(device_, "raster_clear", keys_.get(), 0, pixels * sizeof(cl_ulong));
     } else {
-      fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
-      fill_buffer(device_, "rasterizer: image", job.depths, 0, pixels * sizeof(cl_uint));
+      launch_fill(device_, "raster_clear", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
+      launch_fill(device_, "raster_clear", job.depths, 0, pixels * sizeof(cl_uint));
     }
     launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
            group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);

@@ -25,6 +25,7 @@ TEST(RasterCosts, AreTheBytesThatEachStepCannotAvoid) {
   EXPECT_EQ(bytes("raster_fill"), 3 * 8 + 5 * 4);   // boxes read, entries written
   EXPECT_EQ(bytes("raster_tiles"), 5 * 4 + 3 * 64 + 1000 * 8);
   EXPECT_EQ(bytes("raster_keys"), 1000 * 16);
+  EXPECT_EQ(bytes("raster_clear"), 1000 * 8);
   EXPECT_FALSE(kernel_cost("raster_small", w).has_value());
 }
 
@@ -47,10 +48,11 @@ TEST(RasterBench, HasARowForEachKernelWithItsBytes) {
     return *std::ranges::find(report.rows, std::string(name), &BenchRow::name);
   };
   for (const std::string& name : raster_rows()) {
-    const bool of_gpus = name == "raster_small" || name == "raster_large" || name == "raster_keys";
+    const bool of_gpus = name == "raster_small" || name == "raster_large" || name == "raster_clear" ||
+                         name == "raster_keys";
     EXPECT_EQ(std::ranges::count(report.rows, name, &BenchRow::name), of_gpus ? 0 : 1) << name;
   }
-  EXPECT_EQ(report.rows.size(), raster_rows().size() - 3);
+  EXPECT_EQ(report.rows.size(), raster_rows().size() - 4);
   const auto& params = row("pipeline").params;
   EXPECT_EQ(params["scene"], "spheres");
   EXPECT_EQ(params["triangles"], triangles);
