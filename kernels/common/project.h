@@ -65,8 +65,8 @@ static inline void tile_range(real low, real high, float scale, float offset, fl
   const real from_slack = TANGENT_SLACK * (fabs(from) + fabs(offset) + 1.0f);
   const real to_slack = TANGENT_SLACK * (fabs(to) + fabs(offset) + 1.0f);
   const real begin = (from + offset) - from_slack;
-  const real f = floor(lane_min(lane_max(begin + margin, (real)(-1.0f)), (real)(32000.0f)));
-  const real t = floor(lane_max(lane_min((to + offset) - (margin - to_slack), (real)(32000.0f)), (real)(-1.0f)));
+  const real f = lane_floor(lane_min(lane_max(begin + margin, (real)(-1.0f)), (real)(32000.0f)));
+  const real t = lane_floor(lane_max(lane_min((to + offset) - (margin - to_slack), (real)(32000.0f)), (real)(-1.0f)));
   *first = begin > (real)(end) ? (whole)(32000) : max(TO_WHOLE(f), (whole)(0));  // the last tile is cut
   *last = min(TO_WHOLE(t), (whole)(last_tile));
 }

@@ -76,8 +76,8 @@ static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLan
   for (int k = 0; k < 3; ++k) {
     const real per_w = one / v[k].w, sx = fma(v[k].x * per_w, half_x, half_x),
                sy = fma(v[k].y * per_w, half_y, half_y);
-    x[k] = TO_WHOLE(rint(live ? sx : zero));
-    y[k] = TO_WHOLE(rint(live ? sy : zero));
+    x[k] = TO_WHOLE(lane_rint(live ? sx : zero));
+    y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
     z[k] = lane_min(v[k].z * per_w, one);
   }
   const whole low_x = whole_max((whole_min(x[0], whole_min(x[1], x[2])) + 127) >> 8, (whole)(0));

@@ -58,8 +58,8 @@ static inline real rough_log2(real x) {
 // A coordinate folded into one copy of the texture: 0 to 1. Clamped ones are left to texel_of.
 static inline real folded(real x, uint clamped, uint mirrored) {
   if (clamped) return x;
-  if (!mirrored) return x - floor(x);
-  return 1.0f - fabs(fma(REAL(-2.0f), floor(x * 0.5f), x) - 1.0f);
+  if (!mirrored) return x - lane_floor(x);
+  return 1.0f - fabs(fma(REAL(-2.0f), lane_floor(x * 0.5f), x) - 1.0f);
 }
 
 // The first of the two texels along an axis, and the place between them. What is not finite finds a texel
@@ -68,7 +68,7 @@ static inline whole texel_of(real coordinate, whole size, uint repeated, mask_t 
   const real sizes = TO_REAL(size);
   real x = fma(coordinate, sizes, nearest ? REAL(0.0f) : REAL(-0.5f));
   if (!repeated) x = lane_min(lane_max(x, REAL(0.0f)), sizes - 1.0f);
-  const real first = floor(x);
+  const real first = lane_floor(x);
   *between = nearest ? REAL(0.0f) : x - first;
   return UNSIGNED_MIN(TO_WHOLE(first),
                       size - 1);  // repeated, -1 is the last texel, beside which the first lies once more
@@ -129,8 +129,8 @@ static inline __attribute__((always_inline)) Footprint footprint_of(global const
     if (flags & MAP_MAGNIFY_NEAREST) nearest |= magnified;
   }
   real level = lane_min(lane_max(lod, REAL(0.0f)), REAL((float)map->last_level));
-  if (flags & MAP_LEVEL_NEAREST) level = floor(level + 0.5f);
-  const real fine = floor(level);
+  if (flags & MAP_LEVEL_NEAREST) level = lane_floor(level + 0.5f);
+  const real fine = lane_floor(level);
   const whole fine_level = TO_WHOLE(fine);
   const real u = folded(p.u, flags & MAP_CLAMP_U, flags & MAP_MIRROR_U);
   const real v = folded(p.v, flags & MAP_CLAMP_V, flags & MAP_MIRROR_V);

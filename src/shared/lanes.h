@@ -31,5 +31,15 @@ static inline real lane_max(real a, real b) { return a > b ? a : b; }
 #define any_lane(m) ((m) != 0)
 #endif
 
+// One instruction where PoCL 3 has 14.
+#if LANES == 16 && defined(AVX512)
+#define ROUNDED(x, mode) __builtin_ia32_rndscaleps_mask((x), (mode), (x), (ushort)0xffff, 4)
+static inline real lane_floor(real x) { return ROUNDED(x, 9); }
+static inline real lane_rint(real x) { return ROUNDED(x, 8); }
+#else
+#define lane_floor floor
+#define lane_rint rint
+#endif
+
 // Position of the lowest set bit; ctz is missing from OpenCL C 1.2.
 static inline uint lowest_bit(uint bits) { return 31u - clz(bits & (0u - bits)); }
