@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "shared/cull_tests.h"
@@ -34,7 +35,7 @@ std::vector<Choice> numbers(T LightRanges::*member, std::initializer_list<const 
 }
 
 template <typename T>
-Choice choice(const char* value, T Settings::*member, T meant) {
+Choice choice(const char* value, T Settings::*member, std::type_identity_t<T> meant) {
   return {value, [=](Settings& s) { s.*member = meant; }, [=](const Settings& s) { return s.*member == meant; }};
 }
 
@@ -205,7 +206,7 @@ const std::vector<Setting>& all_settings() {
       {"world-cell",
        "edge of world_grid's cells over the lights' median radius; hashed: least edge of a light's cells over its own radius; "
        "auto: chosen by the lights' number and radii",
-       {choice("auto", &Settings::world_cell, 0.0), choice("1", &Settings::world_cell, 1.0), choice("2", &Settings::world_cell, 2.0),
+       {choice("auto", &Settings::world_cell, std::nullopt), choice("1", &Settings::world_cell, 1.0), choice("2", &Settings::world_cell, 2.0),
         choice("0.5", &Settings::world_cell, 0.5), choice("0.25", &Settings::world_cell, 0.25)}},
       {"portable",
        "plain OpenCL C, without builtins that only some CPUs have",

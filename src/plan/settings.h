@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -88,8 +89,7 @@ struct Settings {
   int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   WorldGridShape world_grid = WorldGridShape::cubes;
-  // A cell's edge over the radius of lights: 2, 1, 0.5, 0.25, or 0: what suits the lights.
-  double world_cell = 0;
+  std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
   bool portable = false;  // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.

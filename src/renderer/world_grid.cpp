@@ -50,7 +50,8 @@ std::span<const uint32_t> HostWorldGrid::everywhere() const {
   return std::span(indices).subspan(params.everywhere_first, params.everywhere_count);
 }
 
-WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits, bool for_gl)
+WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<double> cell, int index_bits,
+                     bool for_gl)
     : renderer_(renderer),
       shape_(shape),
       cell_(cell),

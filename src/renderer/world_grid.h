@@ -14,7 +14,7 @@ namespace lightgrid {
 // Lists of the same key and lights are the same.
 struct WorldGridKey {
   WorldGridShape shape;
-  double cell;
+  std::optional<double> cell;  // the setting world-cell; none: auto
   int index_bits;
   LightRanges ranges;
   bool for_gl = true;  // else OpenCL alone reads them
@@ -36,7 +36,8 @@ struct HostWorldGrid {
 class WorldGrid {
  public:
   // for_gl: OpenGL may read the lists too, whose memory is then that of the renderer's bridge.
-  WorldGrid(Renderer& renderer, WorldGridShape shape, double cell, int index_bits, bool for_gl = true);
+  WorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<double> cell, int index_bits,
+            bool for_gl = true);
 
   // Whether the lists are those of these lights (GpuScene::lights_version) and right for the view.
   bool serves(const View& view, int lights_version) const;
@@ -90,7 +91,7 @@ class WorldGrid {
 
   Renderer& renderer_;
   const WorldGridShape shape_;
-  const double cell_;
+  const std::optional<double> cell_;
   const int index_bits_;
   const bool for_gl_;
 

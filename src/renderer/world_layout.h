@@ -2,6 +2,7 @@
 // alone, in double.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,7 @@ WorldReach reach_of(const View& view, const glm::dvec3& middle);
 struct WorldLayout {
   WorldGridParams params{};  // but everywhere_first, which depends on the lists
   glm::dvec3 middle{0};      // world, metres
-  double cell = 1;           // the setting world-cell, or what choose_world_cell made of it
+  double cell = 1;           // the setting world-cell, or what choose_world_cell chose
   double cell_m = 1;         // edge of the smallest cells
   WorldReach reach;
   int bucket_bits = 0;  // a sort key's, whether hashed or not
@@ -45,24 +46,11 @@ struct WorldLayout {
   std::vector<uint32_t> everywhere;   // lights of every list, ascending
 };
 
-// The grid that a value of world-cell would make.
-struct WorldCellEstimate {
-  double listed = 0;   // lights that a position next to a light has in its list
-  double entries = 0;  // of all lists
-  double blocks = 0;   // of the grid, stored or not; 0: hashed
-};
-WorldCellEstimate estimate_world_cell(std::span<const CullLight> lights, const WorldBox& bounds,
-                                      WorldGridShape shape, double cell);
-
-// What world-cell=auto means for these lights: of its values the one of least cost, in entries
-// (docs/techniques/world_grid.md #cells-that-choose-themselves). The same on every device.
-double choose_world_cell(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape);
-
-// Replaces `layout`, whose arrays keep their memory. cell: the setting world-cell, 0: auto. bounds: of the
-// surfaces; cells cover where these and the lights are. view: the first one; the layout's reach is larger, so
-// that a moving camera rarely leaves it.
+// Replaces `layout`, whose arrays keep their memory. world_cell: the setting; none: auto
+// (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. view: the first
+// one; the layout's reach is larger, so that a moving camera rarely leaves it.
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                   double cell, const View& view, WorldLayout& layout);
+                   std::optional<double> world_cell, const View& view, WorldLayout& layout);
 
 // The rows of a view.
 WorldViewParams world_view_params(const WorldLayout& layout, const View& view);

@@ -17,6 +17,7 @@
 #include "compare/oracle.h"
 #include "compare/run_technique.h"
 #include "renderer/culler_input.h"
+#include "renderer/world_cell.h"
 #include "scene/builtin.h"
 #include "scene/light_rigs.h"
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "renderer/world_cell.h"
 #include "scene/random.h"
 #include "support/devices.h"
 
@@ -234,7 +235,7 @@ TEST(WorldGrid, ChoosesItsCells) {
     EXPECT_GT(chosen, last) << count;
     last = chosen;
     WorldLayout of_auto, of_chosen;
-    lay_out_world(lights, bounds, WorldGridShape::cubes, 0, view, of_auto);
+    lay_out_world(lights, bounds, WorldGridShape::cubes, std::nullopt, view, of_auto);
     lay_out_world(lights, bounds, WorldGridShape::cubes, chosen, view, of_chosen);
     EXPECT_EQ(of_auto.cell, chosen);
     EXPECT_EQ(of_auto.cell_m, of_chosen.cell_m);
