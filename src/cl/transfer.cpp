@@ -50,13 +50,6 @@ void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, c
   checked(what, [&] { device.queue().enqueueFillBuffer(buffer, value, 0, bytes); });
 }
 
-void launch_fill(ClDevice& device, const char* label, const cl::Buffer& buffer, cl_uint value, size_t bytes) {
-  if (bytes == 0) return;
-  checked(label, [&] {
-    device.queue().enqueueFillBuffer(buffer, value, 0, bytes, nullptr, device.profiler().event(label));
-  });
-}
-
 void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, const cl::Buffer& to,
                  size_t bytes) {
   if (bytes == 0) return;

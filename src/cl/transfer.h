@@ -19,9 +19,6 @@ void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, con
 // Enqueues and does not wait. `bytes` is a multiple of 4.
 void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, cl_uint value, size_t bytes);
 
-// The same, counted and timed as a kernel's launch: for fills that take a part of a frame worth knowing.
-void launch_fill(ClDevice& device, const char* label, const cl::Buffer& buffer, cl_uint value, size_t bytes);
-
 // Enqueues, and does not wait. The profiler counts it under `what`.
 void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, const cl::Buffer& to,
                  size_t bytes);

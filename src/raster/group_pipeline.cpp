@@ -11,15 +11,18 @@ namespace lightgrid {
 namespace {
 
 constexpr size_t group_items = 64, groups_a_unit = 32;
+constexpr size_t image_group = 256;  // of kernels with little work a pixel: groups of 64 start too slowly
 
 bool has_64_bit_atomics(ClDevice& device) {
   return device.device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_int64_extended_atomics") !=
          std::string::npos;
 }
 
-cl::NDRange items_for(size_t count) {
-  return cl::NDRange(std::max<size_t>(1, (count + group_items - 1) / group_items) * group_items);
+cl::NDRange items_for(size_t count, size_t group = group_items) {
+  return cl::NDRange(std::max<size_t>(1, (count + group - 1) / group) * group);
 }
+
+size_t pairs_of(size_t pixels) { return (pixels + 1) / 2; }
 
 class RasterGroupPipeline : public RasterPipeline {
  public:
@@ -27,7 +30,9 @@ class RasterGroupPipeline : public RasterPipeline {
       : device_(device), programs_(programs), wide_(wide_atomics && has_64_bit_atomics(device)) {
     transform_ = programs.kernel("gpu/raster_transform", "");
     clusters_ = programs.kernel("gpu/raster_clusters", "");
-    if (wide_) keys_kernel_ = programs.kernel("gpu/raster_keys", "");
+    if (!wide_) return;
+    clear_ = programs.kernel("gpu/raster_clear", "");
+    keys_kernel_ = programs.kernel("gpu/raster_keys", "");
   }
 
   uint32_t chunks(const RasterParams&) const override { return 1; }
@@ -36,7 +41,7 @@ class RasterGroupPipeline : public RasterPipeline {
     visible_.at_least(device_, size_t(p.pairs) * sizeof(cl_uint));
     records_.at_least(device_, size_t(p.record_blocks) * RASTER_BLOCK * sizeof(RasterRecord));
     entries_.at_least(device_, size_t(p.entry_capacity) * sizeof(cl_uint2));
-    keys_.at_least(device_, wide_ ? size_t(p.width) * p.height * sizeof(cl_ulong) : 0);
+    keys_.at_least(device_, wide_ ? pairs_of(size_t(p.width) * p.height) * sizeof(cl_ulong2) : 0);
   }
 
   void enqueue(const RasterJob& job) override {
@@ -46,10 +51,11 @@ class RasterGroupPipeline : public RasterPipeline {
     const cl::NDRange all(size_t(std::max(1, device_.info().compute_units)) * groups_a_unit * group_items);
     fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
     if (wide_) {
-      launch_fill(device_, "raster_clear", keys_.get(), 0, pixels * sizeof(cl_ulong));
+      launch(device_, "raster_clear", clear_, items_for(pairs_of(pixels), image_group),
+             cl::NDRange(image_group), keys_.get(), cl_uint(pairs_of(pixels)));
     } else {
-      launch_fill(device_, "raster_clear", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
-      launch_fill(device_, "raster_clear", job.depths, 0, pixels * sizeof(cl_uint));
+      fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
+      fill_buffer(device_, "rasterizer: image", job.depths, 0, pixels * sizeof(cl_uint));
     }
     launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
            group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
@@ -68,8 +74,8 @@ class RasterGroupPipeline : public RasterPipeline {
              job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
     }
     if (wide_) {
-      launch(device_, "raster_keys", keys_kernel_, items_for(pixels), group, keys_.get(), job.triangles,
-             job.depths, cl_uint(pixels));
+      launch(device_, "raster_keys", keys_kernel_, items_for(pixels, image_group), cl::NDRange(image_group),
+             keys_.get(), job.triangles, job.depths, cl_uint(pixels));
     }
   }
 
@@ -95,7 +101,7 @@ class RasterGroupPipeline : public RasterPipeline {
   ClDevice& device_;
   ProgramCache& programs_;
   const bool wide_;
-  cl::Kernel transform_, clusters_, keys_kernel_;
+  cl::Kernel transform_, clusters_, clear_, keys_kernel_;
   std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;
   GrowingBuffer visible_, records_, entries_, keys_;
 };
