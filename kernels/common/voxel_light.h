@@ -18,7 +18,11 @@ typedef half voxel_t;
 #define STORE_VOXEL(value, to) vstore_half4(value, 0, to)
 #else
 typedef float voxel_t;
+#if LANES == 1
+#define STORE_VOXEL(value, to) *(global float4*)(to) = value  // aligned, which vstore4 does not know
+#else
 #define STORE_VOXEL(value, to) vstore4(value, 0, to)
+#endif
 #endif
 
 // Of one light at one sample, and of all of them on a sample that is written: finite in all products that shading makes.
