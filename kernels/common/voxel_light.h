@@ -43,12 +43,13 @@ typedef struct VoxelBox {
   float low_x, low_y, low_z, high_x, high_y, high_z;
 } VoxelBox;
 
-// Of the samples [first, last] of a brick.
-static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSlice* slices, uint x, uint y, uint z) {
+// Of count_x * count_y * count_z samples from (x, y, z) on.
+static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSlice* slices, uint x, uint y, uint z, uint count_x,
+                                      uint count_y, uint count_z) {
   const float x0 = grid->origin_x + (float)x * grid->spacing_x, y0 = grid->origin_y + (float)y * grid->spacing_y;
-  const float x1 = grid->origin_x + (float)(x + VOXEL_BRICK_X - 1) * grid->spacing_x;
-  const float y1 = grid->origin_y + (float)(y + VOXEL_BRICK_Y - 1) * grid->spacing_y;
-  const float z0 = slices[z].place, z1 = slices[z + VOXEL_BRICK_Z - 1].place;
+  const float x1 = grid->origin_x + (float)(x + count_x - 1) * grid->spacing_x;
+  const float y1 = grid->origin_y + (float)(y + count_y - 1) * grid->spacing_y;
+  const float z0 = slices[z].place, z1 = slices[z + count_z - 1].place;
   VoxelBox b = {x0, y0, z0, x1, y1, z1};
 #ifdef VOXELS_LOG
   b.low_x = fmin(x0 * z0, x0 * z1), b.high_x = fmax(x1 * z0, x1 * z1);
@@ -60,9 +61,9 @@ static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSl
 
 // Slightly more than the largest square that add_voxel_light adds to a light's squared radius in these slices, and what its
 // distances may be rounded by.
-static inline float grown_by(constant VoxelSlice* slices, uint z) {
+static inline float grown_by(constant VoxelSlice* slices, uint z, uint count) {
   float most = slices[z].half_diagonal_squared;
-  for (uint i = 1; i < VOXEL_BRICK_Z; ++i) most = fmax(most, slices[z + i].half_diagonal_squared);
+  for (uint i = 1; i < count; ++i) most = fmax(most, slices[z + i].half_diagonal_squared);
   return most;
 }
 

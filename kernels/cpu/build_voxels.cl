@@ -68,8 +68,8 @@ kernel void build_voxels(global const float* boxes, global const float* places, 
 #else
   const VoxelLights lights = {boxes, places, colors};
 #endif
-  const VoxelBox box = box_of_samples(grid, slices, x, y, z);
-  const float grown = grown_by(slices, z);
+  const VoxelBox box = box_of_samples(grid, slices, x, y, z, VOXEL_BRICK_X, VOXEL_BRICK_Y, VOXEL_BRICK_Z);
+  const float grown = grown_by(slices, z, VOXEL_BRICK_Z);
   VoxelSum sums[VECTORS];
   const VoxelSum none = {{0}};
   for (uint v = 0; v < VECTORS; ++v) sums[v] = none;

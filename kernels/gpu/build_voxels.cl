@@ -1,10 +1,10 @@
-// Fills a voxel light buffer, for GPUs: a work-group takes a brick, a work-item a sample. As
+// Fills a voxel light buffer, for GPUs: a work-group takes a block of samples, a work-item one of them. As
 // cpu/build_voxels.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/common/voxel_light.h"
 
-#define ITEMS (VOXEL_BRICK_X * VOXEL_BRICK_Y * VOXEL_BRICK_Z)
+#define ITEMS (VOXEL_GROUP_X * VOXEL_GROUP_Y * VOXEL_GROUP_Z)
 #define WORDS (ITEMS / 32)
 
 // How many of the words' bits come before an item's, and how many there are.
@@ -27,27 +27,28 @@ static inline void gather_flags(local uint* words, uint item, bool flag) {
   barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-kernel __attribute__((reqd_work_group_size(VOXEL_BRICK_X, VOXEL_BRICK_Y, VOXEL_BRICK_Z))) void build_voxels(
+kernel __attribute__((reqd_work_group_size(VOXEL_GROUP_X, VOXEL_GROUP_Y, VOXEL_GROUP_Z))) void build_voxels(
     global const float* boxes, global const float* places, global const float4* colors,
     global const float8* cones, constant VoxelGrid* grid, constant VoxelSlice* slices,
     global voxel_t* irradiance, global voxel_t* directions) {
   local uint words[WORDS], groups[ITEMS];
-  // Lights that may reach the brick, in order: places and radii, numbers, and their reach in each of the
-  // brick's slices, whose division and root would else be each sample's.
+  // Lights that may reach the block, in order: places and radii, numbers, and their reach in each of the
+  // block's slices, whose division and root would else be each sample's.
   local float4 kept[ITEMS];
   local uint numbers[ITEMS];
-  local VoxelReach reaches[ITEMS * VOXEL_BRICK_Z];
+  local VoxelReach reaches[ITEMS * VOXEL_GROUP_Z];
   const uint ix = get_global_id(0), iy = get_global_id(1), iz = get_global_id(2);
-  const uint z = iz / VOXEL_BRICK_Z * VOXEL_BRICK_Z;
-  const uint item = (get_local_id(2) * VOXEL_BRICK_Y + get_local_id(1)) * VOXEL_BRICK_X + get_local_id(0);
+  const uint z = iz / VOXEL_GROUP_Z * VOXEL_GROUP_Z;
+  const uint item = (get_local_id(2) * VOXEL_GROUP_Y + get_local_id(1)) * VOXEL_GROUP_X + get_local_id(0);
 #ifdef SPOTS
   const VoxelLights lights = {boxes, places, colors, cones};
 #else
   const VoxelLights lights = {boxes, places, colors};
 #endif
   const VoxelBox box =
-      box_of_samples(grid, slices, ix / VOXEL_BRICK_X * VOXEL_BRICK_X, iy / VOXEL_BRICK_Y * VOXEL_BRICK_Y, z);
-  const float grown = grown_by(slices, z);
+      box_of_samples(grid, slices, ix / VOXEL_GROUP_X * VOXEL_GROUP_X, iy / VOXEL_GROUP_Y * VOXEL_GROUP_Y, z,
+                     VOXEL_GROUP_X, VOXEL_GROUP_Y, VOXEL_GROUP_Z);
+  const float grown = grown_by(slices, z, VOXEL_GROUP_Z);
   Real3 position = real3(grid->origin_x + (float)ix * grid->spacing_x,
                          grid->origin_y + (float)iy * grid->spacing_y, slices[iz].place);
 #ifdef VOXELS_LOG
@@ -55,7 +56,7 @@ kernel __attribute__((reqd_work_group_size(VOXEL_BRICK_X, VOXEL_BRICK_Y, VOXEL_B
 #endif
   VoxelSum sum = {{0}};
   for (uint first = 0; first < grid->groups; first += ITEMS) {
-    // The groups that meet the brick, in order.
+    // The groups that meet the block, in order.
     const uint group = first + item;
     bool meets = false;
     if (group < grid->groups) {
@@ -84,11 +85,11 @@ kernel __attribute__((reqd_work_group_size(VOXEL_BRICK_X, VOXEL_BRICK_Y, VOXEL_B
         numbers[of_lights.x] = groups[mine] * VOXEL_LIGHT_GROUP + item % VOXEL_LIGHT_GROUP;
       }
       barrier(CLK_LOCAL_MEM_FENCE);
-      for (uint i = item; i < of_lights.y * VOXEL_BRICK_Z; i += ITEMS)
-        reaches[i] = voxel_reach(kept[i / VOXEL_BRICK_Z].w, slices + z + i % VOXEL_BRICK_Z);
+      for (uint i = item; i < of_lights.y * VOXEL_GROUP_Z; i += ITEMS)
+        reaches[i] = voxel_reach(kept[i / VOXEL_GROUP_Z].w, slices + z + i % VOXEL_GROUP_Z);
       barrier(CLK_LOCAL_MEM_FENCE);
       for (uint i = 0; i < of_lights.y; ++i) {
-        add_voxel_light(&sum, position, slices + iz, kept[i].xyz, reaches[i * VOXEL_BRICK_Z + (iz - z)],
+        add_voxel_light(&sum, position, slices + iz, kept[i].xyz, reaches[i * VOXEL_GROUP_Z + (iz - z)],
                         &lights, numbers[i]);
       }
     }

@@ -156,12 +156,10 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
   if (v.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
   auto pass = v.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
-  const size_t sides[3] = {s.lanes ? 1u : VOXEL_BRICK_X, s.lanes ? 1u : VOXEL_BRICK_Y,
-                           s.lanes ? 1u : VOXEL_BRICK_Z};
+  const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
   launch(*v.renderer.cl, "build_voxels", kernel,
-         cl::NDRange(g.size_x / VOXEL_BRICK_X * sides[0], g.size_y / VOXEL_BRICK_Y * sides[1],
-                     g.size_z / VOXEL_BRICK_Z * sides[2]),
-         cl::NDRange(sides[0], sides[1], sides[2]), s.lights.boxes.buffer(), s.lights.places.buffer(),
+         s.lanes ? bricks : cl::NDRange(g.size_x, g.size_y, g.size_z),
+         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_X, VOXEL_GROUP_Y, VOXEL_GROUP_Z), s.lights.boxes.buffer(), s.lights.places.buffer(),
          s.lights.colors.buffer(), v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(),
          s.slices.buffer(), s.irradiance->cl_buffer(), s.directions->cl_buffer());
   s.filled = std::move(needed);

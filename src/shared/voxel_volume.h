@@ -5,10 +5,14 @@
 
 #include "shared/brdf.h"
 
-// A work-item or work-group fills a brick of samples. Sizes of volumes are multiples of it.
+// A brick of samples: a CPU's work-item fills one. Sizes of volumes are multiples of it.
 #define VOXEL_BRICK_X 8
 #define VOXEL_BRICK_Y 8
 #define VOXEL_BRICK_Z 4
+// A GPU's work-group fills fewer, which fewer lights reach: one each work-item, a divisor of the brick along each axis.
+#define VOXEL_GROUP_X 8
+#define VOXEL_GROUP_Y 8
+#define VOXEL_GROUP_Z 1
 // Lights that are neighbours in space share a box.
 #define VOXEL_LIGHT_GROUP 16
 
