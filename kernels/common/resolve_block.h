@@ -1,18 +1,34 @@
-// The surfaces of a block of 4 x 4 pixels: each of its distinct triangles gives the attributes of its pixels,
-// then each of their distinct materials the textures.
+// The surfaces of a tile, block of 4 x 4 pixels after block: each of a block's distinct triangles gives the
+// attributes of its pixels, then each of their distinct materials the textures.
+//
+// A triangle leads through loads that depend on each other (instance, indices, corners, texels), and the work
+// on a block is longer than what a processor reorders, so that each block would wait for memory by itself.
+// Therefore corners are fetched a row of blocks ahead, and texels a block ahead.
+//
+// -DTILE  pixels a side of a tile, a multiple of 8 (default 16)
 #pragma once
 
+#ifndef TILE
+#define TILE 16
+#endif
+
+#include "kernels/common/fetch.h"
+#include "kernels/common/image_blocks.h"
 #include "kernels/common/resolve.h"
 
-// Into attributes and surfaces of zeros. triangle, covered: of each pixel. (x, y): the block's first pixel.
-static inline void add_surfaces(Attributes* a, Surface* s, const ResolveScene* scene, uint16 triangle,
-                                mask_t covered, uint x, uint y) {
+// Into attributes of zeros. triangle, covered: of each pixel. (x, y): the block's first pixel.
+static inline void add_triangles(Attributes* a, const ResolveScene* scene, uint16 triangle, mask_t covered,
+                                 uint x, uint y) {
   for (uint left = mask_bits(covered); left != 0;) {
     const uint one = ((const uint*)&triangle)[lowest_bit(left)];
     const mask_t here = triangle == (uint16)(one);
     left &= ~mask_bits(here);
     add_triangle(a, scene, one, here, (float)x, (float)y, BLOCK_DX, BLOCK_DY);
   }
+}
+
+// Into surfaces of zeros.
+static inline void add_materials(Surface* s, const Attributes* a, const ResolveScene* scene, mask_t covered) {
   const whole material = a->material;
   for (uint left = mask_bits(covered); left != 0;) {
     const int one = ((const int*)&material)[lowest_bit(left)];
@@ -20,4 +36,108 @@ static inline void add_surfaces(Attributes* a, Surface* s, const ResolveScene* s
     left &= ~mask_bits(here);
     add_material(s, a, scene, (uint)one, here);
   }
+}
+
+// Fetches the corners of the triangles in a row of blocks: from x to x_end, which are TILE pixels at most,
+// and from y on.
+static inline void fetch_corners(const ResolveScene* s, global const uint* triangles, uint x, uint x_end,
+                                 uint y, uint width, uint height) {
+  uint found[4 * TILE], places[4 * TILE], count = 0, last = SURFACE_NONE;
+  for (; x < x_end; x += 4) {
+    const uint16 triangle = load_block(triangles, x, y, width, height);
+    uint left = mask_bits((mask_t)((triangle != (uint16)(SURFACE_NONE)) & (triangle != (uint16)(last))));
+    while (left != 0) {
+      last = ((const uint*)&triangle)[lowest_bit(left)];
+      left &= ~mask_bits((mask_t)(triangle == (uint16)(last)));
+      found[count++] = last;
+    }
+  }
+  for (uint i = 0; i < count; ++i) {
+    global const RasterInstanceRecord* r = s->instances + s->triangle_instance[found[i]];
+    places[i] = r->first_index + 3 * (found[i] - r->first_triangle);
+    FETCH(s->indices + places[i]);
+  }
+  for (uint i = 0; i < count; ++i) {
+    global const RasterInstanceRecord* r = s->instances + s->triangle_instance[found[i]];
+    for (uint k = 0; k < 3; ++k) {
+      const uint corner = s->indices[places[i] + k];
+      FETCH(s->clip + r->first_clip_vertex + corner);
+      FETCH(s->vertices + r->first_vertex + corner);
+    }
+  }
+}
+
+// Fetches texels of the packed maps that a block's pixels will filter: at the ends of its rows. A third of
+// the 64 that it reads; all of them gained nothing.
+static inline void fetch_texels(const Attributes* a, const ResolveScene* s, mask_t covered) {
+#ifdef TEXTURED
+  const whole material = a->material;
+  for (uint left = mask_bits(covered); left != 0;) {
+    const int one = ((const int*)&material)[lowest_bit(left)];
+    left &= ~mask_bits(material == (int16)(one));
+    global const SurfaceMaterial* m = s->materials + one;
+    if (!(m->flags & SURFACE_PACKED)) continue;
+    const Footprint f = footprint_of(m->maps, a->uv0);
+    global const packed_t* chain = (global const packed_t*)s->texels_8 + 8 * (size_t)m->maps->base;
+#define FETCH_TEXEL(level, i) FETCH(chain + 8 * INDEX_LANE(level.first, i))
+#define FETCH_NEXT_ROW(level, i) FETCH(chain + 8 * (INDEX_LANE(level.first, i) + INDEX_LANE(level.pitch, i)))
+    FETCH_TEXEL(f.fine, 0), FETCH_TEXEL(f.fine, 3), FETCH_TEXEL(f.fine, 4), FETCH_TEXEL(f.fine, 7);
+    FETCH_TEXEL(f.fine, 8), FETCH_TEXEL(f.fine, 11), FETCH_TEXEL(f.fine, 12), FETCH_TEXEL(f.fine, 15);
+    FETCH_NEXT_ROW(f.fine, 0), FETCH_NEXT_ROW(f.fine, 3), FETCH_NEXT_ROW(f.fine, 12),
+        FETCH_NEXT_ROW(f.fine, 15);
+    FETCH_TEXEL(f.coarse, 0), FETCH_TEXEL(f.coarse, 3), FETCH_TEXEL(f.coarse, 12), FETCH_TEXEL(f.coarse, 15);
+    FETCH_NEXT_ROW(f.coarse, 0), FETCH_NEXT_ROW(f.coarse, 3), FETCH_NEXT_ROW(f.coarse, 12),
+        FETCH_NEXT_ROW(f.coarse, 15);
+  }
+#endif
+}
+
+// A block with the attributes of its pixels.
+typedef struct Block {
+  uint x, y;  // its first pixel
+  mask_t covered;
+  Attributes attributes;
+} Block;
+
+// The blocks of a tile.
+typedef struct BlockWalk {
+  const ResolveScene* scene;
+  global const uint* triangles;
+  uint x0, x_end, y_end, width, height;
+  Block next;
+} BlockWalk;
+
+static inline void look_ahead(BlockWalk* w, uint x, uint y) {
+  Block b = {x, y, (mask_t)(0), {0}};
+  if (y < w->y_end) {
+    const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
+    b.covered = triangle != (uint16)(SURFACE_NONE);
+    if (any_lane(b.covered)) {
+      add_triangles(&b.attributes, w->scene, triangle, b.covered, x, y);
+      fetch_texels(&b.attributes, w->scene, b.covered);
+    }
+  }
+  w->next = b;
+}
+
+static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* triangles, uint tile_x,
+                                  uint tile_y, uint width, uint height) {
+  BlockWalk w = {
+      scene, triangles, tile_x * TILE, min(tile_x * TILE + TILE, width), min(tile_y * TILE + TILE, height),
+      width, height};
+  fetch_corners(scene, triangles, w.x0, w.x_end, tile_y * TILE, width, height);
+  look_ahead(&w, w.x0, tile_y * TILE);
+  return w;
+}
+
+// Into `block` the tile's next one, row by row; false after the last.
+static inline bool next_block(BlockWalk* w, Block* block) {
+  *block = w->next;
+  const uint x = block->x, y = block->y;
+  if (y >= w->y_end) return false;
+  if (x == w->x0 && y + 4 < w->y_end)
+    fetch_corners(w->scene, w->triangles, x, w->x_end, y + 4, w->width, w->height);
+  const bool row_goes_on = x + 4 < w->x_end;
+  look_ahead(w, row_goes_on ? x + 4 : w->x0, row_goes_on ? y : y + 4);
+  return true;
 }

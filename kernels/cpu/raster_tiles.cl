@@ -8,12 +8,14 @@
 // triangles  uint a pixel: the nearest triangle, of several equally near ones the lowest number; RASTER_NONE
 // depths     float a pixel, reversed: 0 where no triangle is
 #define LANES 16
+#include "kernels/common/fetch.h"
 #include "kernels/common/pack.h"
 #include "kernels/common/raster_masks.h"
 #include "kernels/common/raster_tiles.h"
 
 #define FEW_BLOCKS 9         // up to which blocks are gone through one by one
 #define LEAST_DEPTH FLT_MIN  // less is not drawn
+#define RECORDS_AHEAD 6      // that many records before its turn a record is fetched into the caches
 
 // A tile's pixels in blocks of 4 x 4, and these in squares of 4 x 4 blocks.
 typedef struct Tile {
@@ -213,6 +215,8 @@ kernel void raster_tiles(global const RasterRecord* records, global const uint* 
   const uint end = tile_begin[number + 1];
   for (uint i = tile_begin[number]; i < end; ++i) {
     global const RasterRecord* record = records + lists[i];
+    global const RasterRecord* later = records + lists[min(i + RECORDS_AHEAD, end - 1)];
+    FETCH(later), FETCH(&later->alpha_material);  // in two cache lines
     const int last = RASTER_TILE - 1;
     const int x0 = max((int)(record->box_low & 0xffffu) - pixel_x, 0) >> 2;
     const int y0 = max((int)(record->box_low >> 16) - pixel_y, 0) >> 2;

@@ -1,6 +1,6 @@
 // Radiance of every pixel of a visibility buffer, for CPUs: a work-item takes a tile, block after block of 4
-// x 4 pixels (kernels/common/resolve_block.h), then the tile's lights. Burns, Hunt, "The Visibility Buffer" (JCGT
-// 2013).
+// x 4 pixels (kernels/common/resolve_block.h), then the tile's lights. Burns, Hunt, "The Visibility Buffer"
+// (JCGT 2013).
 //
 // triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
 // RESOLVE_ARGUMENTS  kernels/common/resolve_light.h
@@ -10,13 +10,8 @@
 // -DORTHOGRAPHIC, and what kernels/common/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
-#include "kernels/common/image_blocks.h"
 #include "kernels/common/resolve_block.h"
 #include "kernels/common/resolve_light.h"
-
-#ifndef TILE
-#define TILE 16
-#endif
 
 kernel void resolve(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
                     float4 background, global float* image) {
@@ -24,22 +19,19 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
-  const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
-  for (uint y = tile_y * TILE; y < y_end; y += 4) {
-    for (uint x = tile_x * TILE; x < x_end; x += 4) {
-      const uint16 triangle = load_block(triangles, x, y, width, height);
-      const mask_t covered = triangle != (uint16)(SURFACE_NONE);
-      Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
-      if (any_lane(covered)) {
-        Attributes a = {0};
-        Surface s = {0};
-        add_surfaces(&a, &s, &scene, triangle, covered, x, y);
-        const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-        const Real3 shown = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
-                                     covered, &lights, bin_edges, view);
-        color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
-      }
-      store_block(image, color, REAL(1.0f), x, y, width, height);
+  BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
+  for (Block b; next_block(&walk, &b);) {
+    const uint x = b.x, y = b.y;
+    const mask_t covered = b.covered;
+    Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
+    if (any_lane(covered)) {
+      Surface s = {0};
+      add_materials(&s, &b.attributes, &scene, covered);
+      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+      const Real3 shown = radiance(&b.attributes, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
+                                   depth, covered, &lights, bin_edges, view);
+      color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
     }
+    store_block(image, color, REAL(1.0f), x, y, width, height);
   }
 }

@@ -6,20 +6,16 @@
 // RESOLVE_ARGUMENTS  kernels/common/resolve_light.h; of the lights only directional ones are read
 // background  of pixels without a surface
 // first, second, coats  out: the geometry buffer (kernels/common/gbuffer.h); coats null: none is wanted
-// image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds it
+// image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds
+// it
 //
 // -DTILE         pixels a side, a multiple of 8 (default 16)
 // -DBUFFER_BITS  kernels/common/gbuffer.h
 // -DORTHOGRAPHIC, and what kernels/common/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
-#include "kernels/common/image_blocks.h"
 #include "kernels/common/resolve_block.h"
 #include "kernels/common/resolve_light.h"
-
-#ifndef TILE
-#define TILE 16
-#endif
 
 #if BUFFER_BITS == 32
 static inline void store_texels(global float* to, Texels t, uint x, uint y, uint width, uint height) {
@@ -54,34 +50,33 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   const ResolveLights lights = RESOLVE_LIGHTS;
-  const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
-  for (uint y = tile_y * TILE; y < y_end; y += 4) {
-    for (uint x = tile_x * TILE; x < x_end; x += 4) {
-      const uint16 triangle = load_block(triangles, x, y, width, height);
-      const mask_t covered = triangle != (uint16)(SURFACE_NONE);
-      Attributes a = {0};
-      Surface s = {0};
-      add_surfaces(&a, &s, &scene, triangle, covered, x, y);
-      const Real3 n = shading_normal(&a, &s);
-      Texels normal, color;
-      texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit, covered);
-      store_texels(first, normal, x, y, width, height);
-      store_texels(second, color, x, y, width, height);
+  BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
+  for (Block b; next_block(&walk, &b);) {
+    const uint x = b.x, y = b.y;
+    const mask_t covered = b.covered;
+    Surface s = {0};
+    add_materials(&s, &b.attributes, &scene, covered);
+    const Real3 n = shading_normal(&b.attributes, &s);
+    Texels normal, color;
+    texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit,
+                      covered);
+    store_texels(first, normal, x, y, width, height);
+    store_texels(second, color, x, y, width, height);
 #ifdef CLEARCOAT
-      if (coats) {
-        const Texels coat = texels_of_coat(coat_normal(&a, &s), n, s.coat, s.coat_roughness, covered);
-        store_texels(coats, coat, x, y, width, height);
-      }
-#endif
-      if (!image) continue;
-      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-      const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
-                                            depth, covered, view);
-      const Real3 shown = base_light(&p, &s, &lights, view);
-      store_block(image,
-                  real3(covered ? shown.x : REAL(background.x), covered ? shown.y : REAL(background.y),
-                        covered ? shown.z : REAL(background.z)),
-                  REAL(1.0f), x, y, width, height);
+    if (coats) {
+      const Texels coat =
+          texels_of_coat(coat_normal(&b.attributes, &s), n, s.coat, s.coat_roughness, covered);
+      store_texels(coats, coat, x, y, width, height);
     }
+#endif
+    if (!image) continue;
+    const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+    const ShadingPoint p = resolved_point(&b.attributes, &s, (float)x + 0.5f + BLOCK_DX,
+                                          (float)y + 0.5f + BLOCK_DY, depth, covered, view);
+    const Real3 shown = base_light(&p, &s, &lights, view);
+    store_block(image,
+                real3(covered ? shown.x : REAL(background.x), covered ? shown.y : REAL(background.y),
+                      covered ? shown.z : REAL(background.z)),
+                REAL(1.0f), x, y, width, height);
   }
 }

@@ -12,13 +12,8 @@
 // -DPREPASS_…, -DBUFFER_BITS, -DORTHOGRAPHIC, and what kernels/common/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
-#include "kernels/common/image_blocks.h"
 #include "kernels/common/resolve_block.h"
 #include "kernels/common/resolve_sums.h"
-
-#ifndef TILE
-#define TILE 16
-#endif
 
 static inline LightTerms sums_of_block(global const light_channel_t* first,
                                        global const light_channel_t* second, float scale, uint x, uint y,
@@ -50,23 +45,21 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
   const ResolveScene scene = RESOLVE_SCENE;
   const ResolveLights lights = RESOLVE_LIGHTS;
   const LightBufferParams of = {REAL(exponent), REAL(reference)};
-  const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
-  for (uint y = tile_y * TILE; y < y_end; y += 4) {
-    for (uint x = tile_x * TILE; x < x_end; x += 4) {
-      const uint16 triangle = load_block(triangles, x, y, width, height);
-      const mask_t covered = triangle != (uint16)(SURFACE_NONE);
-      Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
-      if (any_lane(covered)) {
-        Attributes a = {0};
-        Surface s = {0};
-        add_surfaces(&a, &s, &scene, triangle, covered, x, y);
-        const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-        const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
-        const Real3 shown = radiance_of_sums(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
-                                             depth, covered, sums, of, &lights, view);
-        color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
-      }
-      store_block(image, color, REAL(1.0f), x, y, width, height);
+  BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
+  for (Block b; next_block(&walk, &b);) {
+    const uint x = b.x, y = b.y;
+    const mask_t covered = b.covered;
+    Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
+    if (any_lane(covered)) {
+      Surface s = {0};
+      add_materials(&s, &b.attributes, &scene, covered);
+      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+      const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
+      const Real3 shown =
+          radiance_of_sums(&b.attributes, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
+                           covered, sums, of, &lights, view);
+      color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
     }
+    store_block(image, color, REAL(1.0f), x, y, width, height);
   }
 }

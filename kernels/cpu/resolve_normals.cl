@@ -8,14 +8,9 @@
 // -DNORMALS_…, and what kernels/common/resolve.h names
 #define FUSED  // shared/real.h
 #define LANES 16
-#include "kernels/common/image_blocks.h"
 #include "kernels/common/resolve_block.h"
 #include "kernels/common/resolve_light.h"
 #include "kernels/common/stored_normals.h"
-
-#ifndef TILE
-#define TILE 16
-#endif
 
 static inline void store_normals(global normal_t* to, Real3 n, uint x, uint y, uint width, uint height) {
 #ifdef NORMAL_CHANNEL_STEPS
@@ -33,18 +28,15 @@ static inline void store_normals(global normal_t* to, Real3 n, uint x, uint y, u
 kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS, global normal_t* normals) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
-  const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
-  for (uint y = tile_y * TILE; y < y_end; y += 4) {
-    for (uint x = tile_x * TILE; x < x_end; x += 4) {
-      const uint16 triangle = load_block(triangles, x, y, width, height);
-      const mask_t covered = triangle != (uint16)(SURFACE_NONE);
-      Attributes a = {0};
-      Surface s = {0};
-      add_surfaces(&a, &s, &scene, triangle, covered, x, y);
-      const Real3 n = shading_normal(&a, &s);
-      const real none = 0.0f;
-      store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
-                    y, width, height);
-    }
+  BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
+  for (Block b; next_block(&walk, &b);) {
+    const uint x = b.x, y = b.y;
+    const mask_t covered = b.covered;
+    Surface s = {0};
+    add_materials(&s, &b.attributes, &scene, covered);
+    const Real3 n = shading_normal(&b.attributes, &s);
+    const real none = 0.0f;
+    store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
+                  y, width, height);
   }
 }
