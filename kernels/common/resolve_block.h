@@ -3,7 +3,7 @@
 //
 // A triangle leads through loads that depend on each other (instance, indices, corners, texels), and the work
 // on a block is longer than what a processor reorders, so that each block would wait for memory by itself.
-// Therefore corners are fetched a row of blocks ahead, and texels a block ahead.
+// Therefore, where there are textures, corners are fetched a row of blocks ahead, and texels a block ahead.
 //
 // -DTILE  pixels a side of a tile, a multiple of 8 (default 16)
 #pragma once
@@ -92,52 +92,66 @@ static inline void fetch_texels(const Attributes* a, const ResolveScene* s, mask
 #endif
 }
 
-// A block with the attributes of its pixels.
-typedef struct Block {
-  uint x, y;  // its first pixel
-  mask_t covered;
-  Attributes attributes;
-} Block;
-
-// The blocks of a tile.
+// The way through a tile's blocks: row by row, each row from x0 on.
 typedef struct BlockWalk {
   const ResolveScene* scene;
   global const uint* triangles;
-  uint x0, x_end, y_end, width, height;
-  Block next;
+  uint x0, x_end, y0, y_end, width, height;
+  uint16 triangle;  // of the block that it is at
+#ifdef TEXTURED
+  Attributes here, next;
+  mask_t next_covered;
+#endif
 } BlockWalk;
 
+#ifdef TEXTURED
 static inline void look_ahead(BlockWalk* w, uint x, uint y) {
-  Block b = {x, y, (mask_t)(0), {0}};
-  if (y < w->y_end) {
-    const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
-    b.covered = triangle != (uint16)(SURFACE_NONE);
-    if (any_lane(b.covered)) {
-      add_triangles(&b.attributes, w->scene, triangle, b.covered, x, y);
-      fetch_texels(&b.attributes, w->scene, b.covered);
-    }
-  }
-  w->next = b;
+  const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
+  const Attributes none = {0};
+  w->next = none;
+  w->next_covered = triangle != (uint16)(SURFACE_NONE);
+  if (!any_lane(w->next_covered)) return;
+  add_triangles(&w->next, w->scene, triangle, w->next_covered, x, y);
+  fetch_texels(&w->next, w->scene, w->next_covered);
 }
+#endif
 
 static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* triangles, uint tile_x,
                                   uint tile_y, uint width, uint height) {
-  BlockWalk w = {
-      scene, triangles, tile_x * TILE, min(tile_x * TILE + TILE, width), min(tile_y * TILE + TILE, height),
-      width, height};
-  fetch_corners(scene, triangles, w.x0, w.x_end, tile_y * TILE, width, height);
-  look_ahead(&w, w.x0, tile_y * TILE);
+  BlockWalk w = {scene,         triangles,
+                 tile_x * TILE, min(tile_x * TILE + TILE, width),
+                 tile_y * TILE, min(tile_y * TILE + TILE, height),
+                 width,         height};
+#ifdef TEXTURED
+  fetch_corners(scene, triangles, w.x0, w.x_end, w.y0, width, height);
+  look_ahead(&w, w.x0, w.y0);
+#endif
   return w;
 }
 
-// Into `block` the tile's next one, row by row; false after the last.
-static inline bool next_block(BlockWalk* w, Block* block) {
-  *block = w->next;
-  const uint x = block->x, y = block->y;
-  if (y >= w->y_end) return false;
+// Goes on to the block at (x, y), the next one. Returns which pixels have a surface.
+static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
+#ifdef TEXTURED
   if (x == w->x0 && y + 4 < w->y_end)
     fetch_corners(w->scene, w->triangles, x, w->x_end, y + 4, w->width, w->height);
+  w->here = w->next;
+  const mask_t covered = w->next_covered;
   const bool row_goes_on = x + 4 < w->x_end;
-  look_ahead(w, row_goes_on ? x + 4 : w->x0, row_goes_on ? y : y + 4);
-  return true;
+  if (row_goes_on || y + 4 < w->y_end) look_ahead(w, row_goes_on ? x + 4 : w->x0, row_goes_on ? y : y + 4);
+  return covered;
+#else
+  w->triangle = load_block(w->triangles, x, y, w->width, w->height);
+  return w->triangle != (uint16)(SURFACE_NONE);
+#endif
+}
+
+// Of the pixels of the block at (x, y), which the walk is at.
+static inline Attributes block_attributes(const BlockWalk* w, mask_t covered, uint x, uint y) {
+#ifdef TEXTURED
+  return w->here;
+#else
+  Attributes a = {0};
+  add_triangles(&a, w->scene, w->triangle, covered, x, y);
+  return a;
+#endif
 }

@@ -20,18 +20,20 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
   BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
-  for (Block b; next_block(&walk, &b);) {
-    const uint x = b.x, y = b.y;
-    const mask_t covered = b.covered;
-    Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
-    if (any_lane(covered)) {
-      Surface s = {0};
-      add_materials(&s, &b.attributes, &scene, covered);
-      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-      const Real3 shown = radiance(&b.attributes, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
-                                   depth, covered, &lights, bin_edges, view);
-      color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
+  for (uint y = walk.y0; y < walk.y_end; y += 4) {
+    for (uint x = walk.x0; x < walk.x_end; x += 4) {
+      const mask_t covered = walk_to(&walk, x, y);
+      Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
+      if (any_lane(covered)) {
+        const Attributes a = block_attributes(&walk, covered, x, y);
+        Surface s = {0};
+        add_materials(&s, &a, &scene, covered);
+        const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+        const Real3 shown = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
+                                     covered, &lights, bin_edges, view);
+        color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
+      }
+      store_block(image, color, REAL(1.0f), x, y, width, height);
     }
-    store_block(image, color, REAL(1.0f), x, y, width, height);
   }
 }

@@ -51,32 +51,33 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   const ResolveScene scene = RESOLVE_SCENE;
   const ResolveLights lights = RESOLVE_LIGHTS;
   BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
-  for (Block b; next_block(&walk, &b);) {
-    const uint x = b.x, y = b.y;
-    const mask_t covered = b.covered;
-    Surface s = {0};
-    add_materials(&s, &b.attributes, &scene, covered);
-    const Real3 n = shading_normal(&b.attributes, &s);
-    Texels normal, color;
-    texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit,
-                      covered);
-    store_texels(first, normal, x, y, width, height);
-    store_texels(second, color, x, y, width, height);
+  for (uint y = walk.y0; y < walk.y_end; y += 4) {
+    for (uint x = walk.x0; x < walk.x_end; x += 4) {
+      const mask_t covered = walk_to(&walk, x, y);
+      const Attributes a = block_attributes(&walk, covered, x, y);
+      Surface s = {0};
+      add_materials(&s, &a, &scene, covered);
+      const Real3 n = shading_normal(&a, &s);
+      Texels normal, color;
+      texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit,
+                        covered);
+      store_texels(first, normal, x, y, width, height);
+      store_texels(second, color, x, y, width, height);
 #ifdef CLEARCOAT
-    if (coats) {
-      const Texels coat =
-          texels_of_coat(coat_normal(&b.attributes, &s), n, s.coat, s.coat_roughness, covered);
-      store_texels(coats, coat, x, y, width, height);
-    }
+      if (coats) {
+        const Texels coat = texels_of_coat(coat_normal(&a, &s), n, s.coat, s.coat_roughness, covered);
+        store_texels(coats, coat, x, y, width, height);
+      }
 #endif
-    if (!image) continue;
-    const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-    const ShadingPoint p = resolved_point(&b.attributes, &s, (float)x + 0.5f + BLOCK_DX,
-                                          (float)y + 0.5f + BLOCK_DY, depth, covered, view);
-    const Real3 shown = base_light(&p, &s, &lights, view);
-    store_block(image,
-                real3(covered ? shown.x : REAL(background.x), covered ? shown.y : REAL(background.y),
-                      covered ? shown.z : REAL(background.z)),
-                REAL(1.0f), x, y, width, height);
+      if (!image) continue;
+      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+      const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
+                                            depth, covered, view);
+      const Real3 shown = base_light(&p, &s, &lights, view);
+      store_block(image,
+                  real3(covered ? shown.x : REAL(background.x), covered ? shown.y : REAL(background.y),
+                        covered ? shown.z : REAL(background.z)),
+                  REAL(1.0f), x, y, width, height);
+    }
   }
 }
