@@ -16,6 +16,7 @@
 #include "compare/run_technique.h"
 #include "compare/silhouettes.h"
 #include "gl/state.h"
+#include "passes/shade_objects.h"
 #include "results/flip.h"
 #include "results/metrics.h"
 #include "results/words.h"
@@ -282,15 +283,16 @@ void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries,
 }
 
 // The reference first: images that equal it are then not kept. Then what takes most memory, while few images
-// are there: techniques with a copy of the scene in OpenCL, then those whose lists have an entry for each
-// pixel.
+// are there: techniques with a copy of the scene in OpenCL, then those with a list for each pixel, then those
+// with one for each object.
 std::vector<size_t> order_of_rows(const std::vector<Entry>& entries, const TechniqueRun* reference) {
   std::vector<size_t> order(entries.size());
   std::iota(order.begin(), order.end(), size_t(0));
   std::ranges::stable_sort(order, {}, [&](size_t i) {
     const Contestant& c = *entries[i].contestant;
     if (entries[i].run && entries[i].run.get() == reference) return -1;
-    return own_surfaces(*c.technique, c.settings) ? 0 : c.technique->listed ? 1 : 2;
+    if (own_surfaces(*c.technique, c.settings)) return 0;
+    return !c.technique->listed ? 3 : c.technique->listed == listed_of_objects ? 2 : 1;
   });
   return order;
 }
