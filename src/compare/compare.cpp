@@ -1,7 +1,6 @@
 #include "compare/compare.h"
 
 #include <algorithm>
-#include <new>
 #include <numeric>
 
 #ifdef __GLIBC__
@@ -9,75 +8,17 @@
 #endif
 
 #include "base/version.h"
-#include "cl/error.h"
+#include "compare/contestant_runs.h"
 #include "compare/moving.h"
 #include "compare/oracle_sample.h"
-#include "compare/reference_sample.h"
-#include "compare/run_technique.h"
 #include "compare/silhouettes.h"
 #include "gl/state.h"
+#include "passes/shade_objects.h"
 #include "results/flip.h"
 #include "results/metrics.h"
-#include "results/words.h"
 
 namespace lightgrid {
 namespace {
-
-// A contestant's run, until it fails.
-struct Entry {
-  const Contestant* contestant;
-  std::unique_ptr<TechniqueRun> run;
-  std::optional<Error> refusal;
-};
-
-// Runs `work`. An Error is recorded as the refusal and ends the entry's run, unless keep_run.
-template <typename Work>
-void attempt(Entry& entry, const Work& work, bool ends_run = true) {
-  if (entry.refusal) return;
-  try {
-    work();
-  } catch (const Error& error) {
-    entry.refusal = error;
-  } catch (const cl::Error& error) {
-    entry.refusal = cl_machine_error(error);
-  } catch (const std::bad_alloc&) {
-    entry.refusal = machine_error("out of memory");
-  }
-  if (entry.refusal && ends_run) entry.run.reset();
-}
-
-// The technique that shades every light at every pixel, and its settings.
-struct BruteForce {
-  const Technique* technique;
-  bool chosen_lights;  // only with lights=all
-
-  bool is(const Technique& other, const Settings& settings) const {
-    return other.name == std::string(technique->name) &&
-           (!chosen_lights || settings.lights == ShadedLights::all);
-  }
-  std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
-};
-
-BruteForce brute_force(const Renderer& renderer) {
-  if (renderer.gl) return {&find_technique("forward"), false};
-  return {&find_technique("visibility"), true};
-}
-
-// All runs draw into the same images in turn, except the reference: its depth and surfaces are read after
-// other runs' frames.
-std::vector<Entry> make_entries(Renderer& renderer, GpuScene& gpu, const View& view,
-                                const std::vector<Contestant>& contestants, const BruteForce& reference) {
-  std::vector<Entry> entries;
-  const auto shared = std::make_shared<TargetPool>();
-  for (const Contestant& c : contestants) {
-    Entry& entry = entries.emplace_back(&c);
-    const auto pool = reference.is(*c.technique, c.settings) ? nullptr : shared;
-    attempt(entry, [&] {
-      entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique, pool);
-    });
-  }
-  return entries;
-}
 
 // OpenGL keeps images that it still draws or has bound, and glibc what is freed, in pieces that the next
 // stage's images do not fit.
@@ -92,10 +33,10 @@ void return_freed_memory(const Renderer& renderer) {
 }
 
 // Runs hand the memory of their images on: each keeps none but the reference.
-void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options, const BruteForce& reference,
-                      const Renderer& renderer) {
+void time_interleaved(std::vector<ContestantRun>& entries, const CompareOptions& options,
+                      const EveryLight& reference, const Renderer& renderer) {
   Image memory;
-  const auto hands_on = [&](const Entry& e) {
+  const auto hands_on = [&](const ContestantRun& e) {
     return e.run && !reference.is(e.run->technique(), e.contestant->settings);
   };
   const int rounds = options.warmup + options.frames;
@@ -106,7 +47,7 @@ void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options
   for (int round = 0; round <= rounds; ++round) {
     for (size_t i = 0; i < entries.size(); ++i) {
       tell(round, i);
-      Entry& entry = entries[i];
+      ContestantRun& entry = entries[i];
       if (hands_on(entry)) entry.run->reuse(std::move(memory));
       attempt(entry, [&] {
         round < rounds ? entry.run->run_frame(round < options.warmup) : entry.run->run_profiled_frames();
@@ -114,7 +55,7 @@ void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options
       if (hands_on(entry)) memory = entry.run->take_image();
     }
   }
-  for (Entry& entry : entries) {
+  for (ContestantRun& entry : entries) {
     if (hands_on(entry)) entry.run->release();
   }
   memory = Image();
@@ -122,14 +63,14 @@ void time_interleaved(std::vector<Entry>& entries, const CompareOptions& options
 }
 
 // If nothing ran, throws the first reason.
-void require_one(const std::vector<Entry>& entries) {
-  for (const Entry& entry : entries) {
+void require_one(const std::vector<ContestantRun>& entries) {
+  for (const ContestantRun& entry : entries) {
     if (entry.run) return;
   }
   if (!entries.empty()) throw *entries.front().refusal;
 }
 
-RunResult refused_row(const Entry& entry, const RunResult& reference) {
+RunResult refused_row(const ContestantRun& entry, const RunResult& reference) {
   RunResult row;
   row.technique = entry.contestant->technique->name;
   row.refused = entry.refusal->what();
@@ -138,82 +79,9 @@ RunResult refused_row(const Entry& entry, const RunResult& reference) {
   return row;
 }
 
-// The brute-force image: of a contestant or of its own run, at all pixels or at a sample of them.
-struct Reference {
-  std::unique_ptr<TechniqueRun> own;
-  TechniqueRun* run = nullptr;
-  std::vector<PixelBlock> blocks;  // empty: all pixels
-  Image sampled_image;
-  const Image* in_report = nullptr;  // once the report has it: the run's image
-
-  bool sampled() const { return !blocks.empty(); }
-  const Image& image() const { return sampled() ? sampled_image : in_report ? *in_report : run->image(); }
-};
-
-std::unique_ptr<TechniqueRun> make_reference_run(Renderer& renderer, GpuScene& gpu, const View& view,
-                                                 const std::vector<Contestant>& contestants,
-                                                 const BruteForce& reference) {
-  Settings common =
-      contestants.empty() ? Settings{} : contestants.front().settings;  // the same BRDF above all
-  if (reference.chosen_lights) common.lights = ShadedLights::all;
-  return std::make_unique<TechniqueRun>(renderer, gpu, view, common, *reference.technique);
-}
-
-std::string time_in_words(double ms) {
-  return ms < 120e3 ? fmt::format("{:.0f} s", ms / 1000) : fmt::format("{:.0f} min", ms / 60e3);
-}
-
-// Chooses between all pixels and a sample. With a sample, contestants with the reference's technique are
-// refused.
-void choose_reference_pixels(Reference& reference, std::vector<Entry>& entries, Renderer& renderer,
-                             GpuScene& gpu, const View& view, const std::vector<Contestant>& contestants,
-                             const CompareOptions& options, const BruteForce& technique) {
-  const bool automatic = options.reference == ReferencePixels::automatic;
-  if (!technique.technique->needs.opengl) {
-    if (options.reference == ReferencePixels::sampled)
-      throw machine_error("reference sampled: shades with OpenGL; {}", renderer.why_no_gl);
-    return;
-  }
-  if (options.reference == ReferencePixels::full ||
-      (automatic && is_quick_for_forward(view, gpu.scene().lights.size(), options.most_reference_ms)))
-    return;
-  const auto of_reference = [&](const Entry& entry) {
-    return entry.run && technique.is(entry.run->technique(), entry.contestant->settings);
-  };
-  const auto found = std::find_if(entries.begin(), entries.end(), of_reference);
-  const bool is_contestant = found != entries.end();
-  if (!is_contestant) reference.own = make_reference_run(renderer, gpu, view, contestants, technique);
-  TechniqueRun& run = is_contestant ? *found->run : *reference.own;
-
-  if (options.progress) options.progress(0, "estimating the reference's time");
-  std::vector<PixelBlock> blocks = shuffled_blocks(view.width, view.height, options.seed);
-  const double frame_ms = automatic ? estimate_forward_ms(run.view(), blocks) : 0;
-  if (automatic &&
-      frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms)
-    return;
-
-  const size_t most = sample_size(gpu.scene().lights.size()), a_block = PixelBlock::side * PixelBlock::side;
-  blocks.resize(std::min(blocks.size(), (most + a_block - 1) / a_block));
-  const size_t pixels = pixels_of(blocks, view.width, view.height).size(),
-               all = size_t(view.width) * size_t(view.height);
-  const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame",
-                                                  time_in_words(frame_ms))
-                                    : std::string("asked for");
-  const std::string what = fmt::format("{} at {} of {} pixels ({}; reference full shades all)",
-                                       technique.name(), with_commas(pixels), with_commas(all), why);
-  if (options.notice) options.notice("the reference is " + what);
-  for (Entry& entry : entries) {
-    if (!of_reference(entry)) continue;
-    reference.own ? entry.run.reset() : void(reference.own = std::move(entry.run));
-    entry.refusal = machine_error("it is the reference: {}", what);
-  }
-  reference.run = reference.own.get();
-  reference.blocks = std::move(blocks);
-}
-
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more.
-void set_row(CompareReport& report, size_t place, TechniqueRun& run, Reference& reference,
+void set_row(CompareReport& report, size_t place, TechniqueRun& run, ReferenceRun& reference,
              const std::vector<float>& depth, const std::optional<FlipExposures>& exposures,
              const std::optional<ShownTriangles>& shown) {
   const bool is_reference = &run == reference.run;
@@ -243,7 +111,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Reference& 
 
 // Compares each image and the reference's with the oracle: at a sample of pixels, and where the images differ
 // most, so that no large difference is missed.
-void measure_against_oracle(CompareReport& report, const Reference& reference,
+void measure_against_oracle(CompareReport& report, const ReferenceRun& reference,
                             const std::vector<float>& depth, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
   const SurfaceOracle oracle(reference.run->view(), depth);
@@ -271,32 +139,35 @@ void measure_against_oracle(CompareReport& report, const Reference& reference,
   }
 }
 
-void run_path(CompareReport& report, GpuScene& gpu, std::vector<Entry>& entries, Reference& reference,
-              const CompareOptions& options) {
+void run_path(CompareReport& report, GpuScene& gpu, std::vector<ContestantRun>& entries,
+              ReferenceRun& reference, const CompareOptions& options) {
   if (options.path.empty()) return;
   std::vector<TechniqueRun*> runs;
-  for (const Entry& entry : entries) runs.push_back(entry.refusal ? nullptr : entry.run.get());
-  run_along_path(runs, *reference.run, {gpu, options.path, options.advance}, report.rows, [&](double done) {
+  for (const ContestantRun& entry : entries) runs.push_back(entry.refusal ? nullptr : entry.run.get());
+  const auto tell = [&](double done) {
     if (options.progress) options.progress(0.9 + 0.1 * done, "camera path");
-  });
+  };
+  report.path_memory =
+      run_along_path(runs, *reference.run, {gpu, options.path, options.advance}, report.rows, tell);
 }
 
 // The reference first: images that equal it are then not kept. Then what takes most memory, while few images
-// are there: techniques with a copy of the scene in OpenCL, then those whose lists have an entry for each
-// pixel.
-std::vector<size_t> order_of_rows(const std::vector<Entry>& entries, const TechniqueRun* reference) {
+// are there: techniques with a copy of the scene in OpenCL, then those with a list for each pixel, then those
+// with one for each object.
+std::vector<size_t> order_of_rows(const std::vector<ContestantRun>& entries, const TechniqueRun* reference) {
   std::vector<size_t> order(entries.size());
   std::iota(order.begin(), order.end(), size_t(0));
   std::ranges::stable_sort(order, {}, [&](size_t i) {
     const Contestant& c = *entries[i].contestant;
     if (entries[i].run && entries[i].run.get() == reference) return -1;
-    return own_surfaces(*c.technique, c.settings) ? 0 : c.technique->listed ? 1 : 2;
+    if (own_surfaces(*c.technique, c.settings)) return 0;
+    return !c.technique->listed ? 3 : c.technique->listed == listed_of_objects ? 2 : 1;
   });
   return order;
 }
 
-bool any_has_own_surfaces(const std::vector<Entry>& entries) {
-  return std::ranges::any_of(entries, [](const Entry& e) {
+bool any_has_own_surfaces(const std::vector<ContestantRun>& entries) {
+  return std::ranges::any_of(entries, [](const ContestantRun& e) {
     return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings);
   });
 }
@@ -309,18 +180,18 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
   report.cl_device = renderer.cl->info().name;
   report.gl_device = renderer.gl ? renderer.gl->renderer : "none";
   report.commit = commit_of_build();
-  const BruteForce every_light = brute_force(renderer);
+  const EveryLight every_light = every_light_technique(renderer);
   report.reference = every_light.name();
   report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
 
   GpuScene gpu(renderer, scene);
-  std::vector<Entry> entries = make_entries(renderer, gpu, view, contestants, every_light);
-  Reference reference;
+  std::vector<ContestantRun> entries = make_entries(renderer, gpu, view, contestants, every_light);
+  ReferenceRun reference;
   choose_reference_pixels(reference, entries, renderer, gpu, view, contestants, options, every_light);
   time_interleaved(entries, options, every_light, renderer);
   if (!options.all_may_refuse) require_one(entries);
 
-  for (Entry& entry : entries) {
+  for (ContestantRun& entry : entries) {
     if (reference.run || !entry.run || !every_light.is(entry.run->technique(), entry.contestant->settings))
       continue;
     reference.run = entry.run.get();
@@ -348,7 +219,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
       report.listed.resize(entries.size());
   const std::vector<size_t> order = order_of_rows(entries, reference.run);
   for (size_t i = 0; i < order.size(); ++i) {
-    Entry& entry = entries[order[i]];
+    ContestantRun& entry = entries[order[i]];
     if (options.progress)
       options.progress(0.8 + 0.1 * double(i) / double(entries.size()), "oracle: lit lights");
     // A refusal here keeps the run: it may be the reference.

@@ -3,20 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/metrics.h"
+#include "base/resident.h"
 #include "compare/oracle.h"
+#include "results/metrics.h"
 
 namespace lightgrid {
 namespace {
 
 // Everything is built by then.
 constexpr size_t frames_to_settle = 2;
+constexpr int resting_frames = 2;  // of each view
 
 // One technique along the path.
 struct Path {
   TechniqueRun* run;
   RunResult* row;
   std::vector<double> frame_ms, resting_ms;  // with look() and without, of the frames after frames_to_settle
+  std::vector<double> over_resting;          // of each of resting_ms
   std::vector<glm::vec3> difference;     // from the reference, in the last frame
   double flicker_sum = 0, flicker_max = 0;
   uint64_t flicker_count = 0;
@@ -30,21 +33,32 @@ RendererCounts since(const RendererCounts& now, const RendererCounts& before) {
   return {now.gl_programs - before.gl_programs, now.cl_programs - before.cl_programs, now.scene_bytes - before.scene_bytes};
 }
 
+double ms_of_frame(TechniqueRun& run) {
+  const Timer timer;
+  run.run_frame(true);
+  return timer.elapsed_ms();
+}
+
+// Each frame that is timed follows one of the same run, so that what other runs left in the processor's caches
+// makes none slower. Only where the scene moves there is no such frame before the camera's move.
 void run_one(Path& p, const View& view, const SceneChanges& changes, size_t frame) {
+  const bool timed = frame >= frames_to_settle;
   const RendererCounts before = p.run->view().renderer.counts();
+  if (timed && changes.empty()) p.run->run_frame(true);
   const Timer timer;
   p.run->look(view, changes);
   p.run->run_frame(true);
   const double ms = timer.elapsed_ms();
-  if (frame < frames_to_settle) return;
+  if (!timed) return;
   p.frame_ms.push_back(ms);
   const RendererCounts made = since(p.run->view().renderer.counts(), before);
   p.result.gl_programs += made.gl_programs;
   p.result.cl_programs += made.cl_programs;
   p.result.scene_bytes += made.scene_bytes;
-  const Timer at_rest;
-  p.run->run_frame(true);
-  p.resting_ms.push_back(at_rest.elapsed_ms());
+  for (int i = 0; i < resting_frames; ++i) {
+    p.resting_ms.push_back(ms_of_frame(*p.run));
+    p.over_resting.push_back(ms / p.resting_ms.back());
+  }
 }
 
 void add_errors(Path& p, const Image& reference) {
@@ -82,6 +96,7 @@ void finish(Path& p, size_t frames) {
   p.result.frames = frames;
   p.result.frame_ms = spread_of(p.frame_ms);
   p.result.resting_ms = spread_of(p.resting_ms);
+  p.result.over_resting = spread_of(p.over_resting);
   p.result.max_rel = p.result.max_abs * scale;
   p.result.rmse_rel = p.error_count ? std::sqrt(p.error_sum / double(p.error_count)) * scale : 0;
   p.result.temporal_max_rel = p.flicker_max * scale;
@@ -91,8 +106,8 @@ void finish(Path& p, size_t frames) {
 
 }  // namespace
 
-void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
-                    std::vector<RunResult>& rows, const std::function<void(double done)>& progress) {
+PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
+                          std::vector<RunResult>& rows, const std::function<void(double done)>& progress) {
   const std::vector<View>& path = moving.path;
   std::vector<Path> paths;
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -101,7 +116,9 @@ void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& refere
   const bool reference_runs = std::ranges::find(runs, &reference) == runs.end();
   if (reference_runs) reference.prepare();
   for (Path& p : paths) p.run->prepare();
+  PathMemory memory{.frames = std::min<size_t>(100, path.size() / 2)};
   for (size_t frame = 0; frame < path.size(); ++frame) {
+    if (frame == memory.frames) memory.bytes = resident_bytes();
     if (progress) progress(double(frame) / double(path.size()));
     const SceneChanges changes = moving.advance ? moving.advance(frame) : SceneChanges();
     moving.gpu.update(changes);
@@ -116,6 +133,8 @@ void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& refere
     for (Path& p : paths) add_errors(p, reference.image());
   }
   for (Path& p : paths) finish(p, path.size());
+  memory.bytes_at_end = resident_bytes();
+  return memory;
 }
 
 }  // namespace lightgrid

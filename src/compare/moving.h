@@ -19,8 +19,8 @@ struct MovingScene {
 // Moves the runs along a path, interleaved frame by frame. Null runs are skipped. Afterwards `runs` and
 // `reference` are at the path's last view, and so are their images. Errors are against the reference's image
 // of the same frame, over all frames; pairs are summed. Sets RunResult::moving in `rows`, in the order of
-// `runs`.
-void run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference,
+// `runs`. progress: called before each frame.
+PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference,
                     const MovingScene& moving, std::vector<RunResult>& rows,
                     const std::function<void(double done)>& progress);
 

@@ -10,7 +10,9 @@
 #include "passes/shade_objects.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "gl/pending_draws.h"
 #include "passes/common/begin_shading.h"
 #include "passes/read_outs/cells.h"
 #include "renderer/draw.h"
@@ -39,8 +41,13 @@ struct ObjectPrograms {
 class ObjectDraws {
  public:
   ObjectDraws(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object,
-              InstanceDrawer& drawer)
-      : v_(v), programs_(programs), object_(object), drawer_(drawer) {}
+              InstanceDrawer& drawer, PendingDraws& pending)
+      : v_(v),
+        programs_(programs),
+        object_(object),
+        drawer_(drawer),
+        pending_(pending),
+        indices_(std::accumulate(object.ranges.counts.begin(), object.ranges.counts.end(), size_t(0))) {}
 
   // Replaces the image. Uses lights [0, count) of the object; 0: none.
   void draw_first(uint32_t count, int alpha) {
@@ -48,6 +55,7 @@ class ObjectDraws {
     glUniform1f(program.alpha, GLfloat(alpha));
     glDisable(GL_BLEND);
     drawer_.draw(object_.ranges);
+    pending_.add(indices_);
     alpha_ = alpha;
   }
 
@@ -59,6 +67,7 @@ class ObjectDraws {
     glBlendFuncSeparate(alpha_ ? GL_DST_ALPHA : GL_ONE_MINUS_DST_ALPHA, GL_ONE, alpha_ ? GL_ZERO : GL_ONE,
                         GL_ZERO);
     drawer_.draw(reversed_);
+    pending_.add(indices_);
     alpha_ = !alpha_;
   }
 
@@ -75,13 +84,15 @@ class ObjectDraws {
   ObjectPrograms& programs_;
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
+  PendingDraws& pending_;
+  const size_t indices_;  // of a draw
   IndexRanges reversed_;  // of the object's ranges, computed at first use
   int alpha_ = 1;
 };
 
 void draw_object(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object,
-                 uint32_t lights_a_draw, bool own_apart, InstanceDrawer& drawer) {
-  ObjectDraws draws(v, programs, object, drawer);
+                 uint32_t lights_a_draw, bool own_apart, InstanceDrawer& drawer, PendingDraws& pending) {
+  ObjectDraws draws(v, programs, object, drawer, pending);
   const bool unlit =
       v.scene.materials[v.scene.meshes[v.scene.instances[object.instance].mesh].material].unlit;
   const uint32_t count = unlit ? 0 : object.light_count;
@@ -102,8 +113,9 @@ ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t l
   source.bind(v);
   ObjectPrograms programs(v, source);
   InstanceDrawer drawer(v, DrawStreams::all);
+  PendingDraws pending;
   for (const ObjectLights::Object& object : objects.objects()) {
-    draw_object(v, programs, object, lights_a_draw, own_apart, drawer);
+    draw_object(v, programs, object, lights_a_draw, own_apart, drawer, pending);
   }
   glDisable(GL_BLEND);
   pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + source.bytes, v.pixels() * 16);

@@ -29,6 +29,7 @@ CompareReport without_images(const CompareReport& report) {
   rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
   rest.rows = report.rows;
   rest.reference_errors = report.reference_errors;
+  rest.path_memory = report.path_memory;
   return rest;
 }
 

@@ -100,6 +100,7 @@ json to_json(const MovingResult& m) {
       {"frames", m.frames},
       {"frame_ms", to_json(m.frame_ms)},
       {"resting_ms", to_json(m.resting_ms)},
+      {"over_resting", to_json(m.over_resting)},
       {"error",
        {{"max_abs", finite_or_null(m.max_abs)},
         {"max_rel", finite_or_null(m.max_rel)},
@@ -196,13 +197,18 @@ json to_json(const CompareReport& report) {
                         {"precision", to_json(errors->precision)},
                         {"pixels_left_out", errors->pixels_left_out}};
   }
-  return {{"scene", report.scene},
+  json out = {{"scene", report.scene},
           {"size", {report.width, report.height}},
           {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
           {"commit", report.commit},
           {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},
           {"reference_errors", reference_errors},
           {"rows", rows}};
+  if (const auto& memory = report.path_memory) {
+    out["moving"] = {{"resident_bytes",
+                      {{"frames", memory->frames}, {"then", memory->bytes}, {"at_end", memory->bytes_at_end}}}};
+  }
+  return out;
 }
 
 std::string json_text(const CompareReport& report) { return json_text(to_json(report)); }

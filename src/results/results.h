@@ -66,7 +66,8 @@ struct ImageError {
 struct MovingResult {
   size_t frames = 0;
   Spread frame_ms;    // move and frame, without the first two
-  Spread resting_ms;  // the same frames again with the camera at rest
+  Spread resting_ms;  // the same views again, nothing changed
+  Spread over_resting;  // frame_ms over resting_ms, view by view
   double max_abs = 0, max_rel = 0, rmse_rel = 0;
   // Change of the difference from the reference between frames: flicker that the scene does not have.
   double temporal_max_rel = 0, temporal_rmse_rel = 0;
@@ -75,6 +76,12 @@ struct MovingResult {
   // After the first two frames.
   int gl_programs = 0, cl_programs = 0;  // compiled
   size_t scene_bytes = 0;                // uploaded
+};
+
+// Of the whole process, along a camera path.
+struct PathMemory {
+  size_t frames = 0;  // after which `bytes` were resident: 100, or half of a short path
+  size_t bytes = 0, bytes_at_end = 0;
 };
 
 struct SkippedEffect {
@@ -127,6 +134,7 @@ struct CompareReport {
   std::vector<std::vector<uint32_t>> listed;  // one a row, lights listed per pixel, row 0 at the bottom
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
+  std::optional<PathMemory> path_memory;  // absent without a camera path
 };
 
 // The row that is the reference, possibly refused; null if there is none.
