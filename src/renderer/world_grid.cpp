@@ -17,8 +17,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t world_batch = 16;           // lights that world_lists tests together: BATCH there
-constexpr size_t members_past_end = 16 * 4;  // bytes that it may read
+constexpr size_t members_past_end = 4 * (world_batch - 1);  // bytes that world_lists may read
 
 // The device has a limit for one buffer, and entries are counted in 32 bits.
 void check_count(ClDevice& device, const char* what, uint64_t count, size_t bytes_each) {
@@ -123,37 +122,23 @@ size_t WorldGrid::bucket_count() const {
                            : size_t(p.blocks_x) * p.blocks_y * std::max(p.cells_z >> p.shift_z, 1u);
 }
 
-// Each chunk of lights has a number for each block: where these are few, counting is cheaper than sorting.
-bool WorldGrid::has_few_blocks() const {
-  const size_t lights = layout_.lights.size(), chunk = chunk_of(lights, 64);
-  return renderer_.cl->info().cpu && layout_.params.bucket_bits == 0 &&
-         bucket_count() * ((lights + chunk - 1) / chunk) <= 4 * layout_.pairs + 65536;
-}
-
 // In place of sort_pairs and find_blocks.
 void WorldGrid::count_blocks() {
   ClDevice& device = *renderer_.cl;
   check_count(device, "pairs of blocks and lights", layout_.pairs, 8);
   pair_count_ = size_t(layout_.pairs);
-  const size_t lights = layout_.lights.size(), chunk = chunk_of(lights, 64),
-               chunks = (lights + chunk - 1) / chunk;
-  const size_t blocks = bucket_count();
-  counts_.at_least(device, chunks * blocks * 4);
-  fill_buffer(device, "clearing the world grid", counts_.get(), 0, chunks * blocks * 4);
-  const auto step = [&](cl_uint write, const cl::Buffer& members) {
-    run("count", chunks, lights_.buffer(), counts_.get(), members, cl_uint(lights), cl_uint(chunk),
-        cl_uint(blocks), write, params());
+  count_world_blocks(layout_, block_lights_);
+  blocks_ = block_lights_.keys.size();
+  sizes_[0] = block_lights_.buckets.size() * 4, sizes_[1] = blocks_ * 8;
+  constexpr const char* what = "uploading blocks of lights";
+  const auto put = [&](const cl::Buffer& to, const auto& from) {
+    enqueue_write(device, what, to, from.data(), from.size() * sizeof from[0]);
   };
-  step(0, {});
-  sizes_[0] = (blocks + 1) * 4;
-  run("places", 1, counts_.get(), block_first_.at_least(device, (blocks + 1) * 4),
-      grown(keys_, blocks * 8, GL_RG32UI), grown(buckets_, sizes_[0], GL_R32UI), total_.at_least(device, 8),
-      cl_uint(chunks), cl_uint(blocks), params());
-  step(1, members_.at_least(device, pair_count_ * 4 + members_past_end));
-  uint64_t stored = 0;
-  read_buffer(device, "reading the world grid's size", total_.get(), &stored, sizeof stored);
-  blocks_ = size_t(stored);
-  sizes_[1] = blocks_ * 8;
+  put(grown(buckets_, sizes_[0], GL_R32UI), block_lights_.buckets);
+  put(grown(keys_, sizes_[1], GL_RG32UI), block_lights_.keys);
+  put(block_first_.at_least(device, (blocks_ + 1) * 4), block_lights_.first);
+  write_buffer(device, what, members_.at_least(device, pair_count_ * 4 + members_past_end),
+               block_lights_.members.data(), block_lights_.members.size() * 4);
 }
 
 // From lights to pairs_[0], sorted by bucket.
@@ -284,18 +269,20 @@ void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds,
   lay_out_world(lights, bounds, shape_, cell_, view, layout_);
   constexpr const char* what = "uploading lights";
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
-  lights_.put(device, what, layout_.lights);
-  cones_.put(device, what, layout_.cones);
-  levels_.put(device, what, layout_.levels);
+  // Read while the host counts blocks, and until the queue is waited for below.
+  lights_.enqueue(device, what, layout_.lights);
+  cones_.enqueue(device, what, layout_.cones);
+  levels_.enqueue(device, what, layout_.levels);
   pair_count_ = 0;
-  if (layout_.pairs > 0 && has_few_blocks()) {
+  if (device.info().cpu && has_few_blocks(layout_)) {
     count_blocks();
   } else {
-    first_pairs_.put(device, what, layout_.first_pairs);
+    first_pairs_.enqueue(device, what, layout_.first_pairs);
     if (!lights.empty()) sort_pairs();
     find_blocks();
   }
   write_lists();
+  // Waits for all of the above.
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
   list_bytes_ = sizes_[0] + sizes_[1] + sizes_[2] + sizes_[3];
   lights_version_ = lights_version, in_gl_ = false;
@@ -318,7 +305,7 @@ size_t WorldGrid::memory_bytes() const {
     bytes += shared->buffer ? shared->buffer->size() : 0;
   for (const UploadedBuffer* uploaded : {&params_, &lights_, &cones_, &levels_, &first_pairs_})
     bytes += uploaded->bytes();
-  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &counts_, &block_first_,
+  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &block_first_,
                                       &members_, &full_first_, &full_members_, &masks_}) {
     bytes += buffer->bytes();
   }

@@ -7,7 +7,7 @@
 #include "cl/growing_buffer.h"
 #include "cl/uploaded_buffer.h"
 #include "renderer/renderer.h"
-#include "renderer/world_layout.h"
+#include "renderer/world_blocks.h"
 
 namespace lightgrid {
 
@@ -82,7 +82,6 @@ class WorldGrid {
   size_t bucket_count() const;
   void run(const char* kernel, size_t items, const auto&... arguments);
   uint64_t scan(size_t count, bool read);
-  bool has_few_blocks() const;
   void count_blocks();
   void sort_pairs();
   void find_blocks();
@@ -96,8 +95,9 @@ class WorldGrid {
   const bool for_gl_;
 
   WorldLayout layout_;
+  WorldBlockLights block_lights_;
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
-  GrowingBuffer pairs_[2], totals_, total_, counts_, block_first_, members_, full_first_, full_members_,
+  GrowingBuffer pairs_[2], totals_, total_, block_first_, members_, full_first_, full_members_,
       masks_;
   Shared buckets_, keys_, cells_, indices_;
   GlBuffer block_;

@@ -37,7 +37,7 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     EXPECT_TRUE(identical(run.image(), render(scene, view, "forward")));
   };
   const std::shared_ptr<WorldGrid> grid =
-      gpu.world_grid(test_devices(), {WorldGridShape::cubes, 0, 16, Settings().ranges});
+      gpu.world_grid(test_devices(), {WorldGridShape::cubes, {}, 16, Settings().ranges});
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   first.look(views[1]);
