@@ -1,5 +1,6 @@
-// Lights against the 64 cells of a block of the world grid. A light's position and radius with slack are in cells from the
-// grid's middle; the radius of a light with a cone that is tested is an odd float, others' are even.
+// Lights against the 64 cells of a block of the world grid. A light's position and radius with slack are in
+// cells from the grid's middle; the radius of a light with a cone that is tested is an odd float, others' are
+// even.
 //
 // -DCOLUMNS  blocks are 8 x 8 columns, not 4 x 4 x 4 cubes. Cones are then not tested
 #pragma once
@@ -66,11 +67,10 @@ static inline BlockSides block_sides(uint2 key, constant WorldGridParams* world)
 }
 
 #ifndef COLUMNS
-static inline bool has_tested_cone(float radius) { return (as_int(radius) & 1) != 0; }
-
-// A cone against the balls of radius R around cells, R rounded up and with slack. With d from the light to a cell's centre and
-// a = d . axis, the ball meets the cone only if cos |d - a axis| <= R + a sin. Squared and with cos^2 + sin^2 = 1 that is
-// cos^2 d^2 <= (a + R sin)^2 + R^2 cos^2, whose terms are sums over the axes. docs/techniques/world_grid.md#slack has its rounding.
+// A cone against the balls of radius R around cells, R rounded up and with slack. With d from the light to a
+// cell's centre and a = d . axis, the ball meets the cone only if cos |d - a axis| <= R + a sin. Squared and
+// with cos^2 + sin^2 = 1 that is cos^2 d^2 <= (a + R sin)^2 + R^2 cos^2, whose terms are sums over the axes.
+// docs/techniques/world_grid.md#slack has its rounding.
 typedef struct ConeTest {
   real along, squared;        // in the lanes of BlockSides: parts of a, and of cos^2 d^2
   real along_xy, squared_xy;  // of a + R sin, and of cos^2 d^2
@@ -78,7 +78,8 @@ typedef struct ConeTest {
 } ConeTest;
 
 // cone: axis, and the cosine of the outer half-angle, lowered: at least 0.
-static inline ConeTest cone_test(float4 light, float4 cone, const BlockSides* s, constant WorldGridParams* world) {
+static inline ConeTest cone_test(float4 light, float4 cone, const BlockSides* s,
+                                 constant WorldGridParams* world) {
   const float far = fabs(light.x) + fabs(light.y) + fabs(light.z);
   const float radius = 0.86603f * s->edge + 2.0f * world_slack(far, light.w, world);
   const float cosine_squared = cone.w * cone.w, sine = sqrt((1.0f - cone.w) * (1.0f + cone.w));
@@ -94,7 +95,37 @@ static inline ConeTest cone_test(float4 light, float4 cone, const BlockSides* s,
 }
 
 static inline mask_t meets_cone(const ConeTest* t, const BlockSides* s, uint part) {
-  const real along = t->along_xy + SPREAD_Z(t->along, part), squared = t->squared_xy + SPREAD_Z(t->squared, part);
+  const real along = t->along_xy + SPREAD_Z(t->along, part),
+             squared = t->squared_xy + SPREAD_Z(t->squared, part);
   return s->outer[part] | ((along >= REAL(t->least)) & (squared <= along * along + t->added));
 }
 #endif
+
+// The cells that one light may reach, a bit each: bit for bit what world_lists makes of it.
+static inline ulong cells_of_light(float4 light, float4 cone, const BlockSides* s,
+                                   constant WorldGridParams* world) {
+#ifdef COLUMNS
+  const real at = (real)(light.xxxx, light.xxxx, light.yyyy, light.yyyy);
+#else
+  const real at = (real)(light.xxxx, light.yyyy, light.zzzz, light.zzzz);
+#endif
+  const real away = max_real(max_real(s->low - at, at - s->high), REAL(0.0f)), squares = away * away;
+  const real most = REAL(light.w * light.w);
+  ulong met = 0;
+  for (uint part = 0; part < PARTS; ++part) {
+    const real across = SPREAD_X(squares) + SPREAD_Y(squares, part);
+#ifdef COLUMNS
+    const mask_t meets = across <= most;
+#else
+    const mask_t meets = across + SPREAD_Z(squares, part) <= most;
+#endif
+    met |= (ulong)mask_bits(meets) << (LANES * part);
+  }
+#ifndef COLUMNS
+  if ((as_int(light.w) & 1) == 0) return met;
+  const ConeTest test = cone_test(light, cone, s, world);
+  for (uint part = 0; part < PARTS; ++part)
+    met &= (ulong)mask_bits(meets_cone(&test, s, part)) << (LANES * part) | ~(0xfffful << (LANES * part));
+#endif
+  return met;
+}

@@ -28,8 +28,9 @@ void for_each_counted_part(size_t lights, const auto& body) {
 
 constexpr uint32_t spare_blocks = 8;  // behind those of the grid, for what visit_blocks leaves out
 
-// visit(block, 1) for each of a light's blocks. Nearly all lights have one or two along each axis, and which of
-// these cannot be predicted: all eight are then visited, those that are not the light's as visit(a spare block, 0).
+// visit(block, 1) for each of a light's blocks. Nearly all lights have one or two along each axis, and which
+// of these cannot be predicted: all eight are then visited, those that are not the light's as visit(a spare
+// block, 0).
 inline void visit_blocks(const WorldBlocks& of, const WorldGridParams& p, uint32_t spare, const auto& visit) {
   const uint32_t next_layer = p.blocks_x * p.blocks_y;
   if (of.x > 2 || of.y > 2 || of.z > 2) {
@@ -74,7 +75,8 @@ void place_blocks(const WorldGridParams& p, size_t parts, size_t stride, WorldBl
   // Spare blocks write behind all members.
   uint32_t behind = place + uint32_t(world_batch) - 1;
   for (size_t part = 0; part < parts; ++part)
-    for (uint32_t block = 0; block < spare_blocks; ++block) blocks.places[part * stride + count + block] = behind++;
+    for (uint32_t block = 0; block < spare_blocks; ++block)
+      blocks.places[part * stride + count + block] = behind++;
 }
 
 }  // namespace
@@ -94,7 +96,8 @@ void count_world_blocks(const WorldLayout& layout, WorldBlockLights& blocks) {
   for_each_counted_part(lights, [&](size_t at, size_t begin, size_t end) {
     uint32_t* const own = blocks.places.data() + at * stride;
     for (size_t i = begin; i < end; ++i)
-      visit_blocks(layout.light_blocks[i], p, spare, [&](uint32_t block, uint32_t add) { own[block] += add; });
+      visit_blocks(layout.light_blocks[i], p, spare,
+                   [&](uint32_t block, uint32_t add) { own[block] += add; });
   });
   place_blocks(p, parts, stride, blocks);
   blocks.members.resize(size_t(layout.pairs) + world_batch - 1 + parts * spare_blocks);

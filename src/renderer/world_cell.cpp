@@ -22,8 +22,8 @@ using Float4 = float __attribute__((vector_size(16)));
 float rounded_down(double x) { return std::nextafter(float(x), -std::numeric_limits<float>::infinity()); }
 float rounded_up(double x) { return -rounded_down(-x); }
 
-// Where four lights begin and end along x and z, rounded outward: most lights are far from a point, and comparing these
-// finds that out, four at a time.
+// Where four lights begin and end along x and z, rounded outward: most lights are far from a point, and
+// comparing these finds that out, four at a time.
 struct FourSpans {
   Float4 low_x, high_x, low_z, high_z;
 };
@@ -73,7 +73,8 @@ double listed_at(const glm::dvec3& at, double edge, const LightSample& sample, b
   double listed = 0;
   for (size_t four = 0; four < sample.spans.size(); ++four) {
     const FourSpans& of = sample.spans[four];
-    const auto near = (of.low_x <= high_x) & (of.high_x >= low_x) & (of.low_z <= high_z) & (of.high_z >= low_z);
+    const auto near =
+        (of.low_x <= high_x) & (of.high_x >= low_x) & (of.low_z <= high_z) & (of.high_z >= low_z);
     using Halves = long long __attribute__((vector_size(16)));
     const Halves any = Halves(near);
     if ((any[0] | any[1]) == 0) continue;

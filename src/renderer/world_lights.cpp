@@ -47,7 +47,8 @@ inline float marked(float radius, bool cone) {
   return std::bit_cast<float>(bits + ((bits & 1u) != uint32_t(cone)));
 }
 
-[[gnu::always_inline]] inline WorldLight placed(const CullLight& light, double metre, const WorldLayout& layout, bool cones) {
+[[gnu::always_inline]] inline WorldLight placed(const CullLight& light, double metre,
+                                                const WorldLayout& layout, bool cones) {
   const WorldGridParams& p = layout.params;
   constexpr double most = 1e30;
   const glm::dvec3 at =

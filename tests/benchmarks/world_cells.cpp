@@ -4,7 +4,9 @@
 //
 //     world_cells [SCENE [LIGHTS [WIDTHxHEIGHT [FRAMES]]]]    LIGHTS 0: the scene's own
 //     world_cells SCENE LIGHTS steps [WORLD-GRID WORLD-CELL]  each step of a build; also auto
-//     world_cells SCENE LIGHTS estimates                      what world-cell=auto expects, and its choice
+//     world_cells SCENE LIGHTS moved [WORLD-GRID WORLD-CELL]  updates of lights that moved against builds, in
+//     turn world_cells SCENE LIGHTS estimates                      what world-cell=auto expects, and its
+//     choice
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -129,10 +131,11 @@ void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
   const bool counted = has_few_blocks(layout);
   const Elapsed counting = elapsed_of(counted ? runs : 0, [&] { count_world_blocks(layout, blocks); });
   fmt::print(
-      "{} {}{}: build {:.2f} ms (median {:.2f}), the first {:.2f}, in OpenCL's memory alone {:.2f}; lights of "
+      "{} {}{}: build {:.2f} ms (median {:.2f}), the first {:.2f}, in OpenCL's memory alone {:.2f}; lights "
+      "of "
       "the scene {:.2f}, layout {:.2f}, lights of blocks {:.2f}",
-      name, layout.cell, cell ? "" : " (auto)", whole.least(), whole.median(), first, first_of_cl, of_lights.least(), laid_out.least(),
-      counting.least());
+      name, layout.cell, cell ? "" : " (auto)", whole.least(), whole.median(), first, first_of_cl,
+      of_lights.least(), laid_out.least(), counting.least());
   ClProfiler& profiler = renderer.cl->profiler();
   std::vector<std::pair<ClProfiler::Row, double>> least;
   profiler.time_launches(true);
@@ -151,6 +154,42 @@ void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
   }
   fmt::print("; kernels {:.2f}\n", kernels);
   std::fflush(stdout);
+}
+
+// Updates where each n-th light moves there and back by half its radius, against builds of the same lights,
+// in turn.
+void measure_moves(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape shape,
+                   const char* name, std::optional<double> cell) {
+  const Scene& scene = gpu.scene();
+  const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
+  const WorldBox bounds = world_box(scene);
+  std::vector<CullLight> lights = cull_lights_of(scene, plan.local);
+  WorldGrid updated(renderer, shape, cell, plan.index_bits, false),
+      built(renderer, shape, cell, plan.index_bits, false);
+  for (const size_t each : {1000u, 100u, 20u}) {
+    std::vector<uint32_t> moved;
+    for (size_t i = each / 2; i < lights.size(); i += each) moved.push_back(uint32_t(i));
+    updated.build(lights, bounds, view, 0);
+    Elapsed of_updates, of_builds;
+    for (int i = 0; i < 40; ++i) {
+      std::vector<CullLight> now;
+      for (const uint32_t m : moved) {
+        lights[m].position[i / 2 % 3] += (i % 2 == 0 ? 0.5 : -0.5) * lights[m].radius_m;
+        now.push_back(lights[m]);
+      }
+      const double from = elapsed_ms();
+      const bool done = updated.update(moved, now, i);
+      const double to = elapsed_ms();
+      if (done) of_updates.ms.push_back(to - from);
+      if (!done) updated.build(lights, bounds, view, i);
+      built.build(lights, bounds, view, i);
+      of_builds.ms.push_back(elapsed_ms() - to);
+    }
+    fmt::print("{} {}: {} of {} lights moved: update {:.2f} ms (median {:.2f}), build {:.2f} ({:.2f})\n",
+               name, built.layout().cell, moved.size(), lights.size(), of_updates.least(),
+               of_updates.median(), of_builds.least(), of_builds.median());
+    std::fflush(stdout);
+  }
 }
 
 void print_estimates(const GpuScene& gpu, const View& view) {
@@ -179,7 +218,8 @@ int main(int count, char** words) {
   const std::string name = count > 1 ? words[1] : "hall";
   const int lights = count > 2 ? std::atoi(words[2]) : 0;
   int width = 640, height = 360;
-  const bool steps = count > 3 && std::string(words[3]) == "steps";
+  const bool moved = count > 3 && std::string(words[3]) == "moved";
+  const bool steps = moved || (count > 3 && std::string(words[3]) == "steps");
   const bool estimates = count > 3 && std::string(words[3]) == "estimates";
   if (count > 3 && !steps && !estimates) std::sscanf(words[3], "%dx%d", &width, &height);
   const int frames = count > 4 ? std::atoi(words[4]) : 3;
@@ -194,11 +234,14 @@ int main(int count, char** words) {
   const View view = make_view(scene.cameras.at(0), width, height);
   if (estimates) return print_estimates(gpu, view), 0;
   if (steps) {
-    for (const std::optional<double> cell : {std::optional<double>(), std::optional(2.0), std::optional(1.0), std::optional(0.5), std::optional(0.25)}) {
+    for (const std::optional<double> cell : {std::optional<double>(), std::optional(2.0), std::optional(1.0),
+                                             std::optional(0.5), std::optional(0.25)}) {
       for (const auto& [shape, shape_name] : shapes) {
-        const bool chosen = count > 5 && (cell ? *cell == std::atof(words[5]) : words[5] == std::string("auto"));
+        const bool chosen =
+            count > 5 && (cell ? *cell == std::atof(words[5]) : words[5] == std::string("auto"));
         const bool wanted = count <= 5 || (shape_name == words[4] && chosen);
-        if (wanted) measure_steps(renderer, gpu, view, shape, shape_name.c_str(), cell);
+        if (wanted)
+          (moved ? measure_moves : measure_steps)(renderer, gpu, view, shape, shape_name.c_str(), cell);
       }
     }
     return 0;
