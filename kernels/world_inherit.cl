@@ -6,7 +6,8 @@
 // block_first, members  in: of each block, its own lights
 // keys, buckets  as world_entries writes them
 // totals       a chunk's number of lights out; with `write` its first place in
-// full_first, full_members  out with `write`: of each block, with those of larger levels
+// full_first, full_members  out with `write`: of each block, with those of larger levels; behind the members 15 more numbers
+//              of lights, as in world_entries
 #include "kernels/common/world_cells.h"
 
 static inline uint world_block_of(uint2 key, global const uint2* keys, global const uint* buckets,
@@ -52,7 +53,9 @@ kernel void world_inherit(global const float4* lights, global const uint* block_
       if (write) full_members[at] = least;
       ++at, ++next[from];
     }
-    if (write && block + 1 == block_count) full_first[block_count] = at;
+    if (!write || block + 1 < block_count) continue;
+    full_first[block_count] = at;
+    for (uint past = 0; past < 15; ++past) full_members[at + past] = members[0];
   }
   if (!write) totals[item] = at;
 }

@@ -32,6 +32,11 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
   checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from); });
 }
 
+void enqueue_write(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
+  if (bytes == 0) return;
+  checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_FALSE, 0, bytes, from); });
+}
+
 // A fill copies its pattern when enqueued; a write that does not wait reads the host's memory at some later
 // time. A pattern's size is a power of two and divides the offset.
 void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {

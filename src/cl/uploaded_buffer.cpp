@@ -9,7 +9,7 @@
 
 namespace lightgrid {
 
-void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, size_t bytes) {
+void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, size_t bytes, bool wait) {
   if (!buffer_() || bytes != bytes_) {
     const size_t size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
     buffer_ = cl::Buffer();
@@ -20,7 +20,11 @@ void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, s
     }
     bytes_ = bytes;
   }
-  write_buffer(device, what, buffer_, data, bytes);
+  if (wait) {
+    write_buffer(device, what, buffer_, data, bytes);
+  } else {
+    enqueue_write(device, what, buffer_, data, bytes);
+  }
 }
 
 }  // namespace lightgrid

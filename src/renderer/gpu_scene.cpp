@@ -1,12 +1,30 @@
 #include "renderer/gpu_scene.h"
 
+#include <algorithm>
+
 namespace lightgrid {
 
 void GpuScene::update(const SceneChanges& changes) {
   if (in_gl_) in_gl_->update(changes);
   for (const auto& [layout, scene] : in_cl_) scene->update(changes);
   shape_version_ += changes.meshes.empty() ? 0 : 1;
-  lights_version_ += changes.lights.empty() ? 0 : 1;
+  if (changes.lights.empty()) return;
+  ++lights_version_;
+  changed_lights_.push_back(changes.lights);
+  constexpr size_t most_remembered = 8;
+  if (changed_lights_.size() > most_remembered) changed_lights_.pop_front();
+}
+
+std::optional<std::vector<int>> GpuScene::lights_changed_since(int version) const {
+  const int updates = lights_version_ - version;
+  if (version < 0 || updates < 0 || updates > int(changed_lights_.size())) return {};
+  std::vector<int> changed;
+  for (auto of = changed_lights_.end() - updates; of != changed_lights_.end(); ++of)
+    changed.insert(changed.end(), of->begin(), of->end());
+  std::ranges::sort(changed);
+  const auto same = std::ranges::unique(changed);
+  changed.erase(same.begin(), same.end());
+  return changed;
 }
 
 std::shared_ptr<WorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldGridKey& key) {

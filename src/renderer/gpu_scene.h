@@ -2,8 +2,10 @@
 // it.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
@@ -34,6 +36,9 @@ class GpuScene {
   // Count the updates that moved vertices and lights, for whoever holds positions of its own.
   int shape_version() const { return shape_version_; }
   int lights_version() const { return lights_version_; }
+  // Lights of the scene, ascending, that changed after lights_version() was `version`. Nothing if that is too
+  // long ago.
+  std::optional<std::vector<int>> lights_changed_since(int version) const;
 
  private:
   const Renderer& renderer_;
@@ -42,6 +47,7 @@ class GpuScene {
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
   std::vector<std::pair<WorldGridKey, std::weak_ptr<WorldGrid>>> world_grids_;
   int shape_version_ = 0, lights_version_ = 0;
+  std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any
 };
 
 }  // namespace lightgrid

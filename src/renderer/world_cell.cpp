@@ -17,9 +17,21 @@ double touched_cells(double edge, double r, bool columns) {
   return columns ? 1 + 4 * q + pi * q * q : 1 + 6 * q + 3 * pi * q * q + 4 * pi / 3 * q * q * q;
 }
 
+using Float4 = float __attribute__((vector_size(16)));
+
+float rounded_down(double x) { return std::nextafter(float(x), -std::numeric_limits<float>::infinity()); }
+float rounded_up(double x) { return -rounded_down(-x); }
+
+// Where four lights begin and end along x and z, rounded outward: most lights are far from a point, and
+// comparing these finds that out, four at a time.
+struct FourSpans {
+  Float4 low_x, high_x, low_z, high_z;
+};
+
 // What estimates are made of: some lights, and the box of the grid.
 struct LightSample {
   std::vector<CullLight> lights;  // with a radius above 0
+  std::vector<FourSpans> spans;   // of them; what fills the last one up is nowhere
   double lights_of_each = 0;
   double median = 0, least = LitBox::inf;
   glm::dvec3 middle{0}, extent{0};  // extent in the grid's order
@@ -34,6 +46,17 @@ LightSample sample_of(std::span<const CullLight> lights, const WorldBox& bounds,
   sample.median = sampled_median(lights);
   LitBox lit;
   for (const CullLight& light : sample.lights) lit.add(light, 32 * sample.median);
+  const float inf = std::numeric_limits<float>::infinity();
+  const Float4 above = {inf, inf, inf, inf};
+  sample.spans.assign((sample.lights.size() + 3) / 4, {above, -above, above, -above});
+  for (size_t i = 0; i < sample.lights.size(); ++i) {
+    const CullLight& light = sample.lights[i];
+    FourSpans& of = sample.spans[i / 4];
+    of.low_x[i % 4] = rounded_down(light.position.x - light.radius_m);
+    of.high_x[i % 4] = rounded_up(light.position.x + light.radius_m);
+    of.low_z[i % 4] = rounded_down(light.position.z - light.radius_m);
+    of.high_z[i % 4] = rounded_up(light.position.z + light.radius_m);
+  }
   sample.least = lit.least;
   const WorldBox box = ordinary_box(lit.box, bounds);
   sample.middle = 0.5 * (box.min + box.max);
@@ -44,14 +67,25 @@ LightSample sample_of(std::span<const CullLight> lights, const WorldBox& bounds,
 // Lights that touch the cell around `at`.
 double listed_at(const glm::dvec3& at, double edge, const LightSample& sample, bool columns) {
   const glm::dvec3 low = sample.middle + glm::floor((at - sample.middle) / edge) * edge, high = low + edge;
+  const auto all = [](float v) { return Float4{v, v, v, v}; };
+  const Float4 low_x = all(rounded_down(low.x)), high_x = all(rounded_up(high.x));
+  const Float4 low_z = all(rounded_down(low.z)), high_z = all(rounded_up(high.z));
   double listed = 0;
-  for (const CullLight& light : sample.lights) {
-    const glm::dvec3& p = light.position;
-    const double r = light.radius_m;
-    if (p.x - r > high.x || p.x + r < low.x || p.z - r > high.z || p.z + r < low.z) continue;
-    glm::dvec3 away = glm::max(glm::max(low - p, p - high), 0.0);
-    if (columns) away.y = 0;
-    listed += glm::dot(away, away) <= r * r ? 1 : 0;
+  for (size_t four = 0; four < sample.spans.size(); ++four) {
+    const FourSpans& of = sample.spans[four];
+    const auto near =
+        (of.low_x <= high_x) & (of.high_x >= low_x) & (of.low_z <= high_z) & (of.high_z >= low_z);
+    using Halves = long long __attribute__((vector_size(16)));
+    const Halves any = Halves(near);
+    if ((any[0] | any[1]) == 0) continue;
+    for (size_t i = 4 * four; i < std::min(4 * four + 4, sample.lights.size()); ++i) {
+      if (near[int(i % 4)] == 0) continue;
+      const glm::dvec3& p = sample.lights[i].position;
+      const double r = sample.lights[i].radius_m;
+      glm::dvec3 away = glm::max(glm::max(low - p, p - high), 0.0);
+      if (columns) away.y = 0;
+      listed += glm::dot(away, away) <= r * r ? 1 : 0;
+    }
   }
   return listed * sample.lights_of_each;
 }

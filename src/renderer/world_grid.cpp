@@ -4,51 +4,18 @@
 // order of threads.
 #include "renderer/world_grid.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <limits>
 
 #include "base/error.h"
-#include "cl/avx512.h"
-#include "cl/launch.h"
 #include "cl/transfer.h"
+#include "renderer/world_grid_run.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr size_t world_batch = 16;           // lights that world_lists tests together: BATCH there
-constexpr size_t members_past_end = 16 * 4;  // bytes that it may read
-
-// The device has a limit for one buffer, and entries are counted in 32 bits.
-void check_count(ClDevice& device, const char* what, uint64_t count, size_t bytes_each) {
-  const uint64_t most = device.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  if (count < std::numeric_limits<uint32_t>::max() && count * bytes_each <= most) return;
-  throw machine_error(
-      "world grid: {} {} take {} bytes, more than the {} that this device gives to one buffer; use larger "
-      "cells (world-cell), "
-      "smaller ranges or fewer lights",
-      count, what, count * bytes_each, most);
-}
+constexpr size_t members_past_end = 4 * (world_batch - 1);  // bytes that world_lists may read
 
 }  // namespace
-
-bool HostWorldGrid::operator==(const HostWorldGrid& other) const {
-  return std::equal(reinterpret_cast<const char*>(&params), reinterpret_cast<const char*>(&params + 1),
-                    reinterpret_cast<const char*>(&other.params)) &&
-         buckets == other.buckets && keys == other.keys && cells == other.cells && indices == other.indices;
-}
-
-glm::uvec2 HostWorldGrid::range_at(const glm::vec3& p) const {
-  return world_range(uint(world_coordinate(p.x, params.least_x, params.most_x)),
-                     uint(world_coordinate(p.y, params.least_y, params.most_y)),
-                     uint(world_coordinate(p.z, params.least_z, params.most_z)), params,
-                     {buckets.data(), keys.data(), cells.data()});
-}
-
-std::span<const uint32_t> HostWorldGrid::everywhere() const {
-  return std::span(indices).subspan(params.everywhere_first, params.everywhere_count);
-}
 
 WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<double> cell, int index_bits,
                      bool for_gl)
@@ -92,20 +59,6 @@ size_t WorldGrid::chunk_of(size_t count, size_t least) const {
   return std::max({(count + items - 1) / items, cpu ? least : least / 16, size_t(1)});
 }
 
-void WorldGrid::run(const char* name, size_t items, const auto&... arguments) {
-  const std::string file = std::string("world_") + name;
-  std::string defines;
-  if (file == "world_lists") {
-    if (shape_ == WorldGridShape::columns) defines += " -DCOLUMNS";
-    if (index_bits_ == 32) defines += " -DINDEX_32";
-    if (builds_avx512(*renderer_.cl, *renderer_.kernels)) defines += " -DAVX512";
-  }
-  cl::Kernel kernel = renderer_.kernels->kernel(file, defines);
-  const size_t group = renderer_.cl->info().cpu ? 1 : 64;
-  launch(*renderer_.cl, file, kernel, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group),
-         arguments...);
-}
-
 // Of totals_. Returns the sum of all, if it is read.
 uint64_t WorldGrid::scan(size_t count, bool read) {
   cl::Kernel kernel = renderer_.kernels->kernel("world_scan", "");
@@ -123,43 +76,29 @@ size_t WorldGrid::bucket_count() const {
                            : size_t(p.blocks_x) * p.blocks_y * std::max(p.cells_z >> p.shift_z, 1u);
 }
 
-// Each chunk of lights has a number for each block: where these are few, counting is cheaper than sorting.
-bool WorldGrid::has_few_blocks() const {
-  const size_t lights = layout_.lights.size(), chunk = chunk_of(lights, 64);
-  return renderer_.cl->info().cpu && layout_.params.bucket_bits == 0 &&
-         bucket_count() * ((lights + chunk - 1) / chunk) <= 4 * layout_.pairs + 65536;
-}
-
 // In place of sort_pairs and find_blocks.
 void WorldGrid::count_blocks() {
   ClDevice& device = *renderer_.cl;
-  check_count(device, "pairs of blocks and lights", layout_.pairs, 8);
+  check_world_count(device, "pairs of blocks and lights", layout_.pairs, 8);
   pair_count_ = size_t(layout_.pairs);
-  const size_t lights = layout_.lights.size(), chunk = chunk_of(lights, 64),
-               chunks = (lights + chunk - 1) / chunk;
-  const size_t blocks = bucket_count();
-  counts_.at_least(device, chunks * blocks * 4);
-  fill_buffer(device, "clearing the world grid", counts_.get(), 0, chunks * blocks * 4);
-  const auto step = [&](cl_uint write, const cl::Buffer& members) {
-    run("count", chunks, lights_.buffer(), counts_.get(), members, cl_uint(lights), cl_uint(chunk),
-        cl_uint(blocks), write, params());
+  count_world_blocks(layout_, block_lights_);
+  blocks_ = block_lights_.keys.size();
+  sizes_[0] = block_lights_.buckets.size() * 4, sizes_[1] = blocks_ * 8;
+  constexpr const char* what = "uploading blocks of lights";
+  const auto put = [&](const cl::Buffer& to, const auto& from) {
+    enqueue_write(device, what, to, from.data(), from.size() * sizeof from[0]);
   };
-  step(0, {});
-  sizes_[0] = (blocks + 1) * 4;
-  run("places", 1, counts_.get(), block_first_.at_least(device, (blocks + 1) * 4),
-      grown(keys_, blocks * 8, GL_RG32UI), grown(buckets_, sizes_[0], GL_R32UI), total_.at_least(device, 8),
-      cl_uint(chunks), cl_uint(blocks), params());
-  step(1, members_.at_least(device, pair_count_ * 4 + members_past_end));
-  uint64_t stored = 0;
-  read_buffer(device, "reading the world grid's size", total_.get(), &stored, sizeof stored);
-  blocks_ = size_t(stored);
-  sizes_[1] = blocks_ * 8;
+  put(grown(buckets_, sizes_[0], GL_R32UI), block_lights_.buckets);
+  put(grown(keys_, sizes_[1], GL_RG32UI), block_lights_.keys);
+  put(block_first_.at_least(device, (blocks_ + 1) * 4), block_lights_.first);
+  write_buffer(device, what, members_.at_least(device, pair_count_ * 4 + members_past_end),
+               block_lights_.members.data(), block_lights_.members.size() * 4);
 }
 
 // From lights to pairs_[0], sorted by bucket.
 void WorldGrid::sort_pairs() {
   ClDevice& device = *renderer_.cl;
-  check_count(device, "pairs of blocks and lights", layout_.pairs, 16);
+  check_world_count(device, "pairs of blocks and lights", layout_.pairs, 16);
   pair_count_ = size_t(layout_.pairs);
   if (pair_count_ == 0) return;
   for (GrowingBuffer& buffer : pairs_) buffer.at_least(device, pair_count_ * 16);
@@ -226,7 +165,7 @@ void WorldGrid::inherit() {
   };
   step(0, {}, {});
   const uint64_t members = scan(chunks, true);
-  check_count(device, "pairs of blocks and lights", members, 8);
+  check_world_count(device, "pairs of blocks and lights", members, 8);
   step(1, full_first_.at_least(device, (blocks_ + 1) * 4),
        full_members_.at_least(device, size_t(members) * 4 + members_past_end));
   listed_count_ = size_t(members);
@@ -234,12 +173,11 @@ void WorldGrid::inherit() {
 
 void WorldGrid::write_lists() {
   ClDevice& device = *renderer_.cl;
-  const size_t index_bytes = size_t(index_bits_) / 8;
   listed_count_ = pair_count_;
   const bool inherited = blocks_ > 0 && std::popcount(layout_.params.levels) > 1;
   if (inherited) inherit();
   sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
-  check_count(device, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
+  check_world_count(device, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   grown(cells_, sizes_[2], GL_RG32UI);
   const size_t chunk = chunk_of(blocks_, 4), chunks = (blocks_ + chunk - 1) / chunk;
   const auto step = [&](cl_uint write, const cl::Buffer& indices) {
@@ -251,13 +189,18 @@ void WorldGrid::write_lists() {
   };
   // Each block's begin at its number plus that of whole batches before it.
   const size_t batches = blocks_ + listed_count_ / world_batch;
-  check_count(device, "batches of lights", batches, WORLD_BLOCK_CELLS * 2);
+  check_world_count(device, "batches of lights", batches, WORLD_BLOCK_CELLS * 2);
   masks_.at_least(device, batches * WORLD_BLOCK_CELLS * 2);
   totals_.at_least(device, std::max<size_t>(chunks, 1) * 4);
   step(0, {});
   const uint64_t entries = blocks_ > 0 ? scan(chunks, true) : 0;
-  const size_t everywhere = layout_.everywhere.size();
-  check_count(device, "list entries", entries + everywhere, index_bytes);
+  size_indices(entries);
+  step(1, indices());
+}
+
+void WorldGrid::size_indices(uint64_t entries) {
+  const size_t index_bytes = size_t(index_bits_) / 8, everywhere = layout_.everywhere.size();
+  check_world_count(*renderer_.cl, "list entries", entries + everywhere, index_bytes);
   entries_ = size_t(entries);
   sizes_[3] = (entries_ + everywhere) * index_bytes;
   const size_t spare = sizes_[3] / 4;  // for lights that move
@@ -265,16 +208,23 @@ void WorldGrid::write_lists() {
         indices_.buffer && indices_.buffer->size() >= sizes_[3] ? sizes_[3]
                                                                 : sizes_[3] + (builds_ > 0 ? spare : 0),
         index_bits_ == 16 ? GL_R16UI : GL_R32UI);
-  step(1, indices());
+}
+
+void WorldGrid::finish_lists(int lights_version) {
+  ClDevice& device = *renderer_.cl;
+  constexpr const char* what = "uploading lights of every list";
+  const size_t everywhere = layout_.everywhere.size();
   if (index_bits_ == 16) {
     const std::vector<uint16_t> narrow(layout_.everywhere.begin(), layout_.everywhere.end());
-    write_buffer(device, "uploading lights of every list", indices(), narrow.data(), everywhere * 2,
-                 entries_ * 2);
+    write_buffer(device, what, indices(), narrow.data(), everywhere * 2, entries_ * 2);
   } else {
-    write_buffer(device, "uploading lights of every list", indices(), layout_.everywhere.data(),
-                 everywhere * 4, entries_ * 4);
+    write_buffer(device, what, indices(), layout_.everywhere.data(), everywhere * 4, entries_ * 4);
   }
   layout_.params.everywhere_first = uint(entries_);
+  // Waits for all commands before it.
+  params_.put(device, "uploading the world grid", std::vector<WorldGridParams>{layout_.params});
+  list_bytes_ = sizes_[0] + sizes_[1] + sizes_[2] + sizes_[3];
+  lights_version_ = lights_version, in_gl_ = false;
 }
 
 void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view,
@@ -284,65 +234,23 @@ void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds,
   lay_out_world(lights, bounds, shape_, cell_, view, layout_);
   constexpr const char* what = "uploading lights";
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
-  lights_.put(device, what, layout_.lights);
-  cones_.put(device, what, layout_.cones);
-  levels_.put(device, what, layout_.levels);
-  pair_count_ = 0;
-  if (layout_.pairs > 0 && has_few_blocks()) {
+  // Copied while the host counts blocks.
+  lights_.enqueue(device, what, layout_.lights);
+  cones_.enqueue(device, what, layout_.cones);
+  levels_.enqueue(device, what, layout_.levels);
+  pair_count_ = 0, moves_ = 0;
+  block_pairs_.clear();
+  counted_ = device.info().cpu && has_few_blocks(layout_);
+  if (counted_) {
     count_blocks();
   } else {
-    first_pairs_.put(device, what, layout_.first_pairs);
+    first_pairs_.enqueue(device, what, layout_.first_pairs);
     if (!lights.empty()) sort_pairs();
     find_blocks();
   }
   write_lists();
-  params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
-  list_bytes_ = sizes_[0] + sizes_[1] + sizes_[2] + sizes_[3];
-  lights_version_ = lights_version, in_gl_ = false;
+  finish_lists(lights_version);
   ++builds_;
-}
-
-void WorldGrid::hand_to_gl() {
-  if (in_gl_) return;
-  Shared* shared[] = {&buckets_, &keys_, &cells_, &indices_};
-  for (int i = 0; i < 4; ++i) {
-    if (sizes_[i] > 0) shared[i]->buffer->hand_to_gl(sizes_[i]);
-  }
-  block_ = make_buffer(sizeof layout_.params, &layout_.params);
-  in_gl_ = true;
-}
-
-size_t WorldGrid::memory_bytes() const {
-  size_t bytes = 0;
-  for (const Shared* shared : {&buckets_, &keys_, &cells_, &indices_})
-    bytes += shared->buffer ? shared->buffer->size() : 0;
-  for (const UploadedBuffer* uploaded : {&params_, &lights_, &cones_, &levels_, &first_pairs_})
-    bytes += uploaded->bytes();
-  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &counts_, &block_first_,
-                                      &members_, &full_first_, &full_members_, &masks_}) {
-    bytes += buffer->bytes();
-  }
-  return bytes;
-}
-
-HostWorldGrid WorldGrid::read() {
-  ClDevice& device = *renderer_.cl;
-  HostWorldGrid host;
-  host.params = layout_.params;
-  constexpr const char* what = "reading the world grid";
-  host.buckets.resize(sizes_[0] / 4), host.keys.resize(sizes_[1] / 8), host.cells.resize(sizes_[2] / 8);
-  read_buffer(device, what, buckets(), host.buckets.data(), sizes_[0]);
-  read_buffer(device, what, keys(), host.keys.data(), sizes_[1]);
-  read_buffer(device, what, cells(), host.cells.data(), sizes_[2]);
-  if (index_bits_ == 32) {
-    host.indices.resize(sizes_[3] / 4);
-    read_buffer(device, what, indices(), host.indices.data(), sizes_[3]);
-  } else {
-    std::vector<uint16_t> narrow(sizes_[3] / 2);
-    read_buffer(device, what, indices(), narrow.data(), sizes_[3]);
-    host.indices.assign(narrow.begin(), narrow.end());
-  }
-  return host;
 }
 
 }  // namespace lightgrid

@@ -7,7 +7,7 @@
 #include "cl/growing_buffer.h"
 #include "cl/uploaded_buffer.h"
 #include "renderer/renderer.h"
-#include "renderer/world_layout.h"
+#include "renderer/world_moves.h"
 
 namespace lightgrid {
 
@@ -47,6 +47,12 @@ class WorldGrid {
   // the bytes if memory does not suffice; the grid then serves no view.
   void build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view, int lights_version);
 
+  // In place of build() where few lights moved since the lists were right: lists of cells that no such light
+  // leaves or enters are copied. moved: numbers of those lights, ascending; now: each of them. Returns false,
+  // and changes nothing, where a build is due: with `hashed`, on a GPU, where many have moved in all, or one
+  // that is in every list. The bytes are those of a build that lays the cells out as the last one did.
+  bool update(std::span<const uint32_t> moved, std::span<const CullLight> now, int lights_version);
+
   // Makes them visible to OpenGL, once a build. Only with for_gl.
   void hand_to_gl();
 
@@ -69,6 +75,8 @@ class WorldGrid {
   size_t blocks() const { return blocks_; }
   size_t entries() const { return entries_; }  // of the cells' lists
   int builds() const { return builds_; }
+  int updates() const { return updates_; }
+  int lights_version() const { return lights_version_; }  // of its lists; below 0: none
 
   HostWorldGrid read();  // waits
 
@@ -82,12 +90,16 @@ class WorldGrid {
   size_t bucket_count() const;
   void run(const char* kernel, size_t items, const auto&... arguments);
   uint64_t scan(size_t count, bool read);
-  bool has_few_blocks() const;
   void count_blocks();
   void sort_pairs();
   void find_blocks();
   void inherit();
   void write_lists();
+  void size_indices(uint64_t entries);
+  void finish_lists(int lights_version);
+  bool may_update(std::span<const uint32_t> moved, std::span<const WorldLight> now) const;
+  void upload_moves();
+  void update_lists();
 
   Renderer& renderer_;
   const WorldGridShape shape_;
@@ -96,15 +108,21 @@ class WorldGrid {
   const bool for_gl_;
 
   WorldLayout layout_;
+  WorldBlockLights block_lights_;
+  WorldMoves moved_;  // of the last update
+  std::vector<uint32_t>
+      block_pairs_;       // of each block of the grid its number of lights; empty: no update since the build
+  bool counted_ = false;  // count_blocks made the last build
+  size_t moves_ = 0;      // lights that moved since then
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
-  GrowingBuffer pairs_[2], totals_, total_, counts_, block_first_, members_, full_first_, full_members_,
-      masks_;
-  Shared buckets_, keys_, cells_, indices_;
+  GrowingBuffer pairs_[2], totals_, total_, block_first_, members_, full_first_, full_members_, masks_;
+  GrowingBuffer moved_lights_, moved_balls_, moved_cones_, edits_, edit_first_, changes_, old_blocks_;
+  Shared buckets_, keys_, cells_, indices_, old_cells_, old_indices_;
   GlBuffer block_;
   size_t pair_count_ = 0, listed_count_ = 0, blocks_ = 0, entries_ = 0, list_bytes_ = 0;
   // pair_count_: pairs of a block and a light; listed_count_: with those that hashed blocks inherit.
   size_t sizes_[4] = {};  // in use: of buckets, keys, cells, indices
-  int builds_ = 0, lights_version_ = -1;
+  int builds_ = 0, updates_ = 0, lights_version_ = -1;
   bool in_gl_ = false;
 };
 

@@ -26,6 +26,12 @@ struct WorldReach {
 
 WorldReach reach_of(const View& view, const glm::dvec3& middle);
 
+// The blocks of a 2d or 3d grid around a light's ball.
+struct WorldBlocks {
+  uint32_t first = 0;            // the number of the first one
+  uint16_t x = 0, y = 0, z = 0;  // how many along each axis; 0: none
+};
+
 struct WorldLayout {
   WorldGridParams params{};  // but everywhere_first, which depends on the lists
   glm::dvec3 middle{0};      // world, metres
@@ -38,12 +44,14 @@ struct WorldLayout {
   // Position and radius with slack, in cells from the middle; radius -1: in no cell. The radius is an odd
   // float if the light has a cone that is tested, else an even one.
   std::vector<glm::vec4> lights;
-  // Axis, and a cosine no larger than the outer half-angle's; below 0: none. Empty: no cones.
+  // Of lights whose cone is tested: axis, and a cosine no larger than the outer half-angle's. Empty: no light
+  // has a cone.
   std::vector<glm::vec4> cones;
-  std::vector<uint32_t> levels;       // of each light; empty: 0
-  std::vector<uint32_t> first_pairs;  // of each light, among all pairs of a block and a light
-  uint64_t pairs = 0;                 // may exceed 32 bits: first_pairs is then of no use
-  std::vector<uint32_t> everywhere;   // lights of every list, ascending
+  std::vector<WorldBlocks> light_blocks;  // of each light; empty: hashed
+  std::vector<uint32_t> levels;           // of each light; empty: 0
+  std::vector<uint32_t> first_pairs;      // of each light, among all pairs of a block and a light
+  uint64_t pairs = 0;                     // may exceed 32 bits: first_pairs is then of no use
+  std::vector<uint32_t> everywhere;       // lights of every list, ascending
 };
 
 // Replaces `layout`, whose arrays keep their memory. world_cell: the setting; none: auto

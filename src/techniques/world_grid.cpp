@@ -1,4 +1,4 @@
-// Forward shading from light lists in cells of the world, which serve every view and are built anew only when
+// Forward shading from light lists in cells of the world, which serve every view and change only when
 // lights move (docs/techniques/world_grid.md).
 #include "passes/build_world_grid.h"
 #include "passes/depth_bounds.h"

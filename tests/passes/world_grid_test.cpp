@@ -5,20 +5,13 @@
 
 #include <algorithm>
 
+#include "passes/world_lists.h"
 #include "renderer/world_cell.h"
-#include "scene/random.h"
-#include "support/devices.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-
-struct Lists {
-  WorldLayout layout;
-  HostWorldGrid lists;
-  size_t blocks = 0, entries = 0;
-};
 
 Lists lists_of(const std::vector<CullLight>& lights, const View& view, WorldGridShape shape, double cell = 1,
                int index_bits = 16, const WorldBox& bounds = {glm::dvec3(endless), glm::dvec3(-endless)}) {
@@ -27,48 +20,6 @@ Lists lists_of(const std::vector<CullLight>& lights, const View& view, WorldGrid
   EXPECT_TRUE(grid.serves(view, 0));
   EXPECT_FALSE(grid.serves(view, 1)) << "lights have moved";
   return {grid.layout(), grid.read(), grid.blocks(), grid.entries()};
-}
-
-View view_from(const glm::dvec3& eye, const glm::dvec3& target) {
-  return make_view(look_at(eye, target), 64, 48);
-}
-
-CullLight ball(const glm::dvec3& position, double radius) { return {position, radius}; }
-
-// The lights that a shader adds at a position that it computed in view space.
-std::vector<uint32_t> list_at(const Lists& grid, const View& view, const glm::vec3& in_view) {
-  const glm::uvec2 range = grid.lists.range_at(world_position(in_view, world_view_params(grid.layout, view)));
-  std::vector<uint32_t> list(grid.lists.indices.begin() + range.x,
-                             grid.lists.indices.begin() + range.x + range.y);
-  list.insert(list.end(), grid.lists.everywhere().begin(), grid.lists.everywhere().end());
-  std::ranges::sort(list);
-  return list;
-}
-
-glm::vec3 in_view(const View& view, const glm::dvec3& world) {
-  return glm::vec3(glm::dmat3(view.view_from_world) * (world - view.eye));
-}
-
-bool reaches(const CullLight& light, const View& view, const glm::vec3& point) {
-  const glm::dvec3 world = glm::transpose(glm::dmat3(view.view_from_world)) * glm::dvec3(point) + view.eye;
-  const glm::dvec3 from = world - light.position;
-  const double distance = glm::length(from);
-  if (!(distance < light.radius_m)) return false;
-  return light.cos_outer < 0 || glm::dot(from, light.direction) > distance * light.cos_outer;
-}
-
-// A point at the edge of what a light reaches, or next to it.
-glm::dvec3 at_the_edge(const CullLight& light, Random& random) {
-  const glm::dvec3 any = any_direction(random);
-  glm::dvec3 direction = any;
-  if (light.cos_outer >= 0) {
-    const glm::dvec3 across = glm::normalize(any - light.direction * glm::dot(any, light.direction));
-    const double angle =
-        std::acos(light.cos_outer) * (random.uniform() < 0.5f ? 1 - 1e-7 : double(random.uniform()));
-    direction = light.direction * std::cos(angle) + across * std::sin(angle);
-  }
-  const double inward[] = {1e-9, 1e-7, 1e-6, 1e-4, 0.3};
-  return light.position + direction * (light.radius_m * (1 - inward[random.next() % 5]));
 }
 
 struct World {

@@ -37,7 +37,7 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     EXPECT_TRUE(identical(run.image(), render(scene, view, "forward")));
   };
   const std::shared_ptr<WorldGrid> grid =
-      gpu.world_grid(test_devices(), {WorldGridShape::cubes, 0, 16, Settings().ranges});
+      gpu.world_grid(test_devices(), {WorldGridShape::cubes, {}, 16, Settings().ranges});
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   first.look(views[1]);
@@ -58,6 +58,20 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   EXPECT_EQ(grid->builds(), before + 1) << "one build for both views";
+
+  // Few lights: what changed is updated, once for both, also after a move that no view drew.
+  EXPECT_EQ(grid->updates(), 0);
+  changes.lights = {3, 100};
+  for (int twice = 0; twice < 2; ++twice) {
+    for (const int i : changes.lights) scene.lights[size_t(i)].position += glm::dvec3(-0.4, 0.6, 0.5);
+    gpu.update(changes);
+    changes.lights = {7, 100, 230};
+  }
+  first.look(views[0], changes), second.look(views[1], changes);
+  expect_forwards(first, views[0]);
+  expect_forwards(second, views[1]);
+  EXPECT_EQ(grid->builds(), before + 1);
+  EXPECT_EQ(grid->updates(), 1);
 }
 
 // The same triangles and the same sums as visibility with every light.
