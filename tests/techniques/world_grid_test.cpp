@@ -1,5 +1,7 @@
 // world_grid: forward's picture to the bit from lists of every shape, shared by views, and rebuilt when
 // lights move.
+#include <optional>
+
 #include "base/error.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -37,7 +39,7 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     EXPECT_TRUE(identical(run.image(), render(scene, view, "forward")));
   };
   const std::shared_ptr<WorldGrid> grid =
-      gpu.world_grid(test_devices(), {WorldGridShape::cubes, {}, 16, Settings().ranges});
+      gpu.world_grid(test_devices(), {WorldGridShape::cubes, std::nullopt, 16, Settings().ranges});
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   first.look(views[1]);
