@@ -20,29 +20,48 @@
 #define STORE_4_VOXELS(values, to) vstore16(values, 0, to)
 #endif
 
+// Where the lights are that may reach a brick, 16 side by side.
+typedef struct FoundLights {
+  float x[CHUNK + VOXEL_LIGHT_GROUP], y[CHUNK + VOXEL_LIGHT_GROUP], z[CHUNK + VOXEL_LIGHT_GROUP];
+  float radius[CHUNK + VOXEL_LIGHT_GROUP];
+} FoundLights;
+
 static inline void add_lights(VoxelSum* sums, const uint* found, uint count, const VoxelLights* lights, constant VoxelGrid* grid,
                               constant VoxelSlice* slices, uint x, uint y, uint z) {
-  float3 places[CHUNK + VOXEL_LIGHT_GROUP];
+  FoundLights at;
   VoxelReach reaches[CHUNK + VOXEL_LIGHT_GROUP];
+  for (uint i = 0; i < count; ++i) {
+    global const float* of =
+        lights->places + found[i] / VOXEL_LIGHT_GROUP * (4 * VOXEL_LIGHT_GROUP) + found[i] % VOXEL_LIGHT_GROUP;
+    at.x[i] = of[0], at.y[i] = of[VOXEL_LIGHT_GROUP], at.z[i] = of[2 * VOXEL_LIGHT_GROUP];
+    at.radius[i] = of[3 * VOXEL_LIGHT_GROUP];
+  }
   for (uint v = 0; v < VECTORS; ++v) {
     const uint column = v % COLUMNS * 4, row = v / COLUMNS % (VOXEL_BRICK_Y / 4) * 4;
     constant VoxelSlice* slice = slices + z + v / (VECTORS / VOXEL_BRICK_Z);
     if (v % (VECTORS / VOXEL_BRICK_Z) == 0) {
       // Once a slice.
-      for (uint i = 0; i < count; ++i) {
-        global const float* at =
-            lights->places + found[i] / VOXEL_LIGHT_GROUP * (4 * VOXEL_LIGHT_GROUP) + found[i] % VOXEL_LIGHT_GROUP;
-        places[i] = (float3)(at[0], at[VOXEL_LIGHT_GROUP], at[2 * VOXEL_LIGHT_GROUP]);
-        reaches[i] = voxel_reach(at[3 * VOXEL_LIGHT_GROUP], slice);
-      }
+      for (uint i = 0; i < count; ++i) reaches[i] = voxel_reach(at.radius[i], slice);
     }
     Real3 position = real3(grid->origin_x + convert_float16((int)(x + column) + (LANE_INDEX & 3)) * grid->spacing_x,
                            grid->origin_y + convert_float16((int)(y + row) + (LANE_INDEX >> 2)) * grid->spacing_y, REAL(slice->place));
 #ifdef VOXELS_LOG
     position = real3(position.x * position.z, position.y * position.z, -position.z);
 #endif
+    // Which lights reach any of the 16 samples cannot be predicted: those that miss their box are left out 16 at
+    // once. Conservative: a light that reaches a sample reaches the box, and may_light rounds its reach up.
+    const VoxelBox box = {position.x.s0, position.y.s0, position.z.s0,
+                          position.x.sf, position.y.sf, position.z.s0};
     VoxelSum sum = sums[v];
-    for (uint i = 0; i < count; ++i) add_voxel_light(&sum, position, slice, places[i], reaches[i], lights, found[i]);
+    for (uint first = 0; first < count; first += 16) {
+      const mask_t meets = may_light(vload16(0, at.x + first), vload16(0, at.y + first), vload16(0, at.z + first),
+                                     vload16(0, at.radius + first), &box, slice->half_diagonal_squared);
+      const uint valid = count - first < 16 ? (1u << (count - first)) - 1u : 0xffffu;
+      for (uint bits = mask_bits(meets) & valid; bits != 0; bits &= bits - 1) {
+        const uint i = first + lowest_bit(bits);
+        add_voxel_light(&sum, position, slice, (float3)(at.x[i], at.y[i], at.z[i]), reaches[i], lights, found[i]);
+      }
+    }
     sums[v] = sum;
   }
 }
