@@ -80,18 +80,25 @@ double cost_of(const LoadedView& view) {
 
 // Runs the views in turn, with one progress bar for all; calls found() with each report.
 template <typename Found>
-void run_views(Renderer& devices, const std::vector<LoadedView>& views, const std::vector<Contestant>& contestants,
-               const CompareCommand& o, const Found& found) {
+void run_views(Renderer& devices, const std::vector<LoadedView>& views,
+               const std::vector<Contestant>& contestants, const CompareCommand& o, const Found& found) {
   double total = 0, before = 0;
   for (const LoadedView& view : views) total += cost_of(view);
   const auto bar = progress_bar();
   for (size_t i = 0; i < views.size(); ++i) {
     const LoadedView& view = views[i];
-    CompareOptions options{.frames = o.timing.frames, .warmup = o.timing.warmup, .reference = parse_reference(o.reference),
-                           .seed = o.scene.seed, .flip = o.flip, .all_may_refuse = views.size() > 1};
+    CompareOptions options{.frames = o.timing.frames,
+                           .warmup = o.timing.warmup,
+                           .reference = parse_reference(o.reference),
+                           .seed = o.scene.seed,
+                           .flip = o.flip,
+                           .all_may_refuse = views.size() > 1};
     const double cost = cost_of(view);
-    const std::string which = views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
-    options.progress = [&](double done, const std::string& step) { bar((before + done * cost) / total, which + step); };
+    const std::string which =
+        views.size() > 1 ? fmt::format("{}/{} {}: ", i + 1, views.size(), view.scene->name) : "";
+    options.progress = [&](double done, const std::string& step) {
+      bar((before + done * cost) / total, which + step);
+    };
     options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
     Scene& scene = view.with_lights();
     options.path = chosen_path(scene, view.view, o.scene);
@@ -110,13 +117,15 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
     if (!row.refused.empty()) log_warning("{}{}: refused: {}", view, names[i], row.refused);
     if (!row.refused.empty() || passes_gates(row)) continue;
     failed = true;
-    fmt::print(stderr, "lightgrid: {}{}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", view, names[i],
-               row.pairs->lost, row.pairs->wrong, row.nan_pixels);
+    fmt::print(stderr, "lightgrid: {}{}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n", view,
+               names[i], row.pairs->lost, row.pairs->wrong, row.nan_pixels);
   }
   return failed;
 }
 
-std::string page_path(const CompareCommand& o) { return (std::filesystem::path(o.output) / "index.html").string(); }
+std::string page_path(const CompareCommand& o) {
+  return (std::filesystem::path(o.output) / "index.html").string();
+}
 
 int compare_one(const CompareCommand& o, Renderer& devices, std::vector<LoadedView> views,
                 const std::vector<Contestant>& contestants) {
@@ -155,7 +164,9 @@ std::vector<Contestant> runnable(const CompareCommand& o, std::vector<Contestant
                                  const Renderer& devices) {
   if (devices.gl) return contestants;
   if (!o.techniques.empty()) {
-    if (std::ranges::any_of(contestants, [](const Contestant& c) { return draws_with_opengl(c.technique->needs, c.settings); }))
+    if (std::ranges::any_of(contestants, [](const Contestant& c) {
+          return draws_with_opengl(c.technique->needs, c.settings);
+        }))
       devices.require_gl();
     return contestants;
   }
@@ -183,10 +194,12 @@ int compare(const CompareCommand& o) {
 
 void add_compare(CommandLine& line) {
   auto o = std::make_shared<CompareCommand>();
-  Subcommand command = line.add("compare", "techniques side by side, as a report", [o] { return compare(*o); });
+  Subcommand command =
+      line.add("compare", "techniques side by side, as a report", [o] { return compare(*o); });
   command.list("scene", o->scenes, "one or more: .gltf or .glb files, or built-in scenes");
   command.list("--size", o->sizes, "image size, WxH, or several separated by commas", ',');
-  command.list("--lights", o->lights, "scatter N lights; with --lights-file, its first N; or several separated by commas", ',');
+  command.list("--lights", o->lights,
+               "scatter N lights; with --lights-file, its first N; or several separated by commas", ',');
   add_view_options(command, o->scene);
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);
@@ -195,11 +208,14 @@ void add_compare(CommandLine& line) {
                "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names() +
                    fmt::format(" (default: {})", fmt::join(default_techniques, ",")),
                ',');
-  command.list("--compare", o->compare, "KEY=VALUE,VALUE,…: each technique that reads KEY, with each value; may be repeated");
-  command.option("--reference", o->reference, "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
+  command.list("--compare", o->compare,
+               "KEY=VALUE,VALUE,…: each technique that reads KEY, with each value; may be repeated");
+  command.option("--reference", o->reference,
+                 "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
   command.flag("--flip", o->flip, "measure HDR-FLIP too, which takes seconds a row");
   command.option("-o,--output", o->output, "folder of the report");
-  command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1, 1000);
+  command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1,
+                 1000);
   command.option("--json", o->json, "results.json also into a file, - for stdout");
 }
 

@@ -129,7 +129,8 @@ int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGr
     fmt::print("{}: listed.png, false_positives.png, lost.png; black is 0, yellow {} lights and more\n",
                o.output, maps.top);
     fmt::print(
-        "  a pixel: {:.2f} listed, {:.2f} lit, {:.2f} listed but unlit; {} (pixel, light) pairs lost, {} wrong\n",
+        "  a pixel: {:.2f} listed, {:.2f} lit, {:.2f} listed but unlit; {} (pixel, light) pairs lost, {} "
+        "wrong\n",
         a_pixel(pairs.listed), a_pixel(pairs.lit), a_pixel(pairs.listed - (pairs.lit - pairs.lost)),
         pairs.lost, pairs.wrong);
   }
@@ -148,7 +149,8 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
     culler.run();
     const FrameGrid grid = culler.grid();
     if (grid.lists.slices != 1 || !grid.z_bin_edges.empty()) {
-      throw input_error("inspect: --compare supports grids of one slice and no z-bins, not {} slices", grid.lists.slices);
+      throw input_error("inspect: --compare supports grids of one slice and no z-bins, not {} slices",
+                        grid.lists.slices);
     }
     rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(grid))});
     lost += rows.back().accuracy.lost;
@@ -164,7 +166,8 @@ int inspect(const InspectOptions& o) {
   if (!one_grid && o.compare.empty()) {
     throw input_error("inspect: --pixel X,Y, -o DIR or --compare KEY=A,B is required");
   }
-  if (one_grid && !o.compare.empty()) throw input_error("inspect: --compare goes with neither --pixel nor -o");
+  if (one_grid && !o.compare.empty())
+    throw input_error("inspect: --compare goes with neither --pixel nor -o");
   const Settings given = chosen_settings(o.scene);  // reports a wrong setting before the scene is loaded
   if (!o.technique.empty()) grid_needs(o.technique, given);
   culling_contestants(given, o.compare, most_compared);

@@ -20,7 +20,7 @@ struct Path {
   RunResult* row;
   std::vector<double> frame_ms, resting_ms;  // with look() and without, of the frames after frames_to_settle
   std::vector<double> over_resting;          // of each of resting_ms
-  std::vector<glm::vec3> difference;     // from the reference, in the last frame
+  std::vector<glm::vec3> difference;         // from the reference, in the last frame
   double flicker_sum = 0, flicker_max = 0;
   uint64_t flicker_count = 0;
   double error_sum = 0;
@@ -30,7 +30,8 @@ struct Path {
 };
 
 RendererCounts since(const RendererCounts& now, const RendererCounts& before) {
-  return {now.gl_programs - before.gl_programs, now.cl_programs - before.cl_programs, now.scene_bytes - before.scene_bytes};
+  return {now.gl_programs - before.gl_programs, now.cl_programs - before.cl_programs,
+          now.scene_bytes - before.scene_bytes};
 }
 
 double ms_of_frame(TechniqueRun& run) {
@@ -39,8 +40,8 @@ double ms_of_frame(TechniqueRun& run) {
   return timer.elapsed_ms();
 }
 
-// Each frame that is timed follows one of the same run, so that what other runs left in the processor's caches
-// makes none slower. Only where the scene moves there is no such frame before the camera's move.
+// Each frame that is timed follows one of the same run, so that what other runs left in the processor's
+// caches makes none slower. Only where the scene moves there is no such frame before the camera's move.
 void run_one(Path& p, const View& view, const SceneChanges& changes, size_t frame) {
   const bool timed = frame >= frames_to_settle;
   const RendererCounts before = p.run->view().renderer.counts();
@@ -100,14 +101,16 @@ void finish(Path& p, size_t frames) {
   p.result.max_rel = p.result.max_abs * scale;
   p.result.rmse_rel = p.error_count ? std::sqrt(p.error_sum / double(p.error_count)) * scale : 0;
   p.result.temporal_max_rel = p.flicker_max * scale;
-  p.result.temporal_rmse_rel = p.flicker_count ? std::sqrt(p.flicker_sum / double(p.flicker_count)) * scale : 0;
+  p.result.temporal_rmse_rel =
+      p.flicker_count ? std::sqrt(p.flicker_sum / double(p.flicker_count)) * scale : 0;
   p.row->moving = p.result;
 }
 
 }  // namespace
 
-PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference, const MovingScene& moving,
-                          std::vector<RunResult>& rows, const std::function<void(double done)>& progress) {
+PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference,
+                          const MovingScene& moving, std::vector<RunResult>& rows,
+                          const std::function<void(double done)>& progress) {
   const std::vector<View>& path = moving.path;
   std::vector<Path> paths;
   for (size_t i = 0; i < runs.size(); ++i) {

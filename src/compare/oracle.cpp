@@ -60,7 +60,8 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   surface.unlit = surface.occlusion < 0;
   if (!s.model.pixels.empty()) {
     const MaterialModel& model = s.models.at(size_t(s.model.pixels[pixel].r));
-    surface.subsurface_color = model.subsurface_color, surface.roll_off = model.roll_off, surface.minnaert_k = model.minnaert_k;
+    surface.subsurface_color = model.subsurface_color, surface.roll_off = model.roll_off,
+    surface.minnaert_k = model.minnaert_k;
   }
   if (s.coat_factor.pixels.empty() || s.coat_factor.pixels[pixel].r == 0) return surface;
   surface.coat = s.coat_factor.pixels[pixel].r;
@@ -97,7 +98,8 @@ std::vector<float> read_depth(TechniqueRun& run) {
   RenderView& v = run.view();
   if (!run.frame().depth) return read_depth(v);
   std::vector<float> depth(v.pixels());
-  read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(), depth.size() * sizeof(float));
+  read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(),
+              depth.size() * sizeof(float));
   return depth;
 }
 
@@ -126,14 +128,16 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) 
 
 ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
                                          const std::vector<uint32_t>& pixels) {
-  const Image with_window = as_image(oracle.shade(pixels, true)), without = as_image(oracle.shade(pixels, false));
+  const Image with_window = as_image(oracle.shade(pixels, true)),
+              without = as_image(oracle.shade(pixels, false));
   Image in_float(int(pixels.size()), 1);
   for (size_t i = 0; i < pixels.size(); ++i) in_float.pixels[i] = every_light.pixels[pixels[i]];
-  return {compare_images(with_window, without), compare_images(in_float, with_window), oracle.pixels_left_out()};
+  return {compare_images(with_window, without), compare_images(in_float, with_window),
+          oracle.pixels_left_out()};
 }
 
-ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light, const std::vector<float>& depth,
-                                         size_t samples) {
+ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
+                                         const std::vector<float>& depth, size_t samples) {
   const SurfaceOracle oracle(v, depth);
   return measure_reference_errors(oracle, every_light, sample_pixels(oracle.pixels(), samples));
 }

@@ -19,8 +19,8 @@ std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<flo
 // The pixel's z-bin: 0 without z-bins.
 std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth);
 
-// The depth of the surfaces that the last frame of a run shaded: the technique's own where it rasterised in OpenCL, else the
-// depth image.
+// The depth of the surfaces that the last frame of a run shaded: the technique's own where it rasterised in
+// OpenCL, else the depth image.
 std::vector<float> read_depth(TechniqueRun& run);
 
 // The lights that the last frame of a run used on opaque surfaces: from the technique's own list, from the
@@ -40,7 +40,7 @@ ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Imag
 
 // Model and precision errors at up to `samples` pixels without blended surfaces: shades the surfaces that
 // OpenGL read, in double. `every_light` is the float image of the technique `forward`.
-ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light, const std::vector<float>& depth,
-                                         size_t samples);
+ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
+                                         const std::vector<float>& depth, size_t samples);
 
 }  // namespace lightgrid

@@ -29,7 +29,8 @@ class DepthOfBlocks {
 
  private:
   void write(const std::vector<float>& depth) {
-    glTextureSubImage2D(v_.targets.depth(), 0, 0, 0, v_.view.width, v_.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    glTextureSubImage2D(v_.targets.depth(), 0, 0, 0, v_.view.width, v_.view.height, GL_DEPTH_COMPONENT,
+                        GL_FLOAT, depth.data());
   }
 
   RenderView& v_;
@@ -52,7 +53,8 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width
   std::vector<uint32_t> pixels;
   for (const PixelBlock& block : blocks) {
     for (int y = block.y; y < std::min(block.y + PixelBlock::side, height); ++y) {
-      for (int x = block.x; x < std::min(block.x + PixelBlock::side, width); ++x) pixels.push_back(uint32_t(y) * uint32_t(width) + uint32_t(x));
+      for (int x = block.x; x < std::min(block.x + PixelBlock::side, width); ++x)
+        pixels.push_back(uint32_t(y) * uint32_t(width) + uint32_t(x));
     }
   }
   std::sort(pixels.begin(), pixels.end());
@@ -83,10 +85,13 @@ double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffle
   const double without_pixels = (time_of(0), time_of(0));  // the first call builds programs
   for (size_t count = 8;; count = std::min(8 * count, shuffled.size())) {
     const double ms = std::max(time_of(count) - without_pixels, 0.0);
-    if (ms >= 250 || count == shuffled.size()) return without_pixels + ms * double(shuffled.size()) / double(count);
+    if (ms >= 250 || count == shuffled.size())
+      return without_pixels + ms * double(shuffled.size()) / double(count);
   }
 }
 
-size_t sample_size(size_t lights) { return std::clamp<size_t>(size_t(4e9) / std::max<size_t>(lights, 1), 256, 65536); }
+size_t sample_size(size_t lights) {
+  return std::clamp<size_t>(size_t(4e9) / std::max<size_t>(lights, 1), 256, 65536);
+}
 
 }  // namespace lightgrid

@@ -68,10 +68,15 @@ json to_json(const std::vector<Chart>& charts) {
     for (const Tick& t : chart.ticks) ticks.push_back({{"x", t.x}, {"label", t.label}});
     for (const Curve& c : chart.curves) curves.push_back(to_json(c));
     for (const Crossing& c : chart.crossings) {
-      crossings.push_back({{"below", c.below}, {"above", c.above}, {"x", c.x}, {"ms", c.ms}, {"lead", c.lead}});
+      crossings.push_back(
+          {{"below", c.below}, {"above", c.above}, {"x", c.x}, {"ms", c.ms}, {"lead", c.lead}});
     }
-    list.push_back({{"title", chart.title}, {"axis", chart.axis}, {"ticks", ticks}, {"curves", curves},
-                    {"crossings", crossings}, {"sentences", chart.sentences}});
+    list.push_back({{"title", chart.title},
+                    {"axis", chart.axis},
+                    {"ticks", ticks},
+                    {"curves", curves},
+                    {"crossings", crossings},
+                    {"sentences", chart.sentences}});
   }
   return list;
 }
@@ -110,10 +115,11 @@ json page_data(const std::vector<ReportView>& views) {
   PictureStore store;
   json list = json::array();
   for (size_t v = 0; v < views.size(); ++v) list.push_back(view_data(store, views, v));
-  json data = {{"views", list},
-               {"overview", {{"sentences", overview_sentences(views)}, {"charts", to_json(charts_over_views(views))}}},
-               {"difference_legend", store.number_of(legend_png(difference_ramp()))},
-               {"heat_legend", store.number_of(legend_png(viridis_ramp()))}};
+  json data = {
+      {"views", list},
+      {"overview", {{"sentences", overview_sentences(views)}, {"charts", to_json(charts_over_views(views))}}},
+      {"difference_legend", store.number_of(legend_png(difference_ramp()))},
+      {"heat_legend", store.number_of(legend_png(viridis_ramp()))}};
   data["pictures"] = store.urls();
   data["measures"] = json::array();
   for (const ErrorMeasure& measure : error_measures()) {
@@ -126,14 +132,17 @@ json page_data(const std::vector<ReportView>& views) {
 
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
-  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
+  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "charts.js", "matrix.js",
+                           "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
-  const json results = views.size() == 1 ? lightgrid::to_json(views.front().report) : lightgrid::to_json(views);
-  return filled(embedded_file("report/page/index.html"), {{"style", embedded_file("report/page/style.css")},
-                                                           {"script", scripts},
-                                                           {"results", script_json(json_text(results))},
-                                                           {"page", script_json(json_text(page_data(views)))}});
+  const json results =
+      views.size() == 1 ? lightgrid::to_json(views.front().report) : lightgrid::to_json(views);
+  return filled(embedded_file("report/page/index.html"),
+                {{"style", embedded_file("report/page/style.css")},
+                 {"script", scripts},
+                 {"results", script_json(json_text(results))},
+                 {"page", script_json(json_text(page_data(views)))}});
 }
 
 }  // namespace lightgrid

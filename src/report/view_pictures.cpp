@@ -19,9 +19,7 @@ using Png = std::vector<uint8_t>;
 
 constexpr int most_reduced = 16;
 
-bool has_image(const CompareReport& report, size_t row) {
-  return !image_of(report, row).pixels.empty();
-}
+bool has_image(const CompareReport& report, size_t row) { return !image_of(report, row).pixels.empty(); }
 
 bool has_counts(const CompareReport& report, size_t row) {
   return row < report.listed.size() && !report.listed[row].empty();
@@ -65,9 +63,11 @@ Png difference_png(const Image& image, const Image& reference, int reduced) {
   return encode_png(difference.width, difference.height, 3, srgb_bytes_as_is(difference));
 }
 
-HeatMap make_heat_map(const CompareReport& report, const std::vector<uint32_t>& counts, uint32_t top, int reduced) {
+HeatMap make_heat_map(const CompareReport& report, const std::vector<uint32_t>& counts, uint32_t top,
+                      int reduced) {
   const int width = blocks_along(report.width, reduced), height = blocks_along(report.height, reduced);
-  const auto picture = heat_map(width, height, largest_of_blocks(counts, report.width, report.height, reduced), top);
+  const auto picture =
+      heat_map(width, height, largest_of_blocks(counts, report.width, report.height, reduced), top);
   return {encode_png(width, height, 3, srgb_bytes_as_is(picture)),
           std::accumulate(counts.begin(), counts.end(), 0.0) / counts.size(),
           *std::max_element(counts.begin(), counts.end())};
@@ -115,7 +115,8 @@ ReportPictures make_pictures(const CompareReport& report, int reduced) {
       row.image = picture_png(image, reduced);
       if (!reference.pixels.empty()) row.difference = difference_png(image, reference, reduced);
     }
-    if (has_counts(report, i)) row.listed = make_heat_map(report, report.listed[i], pictures.heat_top, reduced);
+    if (has_counts(report, i))
+      row.listed = make_heat_map(report, report.listed[i], pictures.heat_top, reduced);
   });
   if (&reference == &report.reference_image && !reference.pixels.empty()) {
     pictures.reference = picture_png(reference, reduced);
@@ -136,7 +137,8 @@ size_t bytes_in_page(const ReportPictures& pictures) {
   return bytes;
 }
 
-ReportPictures save_pictures(const fs::path& folder, const CompareReport& report, bool exr, size_t most_bytes) {
+ReportPictures save_pictures(const fs::path& folder, const CompareReport& report, bool exr,
+                             size_t most_bytes) {
   make_folder(folder);
   ReportPictures pictures = make_pictures(report, 1);
   write_pictures(folder, report, pictures);

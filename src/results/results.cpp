@@ -198,15 +198,16 @@ json to_json(const CompareReport& report) {
                         {"pixels_left_out", errors->pixels_left_out}};
   }
   json out = {{"scene", report.scene},
-          {"size", {report.width, report.height}},
-          {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
-          {"commit", report.commit},
-          {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},
-          {"reference_errors", reference_errors},
-          {"rows", rows}};
+              {"size", {report.width, report.height}},
+              {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
+              {"commit", report.commit},
+              {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},
+              {"reference_errors", reference_errors},
+              {"rows", rows}};
   if (const auto& memory = report.path_memory) {
-    out["moving"] = {{"resident_bytes",
-                      {{"frames", memory->frames}, {"then", memory->bytes}, {"at_end", memory->bytes_at_end}}}};
+    out["moving"] = {
+        {"resident_bytes",
+         {{"frames", memory->frames}, {"then", memory->bytes}, {"at_end", memory->bytes_at_end}}}};
   }
   return out;
 }

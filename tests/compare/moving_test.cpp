@@ -53,7 +53,8 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
   for (const Technique* technique : techniques()) contestants.push_back({technique, {}});
   CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
   options.path = camera_path(scene, small_view(48, 32), "dolly:8");
-  const CompareReport report = compare_techniques(software_devices(), scene, small_view(48, 32), contestants, options);
+  const CompareReport report =
+      compare_techniques(software_devices(), scene, small_view(48, 32), contestants, options);
   for (const RunResult& row : report.rows) {
     ASSERT_TRUE(row.moving) << row.technique;
     EXPECT_EQ(row.moving->frames, 8u);
@@ -66,7 +67,8 @@ TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
     EXPECT_EQ(row.moving->pairs.lost, 0u) << row.technique;
     if (own_surfaces(find_technique(row.technique), {})) continue;  // another image than forward's
     if (find_technique(row.technique).approximate) continue;
-    // Sums in another order round to within 1e-5 (techniques/lidr_scenes.h); two frames may differ in opposite directions.
+    // Sums in another order round to within 1e-5 (techniques/lidr_scenes.h); two frames may differ in
+    // opposite directions.
     EXPECT_LT(row.moving->max_rel, 1e-5) << row.technique;
     EXPECT_LT(row.moving->temporal_max_rel, 2e-5) << row.technique;
   }
@@ -101,7 +103,8 @@ TEST(Moving, HoldsNoMoreMemoryTheLongerThePath) {
 }
 #endif
 
-// Emissive, blended and masked surfaces enter and leave the view. What they need was built before the camera moved.
+// Emissive, blended and masked surfaces enter and leave the view. What they need was built before the camera
+// moved.
 TEST(Moving, BuildsNothingForWhatEntersTheView) {
   Scene scene = find_builtin_scene("hall")->make();
   scene.lights.resize(12);
@@ -135,10 +138,12 @@ TEST(Moving, BuildsNothingForWhatEntersTheView) {
 // The report has taken the runs' images by then: each frame of the path must bring new ones.
 TEST(Moving, ErrorsAreThoseOfThePathsFrames) {
   const Scene scene = small_scene().scene;
-  const std::vector<Contestant> contestants = {{&find_technique("forward"), {}}, {&find_technique("deferred"), {.buffer_bits = 8}}};
+  const std::vector<Contestant> contestants = {{&find_technique("forward"), {}},
+                                               {&find_technique("deferred"), {.buffer_bits = 8}}};
   CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
   options.path = camera_path(scene, small_view(48, 32), "dolly:3");
-  const CompareReport report = compare_techniques(software_devices(), scene, small_view(48, 32), contestants, options);
+  const CompareReport report =
+      compare_techniques(software_devices(), scene, small_view(48, 32), contestants, options);
   EXPECT_GT(report.rows[1].error->max_rel, 1e-4);
   EXPECT_GT(report.rows[1].moving->max_rel, 1e-4);
   EXPECT_GT(report.rows[1].moving->rmse_rel, 1e-5);
@@ -153,7 +158,8 @@ TEST(Moving, ASceneThatChangedIsDrawnAsOneThatWasMadeSo) {
   for (int mesh = 0; mesh < int(scene.meshes.size()); ++mesh) rig->meshes.push_back({.mesh = mesh});
   scene.rig = rig;
   const View view = make_view(choose_camera(scene, ""), 96, 54);
-  for (const char* technique : {"forward", "forward_plus", "deferred_tiled", "deferred", "forward_multipass", "visibility"}) {
+  for (const char* technique :
+       {"forward", "forward_plus", "deferred_tiled", "deferred", "forward_multipass", "visibility"}) {
     Scene moving = scene;
     GpuScene gpu(software_devices(), moving);
     TechniqueRun run(software_devices(), gpu, view, {}, find_technique(technique));
@@ -199,8 +205,12 @@ Frame flicker(RenderView& v) {
 }
 
 TEST(Moving, SeesFlicker) {
-  const Technique flickers{
-      .name = "flickers", .summary = "flickers", .source = "none", .needs = {}, .settings = {}, .render = flicker};
+  const Technique flickers{.name = "flickers",
+                           .summary = "flickers",
+                           .source = "none",
+                           .needs = {},
+                           .settings = {},
+                           .render = flicker};
   const Scene scene = small_scene().scene;
   GpuScene gpu(software_devices(), scene);
   const std::vector<View> path(8, small_view(32, 24));  // at rest: flicker is the only change

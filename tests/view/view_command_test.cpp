@@ -127,7 +127,9 @@ std::string lines_of_verdict(const nlohmann::json& light) {
 TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
   const std::string file = folder_.path / "pixel.txt";
   const std::string script =
-      "0 technique forward_plus\n0 technique right clustered\n0 set left cull-test=exact\n1 click 60 40\n2 pixel " + file + "\n";
+      "0 technique forward_plus\n0 technique right clustered\n0 set left cull-test=exact\n1 click 60 40\n2 "
+      "pixel " +
+      file + "\n";
   const CommandOutcome run = run_in_display(view_words(folder_, script, 3));
   ASSERT_EQ(run.status, 0) << run.output;
   std::ifstream stream(file);
@@ -136,9 +138,11 @@ TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
   ASSERT_EQ(text.find("left forward_plus\n"), 0u);
   ASSERT_NE(right, std::string::npos);
   const std::string sides[2] = {text.substr(0, right), text.substr(right)};
-  const std::vector<std::string> words[2] = {{"-t", "forward_plus", "--set", "cull-test=exact"}, {"-t", "clustered"}};
+  const std::vector<std::string> words[2] = {{"-t", "forward_plus", "--set", "cull-test=exact"},
+                                             {"-t", "clustered"}};
   for (int i = 0; i < 2; ++i) {
-    std::vector<std::string> inspect = {"inspect", "spheres", "--size", "320x180", "--pixel", "60,40", "--json", "-"};
+    std::vector<std::string> inspect = {"inspect", "spheres", "--size", "320x180",
+                                        "--pixel", "60,40",   "--json", "-"};
     inspect.insert(inspect.end(), words[i].begin(), words[i].end());
     const ProgramRun inspected = run_program(inspect);
     ASSERT_EQ(inspected.status, 0) << inspected.err;
