@@ -8,6 +8,12 @@ if(NOT status EQUAL 0)
   return()
 endif()
 
+# .ci/run sets LIGHTGRID_CL_QUICK_BUILD=all. Read here, since this runs when ctest starts.
+set(environment LIGHTGRID_TUNED=off)
+if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND folder IN_LIST optimised_folders)
+  list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
+endif()
+
 function(add_entry name filter)
   add_test(${name} ${program} --gtest_filter=${filter} --gtest_brief=1)
   set(lock)
@@ -15,7 +21,7 @@ function(add_entry name filter)
     set(lock RESOURCE_LOCK ${folder}_kernel)
   endif()
   set_tests_properties(${name} PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 LABELS ${folder} COST ${cost} ${lock}
-                       ENVIRONMENT LIGHTGRID_TUNED=off)
+                       ENVIRONMENT "${environment}")
 endfunction()
 
 string(REPLACE "\n" ";" lines "${lines}")

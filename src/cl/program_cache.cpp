@@ -17,7 +17,11 @@ std::string common_options(const ClDeviceInfo& device) {
   return options;
 }
 
-bool builds_quickly() { return std::getenv("LIGHTGRID_CL_QUICK_BUILD") != nullptr; }
+// Whether a CPU compiles this kernel without optimisation.
+bool builds_quickly(const std::string& file) {
+  const char* kernels = std::getenv("LIGHTGRID_CL_QUICK_BUILD");
+  return kernels && (file.starts_with("gpu/") || std::string_view(kernels) == "all");
+}
 
 // PoCL 3 includes clang's opencl-c.h before each program, where this macro is not defined yet (its
 // _clang_opencl.h).
@@ -94,7 +98,7 @@ cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& fi
       ++counts_.from_memory;
     } else {
       std::string options = common_options(device_.info()) + (defines.empty() ? "" : " " + defines);
-      if (file.starts_with("gpu/") && device_.info().cpu && builds_quickly()) options += " -cl-opt-disable";
+      if (device_.info().cpu && builds_quickly(file)) options += " -cl-opt-disable";
       program = load_or_build(file, options, "#pragma OPENCL FP_CONTRACT OFF\n" + source());
     }
     return cl::Kernel(program, entry_point(file).c_str());
