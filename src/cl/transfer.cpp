@@ -63,6 +63,15 @@ void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, con
   });
 }
 
+WaitOnFailure::~WaitOnFailure() {
+  if (std::uncaught_exceptions() == exceptions_) return;
+  try {
+    device_.queue().finish();
+  } catch (const cl::Error&) {
+    // The exception under way says more.
+  }
+}
+
 void finish_queue(ClDevice& device, const char* what) {
   checked(what, [&] { device.queue().finish(); });
 }

@@ -2,6 +2,8 @@
 // escapes. Zero bytes are skipped: OpenCL 1.2 rejects them.
 #pragma once
 
+#include <exception>
+
 #include "cl/device.h"
 
 namespace lightgrid {
@@ -25,6 +27,19 @@ void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, c
 // Enqueues, and does not wait. The profiler counts it under `what`.
 void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, const cl::Buffer& to,
                  size_t bytes);
+
+// Waits for the queue where an exception leaves its scope: what enqueue_write reads may then be freed.
+class WaitOnFailure {
+ public:
+  explicit WaitOnFailure(ClDevice& device) : device_(device), exceptions_(std::uncaught_exceptions()) {}
+  ~WaitOnFailure();
+  WaitOnFailure(const WaitOnFailure&) = delete;
+  WaitOnFailure& operator=(const WaitOnFailure&) = delete;
+
+ private:
+  ClDevice& device_;
+  const int exceptions_;
+};
 
 void finish_queue(ClDevice& device, const char* what);
 

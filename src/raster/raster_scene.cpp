@@ -134,9 +134,7 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_orde
   return all;
 }
 
-RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes) {
-  RasterInstances all;
-  size_t triangles = 0;
+void check_raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes) {
   for (size_t i = 0; i < instances.size(); ++i) {
     const RasterInstance& instance = instances[i];
     if (instance.mesh < 0 || size_t(instance.mesh) >= meshes.places.size()) {
@@ -152,6 +150,14 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
       if (m[column][3] != (column == 3 ? 1 : 0))
         throw input_error("rasterizer: instance {}: its matrix is not affine", i);
     }
+  }
+}
+
+RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes) {
+  RasterInstances all;
+  size_t triangles = 0;
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const RasterInstance& instance = instances[i];
     const RasterMeshPlace& mesh = meshes.places[instance.mesh];
     triangles += mesh.triangles;
     if (std::max(triangles, all.clip_vertices + mesh.vertices) > most_indices) {
@@ -163,7 +169,7 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
     record.first_vertex = mesh.first_vertex, record.vertex_count = mesh.vertices;
     record.first_position = mesh.first_position;
     record.first_clip_vertex = uint32_t(all.clip_vertices);
-    const bool mirrored = glm::determinant(glm::dmat3(m)) < 0;
+    const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
     record.flags = (instance.two_sided ? RASTER_TWO_SIDED : 0) | (mirrored ? RASTER_MIRRORED : 0);
     record.alpha_material = instance.alpha_material;
     all.records.push_back(record);

@@ -38,7 +38,10 @@ struct RasterInstances {
   size_t clip_vertices = 0;
 };
 
-// Throws Error(input) that names the instance, Error(machine) where numbers do not fit 32 bits.
+// Throws Error(input) that names an instance without a mesh or with a matrix that is not finite and affine.
+void check_raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes);
+
+// Of instances that are right. Throws Error(machine) where numbers do not fit 32 bits.
 RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes);
 
 }  // namespace lightgrid

@@ -90,11 +90,15 @@ void Rasterizer::set_meshes(std::span<const RasterMesh> meshes) {
 
 void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
   State& s = *state_;
-  const RasterInstances made = raster_instances(instances, s.meshes);
+  check_raster_instances(instances, s.meshes);
   const bool same = !instances.empty() && instances.size() == s.instances.size() &&
                     std::equal(instances.begin(), instances.end(), s.instances.begin(), same_layout);
+  if (same) {
+    s.instances.assign(instances.begin(), instances.end());
+    return;
+  }
+  const RasterInstances made = raster_instances(instances, s.meshes);
   s.instances.assign(instances.begin(), instances.end());
-  if (same) return;
   s.vertex_runs = uint32_t(made.vertex_runs.size()), s.pairs = uint32_t(made.pairs.size());
   s.triangles = uint32_t(made.triangle_instance.size());
   upload(s.device, s.records, made.records);
@@ -149,7 +153,7 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
     return true;
   }
   if (entries > params.entry_capacity) {
-    grow(entries, sizeof(cl_uint2), most_numbers, "pairs of a triangle and a tile", params.entry_capacity);
+    grow(entries, sizeof(cl_uint2), most_numbers, "pairs of a triangle and a tile or window", params.entry_capacity);
     return true;
   }
   return false;

@@ -5,6 +5,7 @@
 #include "renderer/world_grid.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.h"
 #include "cl/transfer.h"
@@ -29,19 +30,20 @@ bool WorldGrid::serves(const View& view, int lights_version) const {
   return lights_version_ == lights_version && layout_.reach.holds(reach_of(view, layout_.middle));
 }
 
+size_t WorldGrid::most_texture_bytes(GLenum format) const {
+  if (!for_gl_) return std::numeric_limits<size_t>::max();
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  return size_t(texels) * (format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2);
+}
+
 cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
-    if (for_gl_) {
-      GLint texels = 0;
-      glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-      const size_t texel_bytes = format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2;
-      if (bytes / texel_bytes > size_t(texels)) {
-        throw machine_error(
-            "world grid: {} bytes are more than the {} texels that a buffer texture may have in this OpenGL; "
-            "use larger cells "
-            "(world-cell), smaller ranges or fewer lights",
-            bytes, texels);
-      }
+    if (const size_t most = most_texture_bytes(format); bytes > most) {
+      throw machine_error(
+          "world grid: {} bytes are more than the {} that a buffer texture may have in this OpenGL; use larger "
+          "cells (world-cell), smaller ranges or fewer lights",
+          bytes, most);
     }
     shared.texture = GlTexture();
     shared.buffer.reset();  // freed first, so that both need not fit at once
@@ -203,11 +205,12 @@ void WorldGrid::size_indices(uint64_t entries) {
   check_world_count(*renderer_.cl, "list entries", entries + everywhere, index_bytes);
   entries_ = size_t(entries);
   sizes_[3] = (entries_ + everywhere) * index_bytes;
-  const size_t spare = sizes_[3] / 4;  // for lights that move
-  grown(indices_,
-        indices_.buffer && indices_.buffer->size() >= sizes_[3] ? sizes_[3]
-                                                                : sizes_[3] + (builds_ > 0 ? spare : 0),
-        index_bits_ == 16 ? GL_R16UI : GL_R32UI);
+  const GLenum format = index_bits_ == 16 ? GL_R16UI : GL_R32UI;
+  const bool too_small = !indices_.buffer || indices_.buffer->size() < sizes_[3];
+  // More than needed, for lights that move, where that fits.
+  const size_t most = std::min(most_texture_bytes(format), renderer_.cl->info().max_allocation_bytes);
+  const size_t roomy = sizes_[3] + sizes_[3] / 4;
+  grown(indices_, too_small && builds_ > 0 && roomy <= most ? roomy : sizes_[3], format);
 }
 
 void WorldGrid::finish_lists(int lights_version) {
@@ -231,6 +234,7 @@ void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds,
                       int lights_version) {
   lights_version_ = -1;
   ClDevice& device = *renderer_.cl;
+  const WaitOnFailure wait(device);
   lay_out_world(lights, bounds, shape_, cell_, view, layout_);
   constexpr const char* what = "uploading lights";
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});

@@ -85,6 +85,7 @@ class WorldGrid {
     std::optional<SharedBuffer> buffer;
     GlTexture texture;
   };
+  size_t most_texture_bytes(GLenum format) const;
   cl::Buffer& grown(Shared& shared, size_t bytes, GLenum format);
   size_t chunk_of(size_t count, size_t least) const;
   size_t bucket_count() const;

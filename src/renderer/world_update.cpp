@@ -42,6 +42,7 @@ bool WorldGrid::update(std::span<const uint32_t> moved, std::span<const CullLigh
   }
   if (!may_update(moved, lights)) return false;
   lights_version_ = -1;
+  const WaitOnFailure wait(*renderer_.cl);
   if (block_pairs_.empty()) block_pairs_ = pairs_of_blocks(block_lights_);
   moved_.moved.assign(moved.begin(), moved.end());
   move_world_lights(lights, block_lights_.buckets, layout_, block_pairs_, moved_);
