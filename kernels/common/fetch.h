@@ -1,12 +1,9 @@
-// Asks for the cache line at a global address, where the compiler is clang. A CPU reads on while it waits for
-// memory, but not past a block of pixels; a GPU has other work-items to run.
+// Asks for the cache line at a global address, on CPUs. They read on while they wait for memory, but not past a
+// block of pixels; a GPU has other work-items to run.
 #pragma once
 
-#ifdef __has_builtin
-#if __has_builtin(__builtin_prefetch)
+#if defined(__x86_64__) || defined(__aarch64__)
 #define FETCH(at) __builtin_prefetch((const void*)(size_t)(at))
-#endif
-#endif
-#ifndef FETCH
+#else
 #define FETCH(at) (void)(at)
 #endif
