@@ -3,9 +3,10 @@
 //
 // A triangle leads through loads that depend on each other (instance, indices, corners, texels), and the work
 // on a block is longer than what a processor reorders, so that each block would wait for memory by itself.
-// Therefore, where there are textures, corners are fetched a row of blocks ahead, and texels a block ahead.
+// Corners are therefore fetched a row of blocks ahead, and texels a block ahead.
 //
-// -DTILE  pixels a side of a tile, a multiple of 8 (default 16)
+// -DTILE         pixels a side of a tile, a multiple of 8 (default 16)
+// -DFETCH_AHEAD  with -DTEXTURED: fetch. It costs a tenth where all texels are in the caches anyway
 #pragma once
 
 #ifndef TILE
@@ -70,7 +71,7 @@ static inline void fetch_corners(const ResolveScene* s, global const uint* trian
 // Fetches texels of the packed maps that a block's pixels will filter: at the ends of its rows. A third of
 // the 64 that it reads; all of them gained nothing.
 static inline void fetch_texels(const Attributes* a, const ResolveScene* s, mask_t covered) {
-#ifdef TEXTURED
+#ifdef FETCH_AHEAD
   const whole material = a->material;
   for (uint left = mask_bits(covered); left != 0;) {
     const int one = ((const int*)&material)[lowest_bit(left)];
@@ -98,13 +99,13 @@ typedef struct BlockWalk {
   global const uint* triangles;
   uint x0, x_end, y0, y_end, width, height;
   uint16 triangle;  // of the block that it is at
-#ifdef TEXTURED
+#ifdef FETCH_AHEAD
   Attributes here, next;
   mask_t next_covered;
 #endif
 } BlockWalk;
 
-#ifdef TEXTURED
+#ifdef FETCH_AHEAD
 static inline void look_ahead(BlockWalk* w, uint x, uint y) {
   const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
   const Attributes none = {0};
@@ -122,7 +123,7 @@ static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* 
                  tile_x * TILE, min(tile_x * TILE + TILE, width),
                  tile_y * TILE, min(tile_y * TILE + TILE, height),
                  width,         height};
-#ifdef TEXTURED
+#ifdef FETCH_AHEAD
   fetch_corners(scene, triangles, w.x0, w.x_end, w.y0, width, height);
   look_ahead(&w, w.x0, w.y0);
 #endif
@@ -131,7 +132,7 @@ static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* 
 
 // Goes on to the block at (x, y), the next one. Returns which pixels have a surface.
 static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
-#ifdef TEXTURED
+#ifdef FETCH_AHEAD
   if (x == w->x0 && y + 4 < w->y_end)
     fetch_corners(w->scene, w->triangles, x, w->x_end, y + 4, w->width, w->height);
   w->here = w->next;
@@ -147,7 +148,7 @@ static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
 
 // Of the pixels of the block at (x, y), which the walk is at.
 static inline Attributes block_attributes(const BlockWalk* w, mask_t covered, uint x, uint y) {
-#ifdef TEXTURED
+#ifdef FETCH_AHEAD
   return w->here;
 #else
   Attributes a = {0};

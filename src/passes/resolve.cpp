@@ -15,6 +15,8 @@ namespace {
 
 constexpr size_t group_width = 8, group_height = 16;  // pixels; the 32 items that run together are then 8 x 4
 
+constexpr size_t cached_texture_bytes = 16 << 20;  // about what a CPU's caches keep from frame to frame
+
 cl::NDRange whole_groups(const View& view) {
   const auto whole = [](int pixels, size_t group) { return (size_t(pixels) + group - 1) / group * group; };
   return {whole(view.width, group_width), whole(view.height, group_height)};
@@ -97,6 +99,8 @@ class Resolving : public PassState {
     const uint32_t of_scene = v.plan.settings.everything_on ? feature_all : scene(v).features();
     if (v.plan.settings.texels == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
     const uint32_t features = features_read(of_scene, v.plan.settings.brdf);
+    const bool large = scene(v).texture_bytes() > cached_texture_bytes || v.plan.settings.everything_on;
+    if (lanes && large && features & feature_textured) defines += " -DFETCH_AHEAD";
     for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
                                       {feature_uv1, " -DUV1"},
                                       {feature_vertex_color, " -DVERTEX_COLOR"},
