@@ -36,8 +36,8 @@ kernel __attribute__((reqd_work_group_size(BLOCKS * BLOCKS, 1, 1))) void raster_
     global const RasterRecord* records, global const uint2* entries, MASK_ARGUMENTS,
     global volatile ulong* keys, global volatile uint* triangles, global volatile uint* depths,
     global const uint* counters, constant RasterParams* p) {
-  local volatile uint met[2]
-                         [2];  // a bit a block. Entries take one and the other in turn, which saves a barrier
+  // A bit a block. Entries take one pair of words and the other in turn, which saves a barrier.
+  local volatile uint met[2][2];
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;
