@@ -7,6 +7,7 @@
 #pragma once
 
 #include "kernels/common/surface_attributes.h"
+#include "kernels/common/surface_texture.h"
 #include "shared/raster_instance.h"
 #include "shared/real.h"
 
@@ -39,6 +40,10 @@ typedef struct Attributes {
 #endif
 #ifdef VERTEX_COLOR
   real red, green, blue, alpha;
+#endif
+#ifdef FETCH_AHEAD
+  global const SurfaceMaterial* footprint_material;  // null: no footprint is known
+  Footprint footprint;                               // in that material's packed maps
 #endif
 } Attributes;
 
@@ -133,6 +138,19 @@ typedef struct Surface {
 } Surface;
 
 #ifdef TEXTURED
+#ifdef UV1
+#define PLACE_IN(map) ((map)->flags & MAP_UV1 ? a->uv1 : a->uv0)
+#else
+#define PLACE_IN(map) (a->uv0)
+#endif
+
+static inline Footprint packed_footprint(const Attributes* a, global const SurfaceMaterial* m) {
+#ifdef FETCH_AHEAD
+  if (a->footprint_material == m) return a->footprint;
+#endif
+  return footprint_of(m->maps, PLACE_IN(m->maps));
+}
+
 // Channels of a material's maps; 1 where it has no map.
 typedef struct MapTexels {
   Real3 base_color, normal, emissive;
@@ -151,17 +169,12 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s, 
 #ifdef CLEARCOAT
   t.coat = one, t.coat_roughness = one, t.coat_normal = real3(one, one, one);
 #endif
-#ifdef UV1
-#define PLACE_IN(map) ((map)->flags & MAP_UV1 ? a->uv1 : a->uv0)
-#else
-#define PLACE_IN(map) (a->uv0)
-#endif
   uint maps = m->flags & ((1u << SURFACE_MAPS) - 1u);
 #ifndef CLEARCOAT
   maps &= (1u << SURFACE_COAT) - 1u;
 #endif
   if (m->flags & SURFACE_PACKED) {
-    const Texels8 p = filtered_8(s->texels_8, m->maps, PLACE_IN(m->maps));
+    const Texels8 p = filtered_8(s->texels_8, m->maps, packed_footprint(a, m));
     t.base_color = real3(p.c[0], p.c[1], p.c[2]), t.normal = real3(p.c[3], p.c[4], p.c[5]);
     t.roughness = p.c[6], t.metallic = p.c[7];
     maps &= ~(1u << SURFACE_BASE_COLOR | 1u << SURFACE_METALLIC_ROUGHNESS | 1u << SURFACE_NORMAL);

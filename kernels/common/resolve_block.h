@@ -3,7 +3,8 @@
 //
 // A triangle leads through loads that depend on each other (instance, indices, corners, texels), and the work
 // on a block is longer than what a processor reorders, so that each block would wait for memory by itself.
-// Corners are therefore fetched a row of blocks ahead, and texels a block ahead.
+// Corners are therefore fetched a row of blocks ahead, texels a block ahead, and the pixels of the visibility
+// buffer, which the rasteriser stores past the caches, a tile ahead.
 //
 // -DTILE         pixels a side of a tile, a multiple of 8 (default 16)
 // -DFETCH_AHEAD  with -DTEXTURED: fetch. It costs a tenth where all texels are in the caches anyway
@@ -69,8 +70,8 @@ static inline void fetch_corners(const ResolveScene* s, global const uint* trian
 }
 
 // Fetches texels of the packed maps that a block's pixels will filter: at the ends of its rows. A third of
-// the 64 that it reads; all of them gained nothing.
-static inline void fetch_texels(const Attributes* a, const ResolveScene* s, mask_t covered) {
+// the 64 that it reads; all of them gained nothing. The first material's footprint is kept for the filter.
+static inline void fetch_texels(Attributes* a, const ResolveScene* s, mask_t covered) {
 #ifdef FETCH_AHEAD
   const whole material = a->material;
   for (uint left = mask_bits(covered); left != 0;) {
@@ -78,7 +79,8 @@ static inline void fetch_texels(const Attributes* a, const ResolveScene* s, mask
     left &= ~mask_bits(material == (int16)(one));
     global const SurfaceMaterial* m = s->materials + one;
     if (!(m->flags & SURFACE_PACKED)) continue;
-    const Footprint f = footprint_of(m->maps, a->uv0);
+    const Footprint f = packed_footprint(a, m);
+    if (!a->footprint_material) a->footprint_material = m, a->footprint = f;
     global const packed_t* chain = (global const packed_t*)s->texels_8 + 8 * (size_t)m->maps->base;
 #define FETCH_TEXEL(level, i) FETCH(chain + 8 * INDEX_LANE(level.first, i))
 #define FETCH_NEXT_ROW(level, i) FETCH(chain + 8 * (INDEX_LANE(level.first, i) + INDEX_LANE(level.pitch, i)))
@@ -91,6 +93,11 @@ static inline void fetch_texels(const Attributes* a, const ResolveScene* s, mask
         FETCH_NEXT_ROW(f.coarse, 15);
   }
 #endif
+}
+
+// Fetches what blocks at the same height in the next tile will load. Past the image's end this has no effect.
+static inline void fetch_next_tile(global const uint* values, uint x, uint y, uint width, uint height) {
+  for (uint row = y; row < min(y + 4, height); ++row) FETCH(values + (size_t)row * width + x + TILE);
 }
 
 // The way through a tile's blocks: row by row, each row from x0 on.
@@ -132,6 +139,7 @@ static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* 
 
 // Goes on to the block at (x, y), the next one. Returns which pixels have a surface.
 static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
+  if (x == w->x0) fetch_next_tile(w->triangles, x, y, w->width, w->height);
 #ifdef FETCH_AHEAD
   if (x == w->x0 && y + 4 < w->y_end)
     fetch_corners(w->scene, w->triangles, x, w->x_end, y + 4, w->width, w->height);
@@ -155,4 +163,11 @@ static inline Attributes block_attributes(const BlockWalk* w, mask_t covered, ui
   add_triangles(&a, w->scene, w->triangle, covered, x, y);
   return a;
 #endif
+}
+
+// The depths of that block.
+static inline real block_depths(const BlockWalk* w, global const float* depths, uint x, uint y) {
+  global const uint* values = (global const uint*)depths;
+  if (x == w->x0) fetch_next_tile(values, x, y, w->width, w->height);
+  return as_float16(load_block(values, x, y, w->width, w->height));
 }

@@ -3,6 +3,32 @@
 
 #include "kernels/common/surface_attributes.h"
 
+static inline whole gathered(global const uint* from, whole at) {
+#if LANES == 1
+  return (int)from[at];
+#else
+  return as_int16((uint16)(from[at.s0], from[at.s1], from[at.s2], from[at.s3], from[at.s4], from[at.s5],
+                           from[at.s6], from[at.s7], from[at.s8], from[at.s9], from[at.sa], from[at.sb],
+                           from[at.sc], from[at.sd], from[at.se], from[at.sf]));
+#endif
+}
+
+static inline real bilinear_alpha(global const uint* chain, LevelFootprint f) {
+  const whole quad = gathered(chain, f.first);
+  const real a = TO_REAL(quad & 255), b = TO_REAL(quad >> 8 & 255), c = TO_REAL(quad >> 16 & 255),
+             d = TO_REAL(quad >> 24 & 255);
+  const real low = fma(c - a, f.y, a), high = fma(d - b, f.y, b);
+  return fma(high - low, f.x, low);
+}
+
+// From 0 to 1. The map's levels are those of its chain of alphas, which begins at `base`.
+static inline real filtered_alpha(global const uint* alphas, uint base, global const SurfaceMap* map,
+                                  TexturePlace place) {
+  const Footprint f = footprint_of(map, place);
+  const real fine = bilinear_alpha(alphas + base, f.fine), coarse = bilinear_alpha(alphas + base, f.coarse);
+  return fma(coarse - fine, f.mix, fine) * (1.0f / 255.0f);
+}
+
 // What a mask is looked up in: ClScene's buffers (shared/surface_records.h), and half the image's size in
 // pixels.
 typedef struct AlphaSource {

@@ -70,7 +70,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
       }
 #endif
       if (!image) continue;
-      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+      const real depth = block_depths(&walk, depths, x, y);
       const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
                                             depth, covered, view);
       const Real3 shown = base_light(&p, &s, &lights, view);

@@ -54,7 +54,7 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
         const Attributes a = block_attributes(&walk, covered, x, y);
         Surface s = {0};
         add_materials(&s, &a, &scene, covered);
-        const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+        const real depth = block_depths(&walk, depths, x, y);
         const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
         const Real3 shown = radiance_of_sums(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
                                              depth, covered, sums, of, &lights, view);
