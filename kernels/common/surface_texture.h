@@ -56,16 +56,16 @@ typedef ushort packed_t;
 #define INDEX_LANE(v, i) ((size_t)(uint)(v))
 #endif
 
-// Makes the compiler read a struct's lanes from memory. There, one number for all lanes of an operand, or for an
-// address, costs nothing; out of a vector that it holds in a register, each of them costs a shuffle.
+// Makes the compiler read a struct's lanes from memory. There, one number for all lanes of an operand, or for
+// an address, costs nothing; out of a vector that it holds in a register, each of them costs a shuffle.
 #if LANES == 16 && defined(AVX512)
 #define LANES_FROM_MEMORY(v) __asm__("" : "+m"(v))
 #else
 #define LANES_FROM_MEMORY(v) (void)0
 #endif
 
-// What a trilinear filter takes of a level: the numbers of the first texel of both rows, and weights. A texel's
-// is its row's times its column's.
+// What a trilinear filter takes of a level: the numbers of the first texel of both rows, and weights. A
+// texel's is its row's times its column's.
 typedef struct LevelTaps {
   whole low, high;
   real low_weight, high_weight, left_weight, right_weight;
@@ -83,8 +83,7 @@ static inline LevelTaps level_taps(LevelFootprint f, real weight) {
 static inline float8 add_texels_8(float8 sum, global const packed_t* chain, const LevelTaps* t, uint i) {
   const float16 low = packed_texels(chain + 8 * INDEX_LANE(t->low, i));
   const float16 high = packed_texels(chain + 8 * INDEX_LANE(t->high, i));
-  const float16 pair =
-      fma(high, (float16)(LANE(t->high_weight, i)), low * (float16)(LANE(t->low_weight, i)));
+  const float16 pair = fma(high, (float16)(LANE(t->high_weight, i)), low * (float16)(LANE(t->low_weight, i)));
   return fma(pair.hi, (float8)(LANE(t->right_weight, i)),
              fma(pair.lo, (float8)(LANE(t->left_weight, i)), sum));
 }
@@ -97,16 +96,16 @@ static inline float4 add_texels_4(float4 sum, global const ushort* chain, const 
              fma(pair.lo, (float4)(LANE(t->left_weight, i)), sum));
 }
 
-// Into sums, a lane each, what a footprint's texels weigh. The coarse level is not read where it counts nothing
-// in any lane.
-#define SUM_TEXELS(sums, TEXEL, ADD_TEXELS, chain, f)                                   \
-  const bool two_levels = any_lane(f.mix > REAL(0.0f));                                 \
+// Into sums, a lane each, what a footprint's texels weigh. The coarse level is not read where it counts
+// nothing in any lane.
+#define SUM_TEXELS(sums, TEXEL, ADD_TEXELS, chain, f)                                      \
+  const bool two_levels = any_lane(f.mix > REAL(0.0f));                                    \
   LevelTaps fine = level_taps(f.fine, 1.0f - f.mix), coarse = level_taps(f.coarse, f.mix); \
-  LANES_FROM_MEMORY(fine);                                                              \
-  LANES_FROM_MEMORY(coarse);                                                            \
-  _Pragma("unroll") for (uint i = 0; i < LANES; ++i) {                                  \
-    sums[i] = ADD_TEXELS((TEXEL)(0.0f), chain, &fine, i);                               \
-    if (two_levels) sums[i] = ADD_TEXELS(sums[i], chain, &coarse, i);                   \
+  LANES_FROM_MEMORY(fine);                                                                 \
+  LANES_FROM_MEMORY(coarse);                                                               \
+  _Pragma("unroll") for (uint i = 0; i < LANES; ++i) {                                     \
+    sums[i] = ADD_TEXELS((TEXEL)(0.0f), chain, &fine, i);                                  \
+    if (two_levels) sums[i] = ADD_TEXELS(sums[i], chain, &coarse, i);                      \
   }
 
 typedef struct Texels4 {
@@ -155,7 +154,8 @@ static inline Texels8 filtered_8(global const ushort* texels, global const Surfa
   float16 even[4], odd[4];  // channels 0, 2, 4, 6 and 1, 3, 5, 7 of four pixels
 #pragma unroll
   for (uint i = 0; i < 4; ++i) {
-    const float16 a = (float16)(sums[4 * i], sums[4 * i + 1]), b = (float16)(sums[4 * i + 2], sums[4 * i + 3]);
+    const float16 a = (float16)(sums[4 * i], sums[4 * i + 1]),
+                  b = (float16)(sums[4 * i + 2], sums[4 * i + 3]);
     even[i] = (float16)(a.even, b.even), odd[i] = (float16)(a.odd, b.odd);
   }
   t.c[0] = (float16)(even[0].s048c, even[1].s048c, even[2].s048c, even[3].s048c);
