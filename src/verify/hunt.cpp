@@ -16,8 +16,8 @@
 namespace lightgrid::verify {
 namespace {
 
-constexpr int views_a_setting = 8;      // of each class, because a new setting may require kernel builds
-constexpr int most_saved = 3;      // of each class
+constexpr int views_a_setting = 8;       // of each class, because a new setting may require kernel builds
+constexpr int most_saved = 3;            // of each class
 constexpr size_t lights_in_both = 4096;  // of a view, if both shapes run: the other one may be slow
 
 std::vector<HuntClass> chosen_classes(const std::string& filter) {
@@ -30,7 +30,9 @@ std::vector<HuntClass> chosen_classes(const std::string& filter) {
   } catch (const std::regex_error&) {
     throw input_error("filter: \"{}\" is not a regular expression", filter);
   }
-  if (chosen.empty()) throw input_error("filter: no class of the hunt matches \"{}\"; names are like wide or off_centre", filter);
+  if (chosen.empty())
+    throw input_error("filter: no class of the hunt matches \"{}\"; names are like wide or off_centre",
+                      filter);
   return chosen;
 }
 
@@ -56,7 +58,8 @@ class Hunt {
     }
     if (options_.progress) options_.progress(1, "done");
     report_.seconds = timer_.elapsed_ms() / 1000;
-    for (size_t i = 0; i < classes_.size(); ++i) report_.classes[i].cpu_ns_each = spread_of(cpu_ns_[i]).median;
+    for (size_t i = 0; i < classes_.size(); ++i)
+      report_.classes[i].cpu_ns_each = spread_of(cpu_ns_[i]).median;
     return report_;
   }
 
@@ -76,8 +79,9 @@ class Hunt {
     const Timer timer;
     const std::clock_t cpu = std::clock();
     const HuntView view = random_view(classes_[at], setting, seed);
-    setting.options.depth_format = view.format;
-    const size_t count = setting.both_shapes ? std::min(lights_in_both, options_.lights_a_view) : options_.lights_a_view;
+    setting.options.depth_format = view.format, setting.options.blend = view.blended;
+    const size_t count =
+        setting.both_shapes ? std::min(lights_in_both, options_.lights_a_view) : options_.lights_a_view;
     const HuntLights lights = random_contacts(view, setting, count, Random::mix(seed));
     ++tally.views;
     try {
@@ -90,10 +94,10 @@ class Hunt {
     if (!lights.contacts.empty()) cpu_ns_[at].push_back(cpu_ns / double(lights.contacts.size()));
   }
 
-  void ask(HuntTally& tally, int& saved, const HuntView& view, const HuntSetting& setting, const HuntLights& lights,
-           uint64_t seed) {
+  void ask(HuntTally& tally, int& saved, const HuntView& view, const HuntSetting& setting,
+           const HuntLights& lights, uint64_t seed) {
     const std::vector<CullLight> culled = cull_lights(lights.lights);
-    const HostGrid grid = engine_.cull_depth(setting.options, view.view, culled, view.depth);
+    const HostGrid grid = engine_.cull_depth(setting.options, view.view, culled, view.depth, view.blended);
     const std::vector<HuntLoss> lost = lost_contacts(view, lights.contacts, setting.options.tile, grid);
     tally.contacts += lights.contacts.size(), contacts_ += lights.contacts.size();
     if (setting.both_shapes && engine_.is_the_library()) compare_shapes(tally, view, setting, culled, grid);
@@ -106,25 +110,27 @@ class Hunt {
     ++saved;
   }
 
-  void compare_shapes(HuntTally& tally, const HuntView& view, const HuntSetting& setting, std::span<const CullLight> lights,
-                      const HostGrid& grid) {
+  void compare_shapes(HuntTally& tally, const HuntView& view, const HuntSetting& setting,
+                      std::span<const CullLight> lights, const HostGrid& grid) {
     CullerOptions lanes = setting.options, group = setting.options;
     lanes.shape = KernelShape::lanes, group.shape = KernelShape::group;
     for (const CullerOptions& shaped : {lanes, group}) {
-      if (engine_.cull_depth(shaped, view.view, lights, view.depth) == grid) continue;
+      if (engine_.cull_depth(shaped, view.view, lights, view.depth, view.blended) == grid) continue;
       ++tally.shapes_differ;
       if (tally.why.empty()) tally.why = "lanes and group differ: " + to_string(setting);
     }
   }
 
-  static std::string words(const HuntSetting& setting, const HuntView& view, const HuntLights& lights, const HuntLoss& loss,
-                           uint64_t seed) {
+  static std::string words(const HuntSetting& setting, const HuntView& view, const HuntLights& lights,
+                           const HuntLoss& loss, uint64_t seed) {
     const HuntContact& c = loss.contact;
     const Light& light = lights.lights[c.light];
     const glm::dvec3 p = *position_of(view, c), l = to_view(view.view, light.position);
-    return fmt::format("seed {}, {}: pixel {},{} at {:.9g} {:.9g} {:.9g} lost from its {} the {} at {:.9g} {:.9g} {:.9g} radius {:.9g}",
-                       seed, to_string(setting), c.x, c.y, p.x, p.y, p.z, name_of(loss.from), light.type == LightType::spot ? "spot" : "point", l.x, l.y,
-                       l.z, light.radius_m);
+    return fmt::format(
+        "seed {}, {}: pixel {},{} at {:.9g} {:.9g} {:.9g} lost from its {} the {} at {:.9g} {:.9g} {:.9g} "
+        "radius {:.9g}",
+        seed, to_string(setting), c.x, c.y, p.x, p.y, p.z, name_of(loss.from),
+        light.type == LightType::spot ? "spot" : "point", l.x, l.y, l.z, light.radius_m);
   }
 
   CullEngine& engine_;
@@ -157,12 +163,21 @@ HuntReport hunt(CullEngine& engine, const HuntOptions& options) { return Hunt(en
 
 nlohmann::ordered_json to_json(const HuntReport& report) {
   const HuntTally sum = report.total();
-  nlohmann::ordered_json json = {{"device", report.device}, {"seed", report.seed},       {"contacts", sum.contacts},
-                                 {"lost", sum.lost},        {"refused", sum.refused},    {"shapes_differ", sum.shapes_differ},
-                                 {"seconds", report.seconds}, {"classes", nlohmann::ordered_json::array()}, {"saved", report.saved}};
+  nlohmann::ordered_json json = {{"device", report.device},   {"seed", report.seed},
+                                 {"contacts", sum.contacts},  {"lost", sum.lost},
+                                 {"refused", sum.refused},    {"shapes_differ", sum.shapes_differ},
+                                 {"seconds", report.seconds}, {"classes", nlohmann::ordered_json::array()},
+                                 {"saved", report.saved}};
   for (const HuntTally& t : report.classes) {
-    json["classes"].push_back({{"name", t.name}, {"contacts", t.contacts}, {"lost", t.lost}, {"views", t.views},
-                               {"refused", t.refused}, {"shapes_differ", t.shapes_differ}, {"seconds", t.seconds}, {"cpu_ns_each", t.cpu_ns_each}, {"why", t.why},
+    json["classes"].push_back({{"name", t.name},
+                               {"contacts", t.contacts},
+                               {"lost", t.lost},
+                               {"views", t.views},
+                               {"refused", t.refused},
+                               {"shapes_differ", t.shapes_differ},
+                               {"seconds", t.seconds},
+                               {"cpu_ns_each", t.cpu_ns_each},
+                               {"why", t.why},
                                {"refusal", t.refusal}});
   }
   return json;

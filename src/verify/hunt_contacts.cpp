@@ -6,6 +6,8 @@
 
 #include "base/parallel.h"
 #include "reference/lit_set.h"
+#include "reference/position.h"
+#include "verify/hunt_depth.h"
 #include "verify/views.h"
 
 namespace lightgrid::verify {
@@ -13,6 +15,16 @@ namespace {
 
 using std::numbers::pi;
 constexpr size_t lights_at_once = 2048;  // lights from one sequence of random numbers
+
+float stored_at(const HuntView& h, const HuntContact& c) {
+  return h.depth.values[(size_t(c.y) * h.view.width + c.x) * h.depth.samples + c.sample];
+}
+
+// The point of the image, pixels, whose depth is c.depth.
+glm::dvec2 place_of_depth(const HuntView& h, const HuntContact& c) {
+  const bool centre = h.depth.samples == 1;
+  return {c.x + (centre ? 0.5 : double(c.in_x)), c.y + (centre ? 0.5 : double(c.in_y))};
+}
 
 // Generates the lights of one view, a batch at a time.
 class Maker {
@@ -76,6 +88,11 @@ class Maker {
       if (!setting_.options.pixel_centres || h_.depth.samples > 1) {
         c.in_x = float(corner.x ? (corner.x + 1) / 2 : unit(random)),
         c.in_y = float(corner.y ? (corner.y + 1) / 2 : unit(random));
+      }
+      c.depth = stored_at(h_, c);
+      if (h_.blended) {
+        const glm::dvec2 at = place_of_depth(h_, c);
+        c.depth = random_blended_depth(h_, c.depth, at.x, at.y, random);
       }
       if (position_of(h_, c)) return c;
     }
@@ -208,17 +225,15 @@ std::vector<CullLight> cull_lights(std::span<const Light> lights) {
 }
 
 std::optional<glm::dvec3> position_of(const HuntView& h, const HuntContact& c) {
-  const size_t at = (size_t(c.y) * h.view.width + c.x) * h.depth.samples + c.sample;
-  const float depth = h.depth.values[at];
-  if (depth == depth_of_nothing(h.view)) return {};
-  const glm::dmat4& clip = h.view.clip_from_view;
-  const bool flat = is_orthographic(h.view);
-  const double ndc_x = 2 * (c.x + double(c.in_x)) / h.view.width - 1,
-               ndc_y = 2 * (c.y + double(c.in_y)) / h.view.height - 1;
-  const double d = distance_at(h.view, depth);
-  if (!(std::abs(d) < 1e30) || (!flat && !(d > 0))) return {};
-  if (flat) return glm::dvec3((ndc_x - clip[3][0]) / clip[0][0], (ndc_y - clip[3][1]) / clip[1][1], -d);
-  return glm::dvec3((ndc_x + clip[2][0]) / clip[0][0] * d, (ndc_y + clip[2][1]) / clip[1][1] * d, -d);
+  if (c.depth == depth_of_nothing(h.view)) return {};
+  const glm::dvec2 at = place_of_depth(h, c);
+  const double d = distance_of(h, c.depth, at.x, at.y);
+  const View view = oracle_view(h.view);
+  if (!(std::abs(d) < 1e30) || (!view.orthographic && !(d > 0))) return {};
+  const double x = view_x_of_pixel(view, c.x + double(c.in_x)),
+               y = view_y_of_pixel(view, c.y + double(c.in_y));
+  const double scale = view.orthographic ? 1 : d;
+  return glm::dvec3(x * scale, y * scale, -d);
 }
 
 bool is_lit_there(const HuntView& h, const Light& light, const glm::dvec3& position) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t contacts_at_once = 4096;
 
-// Finds a pixel's list as shading does: by its tile, and by the slice and the z-bin of its stored depth.
+// Finds a pixel's list as shading does: by its tile, and by the slice and the z-bin of its depth.
 class Finder {
  public:
   Finder(const HuntView& view, int tile, const HostGrid& grid)
@@ -25,8 +25,7 @@ class Finder {
 
   // Empty if shading finds the light.
   std::optional<LostFrom> lost_from(const HuntContact& c) const {
-    const float depth = h_.depth.values[(size_t(c.y) * h_.view.width + c.x) * h_.depth.samples + c.sample];
-    const float key = depth_key(h_.view, depth);
+    const float key = depth_key(h_.view, c.depth);
     const size_t slice = slice_of_key(key, slices_.data());
     const size_t cell = (slice * grid_.cells_y + c.y / tile_) * grid_.cells_x + c.x / tile_;
     if (cell >= grid_.cells.size()) return LostFrom::list;

@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "base/write_file.h"
-#include "plan/settings.h"
 #include "capture/frame_file.h"
+#include "culling/oblique_view.h"
+#include "plan/settings.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -16,7 +17,7 @@ constexpr int most_runs = 200;  // of the culler, to shrink one loss
 // With the grid of these lights; empty if the contact is found.
 std::optional<ShrunkLoss> still_lost(CullEngine& engine, const CullerOptions& options, const HuntView& view,
                                      ShrunkLoss less) {
-  less.grid = engine.cull_depth(options, view.view, cull_lights(less.lights), view.depth);
+  less.grid = engine.cull_depth(options, view.view, cull_lights(less.lights), view.depth, view.blended);
   const auto lost = lost_contacts(view, {&less.lost.contact, 1}, options.tile, less.grid);
   if (lost.empty()) return {};
   less.lost = lost[0];
@@ -37,8 +38,9 @@ ShrunkLoss without(const ShrunkLoss& loss, size_t begin, size_t end) {
 CapturedFrame frame_of(const HuntSetting& setting, const HuntView& h, const ShrunkLoss& loss) {
   CapturedFrame frame;
   frame.view = oracle_view(h.view);
-  frame.view.near_m = near_distance(h.view);
-  frame.view.far_m = distance_at(h.view, has_standard_depth(h.view) ? 1 : 0);
+  const bool oblique = is_oblique(h.view);
+  frame.view.near_m = oblique ? h.near : near_distance(h.view);
+  frame.view.far_m = oblique ? no_end : distance_at(h.view, has_standard_depth(h.view) ? 1 : 0);
   frame.tile = setting.options.tile, frame.surfaces_far_m = h.far;
   frame.lights = loss.lights;
   for (size_t i = loss.lost.contact.sample; i < h.depth.values.size(); i += size_t(h.depth.samples)) {
@@ -58,36 +60,40 @@ FrameGrid grid_of(const HuntSetting& setting, const HuntView& h, const ShrunkLos
 
 }  // namespace
 
-ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view, const std::vector<Light>& lights,
-                       const HuntLoss& lost) {
+ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view,
+                       const std::vector<Light>& lights, const HuntLoss& lost) {
   ShrunkLoss loss{lights, lost, {}};
   // First alone, then without ever smaller parts (Zeller, Hildebrandt, "Simplifying and Isolating
   // Failure-Inducing Input", 2002).
   int runs = 0;
-  for (size_t part = loss.lights.size(); part > 0 && runs < most_runs; part = part == 1 ? 0 : (part + 1) / 2) {
+  for (size_t part = loss.lights.size(); part > 0 && runs < most_runs;
+       part = part == 1 ? 0 : (part + 1) / 2) {
     for (size_t begin = 0; begin < loss.lights.size() && runs < most_runs;) {
       ShrunkLoss less = without(loss, begin, begin + part);
       const bool smaller = less.lights.size() < loss.lights.size();
       runs += smaller;
       const auto shrunk = smaller ? still_lost(engine, options, view, std::move(less)) : std::nullopt;
-      if (shrunk) loss = *shrunk;
-      else begin += part;
+      if (shrunk)
+        loss = *shrunk;
+      else
+        begin += part;
     }
   }
   if (const auto again = still_lost(engine, options, view, loss)) return *again;
   return loss;
 }
 
-std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntSetting& setting, const HuntView& h,
-                                const ShrunkLoss& loss, uint64_t seed) {
+std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntSetting& setting,
+                                const HuntView& h, const ShrunkLoss& loss, uint64_t seed) {
   const std::filesystem::path path = folder / fmt::format("{}_{:016x}", name_of(h.hunted), seed);
   write_frame(path, frame_of(setting, h, loss));
   write_frame_grid(path, grid_of(setting, h, loss));
   const HuntContact& c = loss.lost.contact;
   write_file(path / "hunt.txt",
-             fmt::format("class {}, seed {}\nsetting {}\nlost from its {}: light {} at pixel {},{} ({},{} in it), sample {}\n",
-                         name_of(h.hunted), seed, to_string(setting), name_of(loss.lost.from), c.light, c.x, c.y, c.in_x,
-                         c.in_y, c.sample));
+             fmt::format("class {}, seed {}\nsetting {}\nlost from its {}: light {} at pixel {},{} ({},{} in "
+                         "it), sample {}, depth {:.9g}\n",
+                         name_of(h.hunted), seed, to_string(setting), name_of(loss.lost.from), c.light, c.x,
+                         c.y, c.in_x, c.in_y, c.sample, c.depth));
   return path;
 }
 

@@ -20,7 +20,8 @@ ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const H
 
 // The frame with its grid (slices and z-bins included), and hunt.txt: the setting, the class, the seed and
 // the lost contact as text. Returns the folder. A frame cannot store samples other than the contact's, cells
-// of whole pixels, and the width of indices.
+// of whole pixels, blended surfaces and the width of indices; one with an oblique near plane is refused when
+// read.
 std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntSetting& setting,
                                 const HuntView& view, const ShrunkLoss& loss, uint64_t seed);
 

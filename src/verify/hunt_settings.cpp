@@ -9,8 +9,10 @@ namespace {
 // Variants that depth_cases and light_cases build anyway.
 void choose_from_few(HuntSetting& s, Random& random) {
   const bool vary_test = chance(random, 0.5);
-  if (vary_test) s.options.cull_test = one_of(random, cull_tests).test;
-  else s.options.depth_bounds = one_of(random, depth_bounds_modes).mode;
+  if (vary_test)
+    s.options.cull_test = one_of(random, cull_tests).test;
+  else
+    s.options.depth_bounds = one_of(random, depth_bounds_modes).mode;
   s.spots = vary_test && chance(random, 0.5);
   if (!vary_test && s.options.depth_bounds == DepthBoundsMode::minmax) {
     s.slices = one_of(random, {1, 24});
@@ -60,6 +62,7 @@ std::string to_string(const HuntSetting& s) {
   add(o.index_bits == 32, "32-bit indices");
   add(o.portable, "portable");
   add(s.spots, "spots");
+  add(o.blend, "blended");
   add(o.depth_format != DepthFormat::d32f, o.depth_format == DepthFormat::d16 ? "d16" : "d24");
   return text;
 }

@@ -10,7 +10,7 @@
 namespace lightgrid::verify {
 
 struct HuntSetting {
-  CullerOptions options;  // the view sets depth_format
+  CullerOptions options;  // the view sets depth_format and blend
   int slices = 1;
   SliceSpacing spacing = SliceSpacing::exponential;
   int z_bins = 1;

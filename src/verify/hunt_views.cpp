@@ -10,8 +10,8 @@ namespace lightgrid::verify {
 namespace {
 
 using std::numbers::pi;
-constexpr double steepest_half = 1145.9;  // tan(179.9 / 2 degrees)
-constexpr double gentlest_half = 0.0087;  // tan(1 / 2 degree)
+constexpr double steepest_half = 1145.9;    // tan(179.9 / 2 degrees)
+constexpr double gentlest_half = 0.000873;  // tan(0.1 / 2 degrees)
 
 struct Size {
   int width, height;
@@ -22,7 +22,7 @@ constexpr Size sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515}, {128, 12
 struct Plan {
   double half = 1;  // the steeper of the two half-slopes
   double off = 0;   // the image's centre, slopes
-  bool orthographic = false, standard = false, finite = false;
+  bool orthographic = false, standard = false, finite = false, oblique = false, blended = false;
   bool placed = false;
   double eye_m = 0;
   double unit_m = 1;
@@ -43,6 +43,7 @@ Plan mixed_plan(Random& random) {
   p.placed = chance(random, 0.5);
   p.unit_m = chance(random, 0.5) ? 1 : log_between(random, 1e-12, p.orthographic ? 1e6 : 1e12);
   p.eye_m = p.unit_m * log_between(random, 1, 1e6);
+  p.blended = chance(random, 0.3), p.oblique = !p.orthographic && chance(random, 0.2);
   return p;
 }
 
@@ -51,10 +52,13 @@ Plan plan_of(HuntClass hunted, Random& random) {
   Plan p;
   p.half = half_of(5, 150, random);
   p.placed = chance(random, 0.5), p.eye_m = log_between(random, 0.1, 1000);
-  const bool of_few_bits = hunted == HuntClass::d16 || hunted == HuntClass::d24;
+  const bool any_depth = hunted == HuntClass::d16 || hunted == HuntClass::d24 || hunted == HuntClass::blended;
   switch (hunted) {
     case HuntClass::narrow:
       p.half = half_of(1, 5, random);
+      break;
+    case HuntClass::narrowest:
+      p.half = half_of(0.1, 1, random);
       break;
     case HuntClass::wide:
       p.half = half_of(150, 179.9, random);
@@ -78,10 +82,17 @@ Plan plan_of(HuntClass hunted, Random& random) {
     case HuntClass::scaled:
       p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
       break;
+    case HuntClass::oblique:
+      p.oblique = true, p.standard = chance(random, 0.5);
+      if (chance(random, 0.3)) p.off = between(random, -2, 2) * p.half;
+      break;
+    case HuntClass::blended:
+      p.blended = true;
+      break;
     default:
       break;
   }
-  if (of_few_bits) {
+  if (any_depth) {
     p.standard = chance(random, 0.5), p.finite = chance(random, 0.5);
     p.orthographic = chance(random, 0.25);
   }
@@ -93,9 +104,9 @@ Plan plan_of(HuntClass hunted, Random& random) {
 }
 
 // Limit of surfaces' distances as a multiple of near: up to it the format can distinguish distances.
-double farthest_ratio(DepthFormat format, bool standard) {
+double farthest_ratio(DepthFormat format, const Plan& p) {
   if (format == DepthFormat::d16) return 0x1p12;
-  if (format == DepthFormat::d24 || standard) return 0x1p19;
+  if (format == DepthFormat::d24 || p.standard || p.oblique) return 0x1p19;
   return 0x1p26;
 }
 
@@ -109,13 +120,14 @@ void choose_range(HuntView& h, const Plan& p, Random& random) {
   }
   const double steepest = p.half + std::abs(p.off) + 1, most = hunt_most_m / (4 * steepest);
   h.near = std::min(p.unit_m * log_between(random, 1e-3, 1), most / 2);
-  h.far = std::min(h.near * log_between(random, 1.2, farthest_ratio(h.format, p.standard)), most);
+  h.far = std::min(h.near * log_between(random, 1.2, farthest_ratio(h.format, p)), most);
 }
 
 DepthFormat format_of(HuntClass hunted, Random& random) {
   if (hunted == HuntClass::d16) return DepthFormat::d16;
   if (hunted == HuntClass::d24) return DepthFormat::d24;
-  if (hunted != HuntClass::mixed) return DepthFormat::d32f;
+  if (hunted != HuntClass::mixed && hunted != HuntClass::oblique && hunted != HuntClass::blended)
+    return DepthFormat::d32f;
   return one_of(random, {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16});
 }
 
@@ -131,6 +143,23 @@ CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
     lens.far = p.orthographic ? h.near + (h.far - h.near) * between(random, 1.01, 3)
                               : h.far * log_between(random, 1.001, 100);
   return view_through(lens, size.width, size.height);
+}
+
+// Cuts the view at a plane that no image axis is parallel to (Lengyel, "Oblique View Frustum Depth Projection
+// and Clipping", 2005). On the ray through (x, y, -1), x and y slopes, f = 1 - nx (x - sx) - ny (y - sy) is
+// the plane's normal along the ray, where (sx, sy) is the image's centre. The plane is at
+// near * steepest / f, so h.near is the nearest point of it in the image; rays with f <= 0 never meet it.
+void tilt_near_plane(HuntView& h, const Plan& p, Random& random) {
+  glm::dmat4& clip = h.view.clip_from_view;
+  const double tilt = chance(random, 0.8) ? log_between(random, 0.01, 0.95) : between(random, 1, 3),
+               share = unit(random), sign_x = chance(random, 0.5) ? -1 : 1,
+               sign_y = chance(random, 0.5) ? -1 : 1;
+  const double nx = sign_x * tilt * share * clip[0][0], ny = sign_y * tilt * (1 - share) * clip[1][1];
+  const double steepest = 1 + tilt, centre = 1 + nx * clip[2][0] / clip[0][0] + ny * clip[2][1] / clip[1][1];
+  // Depth is 1 - k (f / steepest - near / d), or k (...) if standard; where k > 1 there is a far plane.
+  const double k = (chance(random, 0.5) ? 1 : log_between(random, 0.5, 2)) * (p.standard ? -1 : 1);
+  clip[0][2] = k * nx / steepest, clip[1][2] = k * ny / steepest;
+  clip[2][2] = k * centre / steepest - (p.standard ? 0 : 1), clip[3][2] = k * h.near;
 }
 
 void choose_lights_elsewhere(HuntView& h, Random& random) {
@@ -151,8 +180,9 @@ void choose_lights_elsewhere(HuntView& h, Random& random) {
 
 const char* name_of(HuntClass hunted) {
   static constexpr const char* names[] = {
-      "ordinary",   "narrow", "wide", "off_centre", "turned_far", "orthographic", "standard",
-      "finite_far", "d16",    "d24",  "scaled",     "spread",     "parked",       "mixed"};
+      "ordinary",     "narrow",   "narrowest",  "wide",   "off_centre", "turned_far",
+      "orthographic", "standard", "finite_far", "d16",    "d24",        "oblique",
+      "blended",      "scaled",   "spread",     "parked", "mixed"};
   static_assert(std::size(names) == hunt_class_count);
   return names[int(hunted)];
 }
@@ -161,15 +191,17 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
   Random random(seed);
   HuntView h{.hunted = hunted};
   const Plan plan = plan_of(hunted, random);
-  h.format = format_of(hunted, random), h.unit_m = plan.unit_m;
+  h.format = format_of(hunted, random), h.unit_m = plan.unit_m, h.blended = plan.blended;
   choose_range(h, plan, random);
   h.view = lens_of(h, plan, one_of(random, sizes), random);
+  if (plan.oblique) tilt_near_plane(h, plan, random);
   if (plan.placed) {
     const double turn = between(random, 0, 2 * pi), tilt = std::asin(between(random, -1, 1));
     const glm::dvec3 eye(std::cos(turn) * std::cos(tilt), std::sin(tilt), std::sin(turn) * std::cos(tilt));
     h.view = placed(h.view, eye * plan.eye_m, between(random, -pi, pi), between(random, -1.5, 1.5));
   }
-  const double last_edge = h.near < hunt_most_edge_m / 2 ? std::min(h.far, hunt_most_edge_m) : 0;
+  const bool edges = h.near < hunt_most_edge_m / 2 && !plan.oblique;
+  const double last_edge = edges ? std::min(h.far, hunt_most_edge_m) : 0;
   if (last_edge > h.near && setting.slices > 1)
     h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, last_edge);
   if (last_edge > h.near && setting.z_bins > 1)
