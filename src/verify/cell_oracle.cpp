@@ -74,7 +74,7 @@ bool cone_possibly_touches(const Box& b, const OracleLight& light, double margin
 
 }  // namespace
 
-std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights) {
+glm::dvec3 median_light(std::span<const CullLight> lights) {
   glm::dvec3 middle(0);
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> coordinates;
@@ -84,6 +84,11 @@ std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const Cul
     std::nth_element(coordinates.begin(), coordinates.begin() + coordinates.size() / 2, coordinates.end());
     middle[axis] = coordinates[coordinates.size() / 2];
   }
+  return middle;
+}
+
+std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights) {
+  const glm::dvec3 middle = median_light(lights);
   std::vector<OracleLight> all;
   for (const CullLight& light : lights) {
     OracleLight t{to_view(view, light.position),

@@ -21,6 +21,9 @@ struct OracleLight {
 };
 std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights);
 
+// Of the lights' positions, each axis alone; positions that are not finite are left out. World, metres.
+glm::dvec3 median_light(std::span<const CullLight> lights);
+
 // Of a tile and a slice; empty (near > far) if it contains nothing. Its sides go through pixels' centres,
 // because nothing else is shaded, or around whole pixels.
 Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres);

@@ -174,7 +174,7 @@ class NaiveCuller : public CullEngine {
 
   std::vector<OracleLight> view_lights(const CullView& view, std::span<const CullLight> lights) const {
     std::vector<OracleLight> all = oracle_lights(view, lights);
-    const glm::dvec3 middle = median(lights);
+    const glm::dvec3 middle = median_light(lights);
     for (size_t i = 0; i < all.size(); ++i) {
       OracleLight& light = all[i];
       if (fault_ == Fault::float_world)
@@ -192,19 +192,6 @@ class NaiveCuller : public CullEngine {
         light.lists_nothing = true;
     }
     return all;
-  }
-
-  static glm::dvec3 median(std::span<const CullLight> lights) {
-    glm::dvec3 middle(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> coordinates;
-      for (const CullLight& light : lights)
-        if (std::isfinite(light.position[axis])) coordinates.push_back(light.position[axis]);
-      if (coordinates.empty()) continue;
-      std::nth_element(coordinates.begin(), coordinates.begin() + coordinates.size() / 2, coordinates.end());
-      middle[axis] = coordinates[coordinates.size() / 2];
-    }
-    return middle;
   }
 
   // The distances that a slice's edge may represent: shading compares depths with the edge's rounded depth,
