@@ -1,5 +1,5 @@
-// Writes the light grid from each bin's staged lists, for CPUs. A work-item adds up the totals of the bins before its own
-// and copies its own bin's lists behind theirs.
+// Writes the light grid from each bin's staged lists, for CPUs. A work-item takes `run` bins in sequence: it adds up the
+// totals of the bins before them and copies its own bins' lists behind theirs.
 //
 // bins, cell_counts, staged  as cpu/cull_lights.cl writes them
 // cells     uint2 a cell: first, count; x fastest, then y, then slice
@@ -25,23 +25,17 @@ typedef index_t unaligned_indices __attribute__((ext_vector_type(16), aligned(2)
 #define COPY_16(to, from) vstore16(vload16(0, from), 0, to)
 #endif
 
-kernel void write_lists(global const uint2* bins, global const uint* cell_counts, global const index_t* staged,
-                        global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
-  const uint bin = get_global_id(0), count = bins[bin].y;
-  ulong before = 0;
-  for (uint i = 0; i < bin; ++i) before += bins[i].y;
-  if (bin + 1 == p->bins_x * p->bins_y) {
-    counters[4] = (uint)(before + count), counters[5] = (uint)((before + count) >> 32);
-  }
-  if (before + count > p->index_capacity) return;
+static inline void write_bin(uint bin, uint first, global const uint2* bins, global const uint* cell_counts,
+                             global const index_t* staged, global uint2* cells, global index_t* indices,
+                             constant CullParams* p) {
+  const uint count = bins[bin].y;
   global const index_t* from = staged + (size_t)bins[bin].x * 16;
-  global index_t* to = indices + before;
+  global index_t* to = indices + first;
   uint i = 0;
   for (; i + 16 <= count; i += 16) COPY_16(to + i, from + i);
   for (; i < count; ++i) to[i] = from[i];
 
   global const uint* counts = cell_counts + bin * BIN_SIZE * SLICE_COUNT;
-  uint first = (uint)before;
   for (uint quad = 0; quad < BIN_SIZE; quad += 4) {
     const uint tx0 = bin % p->bins_x * BIN_TILES + tile_x_of_slot(quad);
     const uint ty0 = bin / p->bins_x * BIN_TILES + tile_y_of_slot(quad);
@@ -56,4 +50,17 @@ kernel void write_lists(global const uint2* bins, global const uint* cell_counts
       }
     }
   }
+}
+
+kernel void write_lists(global const uint2* bins, uint run, global const uint* cell_counts, global const index_t* staged,
+                        global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
+  const uint all = p->bins_x * p->bins_y, begin = get_global_id(0) * run, end = min(begin + run, all);
+  ulong before = 0;
+  for (uint i = 0; i < begin; ++i) before += bins[i].y;
+  for (uint bin = begin; bin < end; ++bin) {
+    const ulong after = before + bins[bin].y;
+    if (after <= p->index_capacity) write_bin(bin, (uint)before, bins, cell_counts, staged, cells, indices, p);
+    before = after;
+  }
+  if (end == all) counters[4] = (uint)before, counters[5] = (uint)(before >> 32);
 }

@@ -1,4 +1,4 @@
-// project_lights -> cull_lights -> write_lists, one work-item a bin, for CPUs.
+// project_lights -> cull_lights -> write_lists, for CPUs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@ namespace {
 
 constexpr size_t items_a_unit = 16;  // few enough that their buffers stay in the cache, enough to balance
                                      // load
+constexpr size_t most_write_items = 512;  // each adds up the totals of all bins before its own
 constexpr size_t spare = 64;         // values that a vector load or store may access past the last
 
 // Near the golden section of n, and coprime to it: steps of this size visit all of n and are spread evenly
@@ -56,8 +57,10 @@ class LanesPipeline : public CullPipeline {
            records_.get(), lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)), job.bounds,
            job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(), job.counters,
            job.params_buffer);
-    launch(device_, "write_lists", write_, cl::NDRange(bins), cl::NDRange(1), bins_.get(), cell_counts_.get(),
-           staged_.get(), job.cells, job.indices, job.counters, job.params_buffer);
+    const size_t run = (bins + most_write_items - 1) / most_write_items;
+    launch(device_, "write_lists", write_, cl::NDRange((bins + run - 1) / run), cl::NDRange(1), bins_.get(),
+           cl_uint(run), cell_counts_.get(), staged_.get(), job.cells, job.indices, job.counters,
+           job.params_buffer);
   }
 
   size_t candidate_bytes() const override { return (options.cones ? 10 : 6) * sizeof(float); }
