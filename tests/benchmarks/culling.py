@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""The culling pipeline on captured frames, against a prototype and against itself, in one go.
+"""The culling pipeline on captured frames, against a prototype, against itself and against an earlier build, in one go.
 
-    tests/benchmarks/culling.py --frames DIR [--prototype DIR] [--rounds N] [--runs N] [--threads 1,2]
+    tests/benchmarks/culling.py --frames DIR [--prototype DIR] [--against FILE] [--rounds N] [--runs N] [--threads 1,2]
                                 [--only RE] [--of median|least] [--program FILE] [--csv FILE] [--table FILE]
 
 DIR holds one folder a frame; where it is absent, the standard frames are written there first. The prototype's folder
-holds `drv7` and `cull7.cl`; its program writes a `lights.bin` into each frame's folder. PoCL only: the number of
-threads is PoCL's. In each round each program runs once on each frame with each number of threads, in an order that
-turns around from round to round. The table gives two figures each: of the least times of all rounds, and the median
-over the rounds, where a ratio is one of two medians of that round. Nothing else should run on the machine; where
-something does, `--of least` takes a round's least times for its medians.
+holds `drv7` and `cull7.cl`; its program writes a `lights.bin` into each frame's folder. `--against` is the program of
+an earlier build; the two then run with their defaults alone. PoCL only: the number of threads is PoCL's. In each round
+each program runs once on each frame with each number of threads, in an order that turns around from round to round. The
+table gives two figures each: of the least times of all rounds, and the median over the rounds, where a ratio is one of
+two medians of that round. Nothing else should run on the machine; where something does, `--of least` takes a round's
+least times for its medians.
 
 The CSV has one line for each row of each round:
   commit,device,cores,round,frame,lights,threads,program,settings,row,runs,min_ms,median_ms,p90_ms
@@ -34,6 +35,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--frames", required=True)
     parser.add_argument("--prototype")
+    parser.add_argument("--against")
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "src", "lightgrid"))
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--runs", type=int, default=40)
@@ -99,26 +101,28 @@ def run_prototype(args, frame, lights, threads):
     return rows
 
 
-def run_lightgrid(args, frame, lights, threads, comparison):
+def run_lightgrid(args, frame, lights, threads, comparison, earlier=False):
     """The rows of one process, whose settings run in turn; `comparison` may be None."""
-    command = [args.program, "bench", "--replay", os.path.join(args.frames, frame), "--filter", f"^{re.escape(frame)}/",
-               "--frames", str(runs_for(lights, args.runs)), "--json", "-"]
+    command = [args.against if earlier else args.program, "bench", "--replay", os.path.join(args.frames, frame),
+               "--filter", f"^{re.escape(frame)}/", "--frames", str(runs_for(lights, args.runs)), "--json", "-"]
     if comparison:
         command += ["--compare", f"{comparison[0]}={','.join(comparison[1])}"]
     report = json.loads(run(command, threads))
-    global machine
-    machine = report["machine"]
-    return [{"program": "lightgrid", "settings": row["params"].get("compared", ""), "row": row["name"],
+    program = "earlier" if earlier else "lightgrid"
+    machines[program] = report["machine"]
+    return [{"program": program, "settings": row["params"].get("compared", ""), "row": row["name"],
              "runs": row["runs"], "min_ms": row["min_ms"], "median_ms": row["median_ms"], "p90_ms": row["p90_ms"]}
             for row in report["rows"]]
 
 
-machine = {}
+machines = {}  # of each program, as its bench tells it
 
 
 def jobs(args, comparisons):
     """One round for one frame and one number of threads."""
     todo = [lambda *at, c=c: run_lightgrid(args, *at, c) for c in comparisons or [None]]
+    if args.against:
+        todo.append(lambda *at: run_lightgrid(args, *at, None, earlier=True))
     if args.prototype:
         todo.insert(0, lambda *at: run_prototype(args, *at))
     return todo
@@ -183,11 +187,14 @@ def frame_table(found, frames, threads, comparisons):
     settings_of = {key: f"{key}={values[1]}" for key, values in comparisons}
     head = ["frame", "threads", "prototype ms", "lightgrid ms", "ours / prototype", "exact / default", "portable / tuned",
             "depth bounds / plain read", "2 threads / 1"]
+    raced = any(row["program"] == "earlier" for row in found.rows)
+    head += ["earlier ms", "ours / earlier"] if raced else []
     lines = ["| " + " | ".join(head) + " |", "| --- |" + " ---: |" * (len(head) - 1)]
     for frame, _ in frames:
         for count in threads:
             ours = (frame, count, "lightgrid", default, "pipeline")
             theirs = (frame, count, "prototype", {prototype_options(_)}, "pipeline")
+            earlier = (frame, count, "earlier", [""], "pipeline")
             of = lambda key: found.ratio((frame, count, "lightgrid", [settings_of[key]], "pipeline"),
                                          (frame, count, "lightgrid", [f"{key}={dict(comparisons)[key][0]}"], "pipeline")) \
                 if key in settings_of else None
@@ -196,7 +203,8 @@ def frame_table(found, frames, threads, comparisons):
             lines.append("| " + " | ".join([
                 frame, str(count), cell(found.time(theirs), 3), cell(found.time(ours), 3), cell(found.ratio(ours, theirs)),
                 cell(of("cull-test")), cell(of("portable")), cell(found.ratio(at("depth_bounds"), at("plain_read"))),
-                cell(found.ratio(ours, one)) if count != 1 else ""]) + " |")
+                cell(found.ratio(ours, one)) if count != 1 else "",
+                *([cell(found.time(earlier), 3), cell(found.ratio(ours, earlier))] if raced else [])]) + " |")
     return lines
 
 
@@ -216,12 +224,14 @@ def scaling_lines(found, frames, threads, comparisons):
 
 
 def write_csv(path, rows):
-    about = {"commit": machine.get("commit", ""), "device": f"{machine.get('device', '')} ({machine.get('driver', '')})",
-             "cores": os.cpu_count()}
+    machine = machines["lightgrid"]
+    about = {"device": f"{machine.get('device', '')} ({machine.get('driver', '')})", "cores": os.cpu_count()}
     with open(path, "w", newline="") as file:
         out = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         out.writeheader()
-        out.writerows({**about, **row} for row in rows)
+        for row in rows:
+            commit = machines.get(row["program"], machine).get("commit", "")
+            out.writerow({"commit": commit, **about, **row})
 
 
 def main():
@@ -229,9 +239,9 @@ def main():
     if not os.access(args.program, os.X_OK):
         sys.exit(f"culling: {args.program} is no program; build first, or give --program")
     has = known_values(args.program)
-    comparisons = [c for c in COMPARISONS if all(has(c[0], value) for value in c[1])]
+    comparisons = [] if args.against else [c for c in COMPARISONS if all(has(c[0], value) for value in c[1])]
     for key, values in COMPARISONS:
-        if (key, values) not in comparisons:
+        if not args.against and (key, values) not in comparisons:
             print(f"culling: this program has no {key}={values[1]}; left out", file=sys.stderr)
     frames = frames_in(args.frames, args.only, args.program)
     threads = [int(t) for t in args.threads.split(",")]
@@ -239,8 +249,10 @@ def main():
     if args.csv:
         write_csv(args.csv, rows)
     found = Found(rows, args.of)
+    machine, earlier = machines["lightgrid"], machines.get("earlier")
+    against = f" against {earlier.get('commit', '')}" if earlier else ""
     text = "\n".join([
-        f"Commit {machine.get('commit', '')}; {machine.get('device', '')} ({machine.get('driver', '')}). "
+        f"Commit {machine.get('commit', '')}{against}; {machine.get('device', '')} ({machine.get('driver', '')}). "
         f"{args.rounds} rounds of {args.runs} runs. "
         f"Each cell: of the least times / the median over the rounds (of their {args.of} times).", "",
         *frame_table(found, frames, threads, comparisons), "", *scaling_lines(found, frames, threads, comparisons)])
