@@ -106,9 +106,13 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   }
   const WorldReach needed = reach_of(view, layout.middle);
   const double around = 2 * (extent.x + extent.y + extent.z) + layout.cell_m;
-  layout.reach = {power_of_two_above(std::max(needed.distance_m, around)), power_of_two_above(needed.spread)};
-  p.slack = slack_factor * float(layout.reach.spread);
-  p.reach = float(std::min(layout.reach.distance_m / layout.cell_m, 1e30));
+  // Never less than before: two views that share a grid, one far away and one wide, would else make each
+  // other's lists wrong in every frame.
+  WorldReach& reach = layout.reach;
+  reach = {std::max(reach.distance_m, power_of_two_above(std::max(needed.distance_m, around))),
+           std::max(reach.spread, power_of_two_above(needed.spread))};
+  p.slack = slack_factor * float(reach.spread);
+  p.reach = float(std::min(reach.distance_m / layout.cell_m, 1e30));
   add_world_lights(lights, layout);
 }
 

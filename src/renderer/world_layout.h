@@ -54,9 +54,9 @@ struct WorldLayout {
   std::vector<uint32_t> everywhere;       // lights of every list, ascending
 };
 
-// Replaces `layout`, whose arrays keep their memory. world_cell: the setting; none: auto
-// (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. view: the first
-// one; the layout's reach is larger, so that a moving camera rarely leaves it.
+// Replaces `layout`, whose arrays keep their memory and whose reach never shrinks. world_cell: the setting; none: auto
+// (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. view: the one
+// that is drawn; the layout's reach is larger, so that a moving camera rarely leaves it.
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
                    std::optional<double> world_cell, const View& view, WorldLayout& layout);
 

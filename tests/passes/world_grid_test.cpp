@@ -138,6 +138,26 @@ TEST(WorldGrid, ServesViewsWithinItsReach) {
   EXPECT_GT(grid.layout().lights[0].w, slack);
 }
 
+// Two views that share a grid, one far away and one wide: the lists of the second build serve both, else
+// each frame of either would build again.
+TEST(WorldGrid, ServesAFarAndAWideViewInTurn) {
+  const std::vector<CullLight> lights(50, ball({0, 0, 0}, 1));
+  const WorldBox bounds{glm::dvec3(-1), glm::dvec3(1)};
+  const View far = view_from({0, 0, 1e5}, {0, 0, 0});
+  Camera fisheye = look_at({0, 0, 3}, {0, 0, 0});
+  fisheye.fov_y_rad = 3.0;
+  const View wide = make_view(fisheye, 64, 48);
+  for (const bool far_first : {true, false}) {
+    WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
+    const View &first = far_first ? far : wide, &second = far_first ? wide : far;
+    grid.build(lights, bounds, first, 0);
+    EXPECT_FALSE(grid.serves(second, 0));
+    grid.build(lights, bounds, second, 0);
+    EXPECT_TRUE(grid.serves(second, 0));
+    EXPECT_TRUE(grid.serves(first, 0)) << (far_first ? "far" : "wide") << " first";
+  }
+}
+
 // Lights over a plane, as scenes have them.
 std::vector<CullLight> lights_over_a_plane(int count, double size_m, double radius_m) {
   Random random(8);
