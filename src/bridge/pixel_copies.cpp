@@ -1,11 +1,12 @@
 #include "bridge/pixel_copies.h"
 
-#include <vector>
+#include <algorithm>
+#include <span>
 
 namespace lightgrid {
 namespace {
 
-// Of shaders/pixels_to_buffer.comp; null: no shader copies these pixels.
+// Of shaders/pixels_to_buffer.comp.
 struct CopiedPixel {
   GLenum format, type;
   const char* define;
@@ -17,42 +18,63 @@ constexpr CopiedPixel copied_pixels[] = {
     {GL_RGBA, GL_UNSIGNED_SHORT, "UNORM16_4", 8},
 };
 
-// Null also for an image larger than what a shader may write.
-const CopiedPixel* copied_pixel(GLenum format, GLenum type, int width, int height) {
-  for (const CopiedPixel& pixel : copied_pixels) {
+// Of shaders/buffer_to_image.comp. The image is bound as integers of the same channels and bits, so that a
+// copy keeps each bit, that of a NaN too.
+struct WrittenPixel {
+  GLenum format, type;
+  const char *bits, *channels, *image;
+  GLenum image_format;
+  size_t bytes;
+};
+constexpr WrittenPixel written_pixels[] = {
+    {GL_RGBA, GL_FLOAT, "BITS 32", "CHANNELS 4", "FORMAT rgba32ui", GL_RGBA32UI, 16},
+    {GL_RG, GL_FLOAT, "BITS 32", "CHANNELS 2", "FORMAT rg32ui", GL_RG32UI, 8},
+    {GL_RGBA, GL_HALF_FLOAT, "BITS 16", "CHANNELS 4", "FORMAT rgba16ui", GL_RGBA16UI, 8},
+    {GL_RG, GL_HALF_FLOAT, "BITS 16", "CHANNELS 2", "FORMAT rg16ui", GL_RG16UI, 4},
+    {GL_RGBA, GL_UNSIGNED_BYTE, "BITS 8", "CHANNELS 4", "FORMAT rgba8ui", GL_RGBA8UI, 4},
+    {GL_RG, GL_UNSIGNED_BYTE, "BITS 8", "CHANNELS 2", "FORMAT rg8ui", GL_RG8UI, 2},
+};
+
+// Null also for more pixels than a shader may read or write in a buffer.
+template <typename Pixel>
+const Pixel* pixel_of(std::span<const Pixel> pixels, GLenum format, GLenum type, size_t count) {
+  for (const Pixel& pixel : pixels) {
     if (pixel.format != format || pixel.type != type) continue;
     GLint64 largest = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-    return size_t(width) * size_t(height) * pixel.bytes <= size_t(largest) ? &pixel : nullptr;
+    return count * pixel.bytes <= size_t(largest) ? &pixel : nullptr;
   }
   return nullptr;
 }
 
-void dispatch_pixels(const GlProgram& program, int width, int height) {
+void dispatch_pixels(const GlProgram& program, int width, int height, int depth = 1) {
   constexpr int group_width = 32, group_height = 8;  // of the shaders
   glUseProgram(program.name());
   glDispatchCompute(GLuint(width + group_width - 1) / group_width,
-                    GLuint(height + group_height - 1) / group_height, 1);
+                    GLuint(height + group_height - 1) / group_height, GLuint(depth));
   glUseProgram(0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
 }
 
 }  // namespace
 
-const GlProgram& PixelCopies::program(const std::string& file, const char* define) {
-  const std::string key = file + " " + define;
+const GlProgram& PixelCopies::program(const std::string& file, const std::vector<std::string>& defines) {
+  std::vector<std::string> key = defines;
+  key.push_back(file);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
-  return programs_.try_emplace(key, file, std::vector<std::string>{define}).first->second;
+  return programs_.try_emplace(std::move(key), file, defines).first->second;
 }
 
 void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, int width, int height,
                             GLuint buffer) {
-  if (const CopiedPixel* pixel = by_shader_ ? copied_pixel(format, type, width, height) : nullptr) {
+  const size_t count = size_t(width) * size_t(height);
+  const auto* pixel = by_shader_ ? pixel_of<CopiedPixel>(copied_pixels, format, type, count) : nullptr;
+  if (pixel) {
     glBindSampler(0, 0);
     glBindTextureUnit(0, source.texture);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
-    dispatch_pixels(program("shaders/pixels_to_buffer.comp", pixel->define), width, height);
+    dispatch_pixels(program("shaders/pixels_to_buffer.comp", {pixel->define}), width, height);
     glBindTextureUnit(0, 0);
     return;
   }
@@ -63,19 +85,29 @@ void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, in
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-void PixelCopies::to_texture(GLuint buffer, GLenum format, GLenum type, int width, int height,
-                             GLuint texture) {
-  if (by_shader_ && format == GL_RGBA && type == GL_FLOAT && copied_pixel(format, type, width, height)) {
+void PixelCopies::to_texture(GLuint buffer, GLenum format, GLenum type, int width, int height, GLuint texture,
+                             int depth) {
+  const size_t count = size_t(width) * size_t(height) * size_t(std::max(depth, 1));
+  const auto* pixel = by_shader_ ? pixel_of<WrittenPixel>(written_pixels, format, type, count) : nullptr;
+  if (pixel) {
+    std::vector<std::string> defines = {pixel->bits, pixel->channels, pixel->image};
+    if (depth > 0) defines.emplace_back("VOLUME");
+    const GlProgram& copy = program("shaders/buffer_to_image.comp", defines);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
-    glBindImageTexture(0, texture, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-    dispatch_pixels(program("shaders/buffer_to_image.comp", "FLOAT_4"), width, height);
-    glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+    glBindImageTexture(0, texture, 0, depth > 0, 0, GL_WRITE_ONLY, pixel->image_format);
+    dispatch_pixels(copy, width, height, std::max(depth, 1));
+    glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, pixel->image_format);
     glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
     return;
   }
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
-  glTextureSubImage2D(texture, 0, 0, 0, width, height, format, type, nullptr);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);  // rows of an odd number of pixels of two bytes
+  if (depth > 0)
+    glTextureSubImage3D(texture, 0, 0, 0, 0, width, height, depth, format, type, nullptr);
+  else
+    glTextureSubImage2D(texture, 0, 0, 0, width, height, format, type, nullptr);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "gl/program.h"
 
@@ -12,8 +13,8 @@ namespace lightgrid {
 class PixelCopies {
  public:
   // by_shader: compute shaders write and read the buffer, where one does for the format; else, and for other
-  // formats, glReadPixels and glTextureSubImage2D. The bytes are the same. On an H100 shaders take a quarter
-  // of the time or less; in software glReadPixels is a plain copy.
+  // formats, glReadPixels and glTextureSubImage. The bytes are the same. On an H100 shaders take a quarter of
+  // the time or less; in software glReadPixels is a plain copy.
   explicit PixelCopies(bool by_shader) : by_shader_(by_shader) {}
 
   struct Source {
@@ -23,16 +24,18 @@ class PixelCopies {
   };
   // `format` and `type` as glReadPixels takes them, of the texture's own channels and bits.
   void to_buffer(const Source& source, GLenum format, GLenum type, int width, int height, GLuint buffer);
-  // `format` and `type` as glTextureSubImage2D takes them.
-  void to_texture(GLuint buffer, GLenum format, GLenum type, int width, int height, GLuint texture);
+  // `format` and `type` as glTextureSubImage takes them, of the texture's own channels and bits. `buffer` has
+  // whole words. depth: of a texture of three dimensions, whose slices follow each other; 0: it has two.
+  void to_texture(GLuint buffer, GLenum format, GLenum type, int width, int height, GLuint texture,
+                  int depth = 0);
 
   int programs() const { return int(programs_.size()); }  // compiled so far
 
  private:
-  const GlProgram& program(const std::string& file, const char* define);
+  const GlProgram& program(const std::string& file, const std::vector<std::string>& defines);
 
   bool by_shader_;
-  std::map<std::string, GlProgram> programs_;
+  std::map<std::vector<std::string>, GlProgram> programs_;  // by file and defines
 };
 
 }  // namespace lightgrid

@@ -224,6 +224,18 @@ void SharedBuffer::hand_to_gl(size_t bytes) {
   copied_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
+void SharedBuffer::hand_to_gl(std::span<const Written> written) {
+  std::vector<SharedBuffer*> imported;
+  for (const auto& [buffer, bytes] : written) {
+    if (buffer->imported_) {
+      imported.push_back(buffer);
+    } else {
+      buffer->hand_to_gl(bytes);
+    }
+  }
+  take_for_gl(imported);
+}
+
 void SharedBuffer::hand_to_cl(size_t bytes) {
   const Written written[] = {{this, bytes}};
   hand_to_cl(written);

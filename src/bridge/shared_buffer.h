@@ -59,12 +59,14 @@ class SharedBuffer {
   // After GL wrote the first `bytes` (by glReadPixels, say): waits for GL and makes them visible to OpenCL.
   void hand_to_cl(size_t bytes);
 
-  // The same of several buffers of one device, with one wait for all. No buffer twice.
+  // The same of several buffers of one device, with one wait for all where memory is imported, and to OpenCL
+  // everywhere. No buffer twice.
   struct Written {
     SharedBuffer* buffer;
     size_t bytes;
   };
   static void hand_to_cl(std::span<const Written> written);
+  static void hand_to_gl(std::span<const Written> written);
   // Before OpenGL overwrites them: gl_buffer() of each then has no wait of its own.
   static void take_for_gl(std::span<SharedBuffer* const> buffers);
 

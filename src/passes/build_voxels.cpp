@@ -157,11 +157,11 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
   auto pass = v.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
-  launch(*v.renderer.cl, "build_voxels", kernel,
-         s.lanes ? bricks : cl::NDRange(g.size_x, g.size_y, g.size_z),
-         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_X, VOXEL_GROUP_Y, VOXEL_GROUP_Z), s.lights.boxes.buffer(), s.lights.places.buffer(),
-         s.lights.colors.buffer(), v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(),
-         s.slices.buffer(), s.irradiance->cl_buffer(), s.directions->cl_buffer());
+  launch(*v.renderer.cl, "build_voxels", kernel, s.lanes ? bricks : cl::NDRange(g.size_x, g.size_y, g.size_z),
+         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_X, VOXEL_GROUP_Y, VOXEL_GROUP_Z),
+         s.lights.boxes.buffer(), s.lights.places.buffer(), s.lights.colors.buffer(),
+         v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(), s.slices.buffer(),
+         s.irradiance->cl_buffer(), s.directions->cl_buffer());
   s.filled = std::move(needed);
   s.texture_stale = true;
   pass.moves(s.lights.memory_bytes(), volume.bytes);
@@ -182,15 +182,14 @@ VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
   }
   glNamedBufferSubData(s.lookup_block.name(), 0, sizeof(VoxelLookup), &s.placed.lookup);
   if (s.texture_stale) {
-    const GLuint textures[2] = {s.irradiance_texture.name(), s.directions_texture.name()};
-    SharedBuffer* buffers[2] = {volume.irradiance, volume.directions};
-    for (int i = 0; i < 2; ++i) {
-      buffers[i]->hand_to_gl(volume.bytes / 2);
-      glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffers[i]->gl_buffer());
-      glTextureSubImage3D(textures[i], 0, 0, 0, 0, GLsizei(g.size_x), GLsizei(g.size_y), GLsizei(g.size_z),
-                          GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT, nullptr);
-    }
-    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    const SharedBuffer::Written written[] = {{volume.irradiance, volume.bytes / 2},
+                                             {volume.directions, volume.bytes / 2}};
+    SharedBuffer::hand_to_gl(written);
+    const auto copy = [&](SharedBuffer& from, const GlTexture& to) {
+      v.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
+                                         int(g.size_x), int(g.size_y), to.name(), int(g.size_z));
+    };
+    copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
     s.texture_stale = false;
     pass.moves(volume.bytes, volume.bytes);
   }

@@ -52,11 +52,8 @@ class LightSums : public PassState {
 };
 
 void sums_to_gl(RenderView& v, const PrepassImage& image, SharedBuffer& from, GLuint to) {
-  from.hand_to_gl(v.pixels() * image.bytes);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);  // rows of two bytes a pixel
   v.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, v.view.width, v.view.height,
                                      to);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
 }  // namespace
@@ -104,6 +101,9 @@ LightBuffer light_buffer_to_gl(RenderView& v, const LightBufferInCl& buffer) {
   const LightBuffer in_gl = light_buffer_of(v);
   const size_t bytes = v.pixels() * buffer.bytes();
   auto pass = v.timer.pass("light_buffer_to_gl", "gl");
+  std::vector<SharedBuffer::Written> written = {{buffer.first, v.pixels() * buffer.layout->first.bytes}};
+  if (buffer.second) written.push_back({buffer.second, v.pixels() * buffer.layout->second.bytes});
+  SharedBuffer::hand_to_gl(written);
   sums_to_gl(v, buffer.layout->first, *buffer.first, in_gl.first);
   if (buffer.second) sums_to_gl(v, buffer.layout->second, *buffer.second, in_gl.second);
   pass.moves(bytes, bytes);

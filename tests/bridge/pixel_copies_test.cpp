@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
+#include <tuple>
 
 #include "gl/context.h"
 #include "gl/objects.h"
@@ -89,23 +91,66 @@ TEST_F(PixelCopiesOfContext, WriteTheBytesOfTheImageByShaderAndByDriver) {
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
+constexpr Pixels written_pixels[] = {
+    {"4 floats", GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
+    {"2 floats", GL_RG32F, GL_RG, GL_FLOAT, 8},
+    {"4 halves", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+    {"2 halves", GL_RG16F, GL_RG, GL_HALF_FLOAT, 4},
+    {"4 x 8 bits", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {"2 x 8 bits", GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2},
+};
+
+GlTexture make_volume(GLenum format, int width, int height, int depth) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_3D, 1, &name);
+  GlTexture texture(name);
+  glTextureStorage3D(name, 1, format, width, height, depth);
+  return texture;
+}
+
+// Of images, and of volumes. In whole words, as copies ask.
 TEST_F(PixelCopiesOfContext, FillATextureByShaderAndByDriver) {
-  const Pixels floats = read_pixels[2];
   PixelCopies by_shader(true), by_driver(false);
-  for (const auto& [width, height] : {std::pair(1, 1), {67, 33}}) {
-    const Bytes expected = random_pixels(floats, size_t(width) * size_t(height));
-    const GlBuffer buffer = make_buffer(expected.size(), expected.data());
-    for (PixelCopies* copies : {&by_shader, &by_driver}) {
-      const GlTexture texture = make_texture_2d(floats.internal, width, height);
-      copies->to_texture(buffer.name(), floats.format, floats.type, width, height, texture.name());
-      Bytes read(expected.size());
-      glGetTextureImage(texture.name(), 0, floats.format, floats.type, GLsizei(read.size()), read.data());
-      EXPECT_EQ(read, expected) << width << "x" << height
-                                << (copies == &by_shader ? " by shader" : " by driver");
+  for (const Pixels& pixels : written_pixels) {
+    for (const auto& [width, height, depth] :
+         {std::tuple(1, 1, 0), {67, 33, 0}, {17, 1, 1}, {35, 9, 5}, {64, 64, 16}}) {
+      const size_t bytes = size_t(width) * size_t(height) * size_t(std::max(depth, 1)) * pixels.bytes;
+      const Bytes expected = random_pixels(pixels, bytes / pixels.bytes);
+      Bytes words = expected;
+      words.resize((bytes + 3) / 4 * 4, 0xab);
+      const GlBuffer buffer = make_buffer(words.size(), words.data());
+      for (PixelCopies* copies : {&by_shader, &by_driver}) {
+        const GlTexture texture = depth > 0 ? make_volume(pixels.internal, width, height, depth)
+                                            : make_texture_2d(pixels.internal, width, height);
+        copies->to_texture(buffer.name(), pixels.format, pixels.type, width, height, texture.name(), depth);
+        Bytes read(bytes);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glGetTextureImage(texture.name(), 0, pixels.format, pixels.type, GLsizei(bytes), read.data());
+        glPixelStorei(GL_PACK_ALIGNMENT, 4);
+        EXPECT_EQ(read, expected) << pixels.name << ", " << width << "x" << height << "x" << depth
+                                  << (copies == &by_shader ? " by shader" : " by driver");
+      }
     }
   }
-  EXPECT_EQ(by_shader.programs(), 1);
+  EXPECT_EQ(by_shader.programs(), 12) << "kinds of pixels, of images and of volumes";
+  EXPECT_EQ(by_driver.programs(), 0);
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+// Values that arithmetic would change: NaNs, and numbers below the smallest normal one.
+TEST_F(PixelCopiesOfContext, KeepEachBitByShader) {
+  PixelCopies by_shader(true);
+  const uint32_t floats[] = {0x7f800001u, 0xffc12345u, 0x00000001u, 0x80000000u};
+  const uint32_t halves[] = {0x7c01fe34u, 0x00018000u};
+  const auto written = [&](const Pixels& pixels, const auto& values) {
+    const GlBuffer buffer = make_buffer(sizeof values, values);
+    const GlTexture texture = make_texture_2d(pixels.internal, 1, 1);
+    by_shader.to_texture(buffer.name(), pixels.format, pixels.type, 1, 1, texture.name());
+    std::vector<uint32_t> read(std::size(values));
+    glGetTextureImage(texture.name(), 0, pixels.format, pixels.type, GLsizei(sizeof values), read.data());
+    EXPECT_EQ(read, std::vector<uint32_t>(std::begin(values), std::end(values))) << pixels.name;
+  };
+  written(written_pixels[0], floats), written(written_pixels[2], halves);
 }
 
 }  // namespace

@@ -282,6 +282,21 @@ TEST_P(SharedBufferOf, HandsSeveralToKernelsWithOneWait) {
   }
 }
 
+TEST_P(SharedBufferOf, HandsSeveralToShaders) {
+  constexpr cl_uint counts[] = {1, 153, 4097};
+  std::vector<SharedBuffer> buffers;
+  for (cl_uint count : counts) buffers.emplace_back(cl, kind, count * 4);
+  std::vector<SharedBuffer::Written> written;
+  for (SharedBuffer& buffer : buffers) written.push_back({&buffer, buffer.size()});
+  for (cl_uint frame = 0; frame < 3; ++frame) {
+    for (size_t i = 0; i < buffers.size(); ++i) write_squares(buffers[i], counts[i], 1000 * frame);
+    SharedBuffer::hand_to_gl(written);
+    for (size_t i = 0; i < buffers.size(); ++i)
+      EXPECT_EQ(read_in_gl(buffers[i], counts[i], copy_shader), squares(counts[i], 1000 * frame))
+          << counts[i] << ", frame " << frame;
+  }
+}
+
 // Earlier failures are not attributed to the buffer. Debug builds abort at the call itself.
 TEST_P(SharedBufferOf, DoesNotTakeAnEarlierErrorForItsOwn) {
 #ifndef NDEBUG
@@ -308,63 +323,6 @@ INSTANTIATE_TEST_SUITE_P(Pairs, SharedBufferOf,
                          pair_name);
 INSTANTIATE_TEST_SUITE_P(Gpu, SharedBufferOf,
                          testing::Values(Parameters(GlBackend::egl, BridgeKind::imported)), pair_name);
-
-struct BridgeChoice : testing::Test {
-  void TearDown() override { unsetenv("LIGHTGRID_BRIDGE"); }
-  ClDevice cl;
-  std::unique_ptr<GlContext> gl = GlContext::create();
-};
-
-TEST_F(BridgeChoice, IsMappedExactlyWhereBothSidesAreTheCpu) {
-  EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, may_share_memory(cl.info(), gl->software));
-}
-
-// Of a context in software that pretends to be a graphics card: on a CPU no import is tried, on a GPU it
-// fails.
-TEST_F(BridgeChoice, IsStagedWhereNothingCanBeShared) {
-  if (!gl->software) GTEST_SKIP() << gl->renderer << " is no software";
-  gl->software = false;
-  EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
-  EXPECT_THAT(why_not_imported(cl, *gl), testing::HasSubstr(cl.info().name));
-}
-
-TEST(SharedMemory, IsForPoclsCpuBesideASoftwareGlAlone) {
-  ClDeviceInfo info{.platform = "Portable Computing Language", .cpu = true};
-  EXPECT_TRUE(may_share_memory(info, true));
-  EXPECT_FALSE(may_share_memory(info, false));
-  info.platform = "Intel(R) OpenCL";
-  EXPECT_FALSE(may_share_memory(info, true));
-  EXPECT_FALSE(may_share_memory({.platform = "Portable Computing Language", .cpu = false}, true));
-}
-
-TEST_F(BridgeChoice, CanBeForcedToStaged) {
-  setenv("LIGHTGRID_BRIDGE", "staged", 1);
-  EXPECT_EQ(choose_bridge(cl, *gl), BridgeKind::staged);
-}
-
-TEST_F(BridgeChoice, NamesTheMissingStepWhereImportedMemoryIsForced) {
-  if (why_not_imported(cl, *gl).empty()) GTEST_SKIP() << "memory can be imported here";
-  setenv("LIGHTGRID_BRIDGE", "imported", 1);
-  try {
-    choose_bridge(cl, *gl);
-    FAIL() << "chosen";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_EQ(error.what(), "LIGHTGRID_BRIDGE=imported: " + why_not_imported(cl, *gl));
-  }
-}
-
-// The trial's steps below the checks of devices, whose first is OpenGL's extensions.
-TEST_F(BridgeChoice, ThrowsWhereMemoryCannotBeImported) {
-  if (why_not_imported(cl, *gl).empty()) GTEST_SKIP() << "memory can be imported here";
-  EXPECT_THROW(SharedBuffer(cl, BridgeKind::imported, 64), Error);
-  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
-}
-
-TEST_F(BridgeChoice, RefusesAnUnknownName) {
-  setenv("LIGHTGRID_BRIDGE", "telepathy", 1);
-  EXPECT_THROW(choose_bridge(cl, *gl), Error);
-}
 
 }  // namespace
 }  // namespace lightgrid
