@@ -118,14 +118,14 @@ static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real i
   return (angular * angular) * (cone.s5 / (cone.s5 + 0.5f * q));
 }
 
-// place: x, y and z of the light.
-static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float3 place, VoxelReach reach,
-                                   const VoxelLights* lights, uint light) {
-  const Real3 d = real3(place.x - position.x, place.y - position.y, place.z - position.z);
-  const real squared = dot3(d, d);
-  const mask_t inside = squared < REAL(reach.squared);
-  if (!any_lane(inside)) return;
-  const float4 color = lights->colors[light];
+// What a light is attenuated by at samples, 0 out of its reach or its cone, and 1 / distance. d: to the light. cone: as in
+// VoxelLights, without SPOTS unread.
+typedef struct VoxelArrival {
+  real attenuation, inverse;
+} VoxelArrival;
+
+static inline VoxelArrival voxel_arrival(Real3 d, real squared, constant VoxelSlice* slice, VoxelReach reach, float least_falloff,
+                                         float8 cone) {
   const real ratio = squared * reach.inverse_squared;
 #ifdef WINDOW_NONE
   real window = 1.0f;
@@ -135,25 +135,45 @@ static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant Voxel
 #ifdef WINDOW_SMOOTH
   window = window * window;
 #endif
+  VoxelArrival a;
   const real inverse_squared = 1.0f / lane_max(squared, REAL(1.2e-38f));
-  const real inverse = sqrt(inverse_squared);
+  a.inverse = sqrt(inverse_squared);
   real falloff = lane_min(inverse_squared, REAL(1.0f / slice->core_squared));
 #ifdef LEAST_FALLOFF
-  falloff = lane_max(falloff, REAL(color.w));
+  falloff = lane_max(falloff, REAL(least_falloff));
 #endif
-  real attenuation = window * falloff * reach.dimmed;
+  a.attenuation = window * falloff * reach.dimmed;
+#ifdef SPOTS
+  if (cone.s4 != 0.0f) a.attenuation = a.attenuation * voxel_cone(cone, d, inverse_squared, a.inverse, slice);
+#endif
+  a.attenuation = squared < REAL(reach.squared) ? a.attenuation : REAL(0.0f);
+  return a;
+}
+
+static inline Real3 voxel_irradiance(real attenuation, float4 color) {
+  return real3(lane_min(attenuation * color.x, REAL(LARGEST_VOXEL)), lane_min(attenuation * color.y, REAL(LARGEST_VOXEL)),
+               lane_min(attenuation * color.z, REAL(LARGEST_VOXEL)));
+}
+
+// place: x, y and z of the light.
+static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float3 place, VoxelReach reach,
+                                   const VoxelLights* lights, uint light) {
+  const Real3 d = real3(place.x - position.x, place.y - position.y, place.z - position.z);
+  const real squared = dot3(d, d);
+  if (!any_lane(squared < REAL(reach.squared))) return;
+  const float4 color = lights->colors[light];
 #ifdef SPOTS
   const float8 cone = lights->cones[light];
-  if (cone.s4 != 0.0f) attenuation = attenuation * voxel_cone(cone, d, inverse_squared, inverse, slice);
+#else
+  const float8 cone = (float8)(0.0f);
 #endif
-  attenuation = inside ? attenuation : REAL(0.0f);
-  const Real3 arrives = real3(lane_min(attenuation * color.x, REAL(LARGEST_VOXEL)), lane_min(attenuation * color.y, REAL(LARGEST_VOXEL)),
-                              lane_min(attenuation * color.z, REAL(LARGEST_VOXEL)));
-  const real weight = luminance_of(arrives), along_weight = weight * inverse;
+  const VoxelArrival a = voxel_arrival(d, squared, slice, reach, color.w, cone);
+  const Real3 arrives = voxel_irradiance(a.attenuation, color);
+  const real weight = luminance_of(arrives), along_weight = weight * a.inverse;
   sum->irradiance = add3(sum->irradiance, arrives);
   sum->directions = add3(sum->directions, real3(along_weight * d.x, along_weight * d.y, along_weight * d.z));
   sum->weight += weight;
-  sum->lights += attenuation > REAL(0.0f) ? REAL(1.0f) : REAL(0.0f);
+  sum->lights += a.attenuation > REAL(0.0f) ? REAL(1.0f) : REAL(0.0f);
 }
 
 // Scaled for storing.

@@ -157,9 +157,10 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
   auto pass = v.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
-  launch(*v.renderer.cl, "build_voxels", kernel, s.lanes ? bricks : cl::NDRange(g.size_x, g.size_y, g.size_z),
-         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_X, VOXEL_GROUP_Y, VOXEL_GROUP_Z),
-         s.lights.boxes.buffer(), s.lights.places.buffer(), s.lights.colors.buffer(),
+  const cl::NDRange items(g.size_x / VOXEL_GROUP_X * VOXEL_GROUP_ITEMS, g.size_y / VOXEL_GROUP_Y, g.size_z);
+  launch(*v.renderer.cl, "build_voxels", kernel, s.lanes ? bricks : items,
+         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1), s.lights.boxes.buffer(),
+         s.lights.places.buffer(), s.lights.colors.buffer(),
          v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(), s.slices.buffer(),
          s.irradiance->cl_buffer(), s.directions->cl_buffer());
   s.filled = std::move(needed);

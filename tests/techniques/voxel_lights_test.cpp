@@ -191,6 +191,40 @@ TEST(VoxelLights, BothShapesFillTheSameBytes) {
   EXPECT_LE(apart, 0x1p-11 * 1.01);
 }
 
+// More groups of lights than a work-group tests at once, and more lights at a sample than it keeps at once.
+TEST(VoxelLights, BothShapesFillTheSameBytesUnderThousandsOfLights) {
+  Random random(9);
+  SmallScene s = small_scene(false);
+  for (int i = 0; i < 9000; ++i) {
+    const glm::vec3 at(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-5, -1));
+    const glm::vec3 color(random.uniform(), random.uniform(), random.uniform());
+    const float radius = i % 3 == 0 ? 1.5f : 0.1f;
+    if (i % 5 > 0) {
+      add_point(s.scene, "lamp", at, color, radius * radius, radius);
+    } else {
+      add_spot(s.scene, "torch", at, at + glm::vec3(any_direction(random)), color, radius, radius, 20, 40);
+    }
+  }
+  for (const VoxelSpace space : {VoxelSpace::world, VoxelSpace::view}) {
+    Settings settings = sized(coarse, space);
+    const auto volume = [&](KernelShape shape) {
+      settings.kernel_shape = shape;
+      TechniqueRun run(test_devices(), s.scene, small_view(31, 23), settings, find_technique("voxel_lights"));
+      run.run_frame();
+      return read_voxels(run.view());
+    };
+    const ReadVoxels lanes = volume(KernelShape::lanes), group = volume(KernelShape::group);
+    float most = 0;
+    size_t differ = 0;
+    for (size_t i = 0; i < lanes.irradiance.size(); ++i) {
+      differ += lanes.irradiance[i] != group.irradiance[i] || lanes.directions[i] != group.directions[i];
+      most = std::max(most, lanes.irradiance[i].w / lanes.placed.lookup.inverse_scale);
+    }
+    EXPECT_EQ(differ, 0u);
+    EXPECT_GT(most, 2.0f * VOXEL_GROUP_ITEMS) << "lights at a sample";
+  }
+}
+
 // docs/techniques/voxel_lights.md#how-it-converges: one light, a diffuse wall, and the bound of the
 // interpolation.
 TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
