@@ -198,6 +198,13 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
   }
 }
 
+// Every other row of tiles, then the rest. A thread takes a range of work-items, at first half of them where
+// there are two threads, and near and far, masked and open parts of a scene lie in different parts of an image.
+static inline uint tile_of_item(uint item, constant RasterParams* p) {
+  const uint row = item / p->tiles_x, even = (p->tiles_y + 1) / 2;
+  return (row < even ? 2 * row : 2 * (row - even) + 1) * p->tiles_x + item % p->tiles_x;
+}
+
 kernel void raster_tiles(global const RasterRecord* records, global const uint* tile_begin,
                          global const uint* lists, MASK_ARGUMENTS, global uint* triangles,
                          global float* depths, global const uint* counters, constant RasterParams* p) {
@@ -205,7 +212,7 @@ kernel void raster_tiles(global const RasterRecord* records, global const uint* 
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;
   }
-  const uint number = get_global_id(0);
+  const uint number = tile_of_item(get_global_id(0), p);
   const int pixel_x = (int)(number % p->tiles_x) * RASTER_TILE,
             pixel_y = (int)(number / p->tiles_x) * RASTER_TILE;
   const Place place = {pixel_x, pixel_y, MASK_SOURCE(p)};
