@@ -3,8 +3,8 @@
 //
 // A triangle leads through loads that depend on each other (instance, indices, corners, texels), and the work
 // on a block is longer than what a processor reorders, so that each block would wait for memory by itself.
-// Corners are therefore fetched a row of blocks ahead, texels a block ahead, and the pixels of the visibility
-// buffer, which the rasteriser stores past the caches, a tile ahead.
+// Corners are therefore fetched for 16 rows of pixels at once, texels a block ahead, and the pixels of the
+// visibility buffer, which the rasteriser stores past the caches, a tile ahead.
 //
 // -DTILE         pixels a side of a tile, a multiple of 8 (default 16)
 // -DFETCH_AHEAD  with -DTEXTURED: fetch. It costs a tenth where all texels are in the caches anyway
@@ -40,18 +40,22 @@ static inline void add_materials(Surface* s, const Attributes* a, const ResolveS
   }
 }
 
-// Fetches the corners of the triangles in a row of blocks: from x to x_end, which are TILE pixels at most,
-// and from y on.
+// Fetches the corners of the triangles in rows of blocks: from x to x_end, which are TILE pixels at most, and
+// from y to y_end, which are FETCHED_ROWS.
+#define FETCHED_ROWS 16u
 static inline void fetch_corners(const ResolveScene* s, global const uint* triangles, uint x, uint x_end,
-                                 uint y, uint width, uint height) {
-  uint found[4 * TILE], places[4 * TILE], count = 0, last = SURFACE_NONE;
-  for (; x < x_end; x += 4) {
-    const uint16 triangle = load_block(triangles, x, y, width, height);
-    uint left = mask_bits((mask_t)((triangle != (uint16)(SURFACE_NONE)) & (triangle != (uint16)(last))));
-    while (left != 0) {
-      last = ((const uint*)&triangle)[lowest_bit(left)];
-      left &= ~mask_bits((mask_t)(triangle == (uint16)(last)));
-      found[count++] = last;
+                                 uint y, uint y_end, uint width, uint height) {
+  uint found[FETCHED_ROWS * TILE], places[FETCHED_ROWS * TILE], count = 0, last = SURFACE_NONE;
+  for (; y < y_end; y += 4) {
+    for (uint at = x; at < x_end; at += 4) {
+      const uint16 triangle = load_block(triangles, at, y, width, height);
+      uint left = mask_bits((mask_t)((triangle != (uint16)(SURFACE_NONE)) & (triangle != (uint16)(last))));
+      while (left != 0) {
+        last = ((const uint*)&triangle)[lowest_bit(left)];
+        left &= ~mask_bits((mask_t)(triangle == (uint16)(last)));
+        FETCH(s->triangle_instance + last);
+        found[count++] = last;
+      }
     }
   }
   for (uint i = 0; i < count; ++i) {
@@ -69,8 +73,8 @@ static inline void fetch_corners(const ResolveScene* s, global const uint* trian
   }
 }
 
-// Fetches texels of the packed maps that a block's pixels will filter: at the ends of its rows. A third of
-// the 64 that it reads; all of them gained nothing. The first material's footprint is kept for the filter.
+// Fetches texels of the packed maps that a block's pixels will filter: those of the fine level, and every
+// other pixel's of the coarse one. The first material's footprint is kept for the filter.
 static inline void fetch_texels(Attributes* a, const ResolveScene* s, mask_t covered) {
 #ifdef FETCH_AHEAD
   const whole material = a->material;
@@ -82,15 +86,14 @@ static inline void fetch_texels(Attributes* a, const ResolveScene* s, mask_t cov
     const Footprint f = packed_footprint(a, m);
     if (!a->footprint_material) a->footprint_material = m, a->footprint = f;
     global const packed_t* chain = (global const packed_t*)s->texels_8 + 8 * (size_t)m->maps->base;
-#define FETCH_TEXEL(level, i) FETCH(chain + 8 * INDEX_LANE(level.first, i))
-#define FETCH_NEXT_ROW(level, i) FETCH(chain + 8 * (INDEX_LANE(level.first, i) + INDEX_LANE(level.pitch, i)))
-    FETCH_TEXEL(f.fine, 0), FETCH_TEXEL(f.fine, 3), FETCH_TEXEL(f.fine, 4), FETCH_TEXEL(f.fine, 7);
-    FETCH_TEXEL(f.fine, 8), FETCH_TEXEL(f.fine, 11), FETCH_TEXEL(f.fine, 12), FETCH_TEXEL(f.fine, 15);
-    FETCH_NEXT_ROW(f.fine, 0), FETCH_NEXT_ROW(f.fine, 3), FETCH_NEXT_ROW(f.fine, 12),
-        FETCH_NEXT_ROW(f.fine, 15);
-    FETCH_TEXEL(f.coarse, 0), FETCH_TEXEL(f.coarse, 3), FETCH_TEXEL(f.coarse, 12), FETCH_TEXEL(f.coarse, 15);
-    FETCH_NEXT_ROW(f.coarse, 0), FETCH_NEXT_ROW(f.coarse, 3), FETCH_NEXT_ROW(f.coarse, 12),
-        FETCH_NEXT_ROW(f.coarse, 15);
+#define FETCH_ROWS_OF(level, i)                  \
+  FETCH(chain + 8 * INDEX_LANE(level.first, i)), \
+      FETCH(chain + 8 * (INDEX_LANE(level.first, i) + INDEX_LANE(level.pitch, i)))
+#pragma unroll
+    for (uint i = 0; i < 16; ++i) FETCH_ROWS_OF(f.fine, i);
+    if (!any_lane(f.mix > REAL(0.0f))) continue;
+#pragma unroll
+    for (uint i = 0; i < 16; i += 2) FETCH_ROWS_OF(f.coarse, i);
   }
 #endif
 }
@@ -114,6 +117,10 @@ typedef struct BlockWalk {
 
 #ifdef FETCH_AHEAD
 static inline void look_ahead(BlockWalk* w, uint x, uint y) {
+  if (x == w->x0 && (y - w->y0) % FETCHED_ROWS == 0) {
+    fetch_corners(w->scene, w->triangles, x, w->x_end, y, min(y + FETCHED_ROWS, w->y_end), w->width,
+                  w->height);
+  }
   const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
   const Attributes none = {0};
   w->next = none;
@@ -131,7 +138,6 @@ static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* 
                  tile_y * TILE, min(tile_y * TILE + TILE, height),
                  width,         height};
 #ifdef FETCH_AHEAD
-  fetch_corners(scene, triangles, w.x0, w.x_end, w.y0, width, height);
   look_ahead(&w, w.x0, w.y0);
 #endif
   return w;
@@ -141,8 +147,6 @@ static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* 
 static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
   if (x == w->x0) fetch_next_tile(w->triangles, x, y, w->width, w->height);
 #ifdef FETCH_AHEAD
-  if (x == w->x0 && y + 4 < w->y_end)
-    fetch_corners(w->scene, w->triangles, x, w->x_end, y + 4, w->width, w->height);
   w->here = w->next;
   const mask_t covered = w->next_covered;
   const bool row_goes_on = x + 4 < w->x_end;
