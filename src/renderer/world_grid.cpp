@@ -26,8 +26,11 @@ WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<dou
       index_bits_(index_bits),
       for_gl_(for_gl && renderer.gl) {}
 
-bool WorldGrid::serves(const View& view, int lights_version) const {
-  return lights_version_ == lights_version && layout_.reach.holds(reach_of(view, layout_.middle));
+bool WorldGrid::serves(const View& view, int lights_version) {
+  if (lights_version_ < 0) return false;
+  const WorldReach needed = reach_of(view, layout_.middle);
+  asked_ = larger(asked_, needed);
+  return lights_version_ == lights_version && layout_.reach.holds(needed);
 }
 
 size_t WorldGrid::most_texture_bytes(GLenum format) const {
@@ -232,10 +235,13 @@ void WorldGrid::finish_lists(int lights_version) {
 
 void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view,
                       int lights_version) {
+  // Two views that share the lists, one far away and one wide, would else need a build after the other's.
+  const WorldReach at_least = lights_version_ == lights_version ? layout_.reach : asked_;
+  if (lights_version_ != lights_version) asked_ = {};
   lights_version_ = -1;
   ClDevice& device = *renderer_.cl;
   const WaitOnFailure wait(device);
-  lay_out_world(lights, bounds, shape_, cell_, view, layout_);
+  lay_out_world(lights, bounds, shape_, cell_, view, layout_, at_least);
   constexpr const char* what = "uploading lights";
   params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
   // Copied while the host counts blocks.

@@ -39,8 +39,9 @@ class WorldGrid {
   WorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<double> cell, int index_bits,
             bool for_gl = true);
 
-  // Whether the lists are those of these lights (GpuScene::lights_version) and right for the view.
-  bool serves(const View& view, int lights_version) const;
+  // Whether the lists are those of these lights (GpuScene::lights_version) and right for the view. Notes the
+  // view: a build of the same lights is right for it too, and so is the first one of the next lights.
+  bool serves(const View& view, int lights_version);
 
   // Builds them. The same bytes in both kernel shapes and with any number of threads. bounds: of the scene's
   // surfaces; lists outside are right too, but cells there are not small. Throws Error(machine) that names
@@ -125,6 +126,7 @@ class WorldGrid {
   size_t sizes_[4] = {};  // in use: of buckets, keys, cells, indices
   int builds_ = 0, updates_ = 0, lights_version_ = -1;
   bool in_gl_ = false;
+  WorldReach asked_;  // by serves() since the lights changed
 };
 
 }  // namespace lightgrid

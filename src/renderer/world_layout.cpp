@@ -64,6 +64,10 @@ double power_of_two_above(double x) { return std::exp2(std::ceil(std::log2(x)));
 
 }  // namespace
 
+WorldReach larger(const WorldReach& a, const WorldReach& b) {
+  return {std::max(a.distance_m, b.distance_m), std::max(a.spread, b.spread)};
+}
+
 WorldReach reach_of(const View& view, const glm::dvec3& middle) {
   const glm::dvec3 eye = glm::abs(view.eye - middle);
   WorldReach reach{eye.x + eye.y + eye.z, 1};
@@ -81,7 +85,8 @@ WorldReach reach_of(const View& view, const glm::dvec3& middle) {
 }
 
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                   std::optional<double> world_cell, const View& view, WorldLayout& layout) {
+                   std::optional<double> world_cell, const View& view, WorldLayout& layout,
+                   const WorldReach& at_least) {
   const double cell = world_cell ? *world_cell : choose_world_cell(lights, bounds, shape);
   WorldGridParams& p = layout.params = {};
   layout.cell = cell;
@@ -106,11 +111,10 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   }
   const WorldReach needed = reach_of(view, layout.middle);
   const double around = 2 * (extent.x + extent.y + extent.z) + layout.cell_m;
-  // Never less than before: two views that share a grid, one far away and one wide, would else make each
-  // other's lists wrong in every frame.
+  const WorldReach needed_by_all = larger(needed, at_least);
   WorldReach& reach = layout.reach;
-  reach = {std::max(reach.distance_m, power_of_two_above(std::max(needed.distance_m, around))),
-           std::max(reach.spread, power_of_two_above(needed.spread))};
+  reach = {power_of_two_above(std::max(needed_by_all.distance_m, around)),
+           power_of_two_above(needed_by_all.spread)};
   p.slack = slack_factor * float(reach.spread);
   p.reach = float(std::min(reach.distance_m / layout.cell_m, 1e30));
   add_world_lights(lights, layout);

@@ -25,6 +25,7 @@ struct WorldReach {
 };
 
 WorldReach reach_of(const View& view, const glm::dvec3& middle);
+WorldReach larger(const WorldReach& a, const WorldReach& b);  // holds both
 
 // The blocks of a 2d or 3d grid around a light's ball.
 struct WorldBlocks {
@@ -54,11 +55,13 @@ struct WorldLayout {
   std::vector<uint32_t> everywhere;       // lights of every list, ascending
 };
 
-// Replaces `layout`, whose arrays keep their memory and whose reach never shrinks. world_cell: the setting; none: auto
+// Replaces `layout`, whose arrays keep their memory. world_cell: the setting; none: auto
 // (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. view: the one
-// that is drawn; the layout's reach is larger, so that a moving camera rarely leaves it.
+// that is drawn; the layout's reach is larger, so that a moving camera rarely leaves it. at_least: a reach that
+// other views need.
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                   std::optional<double> world_cell, const View& view, WorldLayout& layout);
+                   std::optional<double> world_cell, const View& view, WorldLayout& layout,
+                   const WorldReach& at_least = {});
 
 // The rows of a view.
 WorldViewParams world_view_params(const WorldLayout& layout, const View& view);

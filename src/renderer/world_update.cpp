@@ -49,6 +49,7 @@ bool WorldGrid::update(std::span<const uint32_t> moved, std::span<const CullLigh
   std::swap(block_lights_.buckets, moved_.buckets);
   update_lists();
   finish_lists(lights_version);
+  asked_ = {};
   ++updates_, moves_ += moved.size();
   return true;
 }

@@ -66,7 +66,8 @@ class DeviceEngine : public CullEngine {
                                         const WorldBox& bounds, const View& view) override {
     auto& grid = world_grids_[of];
     if (!grid) grid = std::make_unique<WorldGrid>(*renderer(), of.shape, of.cell, of.index_bits);
-    grid->build(lights, bounds, view, 0);
+    // Other lights each time, so that nothing is made for an earlier case's view.
+    grid->build(lights, bounds, view, ++world_lights_);
     return WorldLists{grid->layout(), grid->read()};
   }
 
@@ -142,6 +143,7 @@ class DeviceEngine : public CullEngine {
   std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Rasterizer>> rasterizers_;
   std::unique_ptr<Renderer> renderer_;  // without OpenGL
   std::map<WorldListsOf, std::unique_ptr<WorldGrid>> world_grids_;
+  int world_lights_ = 0;  // lists built so far
 };
 
 }  // namespace

@@ -155,7 +155,31 @@ TEST(WorldGrid, ServesAFarAndAWideViewInTurn) {
     grid.build(lights, bounds, second, 0);
     EXPECT_TRUE(grid.serves(second, 0));
     EXPECT_TRUE(grid.serves(first, 0)) << (far_first ? "far" : "wide") << " first";
+    // Lights that move: a build for either serves both.
+    for (int version = 1; version < 4; ++version) {
+      EXPECT_FALSE(grid.serves(first, version));
+      grid.build(lights, bounds, first, version);
+      EXPECT_TRUE(grid.serves(second, version)) << (far_first ? "far" : "wide") << " first, " << version;
+    }
   }
+}
+
+// Lists for lights that move are short again when a view that was far away, or its camera, has come back.
+TEST(WorldGrid, ForgetsViewsThatAskNoMore) {
+  const std::vector<CullLight> lights(50, ball({0, 0, 0}, 1));
+  const WorldBox bounds{glm::dvec3(-1), glm::dvec3(1)};
+  const View near = view_from({0, 0, 3}, {0, 0, 0}), far = view_from({0, 0, 1e5}, {0, 0, 0});
+  WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
+  grid.build(lights, bounds, near, 0);
+  const float slack = grid.layout().lights[0].w;
+  grid.build(lights, bounds, far, 1);
+  EXPECT_TRUE(grid.serves(far, 1));
+  EXPECT_TRUE(grid.serves(near, 1));
+  grid.build(lights, bounds, near, 2);
+  EXPECT_GT(grid.layout().lights[0].w, slack) << "far has asked since the last lights";
+  EXPECT_TRUE(grid.serves(near, 2));
+  grid.build(lights, bounds, near, 3);
+  EXPECT_EQ(grid.layout().lights[0].w, slack);
 }
 
 // Lights over a plane, as scenes have them.
