@@ -1,4 +1,4 @@
-// Fills a voxel light buffer, for GPUs: a work-group takes 8 x 8 samples of a slice. As cpu/build_voxels.cl, with the same
+// Fills a voxel light buffer, for GPUs: a work-group takes 8 x 4 samples of a slice. As cpu/build_voxels.cl, with the same
 // arguments.
 //
 // What takes long is the work-group that most lights reach, one light after another: a sample adds them in their order. So

@@ -12,9 +12,9 @@
 // A GPU's work-group fills fewer, of one slice, which fewer lights reach: a divisor of the brick along each axis. Each sample has
 // several work-items, which share its lights.
 #define VOXEL_GROUP_X 8
-#define VOXEL_GROUP_Y 8
+#define VOXEL_GROUP_Y 4
 #define VOXEL_GROUP_SAMPLES (VOXEL_GROUP_X * VOXEL_GROUP_Y)
-#define VOXEL_GROUP_ITEMS 256
+#define VOXEL_GROUP_ITEMS 128
 // Lights that are neighbours in space share a box.
 #define VOXEL_LIGHT_GROUP 16
 
