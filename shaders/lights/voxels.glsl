@@ -1,16 +1,35 @@
 // The light of a voxel light buffer (shared/voxel_volume.h), interpolated by the sampler: no loop over lights.
-//   VOXEL_EXACT: as many lights of the pixel's cell are shaded by themselves, those that matter most. After cell.glsl
+//   VOXEL_EXACT: as many lights of the pixel's cell are shaded by themselves, those that matter most. After cell.glsl.
+//   Interpolated in float
 #include "shared/voxel_volume.h"
 
 layout(binding = 14) uniform sampler3D voxel_irradiance;  // and the number of lights
 layout(binding = 15) uniform sampler3D voxel_directions;  // and their weight
 
+#ifdef VOXEL_EXACT
+// With the weights of without_light: a GPU's sampler has weights of 8 bits, and what they differ by would be left of each
+// light that is taken out.
+vec4 between_voxels(sampler3D volume, vec3 place) {
+  ivec3 first = min(ivec3(place), textureSize(volume, 0) - 2);
+  vec3 in_cell = place - vec3(first);
+  vec4 rows[4];
+  for (int i = 0; i < 4; ++i) {
+    ivec3 at = first + ivec3(0, i % 2, i / 2);
+    rows[i] = mix(texelFetch(volume, at, 0), texelFetch(volume, at + ivec3(1, 0, 0), 0), in_cell.x);
+  }
+  return mix(mix(rows[0], rows[1], in_cell.y), mix(rows[2], rows[3], in_cell.y), in_cell.z);
+}
+#else
+vec4 between_voxels(sampler3D volume, vec3 place) {
+  return texture(volume, (place + 0.5) / vec3(textureSize(volume, 0)));
+}
+#endif
+
 VoxelLight voxel_light_at(vec3 position) {
-  vec3 size = vec3(voxel_lookup.last_x, voxel_lookup.last_y, voxel_lookup.last_z) + 1.0;
-  vec3 place = (voxel_place(position) + 0.5) / size;
-  vec4 directions = texture(voxel_directions, place);
+  vec3 place = voxel_place(position);
+  vec4 directions = between_voxels(voxel_directions, place);
   VoxelLight light;
-  light.irradiance = texture(voxel_irradiance, place).rgb;
+  light.irradiance = between_voxels(voxel_irradiance, place).rgb;
   light.directions = directions.xyz;
   light.weight = directions.w;
   return voxel_light_in_view(light);
