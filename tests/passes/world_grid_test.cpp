@@ -100,6 +100,18 @@ TEST(WorldGrid, IsTheGridByHand) {
   EXPECT_EQ(grid.entries, 3u * 32);
 }
 
+// docs/techniques/world_grid.md#what-it-costs, of the grid above: 3 blocks of 4 x 4 x 4 cells, 96 entries. A
+// word a block and one for their end, a key of 8 bytes and 64 cells of 8 a block, 2 or 4 bytes an entry.
+TEST(WorldGrid, TakesTheMemoryThatItsPageSays) {
+  const std::vector<CullLight> lights = {ball({-4, 0, 0}, 1), ball({0, 0, 0}, 1), ball({4, 0, 0}, 1)};
+  for (const int bits : {16, 32}) {
+    WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, bits);
+    grid.build(lights, {glm::dvec3(endless), glm::dvec3(-endless)}, view_from({0, 0, 0}, {0, 0, -1}), 0);
+    EXPECT_EQ(grid.list_bytes(), 4u * 4 + 3 * (8 + 512) + 96 * size_t(bits) / 8);
+    EXPECT_GE(grid.memory_bytes(), grid.list_bytes() + 3 * 16);
+  }
+}
+
 // Sums that grow past a chunk, and lists of other lights between: nothing stale, and no place that depends on
 // order.
 TEST(WorldGrid, HasTheSameBytesEachTime) {

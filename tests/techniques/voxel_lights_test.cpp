@@ -363,6 +363,28 @@ TEST(VoxelLights, ExactLightsLeaveNothingOfThemselves) {
   }
 }
 
+// docs/techniques/voxel_lights.md#memory: 32 bytes a sample, 16 in 16 bits, and as much in OpenGL where that
+// draws; a slice has a record of 16 bytes.
+TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
+  const Scene scene = small_scene().scene;
+  const View view = small_view(31, 23);
+  const size_t samples = 32 * 32 * 8 - 16 * 16 * 4, slices = 8 - 4;
+  for (const RasterApi raster : {RasterApi::opengl, RasterApi::opencl}) {
+    for (const int bits : {32, 16}) {
+      const auto bytes = [&](VoxelSize size) {
+        Settings settings = sized(size);
+        settings.raster = raster, settings.voxel_bits = bits;
+        TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
+        run.run_frame();
+        return run.result().memory_total;
+      };
+      const size_t copies = raster == RasterApi::opengl ? 2 : 1;
+      EXPECT_EQ(bytes(VoxelSize::s32x32x8) - bytes(coarse), samples * size_t(bits) * copies + slices * 16)
+          << bits;
+    }
+  }
+}
+
 TEST(VoxelLights, ReuseShowsTheSameAndFillsAfterAChange) {
   SmallScene s = small_scene();
   Settings settings = sized(coarse), keeping = settings;
