@@ -112,6 +112,24 @@ TEST(WorldGrid, TakesTheMemoryThatItsPageSays) {
   }
 }
 
+// The same lights in a world four times as wide: an index of cubes grows with its volume, a hash does not.
+TEST(WorldGrid, HashedMemoryDoesNotGrowWithTheWorld) {
+  const auto bytes_of = [](WorldGridShape shape, double size_m) {
+    Random random(21);
+    std::vector<CullLight> lights;
+    for (int i = 0; i < 300; ++i) {
+      const auto across = [&] { return size_m * (double(random.uniform()) - 0.5); };
+      lights.push_back(ball({across(), across(), across()}, 1));
+    }
+    WorldGrid grid(test_devices(), shape, 1, 16);
+    grid.build(lights, {glm::dvec3(-size_m / 2), glm::dvec3(size_m / 2)}, view_from({0, 0, 0}, {0, 0, -1}),
+               0);
+    return double(grid.list_bytes());
+  };
+  EXPECT_NEAR(bytes_of(WorldGridShape::hashed, 400) / bytes_of(WorldGridShape::hashed, 100), 1, 0.1);
+  EXPECT_GT(bytes_of(WorldGridShape::cubes, 400) / bytes_of(WorldGridShape::cubes, 100), 4);
+}
+
 // Sums that grow past a chunk, and lists of other lights between: nothing stale, and no place that depends on
 // order.
 TEST(WorldGrid, HasTheSameBytesEachTime) {
