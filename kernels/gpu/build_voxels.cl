@@ -1,9 +1,9 @@
-// Fills a voxel light buffer, for GPUs: a work-group takes 8 x 4 samples of a slice. As cpu/build_voxels.cl, with the same
-// arguments.
+// Fills a voxel light buffer, for GPUs: a work-group takes 8 x 4 samples of a slice. As cpu/build_voxels.cl,
+// with the same arguments.
 //
-// What takes long is the work-group that most lights reach, one light after another: a sample adds them in their order. So
-// work-items compute what different lights bring to a sample side by side, and then add it up in that order, each a part of the
-// sample's sums.
+// What takes long is the work-group that most lights reach, one light after another: a sample adds them in
+// their order. So work-items compute what different lights bring to a sample side by side, and then add it up
+// in that order, each a part of the sample's sums.
 #define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/common/voxel_light.h"
@@ -58,8 +58,8 @@ static inline float8 marked_cone(global const float8* cones, uint marked) {
   return (float8)(0.0f);
 }
 
-// What a light adds to a part of a sample's sums. brought: its attenuation, and its weight over distance. Zeros where it does
-// not reach: they leave a sum as it is.
+// What a light adds to a part of a sample's sums. brought: its attenuation, and its weight over distance.
+// Zeros where it does not reach: they leave a sum as it is.
 static inline float4 added_part(uint part, float2 brought, float4 place, float4 color, Real3 position) {
   const Real3 arrives = voxel_irradiance(brought.x, color);
   float4 added = (float4)(arrives.x, arrives.y, arrives.z, 0.0f);
@@ -89,8 +89,8 @@ kernel __attribute__((reqd_work_group_size(ITEMS, 1, 1))) void build_voxels(
   constant VoxelSlice* slice = slices + z;
   const VoxelBox box = box_of_samples(grid, slices, x, y, z, VOXEL_GROUP_X, VOXEL_GROUP_Y, 1);
   const float grown = slice->half_diagonal_squared;
-  Real3 position =
-      real3(grid->origin_x + (float)ix * grid->spacing_x, grid->origin_y + (float)iy * grid->spacing_y, slice->place);
+  Real3 position = real3(grid->origin_x + (float)ix * grid->spacing_x,
+                         grid->origin_y + (float)iy * grid->spacing_y, slice->place);
 #ifdef VOXELS_LOG
   position = real3(position.x * position.z, position.y * position.z, -position.z);
 #endif
@@ -123,7 +123,8 @@ kernel __attribute__((reqd_work_group_size(ITEMS, 1, 1))) void build_voxels(
       if (may_reach) {
         const uint number = groups[mine] * VOXEL_LIGHT_GROUP + item % VOXEL_LIGHT_GROUP;
         kept[of_lights.x] = light, kept_colors[of_lights.x] = colors[number];
-        reaches[of_lights.x] = voxel_reach(light.w, slice), numbers[of_lights.x] = marked_number(cones, number);
+        reaches[of_lights.x] = voxel_reach(light.w, slice),
+        numbers[of_lights.x] = marked_number(cones, number);
       }
       barrier(CLK_LOCAL_MEM_FENCE);
       for (uint begin = 0; begin < of_lights.y; begin += CHUNK) {
@@ -134,8 +135,8 @@ kernel __attribute__((reqd_work_group_size(ITEMS, 1, 1))) void build_voxels(
           const float squared = dot3(d, d);
           float2 b = (float2)(0.0f);
           if (squared < reaches[k].squared) {
-            const VoxelArrival a =
-                voxel_arrival(d, squared, slice, reaches[k], kept_colors[k].w, marked_cone(cones, numbers[k]));
+            const VoxelArrival a = voxel_arrival(d, squared, slice, reaches[k], kept_colors[k].w,
+                                                 marked_cone(cones, numbers[k]));
             b.x = a.attenuation;
             b.y = luminance_of(voxel_irradiance(a.attenuation, kept_colors[k])) * a.inverse;
           }
@@ -143,7 +144,8 @@ kernel __attribute__((reqd_work_group_size(ITEMS, 1, 1))) void build_voxels(
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         for (uint i = 0; i < count && part <= WEIGHT; ++i)
-          sum += added_part(part, brought[i * SAMPLES + sample], kept[begin + i], kept_colors[begin + i], position);
+          sum += added_part(part, brought[i * SAMPLES + sample], kept[begin + i], kept_colors[begin + i],
+                            position);
         barrier(CLK_LOCAL_MEM_FENCE);
       }
     }

@@ -1,14 +1,14 @@
 // The light of a voxel light buffer (shared/voxel_volume.h), interpolated by the sampler: no loop over lights.
-//   VOXEL_EXACT: as many lights of the pixel's cell are shaded by themselves, those that matter most. After cell.glsl.
-//   Interpolated in float
+//   VOXEL_EXACT: as many lights of the pixel's cell are shaded by themselves, those that matter most. After
+//   cell.glsl. Interpolated in float
 #include "shared/voxel_volume.h"
 
 layout(binding = 14) uniform sampler3D voxel_irradiance;  // and the number of lights
 layout(binding = 15) uniform sampler3D voxel_directions;  // and their weight
 
 #ifdef VOXEL_EXACT
-// With the weights of without_light: a GPU's sampler has weights of 8 bits, and what they differ by would be left of each
-// light that is taken out.
+// With the weights of without_light: a GPU's sampler has weights of 8 bits, and what they differ by would be
+// left of each light that is taken out.
 vec4 between_voxels(sampler3D volume, vec3 place) {
   ivec3 first = min(ivec3(place), textureSize(volume, 0) - 2);
   vec3 in_cell = place - vec3(first);

@@ -44,7 +44,8 @@ cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
   if (!shared.buffer || shared.buffer->size() < bytes) {
     if (const size_t most = most_texture_bytes(format); bytes > most) {
       throw machine_error(
-          "world grid: {} bytes are more than the {} that a buffer texture may have in this OpenGL; use larger "
+          "world grid: {} bytes are more than the {} that a buffer texture may have in this OpenGL; use "
+          "larger "
           "cells (world-cell), smaller ranges or fewer lights",
           bytes, most);
     }

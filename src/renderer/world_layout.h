@@ -57,8 +57,8 @@ struct WorldLayout {
 
 // Replaces `layout`, whose arrays keep their memory. world_cell: the setting; none: auto
 // (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. view: the one
-// that is drawn; the layout's reach is larger, so that a moving camera rarely leaves it. at_least: a reach that
-// other views need.
+// that is drawn; the layout's reach is larger, so that a moving camera rarely leaves it. at_least: a reach
+// that other views need.
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
                    std::optional<double> world_cell, const View& view, WorldLayout& layout,
                    const WorldReach& at_least = {});
