@@ -9,6 +9,8 @@ namespace {
 // Frames times pixels that a build is for, times the time of a listed light at a pixel over that of an entry.
 constexpr double entries_of_listed = 1e5;
 
+constexpr size_t most_lights = 1024;  // that estimates go through, evenly chosen
+
 // How many cells of an edge touch a ball, on average over the places that it may have between them: Steiner's
 // formula for a cube, or a square, grown by the ball.
 double touched_cells(double edge, double r, bool columns) {
@@ -39,7 +41,7 @@ struct LightSample {
 
 LightSample sample_of(std::span<const CullLight> lights, const WorldBox& bounds, bool columns) {
   LightSample sample;
-  const size_t step = sample_step(lights.size());
+  const size_t step = lights.size() / most_lights + 1;
   sample.lights_of_each = double(step);
   for (size_t i = 0; i < lights.size(); i += step)
     if (is_local(lights[i]) && lights[i].radius_m > 0) sample.lights.push_back(lights[i]);
@@ -64,7 +66,7 @@ LightSample sample_of(std::span<const CullLight> lights, const WorldBox& bounds,
   return sample;
 }
 
-// Lights that touch the cell around `at`.
+// Lights of the sample that touch the cell around `at`.
 double listed_at(const glm::dvec3& at, double edge, const LightSample& sample, bool columns) {
   const glm::dvec3 low = sample.middle + glm::floor((at - sample.middle) / edge) * edge, high = low + edge;
   const auto all = [](float v) { return Float4{v, v, v, v}; };
@@ -87,7 +89,7 @@ double listed_at(const glm::dvec3& at, double edge, const LightSample& sample, b
       listed += glm::dot(away, away) <= r * r ? 1 : 0;
     }
   }
-  return listed * sample.lights_of_each;
+  return listed;
 }
 
 // A light's edge of its cells.
@@ -115,7 +117,9 @@ WorldCellEstimate estimate_cell(const LightSample& sample, WorldGridShape shape,
     const CullLight& light = sample.lights[i];
     glm::dvec3 away(0);
     away[int(points) % 3] = int(points) % 2 == 0 ? light.radius_m : -light.radius_m;
-    estimate.listed += listed_at(light.position + away, edge_of(light, sample, shape, cell), sample, columns);
+    const double edge = edge_of(light, sample, shape, cell);
+    const double others = listed_at(light.position + away, edge, sample, columns) - 1;  // it stands for itself
+    estimate.listed += 1 + std::max(others, 0.0) * sample.lights_of_each;
   }
   estimate.listed /= points;
   if (shape == WorldGridShape::hashed) return estimate;
