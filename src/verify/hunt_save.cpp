@@ -58,6 +58,14 @@ FrameGrid grid_of(const HuntSetting& setting, const HuntView& h, const ShrunkLos
   return {loss.grid, o.tile, h.view.slice_edges, h.view.z_bin_edges, to_strings(s)};
 }
 
+// What a replay of the frame does not see.
+std::string words_of_absent(const HuntView& h) {
+  std::string words;
+  if (h.blended) words += "the frame lacks the blended surface that the depth is of\n";
+  if (is_oblique(h.view)) words += "the frame has an oblique near plane and is refused when read\n";
+  return words;
+}
+
 }  // namespace
 
 ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const HuntView& view,
@@ -91,9 +99,9 @@ std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntS
   const HuntContact& c = loss.lost.contact;
   write_file(path / "hunt.txt",
              fmt::format("class {}, seed {}\nsetting {}\nlost from its {}: light {} at pixel {},{} ({},{} in "
-                         "it), sample {}, depth {:.9g}\n",
+                         "it), sample {}, depth {:.9g}\n{}",
                          name_of(h.hunted), seed, to_string(setting), name_of(loss.lost.from), c.light, c.x,
-                         c.y, c.in_x, c.in_y, c.sample, c.depth));
+                         c.y, c.in_x, c.in_y, c.sample, c.depth, words_of_absent(h)));
   return path;
 }
 

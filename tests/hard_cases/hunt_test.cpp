@@ -1,6 +1,6 @@
 // The hunt finds no loss in the library; it finds, saves and reduces the losses of a culler without slack.
 // Some of its classes alone find what breaks only in them.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "capture/frame_lists.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
+#include "support/read_files.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 #include "verify/hunt.h"
@@ -147,10 +148,15 @@ TEST(Hunt, FindsSavesAndShrinksWhatACullerWithoutSlackLoses) {
   }
 }
 
-void expect_losses_in(const std::string& name, CullEngine& engine) {
-  const HuntReport report = hunt(
-      engine,
-      {.contacts = 60'000, .seed = 3, .filter = "^(?!mixed)", .few_settings = true, .lights_a_view = 512});
+// `absent`: what hunt.txt says that the saved frames lack; empty: they can be read.
+void expect_losses_in(const std::string& name, CullEngine& engine, const std::string& absent) {
+  const TempFolder folder;
+  const HuntReport report = hunt(engine, {.contacts = 60'000,
+                                          .seed = 3,
+                                          .filter = "^(?!mixed)",
+                                          .few_settings = true,
+                                          .lights_a_view = 512,
+                                          .save = folder.path});
   for (const HuntTally& tally : report.classes) {
     EXPECT_GT(tally.contacts, 0u) << tally.name;
     if (tally.name == name)
@@ -158,21 +164,27 @@ void expect_losses_in(const std::string& name, CullEngine& engine) {
     else
       EXPECT_EQ(tally.lost, 0u) << tally.name << ": " << tally.why;
   }
+  ASSERT_FALSE(report.saved.empty());
+  for (const std::string& saved : report.saved) {
+    const std::string text = file_bytes(saved + "/hunt.txt");
+    EXPECT_THAT(text, testing::HasSubstr(absent));
+    if (absent.empty()) EXPECT_EQ(read_frame(saved).lights.size(), 1u);
+  }
 }
 
 TEST(HuntClasses, OnlyBlendedFindsListsOfOpaqueSurfaces) {
   OpaqueListsForBlended engine;
-  expect_losses_in("blended", engine);
+  expect_losses_in("blended", engine, "the frame lacks the blended surface");
 }
 
 TEST(HuntClasses, OnlyObliqueFindsANearPlaneTakenForStraight) {
   StraightNearPlane engine;
-  expect_losses_in("oblique", engine);
+  expect_losses_in("oblique", engine, "the frame has an oblique near plane");
 }
 
 TEST(HuntClasses, OnlyNarrowestFindsAFieldOfAtLeastOneDegree) {
   AtLeastOneDegree engine;
-  expect_losses_in("narrowest", engine);
+  expect_losses_in("narrowest", engine, "");
 }
 
 // With the oracle's own position of a pixel.
