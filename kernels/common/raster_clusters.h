@@ -35,6 +35,7 @@ static inline bool faces_away(const RasterCluster* c, global const RasterFrameIn
 
 // RASTER_HIDDEN, or its place in an order of nearest depth, 16 places an octave.
 static inline uchar bucket_of(const RasterCluster* c, global const RasterFrameInstance* frame, bool cones) {
+  if (frame->eye_is_point == RASTER_NOT_DRAWN) return RASTER_HIDDEN;
   global const float* m = frame->clip_from_object;
   // w - x, w + x, w - y, w + y, w - z, z
   const float of_w[6] = {1, 1, 1, 1, 1, 0}, of_other[6] = {-1, 1, -1, 1, -1, 1};

@@ -31,6 +31,7 @@ kernel void raster_transform(global const float* positions, global const uint2* 
   const uint end = (uint)(p->vertex_runs * (item + 1) / items);
   for (uint run = (uint)(p->vertex_runs * item / items); run < end; ++run) {
     global const RasterInstanceRecord* instance = instances + runs[run].x;
+    if (frame[runs[run].x].eye_is_point == RASTER_NOT_DRAWN) continue;
     global const float* m = frame[runs[run].x].clip_from_object;
     const uint last = min(runs[run].y + RASTER_VERTEX_RUN, instance->vertex_count);
     for (uint i = runs[run].y; i < last; i += 16) {

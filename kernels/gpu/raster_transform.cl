@@ -17,6 +17,7 @@ kernel void raster_transform(global const float* positions, global const uint2* 
   const uint2 run = runs[item / RASTER_VERTEX_RUN];
   const uint vertex = run.y + item % RASTER_VERTEX_RUN;
   if (vertex >= instances[run.x].vertex_count) return;
+  if (frame[run.x].eye_is_point == RASTER_NOT_DRAWN) return;
   global const float* m = frame[run.x].clip_from_object;
   const uint block = instances[run.x].first_position + vertex / 16 * 16;
   global const float* from = positions + (size_t)block * 3 + vertex % 16;

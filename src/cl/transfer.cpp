@@ -1,7 +1,5 @@
 #include "cl/transfer.h"
 
-#include <cassert>
-
 #include "cl/error.h"
 
 namespace lightgrid {
@@ -15,8 +13,6 @@ void checked(const char* what, const Call& call) {
     throw cl_machine_error(error, what);
   }
 }
-
-constexpr size_t largest_pattern = 128;  // OpenCL's limit for a fill: the widest vector type
 
 }  // namespace
 
@@ -35,19 +31,6 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
 void enqueue_write(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
   if (bytes == 0) return;
   checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_FALSE, 0, bytes, from); });
-}
-
-// A fill copies its pattern when enqueued; a write that does not wait reads the host's memory at some later
-// time. A pattern's size is a power of two and divides the offset.
-void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
-  assert(bytes % 4 == 0);
-  for (size_t offset = 0, size = largest_pattern; offset < bytes; size /= 2) {
-    for (; offset + size <= bytes; offset += size) {
-      const cl_int code = clEnqueueFillBuffer(device.queue()(), to(), static_cast<const char*>(from) + offset,
-                                              size, offset, size, 0, nullptr, nullptr);
-      if (code != CL_SUCCESS) throw cl_machine_error(cl::Error(code, "clEnqueueFillBuffer"), what);
-    }
-  }
 }
 
 void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, cl_uint value, size_t bytes) {

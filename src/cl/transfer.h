@@ -17,10 +17,6 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
 // Enqueues and does not wait: `from` must neither change nor go until the queue has been waited for.
 void enqueue_write(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes);
 
-// Enqueues and does not wait; `from` may be freed or changed as soon as this returns. For a few hundred
-// bytes: each 128 bytes are a separate command. Multiples of 4 bytes.
-void enqueue_bytes(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes);
-
 // Enqueues and does not wait. `bytes` is a multiple of 4.
 void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, cl_uint value, size_t bytes);
 

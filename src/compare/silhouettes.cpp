@@ -32,9 +32,10 @@ std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
   std::vector<uint32_t> numbers(v.pixels());
   read_buffer(*v.renderer.cl, "reading triangles", run.frame().triangles->numbers, numbers.data(),
               numbers.size() * 4);
-  std::vector<uint32_t> first;  // by place in plan.opaque
+  const std::span<const int> instances = run.frame().triangles->instances;
+  std::vector<uint32_t> first;  // by place in `instances`
   uint32_t count = 0;
-  for (const int i : v.plan.opaque) {
+  for (const int i : instances) {
     first.push_back(count);
     count += uint32_t(v.scene.meshes[v.scene.instances[i].mesh].indices.size() / 3);
   }
@@ -43,7 +44,7 @@ std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
     SceneTriangle& triangle = triangles.emplace_back();
     if (number >= count) continue;
     const size_t place = size_t(std::ranges::upper_bound(first, number) - first.begin()) - 1;
-    triangle.instance = v.plan.opaque[place];
+    triangle.instance = instances[place];
     const std::vector<uint32_t>& indices = v.scene.meshes[v.scene.instances[triangle.instance].mesh].indices;
     std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(number - first[place])), 3,
                 triangle.vertices.begin());

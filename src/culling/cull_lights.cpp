@@ -7,6 +7,7 @@
 #include "cl/avx512.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
+#include "cl/uploaded_buffer.h"
 #include "culling/bounds_layout.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
@@ -137,7 +138,7 @@ void LightCuller::run_kernels(LightGrid& grid, const TileBounds& bounds, GridSto
   upload_params();
   if (z_bin_count_ > 1) enqueue_z_bins(grid, storage);
   kernels.prepare(params_);
-  kernels.enqueue({params_, params_buffer_, lights_->get(), bounds.values, slices_, counters_, cells, indices});
+  kernels.enqueue({params_, params_upload_->buffer(), lights_->get(), bounds.values, slices_, counters_, cells, indices});
   read_buffer(device_, "light culling", counters_, counters, sizeof counters);
 }
 
@@ -146,7 +147,7 @@ void LightCuller::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
   if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("light_z_bins", "");
   launch(device_, "light_z_bins", z_bins_kernel_, cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group),
          cl::NDRange(z_bin_group), lights_->get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
-         params_buffer_);
+         params_upload_->buffer());
 }
 
 void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
+#include "cl/uploaded_buffer.h"
 #include "culling/bounds_layout.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_arrays.h"
@@ -64,7 +65,7 @@ cl::Buffer LightCuller::straight_depth(const DepthInput& depth, uint first, uint
   const cl::Buffer& straight = straight_depth_->at_least(device_, width * params_.height * sizeof(float));
   const cl_float4 plane = {{s.tilt_x, s.tilt_y, s.offset, s.scale}};
   launch(device_, "straighten_depth", straighten_kernel_, cl::NDRange(width, params_.height), cl::NullRange, depth.values,
-         cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight, params_buffer_);
+         cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight, params_upload_->buffer());
   return straight;
 }
 
@@ -105,7 +106,7 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   const uint counter = invalid_tiles_counter_ == invalid_tiles_counters[0] ? invalid_tiles_counters[1] : invalid_tiles_counters[0];
   const uint other = invalid_tiles_counters[0] + invalid_tiles_counters[1] - counter;
   launch(device_, "depth_bounds", bounds_kernel_, cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
-         cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other), params_buffer_);
+         cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other), params_upload_->buffer());
   invalid_tiles_counter_ = counter;
   return {{opaque_, options_.depth_bounds}, {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
 }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "cl/uploaded_buffer.h"
 #include "culling/bounds_layout.h"
 #include "culling/cull_pipeline.h"
 #include "culling/culler_options.h"
@@ -25,12 +26,15 @@ constexpr size_t most_lights =
 }  // namespace
 
 LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
-    : device_(device), programs_(programs), options_(options), lights_(std::make_unique<GrowingBuffer>()) {
+    : device_(device),
+      programs_(programs),
+      options_(options),
+      lights_(std::make_unique<GrowingBuffer>()),
+      params_upload_(std::make_unique<UploadedBuffer>()) {
   check_options(options);
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
   }
-  params_buffer_ = device_buffer(device_, sizeof(CullParams));
   counters_ = device_buffer(device_, counter_count * sizeof(cl_uint));
   fill_buffer(device_, "light culling: counters", counters_, 0, counter_count * sizeof(cl_uint));
   slices_ = device_buffer(device_, 0);
@@ -134,7 +138,7 @@ void LightCuller::upload_params() {
   params_.eye_rest_x = x.rest, params_.eye_rest_y = y.rest, params_.eye_rest_z = z.rest;
   if (uploaded_ && std::memcmp(&*uploaded_, &params_, sizeof params_) == 0) return;
   uploaded_.reset();
-  enqueue_bytes(device_, "light culling: parameters", params_buffer_, &params_, sizeof params_);
+  params_upload_->put(device_, "light culling: parameters", std::vector<CullParams>{params_});
   uploaded_ = params_;
 }
 

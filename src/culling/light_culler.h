@@ -156,6 +156,7 @@ struct CullInputs {
 
 class CullPipeline;
 class GrowingBuffer;
+class UploadedBuffer;
 struct StraightView;
 
 class LightCuller {
@@ -236,18 +237,19 @@ class LightCuller {
   glm::dvec3 eye_{0};  // world
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
-  std::optional<CullParams> uploaded_;     // contents of params_buffer_ when the queue is done
+  std::optional<CullParams> uploaded_;     // contents of params_upload_ when the queue is done
   std::unique_ptr<StraightView> oblique_;  // if the view's near plane is oblique
   std::unique_ptr<GrowingBuffer> straight_depth_;
   cl::Kernel straighten_kernel_;
   cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
-  cl::Buffer params_buffer_, slices_, z_bins_, opaque_, blend_, counters_;
+  cl::Buffer slices_, z_bins_, opaque_, blend_, counters_;
   uint z_bin_count_ = 1, depth_group_ = 0;
   uint invalid_tiles_counter_ = 0;  // index in counters_ that the last depth_bounds counts in; 0: none yet
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
   std::unique_ptr<GrowingBuffer> lights_;
+  std::unique_ptr<UploadedBuffer> params_upload_;
   std::unique_ptr<CullPipeline> pipelines_[5];  // by DepthBoundsMode
 };
 

@@ -7,6 +7,29 @@
 namespace lightgrid {
 namespace {
 
+// Scenes with more triangles than this hand over only the instances in view: what each frame does for every
+// instance and cluster that it leaves out then counts.
+constexpr size_t most_kept_triangles = 1 << 20;
+
+const Material& material_of(const Scene& scene, int instance) {
+  return scene.materials[scene.meshes[scene.instances[instance].mesh].material];
+}
+
+// All of the scene's opaque and masked instances, in scene order. Empty where they have more than
+// most_kept_triangles.
+std::vector<int> kept_instances(const Scene& scene) {
+  std::vector<int> kept;
+  size_t triangles = 0;
+  for (int i = 0; i < int(scene.instances.size()); ++i) {
+    const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+    if (mesh.indices.empty() || material_of(scene, i).alpha_mode == AlphaMode::blend) continue;
+    triangles += mesh.indices.size() / 3;
+    if (triangles > most_kept_triangles) return {};
+    kept.push_back(i);
+  }
+  return kept;
+}
+
 // A rasteriser for some of a view's instances, which are drawn in this order.
 class InstanceRasterizer {
  public:
@@ -18,25 +41,36 @@ class InstanceRasterizer {
     set_meshes(v);
   }
 
-  void follow(RenderView& v, const std::vector<int>& instances) {
+  // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
+  // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
+  void follow(RenderView& v, std::span<const int> listed, std::span<const int> drawn) {
     if (shape_version_ != v.gpu.shape_version()) set_meshes(v);
-    std::vector<RasterInstance> drawn;
+    instances_.clear();
     bool masked = false;
-    for (const int i : instances) {
+    for (const int i : listed) {
       const Instance& instance = v.scene.instances[i];
-      const int material = v.scene.meshes[instance.mesh].material;
-      const Material& m = v.scene.materials[material];
-      const bool mask = m.alpha_mode == AlphaMode::mask;
-      drawn.push_back({instance.mesh, instance.world_from_object, m.double_sided, mask ? material : -1});
-      masked |= mask;
+      const Material& m = material_of(v.scene, i);
+      const bool mask = m.alpha_mode == AlphaMode::mask, in_view = !drawn.empty() && drawn.front() == i;
+      instances_.push_back({instance.mesh, instance.world_from_object, m.double_sided,
+                            mask ? v.scene.meshes[instance.mesh].material : -1, in_view});
+      if (in_view) drawn = drawn.subspan(1);
+      masked |= mask && in_view;
     }
-    rasterizer.set_instances(drawn);
+    rasterizer.set_instances(instances_);
     rasterizer.set_view(
         {v.view.width, v.view.height, v.view.clip_from_view, v.view.view_from_world, v.view.eye});
     const ClScene* scene = masked ? &v.gpu.in_cl(v.plan.settings.texels) : nullptr;
     rasterizer.set_masks(scene ? RasterMasks{scene->vertices(), scene->materials(), scene->alphas()}
                                : RasterMasks{});
-    surfaces.put(*v.renderer.cl, "uploading instances", surface_instances(v, instances));
+    listed_ = listed, uploaded_ = false;
+  }
+
+  // `surfaces`, of the instances that follow() was given.
+  void upload_surfaces(RenderView& v) {
+    if (uploaded_) return;
+    set_surface_instances(v, listed_, records_);
+    surfaces.put(*v.renderer.cl, "uploading instances", records_);
+    uploaded_ = true;
   }
 
   size_t memory_bytes() const { return rasterizer.memory_bytes() + surfaces.bytes(); }
@@ -62,35 +96,56 @@ class InstanceRasterizer {
 
   int shape_version_ = 0;
   size_t geometry_bytes_ = 0;
+  std::vector<RasterInstance> instances_;
+  std::vector<SurfaceInstance> records_;
+  std::span<const int> listed_;
+  bool uploaded_ = false;
 };
 
 struct OpaqueRasterizer : PassState {
-  explicit OpaqueRasterizer(RenderView& v) : of(v, false) { of.follow(v, v.plan.opaque); }
-  bool follow(RenderView& v) override { return of.follow(v, v.plan.opaque), true; }
+  explicit OpaqueRasterizer(RenderView& v) : of(v, false), kept(kept_instances(v.scene)) { follow(v); }
+  bool follow(RenderView& v) override {
+    of.follow(v, instances(v), v.plan.opaque);
+    return true;
+  }
+  void upload(RenderView& v) override {
+    of.upload_surfaces(v);
+  }
   size_t memory_bytes() const override { return of.memory_bytes(); }
+  std::span<const int> instances(const RenderView& v) const { return kept.empty() ? v.plan.opaque : kept; }
+
   InstanceRasterizer of;
+  const std::vector<int> kept;
 };
 
 struct BlendedRasterizer : PassState {
-  explicit BlendedRasterizer(RenderView& v) : of(v, true) { of.follow(v, v.plan.blended); }
-  bool follow(RenderView& v) override { return of.follow(v, v.plan.blended), true; }
+  explicit BlendedRasterizer(RenderView& v) : of(v, true) { upload(v); }
+  bool follow(RenderView&) override { return followed = false, true; }
+  void upload(RenderView& v) override {
+    if (!followed) of.follow(v, v.plan.blended, v.plan.blended), of.upload_surfaces(v);
+    followed = true;
+  }
   size_t memory_bytes() const override { return of.memory_bytes(); }
   InstanceRasterizer of;
+  bool followed = false;
 };
 
 }  // namespace
 
 VisibilityBuffer rasterize(RenderView& v) {
   auto pass = v.timer.pass("rasterize", "cl");
-  InstanceRasterizer& r = v.state<OpaqueRasterizer>().of;
-  const Visibility image = r.rasterizer.draw();
+  OpaqueRasterizer& opaque = v.state<OpaqueRasterizer>();
+  InstanceRasterizer& r = opaque.of;
+  const Visibility image = r.rasterizer.draw([&v] { v.upload_states(); });
   pass.moves(r.geometry_bytes(), v.pixels() * 8);
-  return {image, r.rasterizer.buffers(), r.surfaces.buffer()};
+  return {image, r.rasterizer.buffers(), r.surfaces.buffer(), opaque.instances(v)};
 }
 
 BlendedTriangles list_blended(RenderView& v) {
   auto pass = v.timer.pass("list_blended", "cl");
-  InstanceRasterizer& r = v.state<BlendedRasterizer>().of;
+  BlendedRasterizer& blended = v.state<BlendedRasterizer>();
+  blended.upload(v);
+  InstanceRasterizer& r = blended.of;
   const RasterLists lists = r.rasterizer.list();
   pass.moves(r.geometry_bytes(), r.rasterizer.counts().tile_entries * 4);
   return {lists, r.rasterizer.buffers(), r.surfaces.buffer()};

@@ -1,6 +1,8 @@
 // Triangles to pixels without OpenGL: a visibility buffer, and the blended triangles of each tile.
 #pragma once
 
+#include <span>
+
 #include "passes/common/frame.h"
 #include "raster/rasterizer.h"
 
@@ -11,9 +13,11 @@ namespace lightgrid {
 struct VisibilityBuffer {
   Visibility image;
   RasterBuffers raster;
-  cl::Buffer surfaces;  // SurfaceInstance each, in the order of raster.instances
+  cl::Buffer surfaces;             // SurfaceInstance each, in the order of raster.instances
+  std::span<const int> instances;  // of the scene, in the same order
 
   DepthBuffer depth() const { return {image.depth}; }
+  TriangleBuffer triangles() const { return {image.triangle, instances}; }
 };
 
 VisibilityBuffer rasterize(RenderView& v);

@@ -26,18 +26,21 @@ cl::NDRange whole_groups(const View& view) {
 class Resolving : public PassState {
  public:
   explicit Resolving(RenderView& v)
-      : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)), defines_(resolve_defines(v)) {
-    lights.upload(v);
+      : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
+    upload(v);
   }
 
-  bool follow(RenderView& v) override {
+  bool follow(RenderView&) override { return uploaded_ = false, true; }
+
+  void upload(RenderView& v) override {
+    if (uploaded_) return;
     std::string defines = resolve_defines(v);
     if (defines != defines_) {
       defines_ = std::move(defines);
       kernels_.clear();
     }
     lights.upload(v);
-    return true;
+    uploaded_ = true;
   }
 
   size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
@@ -116,7 +119,14 @@ class Resolving : public PassState {
   std::string defines_;
   std::map<std::string, cl::Kernel> kernels_;  // by stem and what more defines it has
   size_t scene_bytes_ = 0;
+  bool uploaded_ = false;  // for this view
 };
+
+Resolving& resolving(RenderView& v) {
+  Resolving& r = v.state<Resolving>();
+  r.upload(v);
+  return r;
+}
 
 std::string specular_define(const Settings& settings) {
   const char* define = prepass_define(settings);
@@ -161,7 +171,7 @@ size_t grid_bytes(const GridInCl& in) {
 }  // namespace
 
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
-  Resolving& r = v.state<Resolving>();
+  Resolving& r = resolving(v);
   cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("resolve", "cl");
   with_lights(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
@@ -173,7 +183,7 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
 }
 
 GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, BaseLighting base_lighting) {
-  Resolving& r = v.state<Resolving>();
+  Resolving& r = resolving(v);
   const GBufferInCl g = gbuffer_in_cl_of(v, base_lighting, TargetUse::gbuffer);
   const bool image = base_lighting == BaseLighting::in_image;
   cl::Kernel& kernel = r.kernel(v, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
@@ -192,7 +202,7 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
 }
 
 NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
-  Resolving& r = v.state<Resolving>();
+  Resolving& r = resolving(v);
   const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
   const char* define = normals.layout->define;
   cl::Kernel& kernel = r.kernel(v, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
@@ -208,7 +218,7 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
 }
 
 ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, const LightBufferInCl& sums) {
-  Resolving& r = v.state<Resolving>();
+  Resolving& r = resolving(v);
   const Settings& s = v.plan.settings;
   cl::Kernel& kernel =
       r.kernel(v, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
@@ -228,7 +238,7 @@ ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, co
 
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
                     const GridInCl& lights) {
-  Resolving& r = v.state<Resolving>();
+  Resolving& r = resolving(v);
   cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("blend_resolved", "cl");
   with_lights(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {

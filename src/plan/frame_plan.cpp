@@ -78,8 +78,9 @@ void plan_models(const Scene& scene, FramePlan& plan) {
   }
 }
 
-// Collects what the instances in view need, each need with its first witness.
-void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
+// Collects what the instances in view need, each need with its first witness. Returns the distance of the
+// farthest of them.
+double plan_surfaces(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const auto planned = [&](int i, const glm::dmat4& to_view) {
     if (instances == PlannedInstances::in_view)
@@ -94,11 +95,13 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
   int first_with[std::size(feature_names)];
   std::fill(std::begin(first_with), std::end(first_with), -1);
   std::vector<std::pair<double, int>> blended;
+  double farthest_m = view.near_m;
   for (int i = 0; i < int(scene.instances.size()); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     const glm::dmat4 to_view = view_from_object(view, scene.instances[i].world_from_object);
     if (mesh.indices.empty() || !planned(i, to_view)) continue;
     const uint32_t features = features_read(material_features(scene, mesh), plan.settings.brdf);
+    farthest_m = std::max(farthest_m, farthest_of_box(to_view, mesh.bounds));
     plan.features_of_instance[i] = features;
     plan.features |= features;
     for (size_t f = 0; f < std::size(feature_names); ++f) {
@@ -127,6 +130,7 @@ void plan_surfaces(const Scene& scene, const View& view, PlannedInstances instan
                               : left_out         ? "brdf=lambert has no lobes"
                                                  : "no material in view has any"});
   }
+  return farthest_m;
 }
 
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
@@ -158,19 +162,11 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
 }
 
 // From the near plane to the farthest surface in view.
-void plan_slices(const Scene& scene, const View& view, const TechniqueNeeds& needs, FramePlan& plan) {
+void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_m, FramePlan& plan) {
   const bool sliced = needs.slices || (needs.given_slices && plan.settings.given.contains("slices"));
   plan.slices = sliced ? plan.settings.slices : 1;
   if (needs.given_slices) plan.settings.slices = plan.slices;
-  double far_m = view.near_m;
-  for (const auto* list : {&plan.opaque, &plan.blended}) {
-    for (int i : *list) {
-      const Instance& instance = scene.instances[i];
-      far_m = std::max(far_m, farthest_of_box(view_from_object(view, instance.world_from_object),
-                                              scene.meshes[instance.mesh].bounds));
-    }
-  }
-  far_m = std::min(far_m, view.far_m);
+  const double far_m = std::min(farthest_m, view.far_m);
   plan.slice_near_m = view.near_m;
   plan.slice_far_m = far_m > view.near_m ? far_m : view.near_m + 1;
   plan.z_bins = needs.z_bins && plan.light_grid ? plan.settings.z_bins : 1;
@@ -266,7 +262,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.stencil = needs.stencil ||
                  (draws_light_volumes(needs, settings) && settings.volume_culling == VolumeCulling::stencil);
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
-  plan_surfaces(scene, view, instances, plan);
+  const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);
   plan_base_lighting(scene, plan);
@@ -293,7 +289,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
         {"world grid", plan.world_grid,
          plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
   }
-  plan_slices(scene, view, needs, plan);
+  plan_slices(view, needs, farthest_m, plan);
   plan.decisions.push_back(
       {"shadows", false, "no light casts one: shadows are not part of any technique yet"});
   if (settings.everything_on) turn_everything_on(plan, needs);

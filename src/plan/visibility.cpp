@@ -24,6 +24,7 @@ bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, con
   const glm::dvec3 center = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
   const glm::dvec3 half = 0.5 * (glm::dvec3(box.max) - glm::dvec3(box.min));
   const glm::dvec3 place(view_from_object * glm::dvec4(center, 1));
+  const double away = glm::length(place);
   const glm::dmat3 axes(view_from_object);
   for (int i = 0; i < frustum.count; ++i) {
     const glm::dvec3 normal(frustum.planes[i]);
@@ -32,7 +33,7 @@ bool may_see_box(const Frustum& frustum, const glm::dmat4& view_from_object, con
                          std::abs(glm::dot(normal, axes[2])) * half.z;
     const double distance = glm::dot(normal, place) + frustum.planes[i].w;
     // 1e-6 covers the float rounding of the vertices in the box.
-    if (distance < -reach - 1e-6 * (glm::length(place) + reach)) return false;
+    if (distance < -reach - 1e-6 * (away + reach)) return false;
   }
   return true;
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "cl/uploaded_buffer.h"
 #include "raster/raster_pipeline.h"
 #include "raster/raster_scene.h"
 #include "raster/raster_view.h"
@@ -12,6 +13,7 @@
 namespace lightgrid {
 namespace {
 
+constexpr const char* uploading = "rasterizer: scene";
 constexpr size_t spare = 48;  // values that kernels may read past the last
 constexpr uint32_t first_entries_a_tile = 64;
 constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
@@ -20,14 +22,16 @@ template <typename T>
 void upload(ClDevice& device, GrowingBuffer& buffer, const std::vector<T>& values, size_t spare = 0) {
   buffer.at_least(device, (values.size() + spare) * sizeof(T));
   if (!values.empty())
-    write_buffer(device, "rasterizer: scene", buffer.get(), values.data(), values.size() * sizeof(T));
+    write_buffer(device, uploading, buffer.get(), values.data(), values.size() * sizeof(T));
 }
+
+bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
 
 // What must stay the same for triangle numbers to stay.
 bool same_layout(const RasterInstance& a, const RasterInstance& b) {
   return a.mesh == b.mesh && a.two_sided == b.two_sided && a.alpha_material == b.alpha_material &&
-         (glm::determinant(glm::dmat3(a.world_from_object)) < 0) ==
-             (glm::determinant(glm::dmat3(b.world_from_object)) < 0);
+         (a.world_from_object == b.world_from_object ||
+          mirrors(a.world_from_object) == mirrors(b.world_from_object));
 }
 
 }  // namespace
@@ -41,12 +45,12 @@ struct Rasterizer::State {
     pipeline = lanes || options.drawing_order
                    ? make_raster_lanes_pipeline(device, programs, options.portable)
                    : make_raster_group_pipeline(device, programs, options.wide_atomics);
-    params_buffer = device_buffer(device, sizeof(RasterParams));
     counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
   }
 
   void upload_instances();
-  void run(uint32_t (&counted)[RASTER_COUNTERS]);
+  void enqueue();
+  void read_counters(uint32_t (&counted)[RASTER_COUNTERS]);
   // Whether it was short, after which there is more.
   bool grow_room(const uint32_t (&counted)[RASTER_COUNTERS]);
 
@@ -58,13 +62,13 @@ struct Rasterizer::State {
   std::optional<RasterView> view;
   RasterParams params{};
   uint32_t vertex_runs = 0, pairs = 0;
-  uint32_t triangles = 0;
   RasterCounts counts;
   RasterBuffers shown;
 
-  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, records, triangle_instance,
-      runs, pair_list, frame, clip, image_triangles, image_depths;
-  cl::Buffer params_buffer, counters;
+  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, clip, image_triangles,
+      image_depths;
+  UploadedBuffer records, triangle_instance, runs, pair_list, frame, params_upload;
+  cl::Buffer counters;
   RasterMasks masks;
   bool image = true;  // what the last run was for
 };
@@ -100,13 +104,12 @@ void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
   const RasterInstances made = raster_instances(instances, s.meshes);
   s.instances.assign(instances.begin(), instances.end());
   s.vertex_runs = uint32_t(made.vertex_runs.size()), s.pairs = uint32_t(made.pairs.size());
-  s.triangles = uint32_t(made.triangle_instance.size());
-  upload(s.device, s.records, made.records);
-  upload(s.device, s.triangle_instance, made.triangle_instance);
-  upload(s.device, s.runs, made.vertex_runs);
-  upload(s.device, s.pair_list, made.pairs);
+  s.records.put(s.device, uploading, made.records);
+  s.triangle_instance.put(s.device, uploading, made.triangle_instance);
+  s.runs.put(s.device, uploading, made.vertex_runs);
+  s.pair_list.put(s.device, uploading, made.pairs);
   s.clip.at_least(s.device, made.clip_vertices * sizeof(cl_float4));
-  s.shown.instances = s.records.get(), s.shown.triangle_instance = s.triangle_instance.get(),
+  s.shown.instances = s.records.buffer(), s.shown.triangle_instance = s.triangle_instance.buffer(),
   s.shown.clip = s.clip.get();
 }
 
@@ -120,18 +123,23 @@ void Rasterizer::set_view(const RasterView& view) {
 void Rasterizer::State::upload_instances() {
   std::vector<RasterFrameInstance> values;
   values.reserve(instances.size());
-  for (const RasterInstance& i : instances)
-    values.push_back(raster_frame_instance(*view, i.world_from_object, i.two_sided));
-  upload(device, frame, values);
+  for (const RasterInstance& i : instances) {
+    values.push_back(i.drawn ? raster_frame_instance(*view, i.world_from_object, i.two_sided)
+                             : RasterFrameInstance{.eye_is_point = RASTER_NOT_DRAWN});
+  }
+  frame.put(device, uploading, values);
 }
 
-void Rasterizer::State::run(uint32_t (&counted)[RASTER_COUNTERS]) {
-  write_buffer(device, "rasterizer: params", params_buffer, &params, sizeof params);
+void Rasterizer::State::enqueue() {
+  params_upload.put(device, "rasterizer: params", std::vector<RasterParams>{params});
   pipeline->prepare(params);
-  pipeline->enqueue({params, params_buffer, positions.get(), indices.get(), cluster_indices.get(),
-                     cluster_triangles.get(), clusters.get(), records.get(), runs.get(), pair_list.get(),
-                     frame.get(), clip.get(), image ? image_triangles.get() : cl::Buffer(),
+  pipeline->enqueue({params, params_upload.buffer(), positions.get(), indices.get(), cluster_indices.get(),
+                     cluster_triangles.get(), clusters.get(), records.buffer(), runs.buffer(), pair_list.buffer(),
+                     frame.buffer(), clip.get(), image ? image_triangles.get() : cl::Buffer(),
                      image ? image_depths.get() : cl::Buffer(), counters, masks});
+}
+
+void Rasterizer::State::read_counters(uint32_t (&counted)[RASTER_COUNTERS]) {
   read_buffer(device, "rasterizer: counters", counters, counted, sizeof counted);
 }
 
@@ -159,18 +167,18 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
   return false;
 }
 
-Visibility Rasterizer::draw() {
-  run(true);
+Visibility Rasterizer::draw(const std::function<void()>& meanwhile) {
+  run(true, meanwhile);
   return {state_->image_triangles.get(), state_->image_depths.get(), state_->view->width,
           state_->view->height};
 }
 
 RasterLists Rasterizer::list() {
-  run(false);
+  run(false, {});
   return state_->pipeline->lists(state_->params);
 }
 
-void Rasterizer::run(bool image) {
+void Rasterizer::run(bool image, const std::function<void()>& meanwhile) {
   State& s = *state_;
   if (!s.view) throw input_error("rasterizer: set_view has to come before draw");
   const RasterView& view = *s.view;
@@ -193,8 +201,15 @@ void Rasterizer::run(bool image) {
 
   s.counts = {};
   uint32_t counted[RASTER_COUNTERS];
-  for (s.run(counted); s.grow_room(counted); s.run(counted)) ++s.counts.redone;
-  s.counts.triangles = s.triangles;
+  s.enqueue();
+  if (meanwhile) meanwhile();
+  for (s.read_counters(counted); s.grow_room(counted); s.read_counters(counted)) {
+    ++s.counts.redone;
+    s.enqueue();
+  }
+  for (const RasterInstance& i : s.instances) {
+    if (i.drawn) s.counts.triangles += s.meshes.places[i.mesh].triangles;
+  }
   s.counts.clusters = counted[RASTER_VISIBLE], s.counts.records = counted[RASTER_RECORDS];
   s.counts.tile_entries = counted[RASTER_ENTRIES];
   s.counts.invalid_triangles = counted[RASTER_INVALID];
@@ -205,12 +220,14 @@ const RasterCounts& Rasterizer::counts() const { return state_->counts; }
 
 size_t Rasterizer::memory_bytes() const {
   const State& s = *state_;
-  size_t bytes = s.pipeline->memory_bytes() + sizeof(RasterParams) + RASTER_COUNTERS * sizeof(cl_uint);
+  size_t bytes = s.pipeline->memory_bytes() + RASTER_COUNTERS * sizeof(cl_uint);
   for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.cluster_indices, &s.cluster_triangles,
-                                 &s.clusters, &s.records, &s.triangle_instance, &s.runs, &s.pair_list,
-                                 &s.frame, &s.clip, &s.image_triangles, &s.image_depths}) {
+                                 &s.clusters, &s.clip, &s.image_triangles, &s.image_depths}) {
     bytes += b->bytes();
   }
+  for (const UploadedBuffer* b : {&s.records, &s.triangle_instance, &s.runs, &s.pair_list, &s.frame,
+                                  &s.params_upload})
+    bytes += b->bytes();
   return bytes;
 }
 

@@ -38,6 +38,7 @@
 // time.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -61,6 +62,7 @@ struct RasterInstance {
   glm::dmat4 world_from_object{1};  // affine, finite; a negative determinant turns front faces around
   bool two_sided = false;
   int alpha_material = -1;  // 0 or more: the material whose alpha decides which pixels it covers
+  bool drawn = true;        // false: its triangles keep their numbers and are left out
 };
 
 struct RasterView {
@@ -118,7 +120,7 @@ struct RasterLists {
 
 // Of the last draw().
 struct RasterCounts {
-  uint64_t triangles = 0;          // drawn or not, of all instances
+  uint64_t triangles = 0;          // of all drawn instances
   uint64_t clusters = 0;           // of up to 64 triangles, that may be in view
   uint64_t records = 0;            // triangles, or parts that clipping left, that were rasterised
   uint64_t tile_entries = 0;       // pairs of a record and a tile of 64 x 64 pixels
@@ -148,8 +150,9 @@ class Rasterizer {
   // kinds above.
   void set_view(const RasterView& view);
 
-  // Throws input where set_view is missing. Waits for the queue.
-  Visibility draw();
+  // Throws input where set_view is missing. Waits for the queue, after a call of `meanwhile`: work of the host
+  // that the device does not need yet.
+  Visibility draw(const std::function<void()>& meanwhile = {});
 
   // The same without an image, with RasterOptions::drawing_order: blended surfaces are laid over one another
   // from these lists. Parts of a triangle that clipping left follow up to 15 triangles of its mesh that come
@@ -161,7 +164,7 @@ class Rasterizer {
   size_t memory_bytes() const;  // on the device
 
  private:
-  void run(bool image);
+  void run(bool image, const std::function<void()>& meanwhile);
   struct State;
   std::unique_ptr<State> state_;
 };

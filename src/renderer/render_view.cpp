@@ -195,6 +195,10 @@ SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t pixel_by
   return targets.buffer(*renderer.cl, renderer.bridge, name, (pixels() + spare_pixels) * pixel_bytes, use);
 }
 
+void RenderView::upload_states() {
+  for (auto& [type, state] : states_) state->upload(*this);
+}
+
 LightCuller& RenderView::culler() {
   if (!culler_) {
     culler_.emplace(*renderer.cl, *renderer.kernels, culler_options(plan));

@@ -2,12 +2,13 @@
 
 namespace lightgrid {
 
-std::vector<SurfaceInstance> surface_instances(const RenderView& v, std::span<const int> instances) {
-  std::vector<SurfaceInstance> records;
-  for (const int i : instances) {
-    const Mesh& mesh = v.scene.meshes[v.scene.instances[i].mesh];
-    const InstanceTransform& t = v.transforms[i];
-    SurfaceInstance& record = records.emplace_back(SurfaceInstance{});
+void set_surface_instances(const RenderView& v, std::span<const int> instances,
+                           std::vector<SurfaceInstance>& records) {
+  records.resize(instances.size());
+  for (size_t k = 0; k < instances.size(); ++k) {
+    const Mesh& mesh = v.scene.meshes[v.scene.instances[instances[k]].mesh];
+    const InstanceTransform& t = v.transforms[instances[k]];
+    SurfaceInstance& record = records[k];
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {
         record.normal[3 * row + column] = t.normals[column][row];
@@ -15,9 +16,8 @@ std::vector<SurfaceInstance> surface_instances(const RenderView& v, std::span<co
       }
     }
     record.material = uint(mesh.material);
-    if (t.mirrored) record.flags |= INSTANCE_MIRRORED;
+    record.flags = t.mirrored ? INSTANCE_MIRRORED : 0;
   }
-  return records;
 }
 
 }  // namespace lightgrid

@@ -7,6 +7,9 @@ namespace lightgrid {
 
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges) {
   const glm::dmat3 rotation(view.view_from_world);
+  // Most lights have the angles of the light before them.
+  float outer_rad = 0, inner_rad = 0;
+  double cos_outer = 1, cos_inner = 1;
   std::vector<ViewLight> lights;
   lights.reserve(scene.lights.size());
   for (const Light& light : scene.lights) {
@@ -18,10 +21,14 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.radius_m = range_of(light, lights.size() - 1, ranges);
     out.window = window_of(ranges);
     out.least_falloff = least_falloff(light, ranges);
-    out.cos_outer = std::cos(double(light.outer_cone_rad));
+    if (light.outer_cone_rad != outer_rad)
+      outer_rad = light.outer_cone_rad, cos_outer = std::cos(double(outer_rad));
+    if (light.inner_cone_rad != inner_rad)
+      inner_rad = light.inner_cone_rad, cos_inner = std::cos(double(inner_rad));
+    out.cos_outer = cos_outer;
     // KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)): a hard edge is softened, the
     // quotient finite.
-    out.cos_inner = std::max(std::cos(double(light.inner_cone_rad)), out.cos_outer + 0.001);
+    out.cos_inner = std::max(cos_inner, cos_outer + 0.001);
   }
   return lights;
 }

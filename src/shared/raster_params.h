@@ -13,6 +13,7 @@
   1024  // vertices of an instance that a work-item transforms in one go, a multiple of 16
 #define RASTER_NO_CONE 2.0f
 #define RASTER_NONE 0xffffffffu
+#define RASTER_NOT_DRAWN 0xfffffffeu
 
 // Counters that the host reads after a frame.
 #define RASTER_VISIBLE 0  // clusters that may be in view
@@ -45,7 +46,7 @@ typedef struct RasterFrameInstance {
   float clip_from_object[16];  // rows
   // Where the view is perspective the eye, else the direction that it looks in; object space.
   float eye_x, eye_y, eye_z;
-  uint eye_is_point;  // RASTER_NONE: cones do not apply
+  uint eye_is_point;  // RASTER_NONE: cones do not apply; RASTER_NOT_DRAWN: no other member is set
 } RasterFrameInstance;
 
 // Some triangles of a mesh that lie together; object space.

@@ -27,7 +27,7 @@ Frame tiled_light_in_cl(RenderView& v) {
   Frame frame;
   const VisibilityBuffer visible = rasterize(v);
   frame.depth = visible.depth();
-  frame.triangles = TriangleBuffer{visible.image.triangle};
+  frame.triangles = visible.triangles();
   DepthBounds bounds;
   if (v.plan.light_grid) {
     const GBufferInCl gbuffer = resolve_gbuffer(v, visible, base_lighting_of(v));

@@ -53,7 +53,7 @@ static Frame in_cl(RenderView& v) {
   Frame frame;
   const VisibilityBuffer visible = rasterize(v);
   frame.depth = visible.depth();
-  frame.triangles = TriangleBuffer{visible.image.triangle};
+  frame.triangles = visible.triangles();
   DepthBounds bounds;
   if (v.plan.light_grid) {
     const NormalsInCl normals = resolve_normals(v, visible);

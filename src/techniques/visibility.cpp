@@ -11,7 +11,7 @@ static Frame render(RenderView& v) {
   Frame frame;
   const VisibilityBuffer visible = rasterize(v);
   frame.depth = visible.depth();
-  frame.triangles = TriangleBuffer{visible.image.triangle};
+  frame.triangles = visible.triangles();
   DepthBounds bounds;
   GridInCl lights;
   if (v.plan.light_grid) {

@@ -43,7 +43,7 @@ Frame with_opencl(RenderView& v) {
   Frame frame;
   const VisibilityBuffer visible = rasterize(v);
   frame.depth = visible.depth();
-  frame.triangles = TriangleBuffer{visible.image.triangle};
+  frame.triangles = visible.triangles();
   GridInCl lights, blended;
   VoxelVolume voxels;
   if (v.plan.local_lights) {

@@ -21,7 +21,7 @@ static Frame render_in_cl(RenderView& v) {
   Frame frame;
   const VisibilityBuffer visible = rasterize(v);
   frame.depth = visible.depth();
-  frame.triangles = TriangleBuffer{visible.image.triangle};
+  frame.triangles = visible.triangles();
   std::optional<WorldGridInCl> lights;
   if (v.plan.world_grid) lights = build_world_grid(v);
   frame.image = resolve(v, visible, {.world = lights ? &*lights : nullptr});

@@ -1,4 +1,4 @@
-// What the rasteriser promises beside coverage: order, room, errors, the same bytes whatever does the work.
+// What the rasteriser promises beside coverage: order, room, errors.
 #include "raster/rasterizer.h"
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "cl/launch.h"
-#include "raster/drawn.h"
+#include "raster/many_triangles.h"
 #include "shared/raster_params.h"
 
 namespace lightgrid {
@@ -23,27 +23,6 @@ RasterScene::MeshData rectangle(const RasterView& view, double x0, double y0, do
                                 double w) {
   return {{at(view, x0, y0, w), at(view, x1, y0, w), at(view, x1, y1, w), at(view, x0, y1, w)},
           {0, 1, 2, 0, 2, 3}};
-}
-
-// Triangles of every size, some thousands of pixels wide, in several instances.
-RasterScene many_triangles(int count, int width, int height, uint32_t seed) {
-  RandomNumbers random(seed);
-  RasterScene scene;
-  scene.view = plain_view(width, height);
-  scene.meshes.resize(3);
-  for (int i = 0; i < count; ++i) {
-    const double x = random.between(-0.1, 1.1) * width, y = random.between(-0.1, 1.1) * height;
-    const double reach = std::exp(random.between(-1, std::log(i % 50 == 0 ? 1000.0 : 20.0))),
-                 w = random.between(1, 5);
-    const auto corner = [&] {
-      return at(scene.view, x + random.between(-reach, reach), y + random.between(-reach, reach),
-                w + random.between(-0.5, 0.5));
-    };
-    const glm::vec3 a = corner(), b = corner(), c = corner();
-    add_triangle(scene.meshes[i % 3], a, b, c);
-  }
-  for (int m = 0; m < 3; ++m) scene.instances.push_back({.mesh = m, .two_sided = m == 1});
-  return scene;
 }
 
 TEST(Rasterizer, DrawsNothingWhereThereIsNothing) {
@@ -154,93 +133,6 @@ INSTANTIATE_TEST_SUITE_P(Shapes, RasterizerShapes, testing::Values(KernelShape::
                          [](const auto& info) {
                            return info.param == KernelShape::lanes ? "Lanes" : "Group";
                          });
-
-// A device of one thread, which takes clusters in other chunks.
-TEST(Rasterizer, TheSameBytesWithOneThread) {
-  std::vector<cl::Device> parts;
-  const cl_device_partition_property one[] = {CL_DEVICE_PARTITION_BY_COUNTS, 1,
-                                              CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
-  try {
-    raster_device().device().createSubDevices(one, &parts);
-  } catch (const cl::Error&) {
-    GTEST_SKIP() << "the device has no parts";
-  }
-  const cl::Context context(parts[0]);
-  ClDevice single(parts[0], context, cl::CommandQueue(context, parts[0]));
-  ASSERT_EQ(single.info().compute_units, 1);
-  ProgramCache programs(single);
-  const RasterScene scene = many_triangles(5000, 500, 300, 8);
-  const Drawn expected = drawn(scene);
-  Rasterizer rasterizer(single, programs);
-  set_scene(rasterizer, scene);
-  const Visibility visibility = rasterizer.draw();
-  std::vector<uint32_t> triangles(expected.triangles.size());
-  std::vector<float> depths(triangles.size());
-  read_buffer(single, "test", visibility.triangle, triangles.data(), triangles.size() * 4);
-  read_buffer(single, "test", visibility.depth, depths.data(), depths.size() * 4);
-  EXPECT_EQ(triangles, expected.triangles);
-  EXPECT_EQ(depths, expected.depths);
-}
-
-TEST(RasterizerOnDevices, HasTheSameBytes) {
-  const std::vector<ClDeviceInfo> devices = list_cl_devices();
-  if (devices.size() < 2) GTEST_SKIP() << "there is one device";
-  const RasterScene scene = many_triangles(5000, 501, 299, 8);
-  const Drawn expected = drawn(scene);
-  for (size_t i = 0; i < devices.size(); ++i) {
-    if (!why_not_the_same_bytes(devices[i]).empty()) continue;
-    ClDevice device("#" + std::to_string(i));
-    ProgramCache programs(device);
-    Rasterizer rasterizer(device, programs);
-    set_scene(rasterizer, scene);
-    const Visibility visibility = rasterizer.draw();
-    std::vector<uint32_t> triangles(expected.triangles.size());
-    std::vector<float> depths(triangles.size());
-    read_buffer(device, "test", visibility.triangle, triangles.data(), triangles.size() * 4);
-    read_buffer(device, "test", visibility.depth, depths.data(), depths.size() * 4);
-    EXPECT_EQ(triangles, expected.triangles) << devices[i].name;
-    EXPECT_EQ(depths, expected.depths) << devices[i].name;
-  }
-}
-
-TEST(Rasterizer, TheSameBytesInEveryShape) {
-  for (const RasterScene& scene :
-       {many_triangles(5000, 501, 299, 8), many_triangles(300, 130, 70, 9), many_triangles(400, 1, 1, 10)}) {
-    const Drawn lanes = drawn(scene, {.shape = KernelShape::lanes});
-    EXPECT_GT(lanes.covered(), lanes.triangles.size() / 5);
-    for (const RasterOptions& options : {RasterOptions{.shape = KernelShape::lanes, .portable = true},
-                                         RasterOptions{.shape = KernelShape::group},
-                                         RasterOptions{.shape = KernelShape::group, .wide_atomics = false}}) {
-      const Drawn other = drawn(scene, options);
-      EXPECT_TRUE(other.same_image(lanes)) << int(options.shape) << options.portable << options.wide_atomics;
-      EXPECT_EQ(other.counts.records, lanes.counts.records);
-      EXPECT_EQ(other.counts.clusters, lanes.counts.clusters);
-    }
-  }
-}
-
-// A scene and an eye that move together by an exact amount give the same bits.
-TEST(Rasterizer, TheSameBytesFarFromTheOrigin) {
-  RasterScene scene = many_triangles(500, 200, 150, 3);
-  const Drawn here = drawn(scene);
-  const glm::dvec3 far(double(1 << 22), -double(1 << 21), double(1 << 23));
-  scene.view.eye = far;
-  for (RasterInstance& i : scene.instances) i.world_from_object[3] = glm::dvec4(far, 1);
-  EXPECT_TRUE(drawn(scene).same_image(here));
-}
-
-TEST(Rasterizer, InstancesThatMoveKeepTheirNumbers) {
-  RasterScene scene = many_triangles(300, 120, 100, 5);
-  Rasterizer rasterizer(raster_device(), raster_programs());
-  set_scene(rasterizer, scene);
-  drawn_by(rasterizer, scene);
-  for (RasterInstance& i : scene.instances) i.world_from_object[3].x += 0.25;
-  rasterizer.set_instances(scene.instances);
-  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene)));
-  scene.instances[0].two_sided = true;
-  rasterizer.set_instances(scene.instances);
-  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene)));
-}
 
 // The widest and the highest view; 16,384 x 16,384 takes 2 GB and was tried by hand.
 TEST(Rasterizer, LargestViews) {

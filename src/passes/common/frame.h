@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,11 @@ struct DepthBuffer {
   cl::Buffer values;
 };
 
-// The nearest opaque triangle of each pixel by its number: those of the plan's opaque instances one after the
-// other.
+// The nearest opaque triangle of each pixel by its number: those of these instances one after the other. Until
+// the view's next look().
 struct TriangleBuffer {
   cl::Buffer numbers;
+  std::span<const int> instances;  // of the scene
 };
 
 // A light grid as OpenGL's shaders read it: as lists, or as masks.
