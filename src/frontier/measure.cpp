@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "base/error.h"
 #include "base/timer.h"
 #include "frontier/cull_times.h"
 #include "frontier/growth_series.h"
 #include "frontier/scene_views.h"
-#include "frontier/statistics.h"
+#include "frontier/time_rounds.h"
 #include "frontier/view_figures.h"
-#include "scene/random.h"
 
 namespace lightgrid {
 namespace {
@@ -23,18 +23,9 @@ constexpr double share_of_growth = 0.12;
 // Points that take more than slow_factor times as long as the baseline, and beaten_factor times as long as a
 // point with no larger error, are far from the front: few rounds tell how far.
 constexpr double slow_factor = 1.25, beaten_factor = 3;
-constexpr int slow_rounds = 3;
 
 // With less time a point, as many points as possible are worth more than FLIP and flicker.
 constexpr double seconds_a_point_with_flip = 2;
-
-struct Measured {
-  PointRun run;
-  std::vector<FrontierRecord> records;  // one a view, those of the file
-  double picture_s = 0;
-  bool slow = false;
-  int rounds() const { return int(records.front().frame_ms.size()); }
-};
 
 FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
   const Contestant& c = point.contestant;
@@ -131,7 +122,7 @@ class SceneSweep {
   // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
   bool fits(double more, int rounds, int views) const {
     double round_s = 0;
-    for (const Measured& m : measured_) {
+    for (const MeasuredPoint& m : measured_) {
       if (m.records.empty()) continue;
       const int runs = m.slow ? std::min(rounds, slow_rounds) : rounds + 1;
       round_s += (0.5 * baseline_s_ + m.picture_s) * runs;
@@ -143,11 +134,11 @@ class SceneSweep {
   // without.
   void measure_figures() {
     const bool own =
-        std::ranges::any_of(measured_, [](const Measured& m) { return has_own_surfaces(m.run.point()); });
+        std::ranges::any_of(measured_, [](const MeasuredPoint& m) { return has_own_surfaces(m.run.point()); });
     double view_s = 0;  // of the last one
     bool whole = has_time_for_flip();
     for (int view = 0; view < int(views_.size()); ++view) {
-      if (std::ranges::any_of(measured_, [&](const Measured& m) { return has_view(m, view); })) {
+      if (std::ranges::any_of(measured_, [&](const MeasuredPoint& m) { return has_view(m, view); })) {
         whole = is_whole(view);
       } else if (view > 0 && !fits(view_s, job_.least_rounds, view + 1)) {
         if (!whole || !fits(share_without_flip * view_s, job_.least_rounds, view + 1)) break;
@@ -171,16 +162,16 @@ class SceneSweep {
   bool has_time_for_flip() const {
     return job_.seconds >= seconds_a_point_with_flip * double(measured_.size());
   }
-  static bool has_view(const Measured& m, int view) { return int(m.records.size()) > view; }
+  static bool has_view(const MeasuredPoint& m, int view) { return int(m.records.size()) > view; }
   bool is_whole(int view) const {
-    return std::ranges::any_of(measured_, [&](const Measured& m) {
+    return std::ranges::any_of(measured_, [&](const MeasuredPoint& m) {
       return has_view(m, view) && m.records[size_t(view)].errors.temporal_rmse_rel.has_value();
     });
   }
 
   void measure_view(int view, bool own, bool whole) {
     bool looked = false;
-    for (Measured& m : measured_) {
+    for (MeasuredPoint& m : measured_) {
       if (!has_view(m, view)) {
         if (view == 0 && !fits(0, 1, 1)) break;
         tell(seconds() / job_.seconds,
@@ -198,17 +189,17 @@ class SceneSweep {
 
   void leave_out_unmeasured() {
     const size_t all = measured_.size();
-    std::erase_if(measured_, [](const Measured& m) { return m.records.empty(); });
+    std::erase_if(measured_, [](const MeasuredPoint& m) { return m.records.empty(); });
     if (measured_.size() < all)
       notice(fmt::format("{} of {} points, for the time there is", measured_.size(), all));
   }
 
   void classify() {
     size_t slow = 0;
-    for (Measured& m : measured_) {
+    for (MeasuredPoint& m : measured_) {
       const double error = m.records.front().errors.total.rmse_rel;
       m.slow = m.picture_s > slow_factor * baseline_s_ &&
-               std::ranges::any_of(measured_, [&](const Measured& other) {
+               std::ranges::any_of(measured_, [&](const MeasuredPoint& other) {
                  const FrontierRecord& record = other.records.front();
                  return record.refused.empty() && record.errors.total.rmse_rel <= error &&
                         beaten_factor * other.picture_s < m.picture_s;
@@ -223,94 +214,22 @@ class SceneSweep {
 
   void measure_cull_tests() {
     std::vector<PointOnView> points;
-    for (Measured& m : measured_) points.push_back({m.run, m.records.front()});
+    for (MeasuredPoint& m : measured_) points.push_back({m.run, m.records.front()});
     measure_cull_times(points, views_.front(), until() - seconds(), file_);
     end_step("cull tests");
   }
 
-  // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each
-  // round. A point counts with the baseline run beside it. Slow points are left out of late rounds. The first
-  // round does not count, and has no slow points: drivers compile in it what they dropped.
   void measure_times() {
-    int done = 0;  // rounds that count
-    for (const Measured& m : measured_) done = std::max(done, m.rounds());
-    double longest_round = 0;
-    for (bool warm_up = true; done < job_.most_rounds; warm_up = false) {
-      const double before = seconds();
-      if (done > 0 && before + longest_round > until()) break;
-      if (done >= job_.least_rounds && is_certain()) break;
-      std::vector<TimeOfRecord> times;
-      for (int view = 0; view < used_views_; ++view) time_view(warm_up ? 0 : done + 1, view, times);
-      if (warm_up) continue;
-      file_.add_times(times);
-      for (Measured& m : measured_) update(m);
-      ++done;
-      longest_round = std::max(longest_round, seconds() - before);
-    }
+    TimeRounds rounds{job_, timer_, until(), std::span(views_).first(size_t(used_views_)), measured_,
+                      *baseline_, file_};
+    const int done = rounds.run();
     notice(fmt::format("{} points, {} views, {} rounds", measured_.size(), used_views_, done));
     end_step("rounds");
   }
 
-  // From the file, which has added the round.
-  void update(Measured& m) {
-    for (FrontierRecord& record : m.records) record = file_.open_records().at(record_key(record));
-  }
-
-  void time_view(int round, int view, std::vector<TimeOfRecord>& times) {
-    std::vector<size_t> order;
-    for (size_t i = 0; i < measured_.size(); ++i) {
-      const bool out = measured_[i].slow && (round == 0 || measured_[i].rounds() >= slow_rounds);
-      if (!out && measured_[i].run.refused().empty()) order.push_back(i);
-    }
-    Random random(Random::mix(job_.seed) + uint64_t(round) * 1000 + uint64_t(view));
-    for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-    baseline_->look(views_[size_t(view)]);
-    baseline_->draw();
-    double beside = baseline_->draw();
-    for (size_t i = 0; i < order.size(); i += 2) {
-      tell(seconds() / job_.seconds, fmt::format("times, round {}", round));
-      Measured& first = measured_[order[i]];
-      add_time(first, view, timed(first, view), beside, times);
-      if (i + 1 == order.size()) break;
-      Measured& second = measured_[order[i + 1]];
-      const double ms = timed(second, view);
-      beside = baseline_->draw();
-      add_time(second, view, ms, beside, times);
-    }
-  }
-
-  double timed(Measured& m, int view) {
-    m.run.look(views_[size_t(view)]);
-    return m.run.draw();
-  }
-
-  void add_time(const Measured& m, int view, double ms, double beside,
-                std::vector<TimeOfRecord>& times) const {
-    const FrontierRecord& record = m.records[size_t(view)];
-    if (record.refused.empty()) times.push_back({record_key(record), ms, beside, m.run.refused()});
-  }
-
-  // Whether each ratio's interval is narrow enough.
-  bool is_certain() const {
-    return std::ranges::all_of(measured_, [&](const Measured& m) {
-      if (std::ranges::any_of(m.records, [](const FrontierRecord& r) { return !r.refused.empty(); }))
-        return true;
-      if (m.slow && m.rounds() >= slow_rounds) return true;
-      std::vector<double> ratios;
-      for (size_t run = 0; run < size_t(m.rounds()); ++run) {
-        double ms = 0, beside = 0;
-        for (const FrontierRecord& record : m.records)
-          ms += record.frame_ms[run], beside += record.baseline_ms[run];
-        ratios.push_back(ms / beside);
-      }
-      const MedianInterval ratio = median_interval(ratios);
-      return ratio.high - ratio.low <= job_.interval_width * ratio.median;
-    });
-  }
-
   void complete() {
     std::vector<std::string> keys;
-    for (const Measured& m : measured_) {
+    for (const MeasuredPoint& m : measured_) {
       for (const FrontierRecord& record : m.records) keys.push_back(record_key(record));
     }
     file_.complete(keys);
@@ -330,7 +249,7 @@ class SceneSweep {
   GpuScene gpu_;
   std::vector<View> views_;
   ViewFigures figures_;
-  std::vector<Measured> measured_;
+  std::vector<MeasuredPoint> measured_;
   std::optional<PointRun> baseline_;
   double baseline_s_ = 0, step_began_s_ = 0;
   std::string steps_;  // what took how long
