@@ -38,6 +38,17 @@ GlBackend parse_gl_backend(const std::string& name) {
   throw input_error("gl: \"{}\" is not one of auto, osmesa, egl, none", name);
 }
 
+void GlContext::begin(const std::string& name, const std::function<void()>& release) {
+  backend = name;
+  try {
+    make_current();
+    describe();
+  } catch (...) {
+    release();
+    throw;
+  }
+}
+
 void GlContext::describe() {
   vendor = gl_string(GL_VENDOR);
   renderer = gl_string(GL_RENDERER);

@@ -2,6 +2,7 @@
 // Neither library need be installed.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -34,9 +35,13 @@ class GlContext {
  protected:
   GlContext() = default;
 
-  // For the backends, once their context is current: sets the names above and, in debug builds, the debug
-  // output, which prints each OpenGL error and aborts. Throws Error(machine) below OpenGL 4.5.
+  // Once a context is current: sets the names above and, in debug builds, the debug output, which prints each
+  // OpenGL error and aborts. Throws Error(machine) below OpenGL 4.5.
   void describe();
+
+  // For the backends, once they have a context: makes it current and describes it. Calls `release` before an
+  // exception leaves.
+  void begin(const std::string& name, const std::function<void()>& release);
 };
 
 }  // namespace lightgrid

@@ -75,14 +75,7 @@ class EglGlContext final : public GlContext {
                                  EGL_NONE};
     context_ = egl().eglCreateContext(display, config(), EGL_NO_CONTEXT, attributes);
     if (context_ == EGL_NO_CONTEXT) throw failure("eglCreateContext for OpenGL 4.5 core");
-    backend = "egl";
-    try {
-      make_current();
-      describe();
-    } catch (...) {
-      release();
-      throw;
-    }
+    begin("egl", [this] { release(); });
   }
 
   ~EglGlContext() override { release(); }

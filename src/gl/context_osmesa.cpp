@@ -66,14 +66,7 @@ class OsmesaGlContext final : public GlContext {
                               0};
     context_ = osmesa().create(attributes, nullptr);
     if (!context_) throw machine_error("OSMesa could not make an OpenGL 4.5 core context");
-    backend = "osmesa";
-    try {
-      make_current();
-      describe();
-    } catch (...) {
-      release();
-      throw;
-    }
+    begin("osmesa", [this] { release(); });
   }
 
   ~OsmesaGlContext() override { release(); }

@@ -10,18 +10,6 @@
 #include "results/metrics.h"
 
 namespace lightgrid {
-namespace {
-
-// The 99th percentile over pixels with listed lights, so that a few long lists do not compress the scale.
-uint32_t scale_top(std::vector<uint32_t> counts) {
-  std::erase(counts, 0u);
-  if (counts.empty()) return 1;
-  const size_t at = (counts.size() * 99 + 99) / 100 - 1;
-  std::nth_element(counts.begin(), counts.begin() + at, counts.end());
-  return counts[at];
-}
-
-}  // namespace
 
 InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid) {
   const std::vector<float> depth = covered_depth(frame);
@@ -30,7 +18,7 @@ InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid
   maps.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   maps.covered = uint64_t(std::count_if(depth.begin(), depth.end(), [](float d) { return d > 0; }));
   maps.listed = std::move(pairs.listed_of_pixel), maps.lost = std::move(pairs.lost_of_pixel);
-  maps.top = scale_top(maps.listed);
+  maps.top = top_of_scale(maps.listed);
   for (size_t i = 0; i < depth.size(); ++i) {
     maps.false_positives.push_back(maps.listed[i] -
                                    std::min(maps.listed[i], pairs.lit_of_pixel[i] - maps.lost[i]));

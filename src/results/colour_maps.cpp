@@ -98,6 +98,14 @@ Image difference_image(const Image& image, const Image& reference) {
   return result;
 }
 
+uint32_t top_of_scale(std::vector<uint32_t> counts) {
+  std::erase(counts, 0u);
+  if (counts.empty()) return 1;
+  const size_t at = (counts.size() * 99 + 99) / 100 - 1;
+  std::nth_element(counts.begin(), counts.begin() + std::ptrdiff_t(at), counts.end());
+  return counts[at];
+}
+
 Image heat_map(int width, int height, const std::vector<uint32_t>& counts, uint32_t top) {
   assert(counts.size() == size_t(width) * height);
   const Lookup colour_of(viridis_ramp());

@@ -24,6 +24,10 @@ float brightest_channel(const Image& image);
 // be stored without a tone map (srgb_bytes_as_is).
 Image difference_image(const Image& image, const Image& reference);
 
+// The 99th percentile over pixels with a count, so that a few high counts do not compress a map's scale; 1
+// where there is no such pixel.
+uint32_t top_of_scale(std::vector<uint32_t> counts);
+
 // Counts as colours: 0 is black, then viridis_ramp() up to `top` and above. Stored like a difference image.
 Image heat_map(int width, int height, const std::vector<uint32_t>& counts, uint32_t top);
 

@@ -6,18 +6,6 @@
 #include "results/metrics.h"
 
 namespace lightgrid {
-namespace {
-
-// The 99th percentile over pixels with a count, so that a few high counts do not compress the scale.
-uint32_t top_of_scale(std::vector<uint32_t> counts) {
-  std::erase(counts, 0u);
-  if (counts.empty()) return 1;
-  const size_t at = (counts.size() * 99 + 99) / 100 - 1;
-  std::nth_element(counts.begin(), counts.begin() + ptrdiff_t(at), counts.end());
-  return counts[at];
-}
-
-}  // namespace
 
 void MapOfSide::show_counts(SideMap wanted, Side& side, bool wait) {
   const size_t picture = side.pictures();

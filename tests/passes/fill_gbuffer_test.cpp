@@ -12,30 +12,12 @@
 #include "shared/model_records.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
+#include "support/wall_of_normals.h"
 
 namespace lightgrid {
 namespace {
 
-// A wall of small squares, each with a normal of its own: all directions evenly, even those that no
-// rasterised surface shows to the eye. It fills a view of 90 degrees.
-Scene wall_of_all_normals(int columns) {
-  Mesh mesh;
-  const float step = 4.0f / float(columns);
-  for (int i = 0; i < columns * columns; ++i) {
-    shapes::add_quad(mesh, {-2 + step * float(i % columns), -2 + step * float(i / columns), -2}, {step, 0, 0},
-                     {0, step, 0});
-    // A spiral of equal areas (Vogel, "A Better Way to Construct the Sunflower Head", 1979).
-    const double z = 1 - (2 * i + 1.0) / (columns * columns), turn = 2.399963229728653 * i,
-                 r = std::sqrt(1 - z * z);
-    const glm::vec3 normal(glm::dvec3(r * std::cos(turn), r * std::sin(turn), z));
-    std::fill(mesh.normals.end() - 4, mesh.normals.end(), normal);
-  }
-  Scene scene;
-  const int material = add_material(scene, "colors", {0.25f, 0.5f, 0.75f}, 0.6f, 0.4f);
-  add_instance(scene, "wall", add_mesh(scene, shapes::finished(std::move(mesh), "wall", material)));
-  return scene;
-}
-
+// The wall fills it.
 View wide_view(int width, int height) {
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.fov_y_rad = glm::radians(90.0);
@@ -67,7 +49,7 @@ double angle_deg(const glm::vec4& a, const glm::vec4& b) {
 // Cigolle et al. (2014) give 0.95 degrees for 16 bits in all and 0.0037 for 32. Float stores normals
 // directly.
 TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
-  const Scene scene = wall_of_all_normals(200);
+  const Scene scene = wall_of_normals(200, 2);
   for (const auto& [bits, bound_deg] : {std::pair(8, 0.96), std::pair(16, 0.0038), std::pair(32, 0.0)}) {
     const Surfaces s = surfaces_of(scene, wide_view(400, 400), bits);
     double largest = 0;
@@ -84,7 +66,7 @@ TEST(FillGbuffer, KeepsNormalsOfAllDirectionsWithinTheirSteps) {
 // Where a normal map bends the base but not its coat. Float stores the octahedral coordinates of the coat's
 // normal, 24 bits each.
 TEST(FillGbuffer, KeepsNormalsOfCoats) {
-  Scene scene = wall_of_all_normals(100);
+  Scene scene = wall_of_normals(100, 2);
   scene.materials[0].clearcoat = 1;
   for (const bool bent : {false, true}) {
     if (bent) scene.materials[0].normal_map.texture = add_speckles(scene, false);
@@ -127,7 +109,7 @@ TEST(FillGbuffer, KeepsNormalsAlongAxesAsTheyAre) {
 // A model's number is stored exactly, in every layout and up to the last: its parameters are those of the
 // material.
 TEST(FillGbuffer, KeepsTheNumbersOfModels) {
-  Scene scene = wall_of_all_normals(16);
+  Scene scene = wall_of_normals(16, 2);
   for (int i = 0; i < MOST_MODELS; ++i) {
     Material& m = scene.materials.emplace_back(scene.materials[0]);
     m.model.minnaert_k = 0.003f * float(i + 1);
@@ -228,7 +210,7 @@ TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
 
 // OpenCL's input: the stored integers, as described in gbuffer.h.
 TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
-  const Scene scene = wall_of_all_normals(16);
+  const Scene scene = wall_of_normals(16, 2);
   const View view = wide_view(32, 32);
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, {.buffer_bits = 16}, {});

@@ -8,27 +8,10 @@
 #include "passes/read_outs/surfaces.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
+#include "support/wall_of_normals.h"
 
 namespace lightgrid {
 namespace {
-
-// A wall of small squares that fills the view, each with a normal of its own: all directions evenly.
-Scene wall_of_normals(int columns) {
-  Mesh mesh;
-  const float step = 8.0f / float(columns);
-  for (int i = 0; i < columns * columns; ++i) {
-    shapes::add_quad(mesh, {-4 + step * float(i % columns), -4 + step * float(i / columns), -2}, {step, 0, 0},
-                     {0, step, 0});
-    const double z = 1 - (2 * i + 1.0) / (columns * columns), turn = 2.399963229728653 * i,
-                 r = std::sqrt(1 - z * z);
-    const glm::vec3 normal(glm::dvec3(r * std::cos(turn), r * std::sin(turn), z));
-    std::fill(mesh.normals.end() - 4, mesh.normals.end(), normal);
-  }
-  Scene scene;
-  const int material = add_material(scene, "grey", {0.5f, 0.5f, 0.5f}, 0, 0.5f);
-  add_instance(scene, "wall", add_mesh(scene, shapes::finished(std::move(mesh), "wall", material)));
-  return scene;
-}
 
 glm::dvec3 decoded(NormalFormat format, glm::dvec3 t) {
   if (format == NormalFormat::floats) return t;
@@ -50,7 +33,7 @@ double angle_deg(glm::dvec3 a, glm::dvec3 b) {
 // Half a step in each channel, seen as an angle. The sphere map's steps are 2 of its radius near +z, and grow
 // without bound towards -z, where few visible surfaces face.
 TEST(FillNormals, KeepsEveryDirectionWithinItsSteps) {
-  const Scene scene = wall_of_normals(80);
+  const Scene scene = wall_of_normals(80, 4);
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.fov_y_rad = glm::radians(120.0);
   const View view = make_view(camera, 160, 160);

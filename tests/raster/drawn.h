@@ -74,9 +74,9 @@ struct Drawn {
 };
 
 template <typename T>
-std::vector<T> read_all(const cl::Buffer& from, size_t count) {
+std::vector<T> read_all(const cl::Buffer& from, size_t count, ClDevice& device = raster_device()) {
   std::vector<T> values(count);
-  if (count != 0) read_buffer(raster_device(), "test", from, values.data(), count * sizeof(T));
+  if (count != 0) read_buffer(device, "test", from, values.data(), count * sizeof(T));
   return values;
 }
 
@@ -88,17 +88,18 @@ inline void set_scene(Rasterizer& rasterizer, const RasterScene& scene) {
   rasterizer.set_view(scene.view);
 }
 
-inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene) {
+inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene,
+                      ClDevice& device = raster_device()) {
   const Visibility visibility = rasterizer.draw();
   Drawn drawn{visibility.width, visibility.height, {}, {}, {}, {}, rasterizer.counts()};
   const size_t pixels = size_t(drawn.width) * drawn.height;
-  drawn.triangles = read_all<uint32_t>(visibility.triangle, pixels);
-  drawn.depths = read_all<float>(visibility.depth, pixels);
-  drawn.instances = read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size());
+  drawn.triangles = read_all<uint32_t>(visibility.triangle, pixels, device);
+  drawn.depths = read_all<float>(visibility.depth, pixels, device);
+  drawn.instances = read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size(), device);
   size_t vertices = 0;
   for (const RasterInstanceRecord& i : drawn.instances)
     vertices = i.first_clip_vertex + size_t(i.vertex_count);
-  drawn.clip = read_all<glm::vec4>(rasterizer.buffers().clip, vertices);
+  drawn.clip = read_all<glm::vec4>(rasterizer.buffers().clip, vertices, device);
   return drawn;
 }
 

@@ -22,13 +22,7 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
   const Drawn expected = drawn(scene);
   Rasterizer rasterizer(single, programs);
   set_scene(rasterizer, scene);
-  const Visibility visibility = rasterizer.draw();
-  std::vector<uint32_t> triangles(expected.triangles.size());
-  std::vector<float> depths(triangles.size());
-  read_buffer(single, "test", visibility.triangle, triangles.data(), triangles.size() * 4);
-  read_buffer(single, "test", visibility.depth, depths.data(), depths.size() * 4);
-  EXPECT_EQ(triangles, expected.triangles);
-  EXPECT_EQ(depths, expected.depths);
+  EXPECT_TRUE(drawn_by(rasterizer, scene, single).same_image(expected));
 }
 
 TEST(RasterizerOnDevices, HasTheSameBytes) {
@@ -42,13 +36,7 @@ TEST(RasterizerOnDevices, HasTheSameBytes) {
     ProgramCache programs(device);
     Rasterizer rasterizer(device, programs);
     set_scene(rasterizer, scene);
-    const Visibility visibility = rasterizer.draw();
-    std::vector<uint32_t> triangles(expected.triangles.size());
-    std::vector<float> depths(triangles.size());
-    read_buffer(device, "test", visibility.triangle, triangles.data(), triangles.size() * 4);
-    read_buffer(device, "test", visibility.depth, depths.data(), depths.size() * 4);
-    EXPECT_EQ(triangles, expected.triangles) << devices[i].name;
-    EXPECT_EQ(depths, expected.depths) << devices[i].name;
+    EXPECT_TRUE(drawn_by(rasterizer, scene, device).same_image(expected)) << devices[i].name;
   }
 }
 
