@@ -1,6 +1,7 @@
-// The range of z-bins that each light may reach; a work-item takes a light. Drobot, "Improved Culling for Tiled and Clustered
-// Rendering" (SIGGRAPH 2017), sorts lights by distance and stores a range of lights for each bin. Sums of light here must
-// keep the lights' own order to stay bit-equal, so each light stores its range of bins instead: no sort, and no less tight.
+// The range of z-bins that each light may reach; a work-item takes a light. Drobot, "Improved Culling for
+// Tiled and Clustered Rendering" (SIGGRAPH 2017), sorts lights by distance and stores a range of lights for
+// each bin. Sums of light here must keep the lights' own order to stay bit-equal, so each light stores its
+// range of bins instead: no sort, and no less tight.
 //
 // lights      as kernels/common/light_arrays.h says
 // bins        near and far of each, metres, ascending, widened by rounding
@@ -8,8 +9,8 @@
 #define LANES 1
 #include "kernels/common/project.h"
 
-kernel void light_z_bins(global const float* lights, global const float2* bins, uint bin_count, global uint* light_bins,
-                         constant CullParams* p) {
+kernel void light_z_bins(global const float* lights, global const float2* bins, uint bin_count,
+                         global uint* light_bins, constant CullParams* p) {
   const size_t light = get_global_id(0), stride = p->light_stride;
   if (light >= p->light_count) return;
   const ViewSphere s = view_sphere(lights[light], lights[stride + light], lights[2 * stride + light],

@@ -8,8 +8,8 @@ typedef uint index_t;
 typedef ushort index_t;
 #endif
 
-kernel void lists_to_masks(global const uint2* cells, global const index_t* indices, uint cell_count, uint words,
-                           global uint* masks) {
+kernel void lists_to_masks(global const uint2* cells, global const index_t* indices, uint cell_count,
+                           uint words, global uint* masks) {
   const uint cell = get_global_id(0);
   if (cell >= cell_count) return;
   masks += (size_t)cell * words;

@@ -1,4 +1,5 @@
-// Builds only where the compiler has the AVX-512 builtins of kernels/common/pack.h and the CPU has the instructions.
+// Builds only where the compiler has the AVX-512 builtins of kernels/common/pack.h
+// and the CPU has the instructions.
 #define LANES 16
 #define AVX512
 #include "kernels/common/pack.h"

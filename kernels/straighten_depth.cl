@@ -8,8 +8,8 @@
 #define LANES 1
 #include "shared/cull_params.h"
 
-kernel void straighten_depth(global const float* depth, uint first, uint row, float4 plane, float nothing, uint samples,
-                             global float* straight, constant CullParams* p) {
+kernel void straighten_depth(global const float* depth, uint first, uint row, float4 plane, float nothing,
+                             uint samples, global float* straight, constant CullParams* p) {
   const uint i = get_global_id(0), y = get_global_id(1), width = p->width * samples;
   const float stored = depth[first + (size_t)y * row + i];
   const float slope_x = ((float)(i / samples) + 0.5f) * p->slope_x_scale + p->slope_x_offset;

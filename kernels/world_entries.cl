@@ -5,7 +5,8 @@
 // totals       a chunk's number of blocks out; with `write` its first block in
 // block_first  out: each block's first light in `members`, and one more for the end
 // keys         out: of each block
-// members      out: lights of the pairs, and 15 more numbers of lights, which world_lists loads and does not use
+// members      out: lights of the pairs, and 15 more numbers of lights, which
+//              world_lists loads and does not use
 // buckets      out: bucket_count + 1 first blocks
 kernel void world_entries(global const uint4* pairs, global uint* totals, global uint* block_first,
                           global uint2* keys, global uint* members, global uint* buckets, uint bucket_count,

@@ -6,7 +6,8 @@
 // block_first, members  in: of each block, its own lights
 // keys, buckets  as world_entries writes them
 // totals       a chunk's number of lights out; with `write` its first place in
-// full_first, full_members  out with `write`: of each block, with those of larger levels; behind the members 15 more numbers
+// full_first, full_members  out with `write`: of each block, with those of larger levels;
+//                           behind the members 15 more numbers
 //              of lights, as in world_entries
 #include "kernels/common/world_cells.h"
 

@@ -13,7 +13,9 @@ uvec4 channels_of(uvec4 words) { return words; }
 #if BITS == 32
 uvec4 channels_of(uvec2 words) { return uvec4(words, 0u, 0u); }
 #else
-uvec4 channels_of(uvec2 words) { return uvec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16); }
+uvec4 channels_of(uvec2 words) {
+  return uvec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
+}
 #endif
 #else
 #define WORDS uint

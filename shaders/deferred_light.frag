@@ -1,8 +1,8 @@
 // One light on the surfaces of the geometry buffer, to be added to the image.
 //   LIGHT_VOLUME: the light comes with its volume (light_volume.vert), else as a uniform
 //   DEPTH_BOUNDS: nothing outside an interval of depth
-//   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel, so that sums
-//     are exact and count the invocations
+//   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
+//     so that sums are exact and count the invocations
 //   GBUFFER_8, GBUFFER_16, CLEARCOAT, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 #include "shared/brdf.h"

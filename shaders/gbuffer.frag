@@ -42,7 +42,8 @@ void main() {
 #else
   int model = 0;
 #endif
-  GBufferTexels texels = gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit, model));
+  GBufferTexels texels =
+      gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit, model));
   normal_roughness_metallic = texels.normal_roughness_metallic;
   base_color_lit = texels.base_color_lit;
 #ifdef COATS

@@ -44,7 +44,8 @@ void main() {
   PunctualLight from = light_at(int(light));
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
-  LightTerms terms = light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
+  LightTerms terms =
+      light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);
 #ifdef PREPASS_FIFTH_TERM
   weight_rim = vec2(terms.weight, terms.rim) * (1.0 / LIGHT_SCALE);

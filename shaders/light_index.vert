@@ -6,5 +6,6 @@ flat out vec4 channels[LIDR_TARGETS];
 
 void main() {
   place_corner();
-  for (uint target = 0u; target < uint(LIDR_TARGETS); ++target) channels[target] = channels_of(light_of_volume + 1u, target);
+  for (uint target = 0u; target < uint(LIDR_TARGETS); ++target)
+    channels[target] = channels_of(light_of_volume + 1u, target);
 }

@@ -1,4 +1,5 @@
-// Copies an image into a buffer as glReadPixels does: rows from the bottom, without padding. One invocation a pixel.
+// Copies an image into a buffer as glReadPixels does: rows from the bottom, without
+// padding. One invocation a pixel.
 //   image   at texture unit 0
 //   Pixels  storage buffer 0
 //   one of  FLOAT_1 (its first channel, or depth), FLOAT_4: 32 bits a channel

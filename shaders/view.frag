@@ -30,7 +30,8 @@ vec3 tone_map(vec3 linear) {
 }
 
 vec3 srgb(vec3 linear) {
-  return mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
+  return mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear,
+             lessThanEqual(linear, vec3(0.0031308)));
 }
 
 void main() {
@@ -38,5 +39,6 @@ void main() {
   vec3 linear = left ? image_at(left_image, gl_FragCoord.xy) : image_at(right_image, gl_FragCoord.xy);
   bool mapped = (left ? mapped_left : mapped_right) != 0;
   bool is_nan = any(isnan(linear));
-  color = vec4(is_nan && !mapped ? vec3(1, 0, 1) : srgb(clamp(mapped ? linear : tone_map(linear), 0.0, 1.0)), 1);
+  color =
+      vec4(is_nan && !mapped ? vec3(1, 0, 1) : srgb(clamp(mapped ? linear : tone_map(linear), 0.0, 1.0)), 1);
 }

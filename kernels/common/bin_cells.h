@@ -26,10 +26,12 @@ typedef struct TestCell {
 #endif
 } TestCell;
 
-// Harada, "A 2.5D Culling for Forward+" (2012): the light's bits go from that of its near side to that of its far side.
+// Harada, "A 2.5D Culling for Forward+" (2012): the light's bits go from that of its
+// near side to that of its far side.
 #if DEPTH_MODE == DEPTH_MASK32
 static inline mask_t mask_meets(ViewSphere s, const TestCell* c) {
-  const whole low = mask_bit(s.d - s.r, c->mask_near, c->mask_far), high = mask_bit(s.d + s.r, c->mask_near, c->mask_far);
+  const whole low = mask_bit(s.d - s.r, c->mask_near, c->mask_far),
+              high = mask_bit(s.d + s.r, c->mask_near, c->mask_far);
   return (mask_of_bits(low, high) & c->mask) != (bits_t)(0u);
 }
 #endif
@@ -60,7 +62,8 @@ static inline mask_t view_light_may_touch(ViewLight light, const TestCell* c, co
 }
 
 // lights: arrays of light_arrays.h, at the first of LANES lights.
-static inline mask_t light_may_touch(global const float* lights, size_t stride, const TestCell* c, constant CullParams* p) {
+static inline mask_t light_may_touch(global const float* lights, size_t stride, const TestCell* c,
+                                     constant CullParams* p) {
   ViewLight light;
   light.sphere = load_sphere(lights, stride);
 #ifdef SPOTS
@@ -69,7 +72,9 @@ static inline mask_t light_may_touch(global const float* lights, size_t stride, 
   return view_light_may_touch(light, c, p);
 }
 
-static inline float at_slot(global const float* bounds, uint plane, uint slot) { return bounds[plane * BIN_SIZE + slot]; }
+static inline float at_slot(global const float* bounds, uint plane, uint slot) {
+  return bounds[plane * BIN_SIZE + slot];
+}
 
 #if LANES == 1
 static inline Cell cell_between(TileSides s, float near, float far, constant CullParams* p) {
@@ -84,7 +89,8 @@ static inline Cell cell_between(TileSides s, float near, float far, constant Cul
 // Cell `slice` of the tile in `slot` of a bin with bounds `bounds`. Returns whether anything is in it.
 static inline bool make_test_cell(global const float* bounds, uint bx, uint by, uint slot, uint slice,
                                   global const float2* slices, TestCell* c, constant CullParams* p) {
-  const TileSides sides = tile_sides(bx * BIN_TILES + tile_x_of_slot(slot), by * BIN_TILES + tile_y_of_slot(slot), p);
+  const TileSides sides =
+      tile_sides(bx * BIN_TILES + tile_x_of_slot(slot), by * BIN_TILES + tile_y_of_slot(slot), p);
   bool some = false;
   for (int i = 0; i < INTERVALS; ++i) {
     float near = at_slot(bounds, 2 * i, slot), far = at_slot(bounds, 2 * i + 1, slot);

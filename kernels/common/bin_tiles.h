@@ -1,5 +1,5 @@
-// All tiles of a bin at once, 16 at a time, with the boxes around each quad of 2 x 2 tiles, each block of 4 x 4, and all:
-// for CPUs.
+// All tiles of a bin at once, 16 at a time, with the boxes around each quad of 2 x 2 tiles, each
+// block of 4 x 4, and all: for CPUs.
 #pragma once
 
 #include "kernels/common/bin_cells.h"
@@ -58,9 +58,8 @@ static inline void store_cells(Span s, Cell* cells, uint every, uint n) {
 }
 
 // quads: 16, blocks: 4; near > far where a quad, a block or the bin holds no surface.
-static inline void make_bin_tiles(global const float* bounds, uint bx, uint by, BinTiles* tiles, Cell* quads, Cell* blocks,
-                                  Cell* bin,
-                                  constant CullParams* p) {
+static inline void make_bin_tiles(global const float* bounds, uint bx, uint by, BinTiles* tiles, Cell* quads,
+                                  Cell* blocks, Cell* bin, constant CullParams* p) {
   Span all = no_span();
   for (uint k = 0; k < 4; ++k) {
     const int16 slot = (int)(k * 16) + LANE_INDEX;
@@ -73,7 +72,8 @@ static inline void make_bin_tiles(global const float* bounds, uint bx, uint by, 
 #endif
     Span here = no_span();
     for (int i = 0; i < INTERVALS; ++i) {
-      const float16 near = vload16(k, bounds + 2 * i * BIN_SIZE), far = vload16(k, bounds + (2 * i + 1) * BIN_SIZE);
+      const float16 near = vload16(k, bounds + 2 * i * BIN_SIZE),
+                    far = vload16(k, bounds + (2 * i + 1) * BIN_SIZE);
       const Box box = box_between(sides, near, far, p);
       vstore16(near, k, tiles->near[i]), vstore16(far, k, tiles->far[i]);
       vstore16(box.x0, k, tiles->box_x0[i]), vstore16(box.x1, k, tiles->box_x1[i]);
@@ -110,7 +110,8 @@ static inline bool pick_test_cell(const BinTiles* tiles, global const float* bou
     cell->box_y0 = tiles->box_y0[i][slot], cell->box_y1 = tiles->box_y1[i][slot];
 #endif
 #if CULL_TEST == CULL_EXACT
-    cell->x0 = tiles->x0[slot], cell->x1 = tiles->x1[slot], cell->y0 = tiles->y0[slot], cell->y1 = tiles->y1[slot];
+    cell->x0 = tiles->x0[slot], cell->x1 = tiles->x1[slot], cell->y0 = tiles->y0[slot],
+    cell->y1 = tiles->y1[slot];
 #endif
     some |= cell->near <= cell->far;
   }

@@ -1,4 +1,5 @@
-// The lights that a bin's cells are tested against: selected from the region's list, then narrowed step by step. For CPUs.
+// The lights that a bin's cells are tested against: selected from the region's list, then
+// narrowed step by step. For CPUs.
 #pragma once
 
 #include "kernels/common/light_records.h"
@@ -25,15 +26,16 @@ static inline uint append_lights(global float* to, global const float* from, siz
 }
 
 // The same for 16 records.
-static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles, global const uint* ids,
-                                  global const float* records, uint bits) {
+static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles,
+                                  global const uint* ids, global const float* records, uint bits) {
 #ifdef AVX512
   append_reals(to + VIEW_X * stride, l.sphere.x, bits), append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
   append_reals(to + VIEW_D * stride, l.sphere.d, bits), append_reals(to + VIEW_R * stride, l.sphere.r, bits);
   append_reals(to + VIEW_TILES * stride, as_float16(tiles), bits);
   append_reals(to + VIEW_ID * stride, as_float16(vload16(0, ids)), bits);
 #ifdef SPOTS
-  append_reals(to + VIEW_CONE * stride, l.cone.x, bits), append_reals(to + (VIEW_CONE + 1) * stride, l.cone.y, bits);
+  append_reals(to + VIEW_CONE * stride, l.cone.x, bits),
+      append_reals(to + (VIEW_CONE + 1) * stride, l.cone.y, bits);
   append_reals(to + (VIEW_CONE + 2) * stride, l.cone.d, bits);
   append_reals(to + (VIEW_CONE + 3) * stride, l.cone.cosine, bits);
 #endif
@@ -55,7 +57,8 @@ static inline uint append_records(global float* to, size_t stride, LightRecords 
 
 // The tiles of the bin at (x, y) as VIEW_TILES has them; *count: how many.
 static inline int16 tiles_in_bin(TileRect rect, int x, int y, int16* count) {
-  const int16 zero = 0, one = 1, seven = 7;  // vectors: with a number beside one, Oclgrind 21.10 reads past it
+  // Vectors: with a number beside one, Oclgrind 21.10 reads past it
+  const int16 zero = 0, one = 1, seven = 7;
   const int16 x0 = max((rect.first & 0xffff) - x, zero), x1 = min((rect.last & 0xffff) - x, seven);
   const int16 y0 = max((rect.first >> 16) - y, zero), y1 = min((rect.last >> 16) - y, seven);
   *count = (x1 - x0 + 1) * (y1 - y0 + 1);
@@ -87,9 +90,10 @@ static inline uint select_lights(RegionLights all, PackedRange range, global uin
   return n;
 }
 
-// Those of the lights `ids` that may touch the bin's box, in order. *pairs: an upper bound of their pairs with its tiles.
-static inline uint gather(global const uint* ids, uint count, global const float* records, int x, int y, const Cell* bin,
-                          Candidates out, ulong* pairs) {
+// Those of the lights `ids` that may touch the bin's box, in order. *pairs: an upper bound
+// of their pairs with its tiles.
+static inline uint gather(global const uint* ids, uint count, global const float* records, int x, int y,
+                          const Cell* bin, Candidates out, ulong* pairs) {
   uint n = 0;
   int16 sum = 0;
   for (uint i = 0; i < count; i += 16) {
@@ -109,15 +113,18 @@ static inline uint gather(global const uint* ids, uint count, global const float
   return n;
 }
 
-// Candidates that share a tile with the `side` x `side` tiles from (x, y) of the bin on, and may touch their box.
-static inline uint narrow(const Candidates* all, uint x, uint y, uint side, const Cell* box, global float* out) {
+// Candidates that share a tile with the `side` x `side` tiles from (x, y) of the bin on, and may touch their
+// box.
+static inline uint narrow(const Candidates* all, uint x, uint y, uint side, const Cell* box,
+                          global float* out) {
   const int columns = (int)(((1u << side) - 1u) << x), rows = (int)(((1u << side) - 1u) << (y + 8));
   const Cell b = *box;
   uint n = 0;
   for (uint i = 0; i < all->count; i += 16) {
     global const float* from = all->lights + i;
     const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * all->stride));
-    const int16 keep = ((tiles & columns) != 0) & ((tiles & rows) != 0) & ((int)i + LANE_INDEX < (int)all->count) &
+    const int16 keep = ((tiles & columns) != 0) & ((tiles & rows) != 0) &
+                       ((int)i + LANE_INDEX < (int)all->count) &
                        may_touch_coarsely(load_sphere(from, all->stride), &b);
     const uint bits = mask_bits(keep);
     if (bits != 0) n += append_lights(out + n, from, all->stride, bits);

@@ -16,7 +16,8 @@ static inline TileSides tile_sides(real tx, real ty, constant CullParams* p) {
   s.x0 = (tx * size + inset) * p->slope_x_scale + p->slope_x_offset;
   s.y0 = (ty * size + inset) * p->slope_y_scale + p->slope_y_offset;
   s.x1 = (lane_min(tx * size + size, (real)((float)p->width)) - inset) * p->slope_x_scale + p->slope_x_offset;
-  s.y1 = (lane_min(ty * size + size, (real)((float)p->height)) - inset) * p->slope_y_scale + p->slope_y_offset;
+  s.y1 =
+      (lane_min(ty * size + size, (real)((float)p->height)) - inset) * p->slope_y_scale + p->slope_y_offset;
   return s;
 }
 

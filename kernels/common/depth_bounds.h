@@ -1,7 +1,8 @@
-// Options and layout that both forms of depth_bounds share. The finer bounds read a tile's depths a second time.
+// Options and layout that both forms of depth_bounds share. The finer bounds read a tile's depths a second
+// time.
 //
-// Bounds are BOUND_PLANES floats a tile (shared/cull_settings.h): for each bin, plane after plane of BIN_SIZE slots.
-// Distances are metres, each widened by rounding; (FAR_AWAY, -FAR_AWAY) where a tile holds no surface.
+// Bounds are BOUND_PLANES floats a tile (shared/cull_settings.h): for each bin, plane after plane of BIN_SIZE
+// slots. Distances are metres, each widened by rounding; (FAR_AWAY, -FAR_AWAY) where a tile holds no surface.
 //
 // -DTILE (8, 16, 32, 64)  -DSAMPLES a pixel, side by side  -DSTANDARD_DEPTH  -DDEPTH_MODE
 // -DBLEND: also, in planes of their own, from the near plane to where a blended surface can be seen

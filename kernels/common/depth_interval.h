@@ -1,15 +1,16 @@
 // From the depths of a tile to its intervals of distances.
 //
-// Depths are compared as keys: integers that grow towards the eye, 0 where no surface is. The key of a reversed depth is its
-// bits, since floats in [0, 1] have the order of their bits; the key of a standard depth is the bits of 1 minus its bits.
-// NaN, infinities, negative values and values above 1 have keys above those of valid depths.
+// Depths are compared as keys: integers that grow towards the eye, 0 where no surface is. The key of a
+// reversed depth is its bits, since floats in [0, 1] have the order of their bits; the key of a
+// standard depth is the bits of 1 minus its bits. NaN, infinities, negative values and values above 1
+// have keys above those of valid depths.
 #pragma once
 
 #include "kernels/common/cell.h"
 
 #define ONE_BITS 0x3f800000u
-// Lights farther than 1e16 m are scaled towards the eye (docs/hard_cases.md#far-lights), so a tile with a surface past
-// this distance, metres, spans every distance.
+// Lights farther than 1e16 m are scaled towards the eye (docs/hard_cases.md#far-lights), so a tile with a
+// surface past this distance, metres, spans every distance.
 #define FARTHEST_SURFACE 1e15f
 
 #ifdef STANDARD_DEPTH
@@ -52,8 +53,10 @@ typedef struct Interval {
 
 // Of depths whose keys go from `low` to `high`, widened by a step of the depth format and by rounding.
 static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullParams* p) {
-  const real near_depth = lane_min(lane_max(NEARER(AS_REAL(KEY(high)), p->depth_step), (real)(0.0f)), (real)(1.0f));
-  const real far_depth = lane_min(lane_max(FARTHER(AS_REAL(KEY(low)), p->depth_step), (real)(0.0f)), (real)(1.0f));
+  const real near_depth =
+      lane_min(lane_max(NEARER(AS_REAL(KEY(high)), p->depth_step), (real)(0.0f)), (real)(1.0f));
+  const real far_depth =
+      lane_min(lane_max(FARTHER(AS_REAL(KEY(low)), p->depth_step), (real)(0.0f)), (real)(1.0f));
   const real near = distance_of_depth(near_depth, p), far = distance_of_depth(far_depth, p);
   const float scale = p->orthographic ? WIDEN : 0.0f;
   const real margin = scale * (fabs(near) + fabs(far) + fabs(p->depth_b * p->depth_a));
@@ -83,8 +86,8 @@ static inline Interval blend_interval(bits_t lowest, bits_t high, constant CullP
   return i;
 }
 
-// The bit of a mask that a distance falls into, of 32 from near to far. Monotone: a distance between two others has a bit
-// between theirs.
+// The bit of a mask that a distance falls into, of 32 from near to far. Monotone: a distance between two
+// others has a bit between theirs.
 static inline whole mask_bit(real distance, real near, real far) {
   const real scale = far > near ? (real)(32.0f) / (far - near) : (real)(0.0f);
   return TO_WHOLE(lane_min(lane_max((distance - near) * scale, (real)(0.0f)), (real)(31.0f)));
@@ -95,8 +98,9 @@ static inline bits_t mask_of_bits(whole low, whole high) {
   return (((bits_t)(2u) << AS_BITS(high)) - 1u) & ~(((bits_t)(1u) << AS_BITS(low)) - 1u);
 }
 
-// The bits of a tile's interval that a surface with this key may lie in. Its distance is known to a step of the depth format,
-// and in orthographic views only to the rounding of terms that cancel, which no light's slack covers.
+// The bits of a tile's interval that a surface with this key may lie in. Its distance is known to a
+// step of the depth format, and in orthographic views only to the rounding of terms that cancel,
+// which no light's slack covers.
 static inline bits_t mask_of_key(bits_t key, real near, real far, constant CullParams* p) {
   if (!p->orthographic && p->depth_step == 0.0f) {
     return (bits_t)(1u) << AS_BITS(mask_bit(distance_of_depth(AS_REAL(KEY(key)), p), near, far));

@@ -42,9 +42,11 @@ typedef struct Texels {
 
 // 8 pixels from each of two addresses.
 static inline Texels load_texels(global const channel_t* first, global const channel_t* second) {
-  const float16 a = CHANNELS16(first), b = CHANNELS16(first + 16), c = CHANNELS16(second), d = CHANNELS16(second + 16);
-  const Texels t = {(float16)(a.s048c, b.s048c, c.s048c, d.s048c), (float16)(a.s159d, b.s159d, c.s159d, d.s159d),
-                    (float16)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf)};
+  const float16 a = CHANNELS16(first), b = CHANNELS16(first + 16), c = CHANNELS16(second),
+                d = CHANNELS16(second + 16);
+  const Texels t = {
+      (float16)(a.s048c, b.s048c, c.s048c, d.s048c), (float16)(a.s159d, b.s159d, c.s159d, d.s159d),
+      (float16)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf)};
   return t;
 }
 #else
@@ -67,7 +69,8 @@ static inline Texels load_texel(global const channel_t* at) {
 #endif
 
 #ifdef MODELS
-// The model's number in the second image, 0 where it is Lambert's, no surface or not lit. Never past the table.
+// The model's number in the second image, 0 where it is Lambert's, no surface or not lit. Never past the
+// table.
 static inline real number_of_texel(Texels second) {
 #if BUFFER_BITS == 32
   const real number = floor((second.w - 1.0f) * 0.5f);
@@ -129,7 +132,8 @@ static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
 #if BUFFER_BITS == 32
   const Real3 own = normal_of_octahedral(coat.x, coat.y);
   const mask_t as_base = coat.w < REAL(0.0f);
-  const Real3 normal = real3(as_base ? p.normal.x : own.x, as_base ? p.normal.y : own.y, as_base ? p.normal.z : own.z);
+  const Real3 normal =
+      real3(as_base ? p.normal.x : own.x, as_base ? p.normal.y : own.y, as_base ? p.normal.z : own.z);
   return with_coat(p, normal, fabs(coat.w), coat.z);
 #else
   const Real3 normal = normal_of_octahedral(OF_NORMAL(coat.x), OF_NORMAL(coat.y));
@@ -138,8 +142,8 @@ static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
 }
 #endif
 
-// --- Writing: as gbuffer_texels and coat_texel of shaders/common/gbuffer.glsl; channels as they are stored, integers not
-// yet converted.
+// --- Writing: as gbuffer_texels and coat_texel of shaders/common/gbuffer.glsl; channels as they are
+// stored, integers not yet converted.
 #if BUFFER_BITS == 32
 #define STORED_ONE 1.0f
 #define STORED_NORMAL(x) (x)
@@ -164,7 +168,8 @@ static inline void octahedral(Real3 n, real* u, real* v) {
 // Zeros where no surface is `covered`.
 static inline Texels covered_texels(Texels t, mask_t covered) {
   const real none = 0.0f;
-  const Texels here = {covered ? t.x : none, covered ? t.y : none, covered ? t.z : none, covered ? t.w : none};
+  const Texels here = {covered ? t.x : none, covered ? t.y : none, covered ? t.z : none,
+                       covered ? t.w : none};
   return here;
 }
 

@@ -1,5 +1,5 @@
-// Data that the culling kernels for GPUs share. They cull by blocks of 4 x 4 tiles, four to a bin, which gives more and
-// smaller work-groups than bins would. A block's slots lie side by side in its bin.
+// Data that the culling kernels for GPUs share. They cull by blocks of 4 x 4 tiles, four to a bin, which
+// gives more and smaller work-groups than bins would. A block's slots lie side by side in its bin.
 #pragma once
 
 #include "kernels/common/light_arrays.h"
@@ -17,8 +17,8 @@ static inline int block_y(uint b, constant CullParams* p) {
   return (int)(b / BIN_BLOCKS / p->bins_x * BIN_TILES + b % BIN_BLOCKS / 2 * BLOCK_TILES);
 }
 
-// A light in view space, RECORD vectors: x, y, d, radius; its TileRect's words; its cone. One light lies in one piece of
-// the cache.
+// A light in view space, RECORD vectors: x, y, d, radius; its TileRect's words; its cone. One light
+// lies in one piece of the cache.
 #ifdef SPOTS
 #define RECORD 3
 #else
@@ -37,7 +37,8 @@ static inline TileRect record_rect(global const float4* record) {
   return rect;
 }
 
-// Lights that a work-group of gpu/project_lights.cl takes, and the words that it marks for each column and row of blocks.
+// Lights that a work-group of gpu/project_lights.cl takes, and the words that it marks for
+// each column and row of blocks.
 #define PROJECT_WORDS (PROJECT_GROUP / 32)
 
 // Words from one column's or row's marks to the next one's.
@@ -47,7 +48,8 @@ static inline uint light_mark_words(constant CullParams* p) {
 
 // Index in the grid of a block's cell, given by slot and slice. Returns whether the cell is in the view.
 static inline bool cell_of(uint block, uint slot, uint slice, uint* index, constant CullParams* p) {
-  const uint tx = (uint)block_x(block, p) + tile_x_of_slot(slot), ty = (uint)block_y(block, p) + tile_y_of_slot(slot);
+  const uint tx = (uint)block_x(block, p) + tile_x_of_slot(slot),
+             ty = (uint)block_y(block, p) + tile_y_of_slot(slot);
   *index = (slice * p->tiles_y + ty) * p->tiles_x + tx;
   return tx < p->tiles_x && ty < p->tiles_y;
 }

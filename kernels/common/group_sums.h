@@ -1,5 +1,5 @@
-// Sums and prefix sums over a work-group of GROUP items; every item calls them. Items are added up in segments, then the
-// segments' sums: three barriers, where a tree takes seven to eleven.
+// Sums and prefix sums over a work-group of GROUP items; every item calls them. Items are added up in
+// segments, then the segments' sums: three barriers, where a tree takes seven to eleven.
 #pragma once
 
 #ifndef GROUP

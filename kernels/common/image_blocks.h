@@ -17,8 +17,8 @@ static inline uint16 load_block(global const uint* values, uint x, uint y, uint 
   return vload16(0, block);
 }
 
-// Four pixels. Past the caches where they are one aligned store: the image is larger than the caches, and of what
-// they hold, texels are needed again.
+// Four pixels. Past the caches where they are one aligned store: the image is larger than the caches, and of
+// what they hold, texels are needed again.
 static inline void store_row(float16 row, global float* to) {
 #ifdef AVX512
   if (((size_t)to & 63u) == 0) {
@@ -31,17 +31,18 @@ static inline void store_row(float16 row, global float* to) {
 
 // Of a block, its rows: x, y, z and w of four pixels each.
 static inline void rows_of_block(float16* rows, Real3 c, real w) {
-  rows[0] = (float16)(c.x.s0, c.y.s0, c.z.s0, w.s0, c.x.s1, c.y.s1, c.z.s1, w.s1, c.x.s2, c.y.s2, c.z.s2, w.s2,
-                      c.x.s3, c.y.s3, c.z.s3, w.s3);
-  rows[1] = (float16)(c.x.s4, c.y.s4, c.z.s4, w.s4, c.x.s5, c.y.s5, c.z.s5, w.s5, c.x.s6, c.y.s6, c.z.s6, w.s6,
-                      c.x.s7, c.y.s7, c.z.s7, w.s7);
-  rows[2] = (float16)(c.x.s8, c.y.s8, c.z.s8, w.s8, c.x.s9, c.y.s9, c.z.s9, w.s9, c.x.sa, c.y.sa, c.z.sa, w.sa,
-                      c.x.sb, c.y.sb, c.z.sb, w.sb);
-  rows[3] = (float16)(c.x.sc, c.y.sc, c.z.sc, w.sc, c.x.sd, c.y.sd, c.z.sd, w.sd, c.x.se, c.y.se, c.z.se, w.se,
-                      c.x.sf, c.y.sf, c.z.sf, w.sf);
+  rows[0] = (float16)(c.x.s0, c.y.s0, c.z.s0, w.s0, c.x.s1, c.y.s1, c.z.s1, w.s1, c.x.s2, c.y.s2, c.z.s2,
+                      w.s2, c.x.s3, c.y.s3, c.z.s3, w.s3);
+  rows[1] = (float16)(c.x.s4, c.y.s4, c.z.s4, w.s4, c.x.s5, c.y.s5, c.z.s5, w.s5, c.x.s6, c.y.s6, c.z.s6,
+                      w.s6, c.x.s7, c.y.s7, c.z.s7, w.s7);
+  rows[2] = (float16)(c.x.s8, c.y.s8, c.z.s8, w.s8, c.x.s9, c.y.s9, c.z.s9, w.s9, c.x.sa, c.y.sa, c.z.sa,
+                      w.sa, c.x.sb, c.y.sb, c.z.sb, w.sb);
+  rows[3] = (float16)(c.x.sc, c.y.sc, c.z.sc, w.sc, c.x.sd, c.y.sd, c.z.sd, w.sd, c.x.se, c.y.se, c.z.se,
+                      w.se, c.x.sf, c.y.sf, c.z.sf, w.sf);
 }
 
-static inline void store_block(global float* image, Real3 c, real w, uint x, uint y, uint width, uint height) {
+static inline void store_block(global float* image, Real3 c, real w, uint x, uint y, uint width,
+                               uint height) {
   float16 rows[4];
   rows_of_block(rows, c, w);
   global float* at = image + 4 * ((size_t)y * width + x);

@@ -3,11 +3,13 @@
 
 #include "kernels/common/light_cell_tests.h"
 
-// World lights, light_stride floats each: x, y, z relative to the lights' origin, radius; with cones x, y, z of the unit
-// axis and the outer half-angle's cosine (2 where there is none). Readable up to a multiple of 16 lights.
+// World lights, light_stride floats each: x, y, z relative to the lights' origin, radius; with
+// cones x, y, z of the unit axis and the outer half-angle's cosine (2 where there is none).
+// Readable up to a multiple of 16 lights.
 #define WORLD_ARRAYS 8
 
-// Lights in view space, an array each: centre and radius with slack; the tiles they can be seen in; the index; the cone.
+// Lights in view space, an array each: centre and radius with slack; the tiles they can
+// be seen in; the index; the cone.
 #define VIEW_X 0
 #define VIEW_Y 1
 #define VIEW_D 2
@@ -28,7 +30,8 @@
 #endif
 
 static inline ViewSphere load_sphere(global const float* lights, size_t stride) {
-  const ViewSphere s = {LOAD(lights), LOAD(lights + stride), LOAD(lights + 2 * stride), LOAD(lights + 3 * stride)};
+  const ViewSphere s = {LOAD(lights), LOAD(lights + stride), LOAD(lights + 2 * stride),
+                        LOAD(lights + 3 * stride)};
   return s;
 }
 

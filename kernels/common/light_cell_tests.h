@@ -1,9 +1,10 @@
 // Whether a light may touch a cell. A test may keep a light that does not, and never drops one that does.
 //
-// Why they are conservative: each test computes, in float, a lower bound of a distance and compares it with the radius, which
-// has grown by more than all rounding errors of the computation: docs/hard_cases.md#slack. Why a coarse step drops nothing
-// that the fine step would keep: for a larger box each expression below is, operation by operation, no larger, and rounding
-// preserves that order. The lists are therefore those of testing every light against every cell, whatever the hierarchy.
+// Why they are conservative: each test computes, in float, a lower bound of a distance and compares it with
+// the radius, which has grown by more than all rounding errors of the computation: docs/hard_cases.md#slack.
+// Why a coarse step drops nothing that the fine step would keep: for a larger box each expression below is,
+// operation by operation, no larger, and rounding preserves that order. The lists are therefore those of
+// testing every light against every cell, whatever the hierarchy.
 #pragma once
 
 #include "kernels/common/cell.h"
@@ -28,8 +29,8 @@ static inline mask_t sphere_may_touch(ViewSphere s, const Cell* c) {
 #endif
 
 #if CULL_TEST == CULL_EXACT
-// The squared distance f from the centre to the cell's cross-section at distance t; g, half its derivative in t; and bend,
-// the derivative of g while the nearest side stays the same.
+// The squared distance f from the centre to the cell's cross-section at distance t; g, half its derivative in
+// t; and bend, the derivative of g while the nearest side stays the same.
 typedef struct Section {
   real f, g, bend;
 } Section;
@@ -41,18 +42,19 @@ static inline Section section_at(ViewSphere s, const Cell* c, real t, uint ortho
   real slope_x = left > (real)(0.0f) ? (real)(c->x0) : (right > (real)(0.0f) ? (real)(-c->x1) : (real)(0.0f));
   real slope_y = low > (real)(0.0f) ? (real)(c->y0) : (high > (real)(0.0f) ? (real)(-c->y1) : (real)(0.0f));
   if (orthographic) slope_x = slope_y = 0.0f;
-  const real x = lane_max(lane_max(left, right), (real)(0.0f)), y = lane_max(lane_max(low, high), (real)(0.0f));
+  const real x = lane_max(lane_max(left, right), (real)(0.0f)),
+             y = lane_max(lane_max(low, high), (real)(0.0f));
   const real d = t - s.d;
   const Section at = {d * d + x * x + y * y, d + slope_x * x + slope_y * y,
                       1.0f + slope_x * slope_x + slope_y * slope_y};
   return at;
 }
 
-// Of the lights in `keep`, those that may touch the cell itself. f is convex in t with f'' >= 2, so for every u in
-// [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a lower bound whatever t is. t is a Newton iterate. f is quadratic in
-// pieces, so one step is exact unless the nearest faces change. g is moved towards the minimum by its rounding error. A
-// light is kept when a section touches it and dropped when the bound exceeds its radius; after four steps, or with NaN, it
-// is kept.
+// Of the lights in `keep`, those that may touch the cell itself. f is convex in t with f'' >= 2, so for every
+// u in [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a lower bound whatever t is. t is a Newton
+// iterate. f is quadratic in pieces, so one step is exact unless the nearest faces change. g is moved towards
+// the minimum by its rounding error. A light is kept when a section touches it and dropped when the bound
+// exceeds its radius; after four steps, or with NaN, it is kept.
 static inline mask_t exact_may_touch(mask_t keep, ViewSphere s, const Cell* c, uint orthographic) {
   const real near = c->near, far = c->far, r2 = s.r * s.r;
   real t = lane_min(lane_max(s.d, near), far);
@@ -98,12 +100,14 @@ typedef struct ViewCone {
   real x, y, d, cosine;
 } ViewCone;
 
-// The cone against the sphere around the cell's box (Wronski, "Cull that cone!", 2017). Sound up to a half-angle of 90
-// degrees. Past that a cone is not convex and the test loses cells (12 % of them at 100 degrees), so such a light has no
-// cone here and only its sphere is tested. The distance from the axis comes from the cross product: |v|^2 - along^2 would
-// cancel near the axis. The comparisons are written so that NaN keeps the light: far, wide cells overflow.
+// The cone against the sphere around the cell's box (Wronski, "Cull that cone!", 2017). Sound up to a
+// half-angle of 90 degrees. Past that a cone is not convex and the test loses cells (12 % of them at 100
+// degrees), so such a light has no cone here and only its sphere is tested. The distance from the axis comes
+// from the cross product: |v|^2 - along^2 would cancel near the axis. The comparisons are written so that NaN
+// keeps the light: far, wide cells overflow.
 static inline mask_t cone_may_touch(ViewSphere s, ViewCone k, const Cell* c, constant CullParams* p) {
-  const float cx = 0.5f * (c->box_x0 + c->box_x1), cy = 0.5f * (c->box_y0 + c->box_y1), cd = 0.5f * (c->near + c->far);
+  const float cx = 0.5f * (c->box_x0 + c->box_x1), cy = 0.5f * (c->box_y0 + c->box_y1),
+              cd = 0.5f * (c->near + c->far);
   const float hx = c->box_x1 - c->box_x0, hy = c->box_y1 - c->box_y0, hd = c->far - c->near;
   const float half_size = 0.5f * sqrt(hx * hx + hy * hy + hd * hd) * (1.0f + SLACK);
   // The rounding of the apex on upload and of the tile's sides come on top of the coordinates' own rounding.
@@ -111,7 +115,8 @@ static inline mask_t cone_may_touch(ViewSphere s, ViewCone k, const Cell* c, con
   const float size = half_size + (sides + p->cone_slack_m);
   const float centre = fabs(cx) + fabs(cy) + fabs(cd);
   const real x = cx - s.x, y = cy - s.y, d = cd - s.d;
-  const real reach = size + 2.0f * SLACK * (fabs(x) + fabs(y) + fabs(d) + fabs(s.x) + fabs(s.y) + fabs(s.d) + centre);
+  const real reach =
+      size + 2.0f * SLACK * (fabs(x) + fabs(y) + fabs(d) + fabs(s.x) + fabs(s.y) + fabs(s.d) + centre);
   const real along = x * k.x + y * k.y + d * k.d;
   const real sine = sqrt(lane_max((real)(1.0f) - k.cosine * k.cosine, (real)(0.0f)));
   const real ax = y * k.d - d * k.y, ay = d * k.x - x * k.d, ad = x * k.y - y * k.x;

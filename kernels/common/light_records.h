@@ -1,7 +1,8 @@
-// Lights in view space as records, for CPUs. All values of a light lie side by side, so that lists of indices suffice to
-// sort lights by screen position, and any 16 records become vectors in a few shuffles.
+// Lights in view space as records, for CPUs. All values of a light lie side by side, so that lists of indices
+// suffice to sort lights by screen position, and any 16 records become vectors in a few shuffles.
 //
-// A record: x, y, d, r; first and last of its TileRect; two unused; with cones the axis x, y, d and the cosine.
+// A record: x, y, d, r; first and last of its TileRect; two unused; with cones the axis x, y, d and the
+// cosine.
 #pragma once
 
 #include "kernels/common/light_arrays.h"
@@ -71,12 +72,14 @@ static inline void store_records(LightRecords l, global float* records) {
 #pragma unroll
   for (uint h = 0; h < 2; ++h) {  // eight lights each
 #define HALF(v) (h ? (v).hi : (v).lo)
-    const float16 x_first = mixed(HALF(l.sphere.x), HALF(first)), d_none = mixed(HALF(l.sphere.d), HALF(none));
+    const float16 x_first = mixed(HALF(l.sphere.x), HALF(first)),
+                  d_none = mixed(HALF(l.sphere.d), HALF(none));
     const float16 y_last = mixed(HALF(l.sphere.y), HALF(last)), r_none = mixed(HALF(l.sphere.r), HALF(none));
 #pragma unroll
     for (uint q = 0; q < 2; ++q) {  // four each
 #define QUARTER(v) (q ? (v).hi : (v).lo)
-      const float16 even = mixed(QUARTER(x_first), QUARTER(d_none)), odd = mixed(QUARTER(y_last), QUARTER(r_none));
+      const float16 even = mixed(QUARTER(x_first), QUARTER(d_none)),
+                    odd = mixed(QUARTER(y_last), QUARTER(r_none));
       const float16 a = mixed(even.lo, odd.lo), b = mixed(even.hi, odd.hi);
       global float* to = records + (h * 8 + q * 4) * RECORD;
       vstore8(a.lo, 0, to), vstore8(a.hi, 0, to + RECORD);
@@ -84,7 +87,8 @@ static inline void store_records(LightRecords l, global float* records) {
 #undef QUARTER
     }
 #ifdef SPOTS
-    const float16 x_d = mixed(HALF(l.cone.x), HALF(l.cone.d)), y_cosine = mixed(HALF(l.cone.y), HALF(l.cone.cosine));
+    const float16 x_d = mixed(HALF(l.cone.x), HALF(l.cone.d)),
+                  y_cosine = mixed(HALF(l.cone.y), HALF(l.cone.cosine));
     const float16 a = mixed(x_d.lo, y_cosine.lo), b = mixed(x_d.hi, y_cosine.hi);
     global float* to = records + h * 8 * RECORD + RECORD_CONE;
     vstore4(a.lo.lo, 0, to), vstore4(a.lo.hi, 0, to + RECORD);
@@ -96,19 +100,20 @@ static inline void store_records(LightRecords l, global float* records) {
   }
 }
 
-// Packed range test of a light against a bin of a region, in two words. Each field has a guard bit on top; after one 32-bit
-// subtraction a cleared guard bit means that this field's ranges do not overlap.
+// Packed range test of a light against a bin of a region, in two words. Each field has a guard bit on top;
+// after one 32-bit subtraction a cleared guard bit means that this field's ranges do not overlap.
 //
 // Word of tiles, a byte each: last column, last row, 127 - first column, 127 - first row.
-// Word of distances, 15 bits each, the upper half of a float: the far one, and the largest value less the near one. Cutting
-// a float's lower half keeps the order of floats, so ranges that overlap still overlap.
+// Word of distances, 15 bits each, the upper half of a float: the far one, and the largest value less the
+// near one. Cutting a float's lower half keeps the order of floats, so ranges that overlap still overlap.
 #define REGION_TILES 128u  // a side at most
 #define BYTE_TOPS 0x80808080u
 #define HALF_TOPS 0x80008000u
 
 // x, y: the region's first tile. The light meets it.
 static inline uint16 tiles_in_region(TileRect rect, int x, int y) {
-  const int16 zero = 0, most = (int)REGION_TILES - 1;  // vectors: with a number beside one, Oclgrind 21.10 reads past it
+  // Vectors: with a number beside one, Oclgrind 21.10 reads past it
+  const int16 zero = 0, most = (int)REGION_TILES - 1;
   const int16 x0 = max((rect.first & 0xffff) - x, zero), x1 = min((rect.last & 0xffff) - x, most);
   const int16 y0 = max((rect.first >> 16) - y, zero), y1 = min((rect.last >> 16) - y, most);
   return as_uint16(x1 | y1 << 8 | (most - x0) << 16 | (most - y0) << 24) | BYTE_TOPS;
@@ -116,12 +121,14 @@ static inline uint16 tiles_in_region(TileRect rect, int x, int y) {
 
 // +0 for all that is negative or -0; `otherwise` for NaN.
 static inline uint16 short_distance(float16 distance, float otherwise) {
-  const float16 some = distance > 0.0f ? distance : (distance <= 0.0f ? (float16)(0.0f) : (float16)(otherwise));
+  const float16 some =
+      distance > 0.0f ? distance : (distance <= 0.0f ? (float16)(0.0f) : (float16)(otherwise));
   return as_uint16(some) >> 16;
 }
 
-// A light's span of distances. It exceeds the sphere's by more than the rounding of the finer tests, so that it drops no
-// light which they would keep. They compare squares and keep a light where a square underflows or overflows.
+// A light's span of distances. It exceeds the sphere's by more than the rounding of the finer tests,
+// so that it drops no light which they would keep. They compare squares and keep a light where a
+// square underflows or overflows.
 static inline uint16 span_of(ViewSphere s) {
   const float16 margin = 1e-6f * (fabs(s.d) + s.r) + 1e-18f, zero = 0.0f, far_away = FAR_AWAY;
   const int16 bounded = s.r * s.r < (float16)(INFINITY);
@@ -145,5 +152,6 @@ static inline PackedRange packed_range_of_bin(uint x, uint y, const Cell* bin) {
 }
 
 static inline int16 meets_bin(uint16 tiles, uint16 span, PackedRange range) {
-  return ((((tiles - range.tiles) & BYTE_TOPS) ^ BYTE_TOPS) | (((span - range.span) & HALF_TOPS) ^ HALF_TOPS)) == (uint16)(0u);
+  return ((((tiles - range.tiles) & BYTE_TOPS) ^ BYTE_TOPS) |
+          (((span - range.span) & HALF_TOPS) ^ HALF_TOPS)) == (uint16)(0u);
 }

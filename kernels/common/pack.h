@@ -1,5 +1,5 @@
-// A mask of 16 lanes as bits, and stores of the lanes that a mask keeps, in order. With -DAVX512 each is one instruction,
-// through builtins of the compiler; without it, plain OpenCL C.
+// A mask of 16 lanes as bits, and stores of the lanes that a mask keeps, in order. With -DAVX512 each is one
+// instruction, through builtins of the compiler; without it, plain OpenCL C.
 #pragma once
 
 #include "shared/lanes.h"
@@ -11,7 +11,9 @@ typedef ushort unaligned_ushorts __attribute__((ext_vector_type(16), aligned(2))
 typedef uint unaligned_uints __attribute__((ext_vector_type(16), aligned(4)));
 
 static inline uint mask_bits(mask_t m) { return (ushort)__builtin_ia32_cvtd2mask512(m); }
-static inline int16 packed(int16 v, uint bits) { return __builtin_ia32_compresssi512_mask(v, v, (ushort)bits); }
+static inline int16 packed(int16 v, uint bits) {
+  return __builtin_ia32_compresssi512_mask(v, v, (ushort)bits);
+}
 
 // Each writes 16 values, the kept ones first. Lists therefore have room for 16 values past their end.
 static inline void append_reals(global float* to, real v, uint bits) {
@@ -35,8 +37,8 @@ static inline uint mask_bits(mask_t m) {
   return (uint)(e.x | e.y);
 }
 
-// As above. Every lane is written to the next free entry, which advances only for kept lanes: cheaper than a branch. The
-// upper half starts from its own count and does not wait for the lower half.
+// As above. Every lane is written to the next free entry, which advances only for kept lanes: cheaper than a
+// branch. The upper half starts from its own count and does not wait for the lower half.
 #define APPEND_LANES(WRITE)                                         \
   _Pragma("unroll") for (uint h = 0; h < 16; h += 8) {              \
     uint n = h == 0 ? 0u : popcount(bits & 0xffu);                  \
@@ -58,7 +60,8 @@ static inline void append_uints(global uint* to, whole v, uint bits) {
 static inline void append_uints_3(global uint* to, size_t stride, whole a, whole b, whole c, uint bits) {
   int lanes[3][16];
   vstore16(a, 0, lanes[0]), vstore16(b, 0, lanes[1]), vstore16(c, 0, lanes[2]);
-  APPEND_LANES((to[n] = (uint)lanes[0][i], to[stride + n] = (uint)lanes[1][i], to[2 * stride + n] = (uint)lanes[2][i]))
+  APPEND_LANES(
+      (to[n] = (uint)lanes[0][i], to[stride + n] = (uint)lanes[1][i], to[2 * stride + n] = (uint)lanes[2][i]))
 }
 #undef APPEND_LANES
 #endif

@@ -10,8 +10,9 @@
 #define CULL_TEST CULL_PLANES_AABB
 #endif
 
-// Radii grow by this part of |x| + |y| + |d| + radius before any test. That covers every rounding from the light's world
-// position to the comparison, except the rounding of tile sides, which the view gives: docs/hard_cases.md#slack.
+// Radii grow by this part of |x| + |y| + |d| + radius before any test. That covers every rounding from
+// the light's world position to the comparison, except the rounding of tile sides, which the view
+// gives: docs/hard_cases.md#slack.
 #define SLACK (24.0f * 5.9604645e-8f)
 // Radii also grow by this, metres: squares of smaller numbers underflow.
 #define LEAST_RADIUS 1e-18f
@@ -23,7 +24,8 @@ typedef struct ViewSphere {
   real x, y, d, r;
 } ViewSphere;
 
-static inline ViewSphere view_sphere(real world_x, real world_y, real world_z, real radius, constant CullParams* p) {
+static inline ViewSphere view_sphere(real world_x, real world_y, real world_z, real radius,
+                                     constant CullParams* p) {
   const real x = (world_x - p->eye_x) - p->eye_rest_x;
   const real y = (world_y - p->eye_y) - p->eye_rest_y;
   const real z = (world_z - p->eye_z) - p->eye_rest_z;
@@ -37,10 +39,11 @@ static inline ViewSphere view_sphere(real world_x, real world_y, real world_z, r
   return s;
 }
 
-// Slopes v / d of the two tangents from the eye to the circle of radius r around (v, d), d > -r. No form below cancels: sums
-// have terms of one sign, and differences are taken of input numbers only. Where the circle reaches past the eye (d <= r)
-// it has no bound on its own side; where the eye is inside, it has no bound on either side. Near the circle's edge, from
-// outside, the root does cancel. It is then reduced by its error bound, which moves the tangent outwards.
+// Slopes v / d of the two tangents from the eye to the circle of radius r around (v, d), d > -r. No form
+// below cancels: sums have terms of one sign, and differences are taken of input numbers only. Where the
+// circle reaches past the eye (d <= r) it has no bound on its own side; where the eye is inside, it has no
+// bound on either side. Near the circle's edge, from outside, the root does cancel. It is then reduced by its
+// error bound, which moves the tangent outwards.
 static inline void tangent_slopes(real v, real d, real r, real* low, real* high) {
   const real n = (v - r) * (v + r), e = (d - r) * (d + r);
   const mask_t open = d <= r;
@@ -55,10 +58,11 @@ static inline void tangent_slopes(real v, real d, real r, real* low, real* high)
   *high = (open & ((v >= (real)(0.0f)) | (outside == (mask_t)(0)))) ? (real)(FAR_AWAY) : to;
 }
 
-// First and last tile whose pixels a slope from `low` to `high` can reach. `pixels` pixels are divided into tiles of `size`;
-// a cell is smaller than its tile by `inset` pixels on each side. No tile: first > last. NaN keeps every tile.
-static inline void tile_range(real low, real high, float scale, float offset, float inset, uint pixels, float size,
-                              whole* first, whole* last) {
+// First and last tile whose pixels a slope from `low` to `high` can reach. `pixels` pixels are
+// divided into tiles of `size`; a cell is smaller than its tile by `inset` pixels on each side. No
+// tile: first > last. NaN keeps every tile.
+static inline void tile_range(real low, real high, float scale, float offset, float inset, uint pixels,
+                              float size, whole* first, whole* last) {
   const float margin = inset / size, end = ((float)pixels - inset) / size;
   const int last_tile = (int)((pixels - 1) / (uint)size);
   const real from = low * scale, to = high * scale;
@@ -66,12 +70,14 @@ static inline void tile_range(real low, real high, float scale, float offset, fl
   const real to_slack = TANGENT_SLACK * (fabs(to) + fabs(offset) + 1.0f);
   const real begin = (from + offset) - from_slack;
   const real f = lane_floor(lane_min(lane_max(begin + margin, (real)(-1.0f)), (real)(32000.0f)));
-  const real t = lane_floor(lane_max(lane_min((to + offset) - (margin - to_slack), (real)(32000.0f)), (real)(-1.0f)));
+  const real t =
+      lane_floor(lane_max(lane_min((to + offset) - (margin - to_slack), (real)(32000.0f)), (real)(-1.0f)));
   *first = begin > (real)(end) ? (whole)(32000) : max(TO_WHOLE(f), (whole)(0));  // the last tile is cut
   *last = min(TO_WHOLE(t), (whole)(last_tile));
 }
 
-// A rectangle of tiles in two words: columns in the low half, rows in the high half. An empty one meets no rectangle.
+// A rectangle of tiles in two words: columns in the low half, rows in the high half.
+// An empty one meets no rectangle.
 typedef struct TileRect {
   whole first, last;
 } TileRect;
@@ -98,8 +104,8 @@ static inline TileRect tile_rect(ViewSphere s, real radius, constant CullParams*
   return rect;
 }
 
-// Whether r shares a tile with columns x0 ... x1 and rows y0 ... y1, given as first = x0 | y0 << 16, last likewise. Both
-// halves are compared at once: a half below 0 sets its top bit. Halves hold 15 bits.
+// Whether r shares a tile with columns x0 ... x1 and rows y0 ... y1, given as first = x0 | y0 << 16, last
+// likewise. Both halves are compared at once: a half below 0 sets its top bit. Halves hold 15 bits.
 static inline mask_t rect_meets(TileRect r, int first, int last) {
   return ((r.last - first | last - r.first) & (whole)(0x80008000)) == (whole)(0);
 }

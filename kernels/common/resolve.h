@@ -2,8 +2,8 @@
 // material at a time. Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading"
 // (JCGT 2013).
 //
-// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSKIN, -DMINNAERT  some surface
-// of the scene has these; without, their code is not there
+// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSKIN, -DMINNAERT
+//           some surface of the scene has these; without, their code is not there
 #pragma once
 
 #include "kernels/common/surface_attributes.h"
@@ -163,7 +163,8 @@ typedef struct MapTexels {
 
 // One copy of the filter serves all maps that are not packed, since each of 16 unrolled lanes takes its time
 // to compile.
-static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s, global const SurfaceMaterial* m) {
+static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
+                                    global const SurfaceMaterial* m) {
   const real one = 1.0f;
   MapTexels t = {real3(one, one, one), real3(one, one, one), real3(one, one, one), one, one, one, one};
 #ifdef CLEARCOAT

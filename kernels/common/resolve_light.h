@@ -3,11 +3,13 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
-// -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer (kernels/common/voxel_lookup.h), not from lists
-// -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only the rest comes from
-//                the volume
+// -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
+//                  (kernels/common/voxel_lookup.h), not from lists
+// -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only
+//                the rest comes from the volume
 // -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
-// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT  as kernels/common/shade_pixels.h says
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT
+//                as kernels/common/shade_pixels.h says
 #pragma once
 
 #include "kernels/common/resolve.h"
@@ -18,8 +20,9 @@
 #ifdef VOXEL_EXACT
 #include "shared/voxel_exact.h"
 #endif
-#define VOXEL_ARGUMENTS \
-  , global const stored_voxel_t *irradiance, global const stored_voxel_t *directions, constant VoxelLookup *voxels
+#define VOXEL_ARGUMENTS                                                               \
+  , global const stored_voxel_t *irradiance, global const stored_voxel_t *directions, \
+      constant VoxelLookup *voxels
 #define GIVEN_VOXELS , irradiance, directions, voxels
 #else
 #define VOXEL_ARGUMENTS
@@ -37,9 +40,9 @@
 // keys between them; with -DSLICES the depth keys between slices; with -DWORLD_GRID the world
 // grid's own (shared/world_grid.h).
 #ifdef WORLD_GRID
-#define WORLD_ARGUMENTS                                                                                         \
-  , global const uint *world_buckets, global const uint2 *world_keys, constant WorldGridParams *world, constant \
-      WorldViewParams *world_view
+#define WORLD_ARGUMENTS                                                                                \
+  , global const uint *world_buckets, global const uint2 *world_keys, constant WorldGridParams *world, \
+      constant WorldViewParams *world_view
 #define RESOLVE_WORLD , {world_buckets, world_keys, cells}, world, world_view
 #else
 #define WORLD_ARGUMENTS
@@ -52,14 +55,18 @@
       global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
       global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
       global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
-      constant float *bin_edges, constant float *slice_edges, constant ViewParams *view VOXEL_ARGUMENTS WORLD_ARGUMENTS
+      constant float *bin_edges, constant float *slice_edges,                                        \
+      constant ViewParams *view VOXEL_ARGUMENTS WORLD_ARGUMENTS
 #define RESOLVE_SCENE                                                                               \
   {                                                                                                 \
     triangle_instance, instances, surfaces, indices, clip, vertices, materials, texels_4, texels_8, \
         (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                             \
   }
-#define RESOLVE_LIGHTS \
-  { {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, slice_edges GIVEN_VOXELS RESOLVE_WORLD }
+#define RESOLVE_LIGHTS                                                               \
+  {                                                                                  \
+    {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, \
+        slice_edges GIVEN_VOXELS RESOLVE_WORLD                                       \
+  }
 
 typedef struct ResolveLights {
   Lights lights;
@@ -95,8 +102,9 @@ static inline void take_list(ResolveLights* l, global const index_t* light_indic
 
 #ifdef SLICES
 // From the nearest slice to the farthest, the list of each for the pixels in it.
-static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth, mask_t lit, const ResolveLights* l,
-                                   constant float* bin_edges, constant ViewParams* view) {
+static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth, mask_t lit,
+                                   const ResolveLights* l, constant float* bin_edges,
+                                   constant ViewParams* view) {
   const real nearest = lit ? -depth : REAL(INFINITY), farthest = lit ? depth : REAL(INFINITY);
   const uint first = slice_of_key(least_lane(nearest), l->slice_edges);
   const uint last = slice_of_key(-least_lane(farthest), l->slice_edges);
@@ -106,7 +114,8 @@ static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth,
     const mask_t here = lit & (-depth >= REAL(begin)) & (-depth < REAL(end));
     if (!any_lane(here)) continue;
     const uint2 range = l->cells[cell_in_slice(l->cell, slice, view->tiles_x, view->tiles_y)];
-    const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y, bins_of_pixels(depth, here, bin_edges), &l->lights);
+    const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y,
+                                   bins_of_pixels(depth, here, bin_edges), &l->lights);
     sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
   }
   return sum;
@@ -119,7 +128,8 @@ static inline real importance_at(const ShadingPoint* p, mask_t lit, PunctualLigh
 }
 
 // Shades the lights of the list that matter most at each pixel, and takes them out of the rest.
-static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, const ResolveLights* l, VoxelLight* rest) {
+static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, const ResolveLights* l,
+                                VoxelLight* rest) {
   real greatest[VOXEL_EXACT];
   for (uint k = 0; k < VOXEL_EXACT; ++k) greatest[k] = 0.0f;
   for (uint i = 0; i < l->count; ++i) {
@@ -139,7 +149,8 @@ static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, co
     const mask_t chosen = (value > REAL(0.0f)) & (value >= greatest[VOXEL_EXACT - 1]);
     if (!any_lane(chosen)) continue;
     const Real3 own = radiance_from(*p, light);
-    sum = real3(sum.x + (chosen ? own.x : REAL(0.0f)), sum.y + (chosen ? own.y : REAL(0.0f)), sum.z + (chosen ? own.z : REAL(0.0f)));
+    sum = real3(sum.x + (chosen ? own.x : REAL(0.0f)), sum.y + (chosen ? own.y : REAL(0.0f)),
+                sum.z + (chosen ? own.z : REAL(0.0f)));
     *rest = without_light(*rest, p->position, light, chosen ? REAL(1.0f) : REAL(0.0f), l->voxels);
   }
   *rest = at_least_nothing(*rest);
@@ -149,11 +160,13 @@ static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, co
 
 #ifdef WORLD_GRID
 // A cell's list and the lights of every list, merged: the order of the brute-force loop.
-static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t lit, uint2 range, const ResolveLights* l) {
+static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t lit, uint2 range,
+                                       const ResolveLights* l) {
   uint i = range.x, other = l->world->everywhere_first;
   const uint end = i + range.y, other_end = other + l->world->everywhere_count;
   while (i < end || other < other_end) {
-    const uint light = i < end ? l->list[i] : UINT_MAX, everywhere = other < other_end ? l->list[other] : UINT_MAX;
+    const uint light = i < end ? l->list[i] : UINT_MAX,
+               everywhere = other < other_end ? l->list[other] : UINT_MAX;
     if (light < everywhere) {
       ++i;
     } else {
@@ -199,9 +212,10 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
   constant WorldGridParams* const world = l->world;
   const Real3 at = world_position(p->position, l->world_view);
-  const uint2 range = world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
-                                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
-                                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &l->world_lists);
+  const uint2 range =
+      world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
+                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
+                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &l->world_lists);
   return sum_of_world_lists(own, p, lit, range, l);
 }
 #endif
@@ -235,7 +249,8 @@ static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s,
                                           mask_t covered, constant ViewParams* view) {
   const Real3 position = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
   const Real3 to_viewer = direction_to_viewer(position);
-  ShadingPoint p = shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
+  ShadingPoint p =
+      shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
 #ifdef SKIN
   p = with_skin(p, s->subsurface, s->roll_off);
 #endif

@@ -1,7 +1,8 @@
 // The light pass in OpenCL: LANES pixels of one cell and the lights of its list.
 //
 // -DINDEX_32  indices are 32 bits, not 16
-// -DBASE_LIGHTING  the image already holds ambient, directional and emitted light; without it ambient light is added here
+// -DBASE_LIGHTING  the image already holds ambient, directional and emitted light; without
+//                  it ambient light is added here
 // -DZ_BINS    lights whose z-bin range misses the pixels are skipped
 // -DSPOTS     some light has a cone
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
@@ -71,7 +72,8 @@ static inline mask_t in_range(Real3 position, PunctualLight light) {
 
 // A light that reaches none of the lit pixels, or that none of them faces, would add exact zeros. Few of a
 // list's lights reach a given block of pixels, so the cheaper test comes first.
-static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index, const Lights* lights) {
+static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index,
+                               const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
   if (!any_lane(lit & in_range(p->position, light))) return sum;
   const Arrival arrival = arrival_at(p->position, light);
@@ -90,13 +92,14 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 // In the order of the list: the sum of the GL loop. A list that is null has the first `count` lights.
 #if defined(Z_BINS) && LANES == 16
 #define STRETCH 64u
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
-                                PixelBins bins, const Lights* lights) {
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
+                                uint count, PixelBins bins, const Lights* lights) {
   uint met[STRETCH];
   for (uint begin = 0; begin < count; begin += STRETCH) {
     const uint end = min(begin + STRETCH, count);
     uint n = 0;
-    // A loop of its own, without a branch: a branch inside the sum would cost more than the lights that it skips.
+    // A loop of its own, without a branch: a branch inside the sum would cost more
+    // than the lights that it skips.
     for (uint i = begin; i < end; ++i) {
       const uint index = list ? list[i] : i;
       met[n] = index;
@@ -107,8 +110,8 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
   return sum;
 }
 #else
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
-                                PixelBins bins, const Lights* lights) {
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
+                                uint count, PixelBins bins, const Lights* lights) {
   for (uint i = 0; i < count; ++i) {
     const uint index = list ? list[i] : i;
 #ifdef Z_BINS
@@ -120,12 +123,13 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
 }
 #endif
 
-static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count, PixelBins bins,
-                              const Lights* lights, constant ViewParams* view) {
+static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
+                              PixelBins bins, const Lights* lights, constant ViewParams* view) {
 #ifdef BASE_LIGHTING
   const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
 #else
-  const Real3 own = reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+  const Real3 own =
+      reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
 #endif
   return sum_of_list(own, p, lit, list, count, bins, lights);
 }

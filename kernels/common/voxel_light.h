@@ -1,5 +1,6 @@
-// What a light adds to LANES samples of a voxel light buffer, which lie in one slice. docs/techniques/voxel_lights.md has the
-// reasons: a light's reach is grown so that the samples around each lit point get a part of it, and dimmed by as much.
+// What a light adds to LANES samples of a voxel light buffer, which lie in one slice.
+// docs/techniques/voxel_lights.md has the reasons: a light's reach is grown so that the samples around each
+// lit point get a part of it, and dimmed by as much.
 //
 // -DVOXEL_BITS  16 or 32: bits of a stored value (default 32)
 // -DSPOTS       some light has a cone
@@ -25,16 +26,21 @@ typedef float voxel_t;
 #endif
 #endif
 
-// Of one light at one sample, and of all of them on a sample that is written: finite in all products that shading makes.
+// Of one light at one sample, and of all of them on a sample that is written: finite in
+// all products that shading makes.
 #define LARGEST_VOXEL 1e15f
 
 // Lights by groups of VOXEL_LIGHT_GROUP. What pads the last group is far away.
 typedef struct VoxelLights {
-  global const float* boxes;   // of groups, six planes of VOXEL_LIGHT_GROUP groups each: least and greatest x, y, z
-  global const float* places;  // of a group's lights: x, y, z and radius, VOXEL_LIGHT_GROUP each, along the volume's axes
+  // Of groups, six planes of VOXEL_LIGHT_GROUP groups each: least and greatest x, y, z
+  global const float* boxes;
+  // Of a group's lights: x, y, z and radius, VOXEL_LIGHT_GROUP each, along the volume's axes
+  global const float* places;
   global const float4* colors;  // radiant intensity, and the least 1 / distance^2
 #ifdef SPOTS
-  global const float8* cones;  // scale 0: no cone. Axis times scale, offset (shared/punctual_light.h), scale, 1 - cosine and squared sine of the half-angle
+  // scale 0: no cone. Axis times scale, offset (shared/punctual_light.h), scale, 1 - cosine and
+  // squared sine of the half-angle
+  global const float8* cones;
 #endif
 } VoxelLights;
 
@@ -44,9 +50,10 @@ typedef struct VoxelBox {
 } VoxelBox;
 
 // Of count_x * count_y * count_z samples from (x, y, z) on.
-static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSlice* slices, uint x, uint y, uint z, uint count_x,
-                                      uint count_y, uint count_z) {
-  const float x0 = grid->origin_x + (float)x * grid->spacing_x, y0 = grid->origin_y + (float)y * grid->spacing_y;
+static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSlice* slices, uint x, uint y,
+                                      uint z, uint count_x, uint count_y, uint count_z) {
+  const float x0 = grid->origin_x + (float)x * grid->spacing_x,
+              y0 = grid->origin_y + (float)y * grid->spacing_y;
   const float x1 = grid->origin_x + (float)(x + count_x - 1) * grid->spacing_x;
   const float y1 = grid->origin_y + (float)(y + count_y - 1) * grid->spacing_y;
   const float z0 = slices[z].place, z1 = slices[z + count_z - 1].place;
@@ -59,8 +66,8 @@ static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSl
   return b;
 }
 
-// Slightly more than the largest square that add_voxel_light adds to a light's squared radius in these slices, and what its
-// distances may be rounded by.
+// Slightly more than the largest square that add_voxel_light adds to a light's squared radius in these
+// slices, and what its distances may be rounded by.
 static inline float grown_by(constant VoxelSlice* slices, uint z, uint count) {
   float most = slices[z].half_diagonal_squared;
   for (uint i = 1; i < count; ++i) most = fmax(most, slices[z + i].half_diagonal_squared);
@@ -79,9 +86,10 @@ static inline mask_t may_light(real x, real y, real z, real radius, const VoxelB
 }
 
 // Lanes whose box of balls, grown, meets the box.
-static inline mask_t may_meet(real low_x, real low_y, real low_z, real high_x, real high_y, real high_z, const VoxelBox* b,
-                              float grown) {
-  const real dx = outside(low_x, high_x, b->low_x, b->high_x), dy = outside(low_y, high_y, b->low_y, b->high_y);
+static inline mask_t may_meet(real low_x, real low_y, real low_z, real high_x, real high_y, real high_z,
+                              const VoxelBox* b, float grown) {
+  const real dx = outside(low_x, high_x, b->low_x, b->high_x),
+             dy = outside(low_y, high_y, b->low_y, b->high_y);
   const real dz = outside(low_z, high_z, b->low_z, b->high_z);
   return dx * dx + dy * dy + dz * dz <= REAL(grown * 1.0001f);
 }
@@ -96,7 +104,8 @@ static inline real luminance_of(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y 
 // What a light's radius is in a slice.
 typedef struct VoxelReach {
   float squared, inverse_squared;
-  float dimmed;  // over the ball of its reach a light adds up to its intensity times the radius, whatever the window
+  // Over the ball of its reach a light adds up to its intensity times the radius, whatever the window
+  float dimmed;
 } VoxelReach;
 
 static inline VoxelReach voxel_reach(float radius, constant VoxelSlice* slice) {
@@ -108,7 +117,8 @@ static inline VoxelReach voxel_reach(float radius, constant VoxelSlice* slice) {
 }
 
 // Of a spot. Its edge is rounded off over the angle that a cell fills, q its square. y (y - x) = soft^2 / 4.
-static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real inverse, constant VoxelSlice* slice) {
+static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real inverse,
+                              constant VoxelSlice* slice) {
   const real q = lane_min(slice->half_diagonal_squared * inverse_squared, REAL(4.0f));
   const real x = (cone.s0 * d.x + cone.s1 * d.y + cone.s2 * d.z) * inverse + cone.s3;
   const real soft_squared = cone.s4 * cone.s4 * q * (cone.s6 + 0.25f * q);
@@ -118,14 +128,14 @@ static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real i
   return (angular * angular) * (cone.s5 / (cone.s5 + 0.5f * q));
 }
 
-// What a light is attenuated by at samples, 0 out of its reach or its cone, and 1 / distance. d: to the light. cone: as in
-// VoxelLights, without SPOTS unread.
+// What a light is attenuated by at samples, 0 out of its reach or its cone, and 1 / distance. d: to the
+// light. cone: as in VoxelLights, without SPOTS unread.
 typedef struct VoxelArrival {
   real attenuation, inverse;
 } VoxelArrival;
 
-static inline VoxelArrival voxel_arrival(Real3 d, real squared, constant VoxelSlice* slice, VoxelReach reach, float least_falloff,
-                                         float8 cone) {
+static inline VoxelArrival voxel_arrival(Real3 d, real squared, constant VoxelSlice* slice, VoxelReach reach,
+                                         float least_falloff, float8 cone) {
   const real ratio = squared * reach.inverse_squared;
 #ifdef WINDOW_NONE
   real window = 1.0f;
@@ -151,13 +161,14 @@ static inline VoxelArrival voxel_arrival(Real3 d, real squared, constant VoxelSl
 }
 
 static inline Real3 voxel_irradiance(real attenuation, float4 color) {
-  return real3(lane_min(attenuation * color.x, REAL(LARGEST_VOXEL)), lane_min(attenuation * color.y, REAL(LARGEST_VOXEL)),
+  return real3(lane_min(attenuation * color.x, REAL(LARGEST_VOXEL)),
+               lane_min(attenuation * color.y, REAL(LARGEST_VOXEL)),
                lane_min(attenuation * color.z, REAL(LARGEST_VOXEL)));
 }
 
 // place: x, y and z of the light.
-static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float3 place, VoxelReach reach,
-                                   const VoxelLights* lights, uint light) {
+static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant VoxelSlice* slice, float3 place,
+                                   VoxelReach reach, const VoxelLights* lights, uint light) {
   const Real3 d = real3(place.x - position.x, place.y - position.y, place.z - position.z);
   const real squared = dot3(d, d);
   if (!any_lane(squared < REAL(reach.squared))) return;
@@ -178,7 +189,8 @@ static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant Voxel
 
 // Scaled for storing.
 static inline VoxelSum as_stored(VoxelSum s, constant VoxelGrid* grid) {
-  const real brightest = lane_max(lane_max(s.irradiance.x, s.irradiance.y), lane_max(s.irradiance.z, s.weight));
+  const real brightest =
+      lane_max(lane_max(s.irradiance.x, s.irradiance.y), lane_max(s.irradiance.z, s.weight));
   const real scale = lane_min(REAL(grid->scale), grid->largest / lane_max(brightest, REAL(1e-30f)));
   s.irradiance = scale3(s.irradiance, scale), s.directions = scale3(s.directions, scale), s.weight *= scale;
   return s;

@@ -1,20 +1,22 @@
-// Lists the lights of each cell, for CPUs. A work-item takes one bin of 8 x 8 tiles after the other: it selects the bin's
-// lights from its region's list, narrows them to each quad of 2 x 2 tiles (by blocks of 4 x 4 first where they are many), and
-// tests the rest against each cell, 16 lights at a time. Lists come out sorted. Olsson, Assarsson, "Tiled Shading" (2011);
-// Olsson, Billeter, Assarsson, "Clustered Deferred and Forward Shading" (2012) where there are slices.
+// Lists the lights of each cell, for CPUs. A work-item takes one bin of 8 x 8 tiles after the other: it
+// selects the bin's lights from its region's list, narrows them to each quad of 2 x 2 tiles (by blocks of
+// 4 x 4 first where they are many), and tests the rest against each cell, 16 lights at a time. Lists come out
+// sorted. Olsson, Assarsson, "Tiled Shading" (2011); Olsson, Billeter, Assarsson, "Clustered Deferred and
+// Forward Shading" (2012) where there are slices.
 //
 // records, lists, counts  as cpu/project_lights.cl writes them, `runs` counts a region
-// step           stride through the patches of 2 x 2 bins, coprime to their number: spreads each thread's work-items over
-//                the screen
+// step           stride through the patches of 2 x 2 bins, coprime to their number: spreads each
+//                thread's work-items over the screen
 // bounds         as cpu/depth_bounds.cl writes them
 // slices         where there are some: as kernels/common/bin_cells.h says
 // pool           room for candidates in batches of 16 lights; the batches needed are counted in counters[0]
-// staged         room for each bin's lists in units of 16 indices; the units needed are counted in counters[1]
+// staged         room for each bin's lists in units of 16 indices; the units needed are counted in
+//                counters[1]
 // cell_counts    a bin's cells: BIN_SIZE slots, slices each
 // bins           uint2 a bin: its first unit in `staged`, and the number of its indices
 //
-// A bin without room writes nothing and sets counters[3]; the host then reads the counters and runs the kernels again with
-// more room.
+// A bin without room writes nothing and sets counters[3]; the host then reads the counters and runs
+// the kernels again with more room.
 #define LANES 16
 #include "kernels/common/bin_tiles.h"
 #include "kernels/common/candidates.h"
@@ -46,13 +48,14 @@ static inline uint list_cell(const Candidates* few, int tile, const TestCell* ce
   return n;
 }
 
-#define MOST_UNITS 0x0fffffffu  // of a bin, whose indices are counted in 32 bits. A bin with more gets no room; the host refuses
+// Of a bin, whose indices are counted in 32 bits. A bin with more gets no room; the host refuses.
+#define MOST_UNITS 0x0fffffffu
 #define MANY 256  // with more candidates, testing blocks before quads pays
 
 // The lists of a quad's cells from its candidates, one after the other. Returns how many indices they hold.
-static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* tiles, global const float* bounds,
-                             global const float2* slices, global uint* cell_counts, global index_t* list,
-                             constant CullParams* p) {
+static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* tiles,
+                             global const float* bounds, global const float2* slices,
+                             global uint* cell_counts, global index_t* list, constant CullParams* p) {
   const int column = 1 << tile_x_of_slot(quad * 4), row = 0x100 << tile_y_of_slot(quad * 4);
   const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
   uint written = 0;
@@ -70,9 +73,9 @@ static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* t
 
 // rooms: for the indices of a bin's lights, and for its candidates.
 static inline void cull_bin(uint bx, uint by, global const float* records, RegionLights lights,
-                            global const float* bounds, global const float2* slices, Room* rooms, global float* pool,
-                            global index_t* staged, global uint* cell_counts, global uint2* lists,
-                            global volatile uint* counters, constant CullParams* p) {
+                            global const float* bounds, global const float2* slices, Room* rooms,
+                            global float* pool, global index_t* staged, global uint* cell_counts,
+                            global uint2* lists, global volatile uint* counters, constant CullParams* p) {
   *lists = (uint2)(0u);
   for (uint i = 0; i < BIN_SIZE * SLICE_COUNT; i += 16) vstore16((uint16)(0u), 0, cell_counts + i);
   uint light_count = 0;
@@ -105,13 +108,15 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   global index_t* list = staged + (size_t)offset * 16;
   const bool many = all.count > MANY;
   uint written = 0;
-  // A quad's lists are written after the next quad's candidates: a vector load just after narrower stores to it stalls.
+  // A quad's lists are written after the next quad's candidates: a vector load just
+  // after narrower stores to it stalls.
   for (uint quad = 0; quad <= 16; ++quad) {
     if (quad < 16) {
       const uint x = tile_x_of_slot(quad * 4), y = tile_y_of_slot(quad * 4);
       if (quad % 4 == 0 && many) some.count = narrow(&all, x, y, 4, &blocks[quad / 4], some.lights);
       const bool shown = quads[quad].near <= quads[quad].far;
-      few[quad & 1].count = shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad], few[quad & 1].lights) : 0u;
+      few[quad & 1].count =
+          shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad], few[quad & 1].lights) : 0u;
     }
     if (quad > 0) {
       written += list_quad(&few[~quad & 1], quad - 1, &tiles, bounds, slices, cell_counts, list + written, p);
@@ -120,10 +125,10 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   *lists = (uint2)(offset, written);
 }
 
-kernel void cull_lights(global const float* records, global const uint* lists, global const uint* counts, uint runs,
-                        uint step, global const float* bounds, global const float2* slices, global float* pool,
-                        global index_t* staged, global uint* cell_counts, global uint2* bins,
-                        global volatile uint* counters, constant CullParams* p) {
+kernel void cull_lights(global const float* records, global const uint* lists, global const uint* counts,
+                        uint runs, uint step, global const float* bounds, global const float2* slices,
+                        global float* pool, global index_t* staged, global uint* cell_counts,
+                        global uint2* bins, global volatile uint* counters, constant CullParams* p) {
   Room rooms[2] = {{0, 0u}, {0, 0u}};
   const size_t stride = p->light_stride + 16;
   const uint across = (p->bins_x + 1) / 2, down = (p->bins_y + 1) / 2;
@@ -131,7 +136,8 @@ kernel void cull_lights(global const float* records, global const uint* lists, g
   for (uint turn = get_global_id(0); turn < across * down; turn += get_global_size(0)) {
     const uint patch = (uint)((ulong)turn * step % (across * down));
     for (uint i = 0; i < 4; ++i) {
-      const uint bx = patch % across * 2 + (i & 1), by = patch / across * 2 + (i >> 1), bin = by * p->bins_x + bx;
+      const uint bx = patch % across * 2 + (i & 1), by = patch / across * 2 + (i >> 1),
+                 bin = by * p->bins_x + bx;
       if (bx >= p->bins_x || by >= p->bins_y) continue;
       const uint region = by / p->region_bins * p->regions_x + bx / p->region_bins;
       const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs,

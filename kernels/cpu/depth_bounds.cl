@@ -1,10 +1,10 @@
-// Depth bounds of every tile, for CPUs. A work-item reduces 16 tiles of a row of tiles, four at a time, so that it reads long
-// stretches of memory.
+// Depth bounds of every tile, for CPUs. A work-item reduces 16 tiles of a row of tiles, four at a time, so
+// that it reads long stretches of memory.
 //
 // depth     floats; rows of the view start depth_row apart from depth_first on
 // opaque, blend  as kernels/common/depth_bounds.h says
-// counters  [counter] += tiles with an invalid depth; such a tile spans every distance. [next_counter] = 0, for the next
-//           launch
+// counters  [counter] += tiles with an invalid depth; such a tile spans every distance.
+//           [next_counter] = 0, for the next launch
 #define LANES 16
 #include "kernels/common/depth_bounds.h"
 
@@ -20,7 +20,8 @@ static inline uint lowest_lane(uint16 v) {
 }
 static inline uint highest_lane(uint16 v) { return ~lowest_lane(~v); }
 
-// 16 keys of a tile: of one row, or of two where rows are shorter. The last of an odd number of rows is read twice.
+// 16 keys of a tile: of one row, or of two where rows are shorter. The last of an
+// odd number of rows is read twice.
 static inline uint16 load_keys(global const uint* depth, uint row, uint rows, uint stride) {
 #if ROW == 8
   global const uint* other = depth + (size_t)min(row + 1, rows - 1) * stride;
@@ -30,7 +31,8 @@ static inline uint16 load_keys(global const uint* depth, uint row, uint rows, ui
 #endif
 }
 
-// Least key minus 1, which turns the key 0 (no surface) into the greatest number and so leaves it out; greatest key; least key.
+// Least key minus 1, which turns the key 0 (no surface) into the greatest number and so leaves
+// it out; greatest key; least key.
 typedef struct Keys {
   uint low1[TILES], high[TILES], lowest[TILES];
 } Keys;
@@ -60,7 +62,8 @@ static inline void reduce_tiles(global const uint* depth, uint stride, uint rows
 }
 
 // A tile cut by the view's right edge.
-static inline void reduce_cut_tile(global const uint* depth, uint stride, uint rows, uint columns, uint t, Keys* keys) {
+static inline void reduce_cut_tile(global const uint* depth, uint stride, uint rows, uint columns, uint t,
+                                   Keys* keys) {
   uint low1 = 0xffffffffu, high = 0u, lowest = 0xffffffffu;
   for (uint y = 0; y < rows; ++y, depth += stride) {
     for (uint x = 0; x < columns; ++x) {
@@ -101,8 +104,8 @@ static inline uint2 keys_around(global const uint* depth, uint stride, uint rows
 }
 
 // The bits of the tile's interval that hold a surface.
-static inline uint occupied_bits(global const uint* depth, uint stride, uint rows, uint columns, float near, float far,
-                                  constant CullParams* p) {
+static inline uint occupied_bits(global const uint* depth, uint stride, uint rows, uint columns, float near,
+                                 float far, constant CullParams* p) {
   uint16 mask = (uint16)(0u);
 #define OCCUPY(keys)                                                                           \
   const uint16 key = keys;                                                                     \
@@ -128,7 +131,8 @@ kernel void depth_bounds(global const uint* depth, global float* opaque, global 
       reduce_tiles(first + t * ROW, stride, rows, t, &keys);
       t += AT_ONCE;
     } else {
-      reduce_cut_tile(first + t * ROW, stride, rows, min((uint)TILE, p->width - (tx0 + t) * TILE) * SAMPLES, t, &keys);
+      reduce_cut_tile(first + t * ROW, stride, rows, min((uint)TILE, p->width - (tx0 + t) * TILE) * SAMPLES,
+                      t, &keys);
       ++t;
     }
   }

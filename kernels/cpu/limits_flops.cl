@@ -1,5 +1,6 @@
-// What arithmetic alone takes: each item runs CHAINS independent chains of x = x * a + b, `steps` long, on vectors
-// of 16. A product and a sum are two operations: contraction is off, as in every kernel here. For CPUs.
+// What arithmetic alone takes: each item runs CHAINS independent chains of x = x * a + b,
+// `steps` long, on vectors of 16. A product and a sum are two operations: contraction is off, as
+// in every kernel here. For CPUs.
 #define CHAINS 12
 
 kernel void limits_flops(float factor, float term, uint steps, global float* results) {

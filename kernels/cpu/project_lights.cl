@@ -1,23 +1,26 @@
-// Transforms lights to view space and sorts them into regions of the screen, for CPUs. A work-item takes a run of lights, 16
-// at a time, and appends each light's index to the list of every region that its tile rectangle meets.
+// Transforms lights to view space and sorts them into regions of the screen, for CPUs. A work-item
+// takes a run of lights, 16 at a time, and appends each light's index to the list of every region
+// that its tile rectangle meets.
 //
 // lights    as kernels/common/light_arrays.h says
 // records   as kernels/common/light_records.h says
-// lists     a region's lights: their tiles there, their spans of distances (kernels/common/light_records.h), their indices:
-//           light_stride + 16 words each. A work-item's part begins where its run does, so that parts never overlap
+// lists     a region's lights: their tiles there, their spans of distances
+//           (kernels/common/light_records.h), their indices: light_stride + 16 words each. A work-item's
+//           part begins where its run does, so that parts never overlap
 // counts    of a region: one a work-item
 // counters  [0], [1], [3], [4], [5] set to 0, for the kernels that follow
 #define LANES 16
 #include "kernels/common/light_records.h"
 
-#define BATCHES 32  // of 16 lights, projected before they are sorted into regions: both steps stay in the first-level cache
+// Of 16 lights, projected before they are sorted into regions: both steps stay in the first-level cache.
+#define BATCHES 32
 
 typedef struct Held {
   int first[BATCHES * 16], last[BATCHES * 16], span[BATCHES * 16];
 } Held;
 
-static inline void project_batch(global const float* lights, global float* records, uint batch, uint b, Held* held,
-                                 constant CullParams* p) {
+static inline void project_batch(global const float* lights, global float* records, uint batch, uint b,
+                                 Held* held, constant CullParams* p) {
   const size_t stride = p->light_stride;
   global const float* l = lights + batch * 16;
   const float16 radius = LOAD(l + 3 * stride);

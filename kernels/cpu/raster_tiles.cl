@@ -150,8 +150,8 @@ static inline void draw_many(const TileRecord* r, int x0, int y0, int x1, int y1
   }
 }
 
-// The image is larger than the caches near the core, so its lines are not read first: a third of this kernel's time in
-// Sponza at 1280 x 720.
+// The image is larger than the caches near the core, so its lines are not read first: a third of this
+// kernel's time in Sponza at 1280 x 720.
 #ifdef __clang__
 typedef uint unaligned_row __attribute__((ext_vector_type(16), aligned(4)));
 #define STORE_16(v, to) __builtin_nontemporal_store((unaligned_row)(v), (global unaligned_row*)(to))

@@ -1,15 +1,20 @@
-// Point and spot lights added to the image of every tile from its light list, for CPUs: a work-item takes a tile, 16 pixels
-// at once. The light pass of Lauritzen, "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
+// Point and spot lights added to the image of every tile from its light list, for CPUs: a work-item takes a
+// tile, 16 pixels at once. The light pass of Lauritzen, "Deferred Rendering for Current and Future
+// Rendering Pipelines" (SIGGRAPH 2010).
 //
-// first, second, coats  geometry buffer (coats: with -DCLEARCOAT alone), and depth: row 0 at the bottom (kernels/common/gbuffer.h)
+// first, second, coats  geometry buffer (coats: with -DCLEARCOAT alone), and depth: row 0 at the
+//                       bottom (kernels/common/gbuffer.h)
 // positions, colors, cones  of lights (shared/punctual_light.h)
 // models  of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
 // cells, indices  light grid (shared/light_grid.h)
-// light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with -DZ_BINS alone
-// image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show without these lights, which are added
+// light_bins, bin_edges  z-bins of each light, and the depth keys between them
+//                        (shared/slices.h); with -DZ_BINS alone
+// image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show
+//                 without these lights, which are added
 // background      of pixels without a surface; without -DBASE_LIGHTING alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
-// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT, -DORTHOGRAPHIC  as the headers say
+// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT,
+// -DORTHOGRAPHIC  as the headers say
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16
@@ -42,8 +47,10 @@ static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5
 // The first `count` of 8 pixels.
 static inline void store_half(global float* image, float8 r, float8 g, float8 b, uint count) {
   const float a = COVERAGE;
-  const float16 low = (float16)(r.s0, g.s0, b.s0, a, r.s1, g.s1, b.s1, a, r.s2, g.s2, b.s2, a, r.s3, g.s3, b.s3, a);
-  const float16 high = (float16)(r.s4, g.s4, b.s4, a, r.s5, g.s5, b.s5, a, r.s6, g.s6, b.s6, a, r.s7, g.s7, b.s7, a);
+  const float16 low =
+      (float16)(r.s0, g.s0, b.s0, a, r.s1, g.s1, b.s1, a, r.s2, g.s2, b.s2, a, r.s3, g.s3, b.s3, a);
+  const float16 high =
+      (float16)(r.s4, g.s4, b.s4, a, r.s5, g.s5, b.s5, a, r.s6, g.s6, b.s6, a, r.s7, g.s7, b.s7, a);
   if (count >= 8) {
     vstore16(UNDER(0) + low, 0, image), vstore16(UNDER(1) + high, 1, image);
     return;
@@ -56,10 +63,11 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
   for (uint i = 0; i < 4 * count; ++i) image[i] = light[i];
 }
 
-kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const channel_t* coats,
-                        global const MaterialModelRecord* models, global const float* depth,
-                        global const float4* positions, global const float4* colors, global const float4* cones,
-                        global const uint2* cells, global const index_t* indices, global const uint* light_bins,
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
+                        global const channel_t* coats, global const MaterialModelRecord* models,
+                        global const float* depth, global const float4* positions,
+                        global const float4* colors, global const float4* cones, global const uint2* cells,
+                        global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);

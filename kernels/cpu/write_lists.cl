@@ -1,5 +1,5 @@
-// Writes the light grid from each bin's staged lists, for CPUs. A work-item takes `run` bins in sequence: it adds up the
-// totals of the bins before them and copies its own bins' lists behind theirs.
+// Writes the light grid from each bin's staged lists, for CPUs. A work-item takes `run` bins in sequence: it
+// adds up the totals of the bins before them and copies its own bins' lists behind theirs.
 //
 // bins, cell_counts, staged  as cpu/cull_lights.cl writes them
 // cells     uint2 a cell: first, count; x fastest, then y, then slice
@@ -52,14 +52,16 @@ static inline void write_bin(uint bin, uint first, global const uint2* bins, glo
   }
 }
 
-kernel void write_lists(global const uint2* bins, uint run, global const uint* cell_counts, global const index_t* staged,
-                        global uint2* cells, global index_t* indices, global uint* counters, constant CullParams* p) {
+kernel void write_lists(global const uint2* bins, uint run, global const uint* cell_counts,
+                        global const index_t* staged, global uint2* cells, global index_t* indices,
+                        global uint* counters, constant CullParams* p) {
   const uint all = p->bins_x * p->bins_y, begin = get_global_id(0) * run, end = min(begin + run, all);
   ulong before = 0;
   for (uint i = 0; i < begin; ++i) before += bins[i].y;
   for (uint bin = begin; bin < end; ++bin) {
     const ulong after = before + bins[bin].y;
-    if (after <= p->index_capacity) write_bin(bin, (uint)before, bins, cell_counts, staged, cells, indices, p);
+    if (after <= p->index_capacity)
+      write_bin(bin, (uint)before, bins, cell_counts, staged, cells, indices, p);
     before = after;
   }
   if (end == all) counters[4] = (uint)before, counters[5] = (uint)(before >> 32);

@@ -1,18 +1,18 @@
-// Candidates of each block of 4 x 4 tiles, in order, and for each candidate and cell of the block a bit: listed or not. For
-// GPUs; a work-group of GROUP items takes a block.
+// Candidates of each block of 4 x 4 tiles, in order, and for each candidate and cell of the block a bit:
+// listed or not. For GPUs; a work-group of GROUP items takes a block.
 //
 // views, light_marks  as gpu/project_lights.cl writes them
 // bounds    as gpu/depth_bounds.cl writes them
 // slices    where there are some: as kernels/common/bin_cells.h says
 // ids       the blocks' candidates, in units of 16; the units needed are counted in counters[0]
-// offsets   uint4 a block: its first unit of candidates, their number, its first unit of marks (16 words each; the units
-//           needed are counted in counters[1]), 0
+// offsets   uint4 a block: its first unit of candidates, their number, its first unit of marks (16 words
+//           each; the units needed are counted in counters[1]), 0
 // totals    number of indices, a block, 64 bits
 // marks     a block's cells (BLOCK_SIZE slots, slices each), a word for each 32 candidates
 // cells     uint2 a cell, of which .y: the number of its indices
 //
-// A block without room writes nothing and sets counters[3]; the host then reads the counters and runs the kernels again
-// with more room.
+// A block without room writes nothing and sets counters[3]; the host then reads the counters and runs
+// the kernels again with more room.
 // -DGROUP  items a group, a power of two, 64 at least (default 256)
 #ifndef GROUP
 #define GROUP 256
@@ -24,7 +24,8 @@
 
 #define LIGHT_WORDS 2048              // words of lights' marks handled at once
 #define MARK_WORDS 32                 // words of candidates, likewise
-#define MARK_STRIDE (MARK_WORDS + 1)  // a padding word: items that each read their own cell use different banks
+// With a padding word: items that each read their own cell use different banks.
+#define MARK_STRIDE (MARK_WORDS + 1)
 #define SPANS 6
 #define MOST_MARK_UNITS 0x0fffffffu
 
@@ -42,9 +43,11 @@ static inline bool holds_something(const TestCell* c) {
   return some;
 }
 
-static inline bool cell_in_block(const Block* block, uint slot, uint slice, TestCell* c, constant CullParams* p) {
+static inline bool cell_in_block(const Block* block, uint slot, uint slice, TestCell* c,
+                                 constant CullParams* p) {
 #ifdef SLICES
-  return make_test_cell(block->bounds, block->bin_x, block->bin_y, block->first_slot + slot, slice, block->slices, c, p);
+  return make_test_cell(block->bounds, block->bin_x, block->bin_y, block->first_slot + slot, slice,
+                        block->slices, c, p);
 #else
   *c = block->cells[slot];
   return holds_something(c);
@@ -58,7 +61,8 @@ static inline Cell block_box(const Block* block, local float* spans, constant Cu
   if (item < BLOCK_SIZE) {
     const uint slot = block->first_slot + item;
     float least[SPANS] = {NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, NOTHING};
-    const TileSides sides = tile_sides(block->x + (int)tile_x_of_slot(item), block->y + (int)tile_y_of_slot(item), p);
+    const TileSides sides =
+        tile_sides(block->x + (int)tile_x_of_slot(item), block->y + (int)tile_y_of_slot(item), p);
     for (int i = 0; i < INTERVALS; ++i) {
       const float near = at_slot(block->bounds, 2 * i, slot), far = at_slot(block->bounds, 2 * i + 1, slot);
       if (near > far) continue;
@@ -94,11 +98,11 @@ static inline uint touch_block(uint bits, global const float4* first, const Cell
   return kept;
 }
 
-// Appends the block's candidates to `ids` and returns their number: lights that are marked for its column and its row and
-// touch its box. Where these marks are few words, several items share a word.
+// Appends the block's candidates to `ids` and returns their number: lights that are marked for its column and
+// its row and touch its box. Where these marks are few words, several items share a word.
 static inline uint list_candidates(global const uint* column, global const uint* row, uint words,
-                                   global const float4* views, const Cell* box, global uint* ids, local uint* kept,
-                                   local uint* scratch) {
+                                   global const float4* views, const Cell* box, global uint* ids,
+                                   local uint* kept, local uint* scratch) {
   const uint item = get_local_id(0);
   uint parts = 1;
   while (parts < 8 && words * parts * 2 <= GROUP) parts *= 2;
@@ -140,10 +144,10 @@ static inline ViewLight record_light(global const float4* record) {
   return light;
 }
 
-// Sets the bits of candidates `ids` in the marks of the block's cells of one slice; an item takes a row of tiles of a
-// light.
-static inline void mark_cells(global const uint* ids, uint count, global const float4* views, const Block* block,
-                              uint slice, local uint* marks, constant CullParams* p) {
+// Sets the bits of candidates `ids` in the marks of the block's cells of one slice; an item
+// takes a row of tiles of a light.
+static inline void mark_cells(global const uint* ids, uint count, global const float4* views,
+                              const Block* block, uint slice, local uint* marks, constant CullParams* p) {
   for (uint i = get_local_id(0); i < count * BLOCK_TILES; i += GROUP) {
     const uint k = i / BLOCK_TILES;
     const int row = (int)(i % BLOCK_TILES);
@@ -162,17 +166,23 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
-    global const float4* views, global const uint* light_marks, global const float* bounds, global const float2* slices,
-    global uint* ids, global uint4* offsets, global ulong* totals, global uint* marks, global uint2* cells,
-    global volatile uint* counters, constant CullParams* p) {
+    global const float4* views, global const uint* light_marks, global const float* bounds,
+    global const float2* slices, global uint* ids, global uint4* offsets, global ulong* totals,
+    global uint* marks, global uint2* cells, global volatile uint* counters, constant CullParams* p) {
   local uint scratch[PREFIX_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
   local float spans[SPANS * BLOCK_SIZE];
   local TestCell made[BLOCK_SIZE];
   local uint most, ids_at, marks_at;
   local ulong tile_totals[BLOCK_SIZE];
   const uint index = get_group_id(0), item = get_local_id(0), bin = index / BIN_BLOCKS;
-  const Block block = {block_x(index, p), block_y(index, p), bin % p->bins_x, bin / p->bins_x, index % BIN_BLOCKS * BLOCK_SIZE,
-                       bounds + bin * BOUND_PLANES * BIN_SIZE, slices, made};
+  const Block block = {block_x(index, p),
+                       block_y(index, p),
+                       bin % p->bins_x,
+                       bin / p->bins_x,
+                       index % BIN_BLOCKS * BLOCK_SIZE,
+                       bounds + bin * BOUND_PLANES * BIN_SIZE,
+                       slices,
+                       made};
   const uint line_words = light_mark_words(p);
   global const uint* column = light_marks + (size_t)(block.x / (int)BLOCK_TILES) * line_words;
   global const uint* row = light_marks + (size_t)(BLOCKS_X(p) + block.y / BLOCK_TILES) * line_words;
@@ -189,7 +199,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
   barrier(CLK_LOCAL_MEM_FENCE);
   const bool room = (ulong)ids_at + units <= p->pool_batches;
   ids += (size_t)ids_at * 16;
-  const uint count = list_candidates(column, row, some && room ? all_words : 0u, views, &box, ids, kept, scratch);
+  const uint count =
+      list_candidates(column, row, some && room ? all_words : 0u, views, &box, ids, kept, scratch);
 
   // Marks are counted in 32 bits. A block with more gets no room, and the host refuses.
   const uint words = (count + 31) / 32;
@@ -214,7 +225,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
       for (uint i = item; fits && i < BLOCK_SIZE * n; i += GROUP) {
         to[((size_t)(i / n) * p->slices + slice) * words + i % n] = cell_marks[i / n * MARK_STRIDE + i % n];
       }
-      for (uint w = 0; item < BLOCK_SIZE && w < n; ++w) listed += popcount(cell_marks[item * MARK_STRIDE + w]);
+      for (uint w = 0; item < BLOCK_SIZE && w < n; ++w)
+        listed += popcount(cell_marks[item * MARK_STRIDE + w]);
       barrier(CLK_LOCAL_MEM_FENCE);
     }
     uint cell;

@@ -1,5 +1,6 @@
-// Transforms lights to view space and marks the columns and rows of blocks of tiles that each may reach, for GPUs: a
-// work-item a light. A light may reach a block when it is marked for the block's column and for its row.
+// Transforms lights to view space and marks the columns and rows of blocks of tiles that each may
+// reach, for GPUs: a work-item a light. A light may reach a block when it is marked for the
+// block's column and for its row.
 //
 // lights    as kernels/common/light_arrays.h says
 // views     a RECORD a light (kernels/common/group_grid.h)
@@ -9,7 +10,8 @@
 #include "kernels/common/group_grid.h"
 
 kernel __attribute__((reqd_work_group_size(PROJECT_GROUP, 1, 1))) void project_lights(
-    global const float* lights, global float4* views, global uint* marks, global uint* counters, constant CullParams* p) {
+    global const float* lights, global float4* views, global uint* marks, global uint* counters,
+    constant CullParams* p) {
   local int2 rects[PROJECT_GROUP];
   const uint light = get_global_id(0), item = get_local_id(0);
   if (light == 0) counters[0] = counters[1] = counters[3] = counters[4] = counters[5] = 0;
@@ -22,7 +24,8 @@ kernel __attribute__((reqd_work_group_size(PROJECT_GROUP, 1, 1))) void project_l
     const TileRect rect = tile_rect(s, radius, p);
     rects[item] = (int2)(rect.first, rect.last);
     global float4* v = views + light * (size_t)RECORD;
-    v[0] = (float4)(s.x, s.y, s.d, s.r), v[1] = (float4)(as_float(rect.first), as_float(rect.last), 0.0f, 0.0f);
+    v[0] = (float4)(s.x, s.y, s.d, s.r),
+    v[1] = (float4)(as_float(rect.first), as_float(rect.last), 0.0f, 0.0f);
 #ifdef SPOTS
     const ViewCone k = view_cone(l, stride, p);
     v[2] = (float4)(k.x, k.y, k.d, k.cosine);

@@ -1,5 +1,5 @@
-// Where each chunk's part of each tile's list begins, for GPUs: one work-group of RASTER_SCAN_GROUP, an item a
-// run of tiles. The same numbers as cpu/raster_scan.cl, with the same arguments.
+// Where each chunk's part of each tile's list begins, for GPUs: one work-group of RASTER_SCAN_GROUP, an item
+// a run of tiles. The same numbers as cpu/raster_scan.cl, with the same arguments.
 #include "shared/raster_params.h"
 
 kernel void raster_scan(global uint* tile_counts, global uint* tile_begin, global uint* counters,

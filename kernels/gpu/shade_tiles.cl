@@ -1,13 +1,14 @@
-// Point and spot lights added to the image of every tile from its light list, for GPUs: a work-item a pixel. As
-// cpu/shade_tiles.cl, with the same arguments.
+// Point and spot lights added to the image of every tile from its light list, for GPUs: a work-item a pixel.
+// As cpu/shade_tiles.cl, with the same arguments.
 #define LANES 1
 #include "kernels/common/shade_pixels.h"
 #include "shared/light_grid.h"
 
-kernel void shade_tiles(global const channel_t* first, global const channel_t* second, global const channel_t* coats,
-                        global const MaterialModelRecord* models, global const float* depth,
-                        global const float4* positions, global const float4* colors, global const float4* cones,
-                        global const uint2* cells, global const index_t* indices, global const uint* light_bins,
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
+                        global const channel_t* coats, global const MaterialModelRecord* models,
+                        global const float* depth, global const float4* positions,
+                        global const float4* colors, global const float4* cones, global const uint2* cells,
+                        global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
   const uint x = get_global_id(0), y = get_global_id(1);
@@ -28,7 +29,8 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
 #ifdef CLEARCOAT
     p = coated_point(p, load_texel(coats + 4 * at));
 #endif
-    sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights, view);
+    sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights,
+                    view);
   }
 #ifdef BASE_LIGHTING
   const float4 under = ((global const float4*)image)[at];

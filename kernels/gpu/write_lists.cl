@@ -1,8 +1,9 @@
-// Writes the light grid from the cells' marks, for GPUs. A work-group of GROUP items takes a block of tiles, adds up the
-// totals of the blocks before it, and writes its lists in order, an item a run of words.
+// Writes the light grid from the cells' marks, for GPUs. A work-group of GROUP items takes a block of tiles,
+// adds up the totals of the blocks before it, and writes its lists in order, an item a run of words.
 //
 // ids, offsets, totals, marks  as gpu/cull_lights.cl writes them
-// cells     uint2 a cell: first, and count as gpu/cull_lights.cl has written it; x fastest, then y, then slice
+// cells     uint2 a cell: first, and count as gpu/cull_lights.cl has written it; x fastest, then y, then
+//           slice
 // indices   the light index list
 // counters  [4], [5] = low and high word of the number of indices; past 2^32 the host refuses
 // -DGROUP   items a group, a power of two (default 256)
@@ -35,7 +36,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void write_lists(
   for (uint i = from; i < to; ++i) mine += popcount(marks[i]);
   const ulong before = sum_of_group(sum, sums), end = before + totals[block];
   const uint mine_at = prefix_sum(mine, scratch).x;
-  if (item == 0 && block + 1 == BLOCKS_X(p) * BLOCKS_Y(p)) counters[4] = (uint)end, counters[5] = (uint)(end >> 32);
+  if (item == 0 && block + 1 == BLOCKS_X(p) * BLOCKS_Y(p))
+    counters[4] = (uint)end, counters[5] = (uint)(end >> 32);
   if (end > p->index_capacity) return;
 
   uint cell, at = (uint)before + mine_at;
@@ -45,6 +47,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void write_lists(
   for (uint i = from; i < to; ++i) {
     const uint c = i / words, w = i % words;
     if (w == 0 && cell_of(block, c / p->slices, c % p->slices, &cell, p)) cells[cell].x = at;
-    for (uint bits = marks[i]; bits; bits &= bits - 1, ++at) indices[at] = (index_t)ids[w * 32 + lowest_bit(bits)];
+    for (uint bits = marks[i]; bits; bits &= bits - 1, ++at)
+      indices[at] = (index_t)ids[w * 32 + lowest_bit(bits)];
   }
 }

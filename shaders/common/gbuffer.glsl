@@ -1,21 +1,23 @@
 // The geometry buffer: two images of four channels, the position left to depth (src/passes/common/gbuffer.h).
 //   GBUFFER_8, GBUFFER_16: channels of 0 to 1 in that many bits; else 32-bit float
 //   8 and 16 bits  first   octahedral normal (2), perceptual roughness, metallic
-//                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is. Where the
-//                          material's model has a number above 0: that number as the stored integer, at most 254
+//                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is.
+//                          Where the material's model has a number above 0: that number as the stored
+//                          integer, at most 254
 //   32 bits        first   normal (3), perceptual roughness
-//                  second  base color (3), 1 + metallic + 2 * the model's number; -1 - metallic for unlit surfaces, 0
-//                          where nothing is
+//                  second  base color (3), 1 + metallic + 2 * the model's number; -1 - metallic for unlit
+//                          surfaces, 0 where nothing is
 //   MODELS         some surface has a model other than Lambert's (scene/material_model.h)
 //   With coats in view, a third image:
-//   CLEARCOAT      coat    octahedral normal (2), perceptual roughness, factor; in 32 bits a factor below 0: its normal is
-//                          that of the first image
-// In 32 bits the normal is stored directly: the two roundings of an octahedral one are visible in lobes of polished
-// surfaces.
+//   CLEARCOAT      coat    octahedral normal (2), perceptual roughness, factor; in 32 bits a factor below
+//                          0: its normal is that of the first image
+// In 32 bits the normal is stored directly: the two roundings of an octahedral one are visible in lobes of
+// polished surfaces.
 
 #include "shared/octahedral.h"
 
-// LARGEST: the stored integer of 1. Steps of a normal's channel on either side of 0. 0 is itself a step: axis-aligned walls keep their normals.
+// LARGEST: the stored integer of 1. Steps of a normal's channel on either side of 0. 0 is itself a step:
+// axis-aligned walls keep their normals.
 #if defined(GBUFFER_8)
 #define NORMAL_STEPS 127.0
 #define LARGEST 255.0
@@ -62,7 +64,8 @@ Coat coat_of_texel(vec4 t, vec3 base) {
 
 GBufferTexels gbuffer_texels(LitSurface s) {
   float model_metallic = 2.0 * float(s.model) + 1.0 + s.metallic;
-  return GBufferTexels(vec4(s.normal, s.roughness), vec4(s.base_color, s.lit ? model_metallic : -1.0 - s.metallic));
+  return GBufferTexels(vec4(s.normal, s.roughness),
+                       vec4(s.base_color, s.lit ? model_metallic : -1.0 - s.metallic));
 }
 
 LitSurface lit_surface(GBufferTexels t) {
@@ -71,8 +74,8 @@ LitSurface lit_surface(GBufferTexels t) {
   model = max(int(floor((t.base_color_lit.a - 1.0) * 0.5)), 0);
 #endif
   float metallic = max(abs(t.base_color_lit.a) - 1.0 - 2.0 * float(model), 0.0);
-  return LitSurface(t.normal_roughness_metallic.xyz, t.base_color_lit.rgb, metallic, t.normal_roughness_metallic.w,
-                    t.base_color_lit.a > 0.5, model);
+  return LitSurface(t.normal_roughness_metallic.xyz, t.base_color_lit.rgb, metallic,
+                    t.normal_roughness_metallic.w, t.base_color_lit.a > 0.5, model);
 }
 #else
 // Rounded here: drivers differ in their conversion to fixed point.

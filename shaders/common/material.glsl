@@ -1,9 +1,9 @@
 // The glTF 2.0 metallic-roughness material at a fragment. Each effect's code is compiled only under its
 // define. A program made for exactly the effects of its materials needs no tests; one with every effect on
 // (EVERYTHING_ON) tests each material's flags and gives the same bits.
-//   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP,
-//   EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP, CLEARCOAT_NORMAL_MAP,
-//   SKIN, MINNAERT
+//   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
+//   OCCLUSION_MAP, EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP,
+//   CLEARCOAT_NORMAL_MAP, SKIN, MINNAERT
 
 #include "shared/material_params.h"
 

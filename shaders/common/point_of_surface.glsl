@@ -1,5 +1,5 @@
-// From the surface at a fragment to the point that light is reflected at. After surface.glsl, position.glsl and
-// shared/brdf.h.
+// From the surface at a fragment to the point that light is reflected at. After surface.glsl,
+// position.glsl and shared/brdf.h.
 ShadingPoint point_of_surface(Surface s) {
   vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
   vec3 to_viewer = direction_to_viewer(position);

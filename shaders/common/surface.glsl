@@ -65,7 +65,8 @@ void add_coat(inout Surface s) {
   if (has(MATERIAL_CLEARCOAT_MAP)) s.coat *= texture(clearcoat_map, uv_of(5u)).r;
 #endif
 #ifdef CLEARCOAT_ROUGHNESS_MAP
-  if (has(MATERIAL_CLEARCOAT_ROUGHNESS_MAP)) s.coat_roughness *= texture(clearcoat_roughness_map, uv_of(6u)).g;
+  if (has(MATERIAL_CLEARCOAT_ROUGHNESS_MAP))
+    s.coat_roughness *= texture(clearcoat_roughness_map, uv_of(6u)).g;
 #endif
 #ifdef CLEARCOAT_NORMAL_MAP
   if (has(MATERIAL_CLEARCOAT_NORMAL_MAP)) {

@@ -1,11 +1,14 @@
-// A long list of lights, in the order of its entries, in few loop iterations (LONG_LOOPS). llvmpipe ends the loops of a shader
-// after 65,535 iterations of all its loops together, without an error (Mesa: LP_MAX_TGSI_LOOP_ITERATIONS). Here one
-// iteration tests 64 lights, and each light that may reach the point takes one more. The sum has the bits of a loop over all
-// entries: a light that is left out would add an exact zero.
-//   LIGHT_ENTRIES: there are entries_at(p), the first entry and their number; light_of_entry(i); entry_is_read(light)
+// A long list of lights, in the order of its entries, in few loop iterations (LONG_LOOPS). llvmpipe
+// ends the loops of a shader after 65,535 iterations of all its loops together, without an error
+// (Mesa: LP_MAX_TGSI_LOOP_ITERATIONS). Here one iteration tests 64 lights, and each light that may
+// reach the point takes one more. The sum has the bits of a loop over all entries: a light that is
+// left out would add an exact zero.
+//   LIGHT_ENTRIES: there are entries_at(p), the first entry and their number; light_of_entry(i);
+//     entry_is_read(light)
 #define BLOCK_SIZE 64u
 
-// Whether the point may be nearer than the light's range, with room for the rounding of shared/punctual_light.h. True for NaN.
+// Whether the point may be nearer than the light's range, with room for the rounding of
+// shared/punctual_light.h. True for NaN.
 bool may_reach(vec3 position, uint light) {
   vec4 at = texelFetch(light_positions, int(light));
   vec3 to_light = at.xyz - position;

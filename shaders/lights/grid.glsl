@@ -1,5 +1,5 @@
-// The lights of the pixel's cell, in the order of their indices: the sum has the bits of the brute-force loop.
-// After cell.glsl and z_bins.glsl.
+// The lights of the pixel's cell, in the order of their indices: the sum has the bits of the brute-force
+// loop. After cell.glsl and z_bins.glsl.
 
 layout(binding = 12) uniform usamplerBuffer grid_cells;    // first, count
 layout(binding = 13) uniform usamplerBuffer grid_indices;

@@ -36,7 +36,8 @@ vec3 light_sum(ShadingPoint p) {
     uint count = used == 0u ? 0u : (7u - uint(findLSB(used))) / LIDR_SHIFT + 1u;
     for (uint slot = count; slot-- > 0u;) {
       uint index = 0u;
-      for (uint w = 0u; w < words; ++w) index |= light_index_in_word(word[w], slot, LIDR_SHIFT) << (4u * w * LIDR_SHIFT);
+      for (uint w = 0u; w < words; ++w)
+        index |= light_index_in_word(word[w], slot, LIDR_SHIFT) << (4u * w * LIDR_SHIFT);
       sum += light_of(p, index);
     }
   }
@@ -59,7 +60,8 @@ void unpack_group(uint group) {
     for (uint w = 0u; w < words; ++w) {
       vec4 down = rest[w] / slot_size;
       rest[w] = floor(down);
-      index += dot(down - rest[w], vec4(1.0, slot_size, slot_size * slot_size, slot_size * slot_size * slot_size) * scale);
+      index += dot(down - rest[w],
+                   vec4(1.0, slot_size, slot_size * slot_size, slot_size * slot_size * slot_size) * scale);
       scale *= slot_size * slot_size * slot_size * slot_size;
     }
     lidr_found[group * LIDR_SLOTS + slot] = uint(index);

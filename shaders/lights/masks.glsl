@@ -1,5 +1,5 @@
-// The lights of the pixel's cell, a bit each, lowest first: the sum has the bits of the brute-force loop. After cell.glsl
-// and z_bins.glsl.
+// The lights of the pixel's cell, a bit each, lowest first: the sum has the bits of the brute-force loop.
+// After cell.glsl and z_bins.glsl.
 
 layout(binding = 12) uniform usamplerBuffer grid_masks;  // (light_count + 31) / 32 words a cell
 

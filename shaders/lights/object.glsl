@@ -12,7 +12,8 @@ uvec2 entries_at(ShadingPoint p) { return uvec2(lights_of_draw); }
 #else
 vec3 light_sum(ShadingPoint p) {
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < lights_of_draw.y; ++i) sum += punctual_light(p, int(light_of_entry(uint(lights_of_draw.x + i))));
+  for (int i = 0; i < lights_of_draw.y; ++i)
+    sum += punctual_light(p, int(light_of_entry(uint(lights_of_draw.x + i))));
   return sum;
 }
 #endif

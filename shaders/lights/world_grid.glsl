@@ -1,5 +1,5 @@
-// The lights of the pixel's cell of the world grid, in the order of their indices: the sum has the bits of the brute-force
-// loop.
+// The lights of the pixel's cell of the world grid, in the order of their indices: the sum has the bits of the
+// brute-force loop.
 //   WORLD_EVERYWHERE: some lights belong to every list; they are stored once, behind the cells' lists.
 
 layout(binding = 12) uniform usamplerBuffer world_cells;    // first, count

@@ -71,8 +71,9 @@ CullView cull_view_of(const CapturedFrame& frame, const Settings& settings) {
 }
 
 const std::vector<std::string>& culling_settings() {
-  static const std::vector<std::string> keys = {"cull-test", "depth-bounds", "tile", "slices", "slice-spacing",
-                                                "z-bins", "grid-lists", "kernel-shape", "portable", "group-size"};
+  static const std::vector<std::string> keys = {"cull-test",     "depth-bounds", "tile",       "slices",
+                                                "slice-spacing", "z-bins",       "grid-lists", "kernel-shape",
+                                                "portable",      "group-size"};
   return keys;
 }
 

@@ -106,15 +106,18 @@ FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
 // Reads a file of exactly `expected` words; `of` describes them.
 std::vector<uint32_t> read_words(const fs::path& path, uintmax_t expected, const char* of) {
   const uintmax_t found = size_of(path);
-  if (found != expected * 4) throw input_error("{}: {} bytes are not the {} of {}", path.string(), found, expected * 4, of);
+  if (found != expected * 4)
+    throw input_error("{}: {} bytes are not the {} of {}", path.string(), found, expected * 4, of);
   return read_values<uint32_t>(path, size_t(expected));
 }
 
 void read_masks(const fs::path& path, HostGrid& lists, size_t lights) {
   const size_t words = (lights + 31) / 32;
-  lists.masks = read_words(path, uintmax_t(lists.cells.size()) * words, "a bit a light, in words, for each cell");
+  lists.masks =
+      read_words(path, uintmax_t(lists.cells.size()) * words, "a bit a light, in words, for each cell");
   for (size_t i = words; lights % 32 != 0 && i <= lists.masks.size(); i += words) {
-    if (lists.masks[i - 1] >> lights % 32) throw input_error("{}: word {} has bits past the {} lights", path.string(), i - 1, lights);
+    if (lists.masks[i - 1] >> lights % 32)
+      throw input_error("{}: word {} has bits past the {} lights", path.string(), i - 1, lights);
   }
 }
 
@@ -169,8 +172,10 @@ std::optional<FrameGrid> read_frame_grid(const fs::path& folder, const CapturedF
   const size_t lights = local_count(frame);
   read_lists(folder, grid.lists, lights);
   const auto kind = grid.settings.find("grid_lists");
-  if (kind != grid.settings.end() && kind->second == "masks") read_masks(folder / "masks.u32", grid.lists, lights);
-  if (!grid.z_bin_edges.empty()) grid.lists.z_bins = read_words(folder / "z_bins.u32", lights, "a word a light");
+  if (kind != grid.settings.end() && kind->second == "masks")
+    read_masks(folder / "masks.u32", grid.lists, lights);
+  if (!grid.z_bin_edges.empty())
+    grid.lists.z_bins = read_words(folder / "z_bins.u32", lights, "a word a light");
   return grid;
 }
 

@@ -36,13 +36,15 @@ ListedLights listed_lights(const CapturedFrame& frame, const FrameGrid& grid) {
     add_masks(grid.lists.masks, grid.lists.cells.size(), lists);
   } else {
     lists.indices = grid.lists.indices;
-    for (const glm::uvec2& cell : grid.lists.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+    for (const glm::uvec2& cell : grid.lists.cells)
+      lists.first.push_back(cell.x), lists.count.push_back(cell.y);
   }
   const PixelCells cells(frame, grid);
   std::vector<uint32_t> bins;
   lists.cell_of_pixel.reserve(frame.depth.size());
   for (int y = 0; y < frame.view.height; ++y) {
-    for (int x = 0; x < frame.view.width; ++x) lists.cell_of_pixel.push_back(cells.cell(x, y)), bins.push_back(cells.z_bin(x, y));
+    for (int x = 0; x < frame.view.width; ++x)
+      lists.cell_of_pixel.push_back(cells.cell(x, y)), bins.push_back(cells.z_bin(x, y));
   }
   return grid.z_bin_edges.empty() ? lists : in_z_bins(lists, bins, grid.lists.z_bins);
 }

@@ -23,6 +23,7 @@ struct AccuracyRow {
 std::string accuracy_line(const AccuracyRow& row);
 
 // `settings` are those that were not compared.
-std::string accuracy_json(const CapturedFrame& frame, const Settings& settings, const std::vector<AccuracyRow>& rows);
+std::string accuracy_json(const CapturedFrame& frame, const Settings& settings,
+                          const std::vector<AccuracyRow>& rows);
 
 }  // namespace lightgrid

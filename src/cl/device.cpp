@@ -98,13 +98,16 @@ size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::str
   if (devices.empty()) {
     const std::filesystem::path cache = pocl_cache_folder();
     const std::string why = why_not_writable(cache);
-    if (why.empty()) throw machine_error("there is no OpenCL device. The Debian package pocl-opencl-icd makes the CPU one");
+    if (why.empty())
+      throw machine_error("there is no OpenCL device. The Debian package pocl-opencl-icd makes the CPU one");
     throw machine_error(
-        "there is no OpenCL device. PoCL offers none if it cannot write {}: {}; set POCL_CACHE_DIR to a folder that can be "
-        "written. If it is not installed, the Debian package pocl-opencl-icd makes the CPU a device",
+        "there is no OpenCL device. PoCL offers none if it cannot write {}: {}; set POCL_CACHE_DIR to a "
+        "folder that can be written. If it is not installed, the Debian package pocl-opencl-icd makes the "
+        "CPU a device",
         cache.string(), why);
   }
-  if (const std::optional<size_t> index = index_of(substring); index && *index < devices.size()) return *index;
+  if (const std::optional<size_t> index = index_of(substring); index && *index < devices.size())
+    return *index;
   const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const ClDeviceInfo& info) {
     return substring.empty() ? !info.cpu : holds(info.platform + " " + info.name, substring);
   });
@@ -114,7 +117,8 @@ size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::str
   for (size_t i = 0; i < devices.size(); ++i) {
     names += fmt::format("\n  #{} {} {}", i, devices[i].platform, devices[i].name);
   }
-  throw machine_error("--device: no OpenCL device's name or number is \"{}\". There are:{}", substring, names);
+  throw machine_error("--device: no OpenCL device's name or number is \"{}\". There are:{}", substring,
+                      names);
 }
 
 ClDevice::ClDevice(const std::string& substring) {

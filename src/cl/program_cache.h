@@ -19,8 +19,8 @@ class ProgramCache {
   // disk cache; "driver" does the same but keeps the driver's own cache. PoCL compiles each kernel a second
   // time to return its binary: without our cache a first build took less than half as long, and each later
   // start 35 ms a kernel more (measured with `verify --filter depth/all_sky$`, empty and warm caches).
-  // With LIGHTGRID_CL_QUICK_BUILD=gpu a CPU compiles the kernels of kernels/gpu without optimisation, with "all" every
-  // kernel: optimisation is most of a kernel's build time. For tests only (docs/testing.md).
+  // With LIGHTGRID_CL_QUICK_BUILD=gpu a CPU compiles the kernels of kernels/gpu without optimisation, with
+  // "all" every kernel: optimisation is most of a kernel's build time. For tests only (docs/testing.md).
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
   // The kernel of the embedded file "kernels/<file>.cl" (e.g. "cpu/depth_bounds") with its includes, built

@@ -21,14 +21,16 @@ static constexpr size_t most_entries = 0xffffffffu;
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
   // Depth bounds alone need no cull kernels: they are built at the first cull.
-  if (!avx512_) avx512_ = !options_.portable && options_.shape == KernelShape::lanes && builds_avx512(device_, programs_);
+  if (!avx512_)
+    avx512_ = !options_.portable && options_.shape == KernelShape::lanes && builds_avx512(device_, programs_);
   options.avx512 = *avx512_;
   options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
   options.cones = cones_;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
-  options.cell_defines = fmt::format("{} -DDEPTH_MODE={}{}", options.light_defines, int(mode), options.slices ? " -DSLICES" : "");
+  options.cell_defines = fmt::format("{} -DDEPTH_MODE={}{}", options.light_defines, int(mode),
+                                     options.slices ? " -DSLICES" : "");
   std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
   if (!made || made->options != options) {
     made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
@@ -46,8 +48,9 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
   const size_t cell_count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   grid.cell_bytes = cell_count * sizeof(cl_uint2);
   if (cell_count > most_entries || grid.cell_bytes > device_.info().max_allocation_bytes) {
-    throw machine_error("light culling: {} x {} x {} cells need more memory than {} allows; use larger tiles or fewer slices",
-                        grid.cells_x, grid.cells_y, grid.slices, device_.info().name);
+    throw machine_error(
+        "light culling: {} x {} x {} cells need more memory than {} allows; use larger tiles or fewer slices",
+        grid.cells_x, grid.cells_y, grid.slices, device_.info().name);
   }
   cl::Buffer cells = storage.cells(grid.cell_bytes);
   if (light_count_ == 0) {
@@ -80,18 +83,22 @@ void LightCuller::set_room(const Room& room) {
 LightCuller::Room LightCuller::first_room(size_t index_bytes) const {
   const size_t tiles = size_t(params_.tiles_x) * params_.tiles_y;
   const size_t most_indices = std::min(most_entries, device_.info().max_allocation_bytes / index_bytes);
-  return {std::max(params_.pool_batches, 2048 + light_stride_ / 4), std::max(params_.staging_units, uint(tiles * 4)),
+  return {std::max(params_.pool_batches, 2048 + light_stride_ / 4),
+          std::max(params_.staging_units, uint(tiles * 4)),
           uint(std::min(most_indices, std::max<size_t>(params_.index_capacity, tiles * 64)))};
 }
 
 // The whole chain is enqueued with the last call's sizes, with one wait at its end. If something did not fit,
 // nothing was written out of bounds; the chain runs again with a quarter more than was needed, since lights
 // and views move, or with exactly that if memory does not suffice for more.
-void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells) {
+void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
+                            const cl::Buffer& cells) {
   const size_t index_bytes = grid.index_bits / 8, largest = device_.info().max_allocation_bytes;
-  const char* advice = !row_of(options_.cull_test).planes ? "cull tests sphere and aabb count each light in every tile of the view: use planes, "
-                                        "planes_aabb or exact, or fewer lights"
-                                      : "use fewer or smaller lights";
+  const char* advice =
+      !row_of(options_.cull_test).planes
+          ? "cull tests sphere and aabb count each light in every tile of the view: use planes, "
+            "planes_aabb or exact, or fewer lights"
+          : "use fewer or smaller lights";
   Room needed{1, 1, 0};  // lower bounds so far
   set_room(first_room(index_bytes));
   for (;;) {
@@ -108,7 +115,8 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
     const auto grow = [&](uint64_t wanted, uint64_t unit_bytes, const char* what, uint Room::*size) {
       const uint64_t most = std::min<uint64_t>(most_entries, largest / unit_bytes);
       if (wanted > most) {
-        throw machine_error("light culling: {} {} need more memory than {} allows; {}", wanted, what, device_.info().name, advice);
+        throw machine_error("light culling: {} {} need more memory than {} allows; {}", wanted, what,
+                            device_.info().name, advice);
       }
       needed.*size = uint(wanted);
       Room more = room();
@@ -116,7 +124,8 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
       set_room(more);
     };
     if (counters[0] > params_.pool_batches) {
-      grow(counters[0], 16 * pipeline(bounds.mode).candidate_bytes(), "batches of 16 candidate lights", &Room::pool_batches);
+      grow(counters[0], 16 * pipeline(bounds.mode).candidate_bytes(), "batches of 16 candidate lights",
+           &Room::pool_batches);
     } else if (counters[1] > params_.staging_units) {
       grow(counters[1], 64, "units of 16 list entries", &Room::staging_units);
     } else if (total > params_.index_capacity) {
@@ -131,22 +140,24 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
   }
 }
 
-void LightCuller::run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells,
-                              uint32_t (&counters)[counter_count]) {
+void LightCuller::run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
+                              const cl::Buffer& cells, uint32_t (&counters)[counter_count]) {
   const cl::Buffer indices = storage.indices(params_.index_capacity * size_t(grid.index_bits / 8));
   CullPipeline& kernels = pipeline(bounds.mode);
   upload_params();
   if (z_bin_count_ > 1) enqueue_z_bins(grid, storage);
   kernels.prepare(params_);
-  kernels.enqueue({params_, params_upload_->buffer(), lights_->get(), bounds.values, slices_, counters_, cells, indices});
+  kernels.enqueue(
+      {params_, params_upload_->buffer(), lights_->get(), bounds.values, slices_, counters_, cells, indices});
   read_buffer(device_, "light culling", counters_, counters, sizeof counters);
 }
 
 void LightCuller::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
   grid.z_bin_bytes = light_count_ * sizeof(cl_uint);
   if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("light_z_bins", "");
-  launch(device_, "light_z_bins", z_bins_kernel_, cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group),
-         cl::NDRange(z_bin_group), lights_->get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
+  launch(device_, "light_z_bins", z_bins_kernel_,
+         cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group), cl::NDRange(z_bin_group),
+         lights_->get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
          params_upload_->buffer());
 }
 
@@ -155,14 +166,16 @@ void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {
   grid.mask_words = (light_count_ + 31) / 32;
   grid.mask_bytes = cells * grid.mask_words * sizeof(cl_uint);
   if (grid.mask_bytes > largest) {
-    throw machine_error("light culling: masks of {} cells for {} lights need {} bytes, more than {} allows; use lists, larger "
-                        "tiles or fewer slices", cells, light_count_, grid.mask_bytes, device_.info().name);
+    throw machine_error(
+        "light culling: masks of {} cells for {} lights need {} bytes, more than {} allows; use lists, "
+        "larger tiles or fewer slices",
+        cells, light_count_, grid.mask_bytes, device_.info().name);
   }
   cl::Kernel& kernel = masks_kernels_[grid.index_bits == 32];
   if (!kernel()) kernel = programs_.kernel("lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
   launch(device_, "lists_to_masks", kernel, cl::NDRange((cells + mask_group - 1) / mask_group * mask_group),
-         cl::NDRange(mask_group), storage.cells(grid.cell_bytes), storage.indices(grid.index_bytes), cl_uint(cells),
-         cl_uint(grid.mask_words), storage.masks(grid.mask_bytes));
+         cl::NDRange(mask_group), storage.cells(grid.cell_bytes), storage.indices(grid.index_bytes),
+         cl_uint(cells), cl_uint(grid.mask_words), storage.masks(grid.mask_bytes));
   finish_queue(device_, "lists_to_masks");
 }
 

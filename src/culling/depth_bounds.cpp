@@ -21,10 +21,12 @@ static constexpr uint usual_depth_group = 256, depth_tiles_an_item = 16;
 // Slots outside the view stay empty; those inside get `near` and `far`.
 cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
   std::vector<float> values(size_t(params_.bins_x) * params_.bins_y * planes * BIN_SIZE);
-  for (size_t i = 0; i < values.size(); ++i) values[i] = i / BIN_SIZE % planes % 2 == 0 ? far_away : -far_away;
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = i / BIN_SIZE % planes % 2 == 0 ? far_away : -far_away;
   for (uint ty = 0; ty < params_.tiles_y; ++ty) {
     for (uint tx = 0; tx < params_.tiles_x; ++tx) {
-      values[bounds_index(params_, planes, 0, tx, ty)] = near, values[bounds_index(params_, planes, 1, tx, ty)] = far;
+      values[bounds_index(params_, planes, 0, tx, ty)] = near;
+      values[bounds_index(params_, planes, 1, tx, ty)] = far;
     }
   }
   cl::Buffer buffer = device_buffer(device_, values.size() * sizeof(float));
@@ -41,18 +43,21 @@ void LightCuller::read_layout(const DepthInput& depth) {
   const uint64_t width = uint64_t(depth.x) + params_.width, samples = uint64_t(options_.samples);
   const uint64_t row = depth.row_pixels ? uint64_t(std::max(depth.row_pixels, 0)) : uint64_t(params_.width);
   if (row < width) {
-    throw input_error("depth_bounds: row_pixels is {}, less than the {} that x and the view's width need", depth.row_pixels,
-                      width);
+    throw input_error("depth_bounds: row_pixels is {}, less than the {} that x and the view's width need",
+                      depth.row_pixels, width);
   }
   const uint64_t values = ((uint64_t(depth.y) + params_.height - 1) * row + width) * samples;
   const size_t given = bytes_of(depth.values);
   if (given / sizeof(float) < values) {
-    throw input_error("depth_bounds: the depth values are a buffer of {} bytes, fewer than the {} of {} rows of {} pixels with "
-                      "{} samples", given, values * sizeof(float), depth.y + params_.height, row, samples);
+    throw input_error(
+        "depth_bounds: the depth values are a buffer of {} bytes, fewer than the {} of {} rows of {} pixels "
+        "with {} samples",
+        given, values * sizeof(float), depth.y + params_.height, row, samples);
   }
   const uint64_t first = (uint64_t(depth.y) * row + uint64_t(depth.x)) * samples;
   if (first > 0xffffffffu || row * samples > 0xffffffffu) {
-    throw input_error("depth_bounds: y is {} and row_pixels {}: the view begins past 2^32 values", depth.y, row);
+    throw input_error("depth_bounds: y is {} and row_pixels {}: the view begins past 2^32 values", depth.y,
+                      row);
   }
   params_.depth_row = uint(row * samples), params_.depth_first = uint(first);
 }
@@ -64,8 +69,9 @@ cl::Buffer LightCuller::straight_depth(const DepthInput& depth, uint first, uint
   const size_t width = size_t(params_.width) * options_.samples;
   const cl::Buffer& straight = straight_depth_->at_least(device_, width * params_.height * sizeof(float));
   const cl_float4 plane = {{s.tilt_x, s.tilt_y, s.offset, s.scale}};
-  launch(device_, "straighten_depth", straighten_kernel_, cl::NDRange(width, params_.height), cl::NullRange, depth.values,
-         cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight, params_upload_->buffer());
+  launch(device_, "straighten_depth", straighten_kernel_, cl::NDRange(width, params_.height), cl::NullRange,
+         depth.values, cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight,
+         params_upload_->buffer());
   return straight;
 }
 
@@ -75,7 +81,8 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
     const float near = params_.orthographic ? -far_away : 0.0f;
     if (!opaque_()) opaque_ = empty_bounds(2, near, far_away);
     invalid_tiles_counter_ = 0;
-    return {{opaque_, DepthBoundsMode::minmax}, {options_.blend ? opaque_ : cl::Buffer(), DepthBoundsMode::minmax}};
+    return {{opaque_, DepthBoundsMode::minmax},
+            {options_.blend ? opaque_ : cl::Buffer(), DepthBoundsMode::minmax}};
   }
   read_layout(depth);
   const bool lanes = options_.shape == KernelShape::lanes;
@@ -85,8 +92,9 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   if (!bounds_kernel_() || bounds_kernel_standard_ != bool(params_.standard_depth)) {
     bounds_kernel_standard_ = params_.standard_depth;
     std::string defines =
-        fmt::format("-DTILE={} -DSAMPLES={} -DDEPTH_MODE={}{}{}", options_.tile, options_.samples, int(options_.depth_bounds),
-                    params_.standard_depth ? " -DSTANDARD_DEPTH" : "", options_.blend ? " -DBLEND" : "");
+        fmt::format("-DTILE={} -DSAMPLES={} -DDEPTH_MODE={}{}{}", options_.tile, options_.samples,
+                    int(options_.depth_bounds), params_.standard_depth ? " -DSTANDARD_DEPTH" : "",
+                    options_.blend ? " -DBLEND" : "");
     depth_group_ = usual_depth_group;
     while (depth_group_ > device_.info().max_group_items) depth_group_ /= 2;
     if (!lanes && depth_group_ != usual_depth_group) defines += fmt::format(" -DGROUP={}", depth_group_);
@@ -103,12 +111,15 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   // An item, or a group, processes several tiles side by side.
   const uint group = lanes ? 1 : depth_group_, values = uint(options_.tile * options_.samples);
   const uint tiles = lanes ? depth_tiles_an_item : std::max(depth_group_ / values, 1u);
-  const uint counter = invalid_tiles_counter_ == invalid_tiles_counters[0] ? invalid_tiles_counters[1] : invalid_tiles_counters[0];
+  const uint counter = invalid_tiles_counter_ == invalid_tiles_counters[0] ? invalid_tiles_counters[1]
+                                                                           : invalid_tiles_counters[0];
   const uint other = invalid_tiles_counters[0] + invalid_tiles_counters[1] - counter;
   launch(device_, "depth_bounds", bounds_kernel_, cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
-         cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other), params_upload_->buffer());
+         cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other),
+         params_upload_->buffer());
   invalid_tiles_counter_ = counter;
-  return {{opaque_, options_.depth_bounds}, {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
+  return {{opaque_, options_.depth_bounds},
+          {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
 }
 
 TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
@@ -122,8 +133,10 @@ TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
   for (size_t i = 0; i < intervals.size(); ++i) {
     const uint tx = uint(i) % params_.tiles_x, ty = uint(i) / params_.tiles_x;
     const bool some = intervals[i].near <= intervals[i].far;
-    values[bounds_index(params_, 2, 0, tx, ty)] = some ? std::clamp(intervals[i].near, -far_away, far_away) : far_away;
-    values[bounds_index(params_, 2, 1, tx, ty)] = some ? std::clamp(intervals[i].far, -far_away, far_away) : -far_away;
+    values[bounds_index(params_, 2, 0, tx, ty)] =
+        some ? std::clamp(intervals[i].near, -far_away, far_away) : far_away;
+    values[bounds_index(params_, 2, 1, tx, ty)] =
+        some ? std::clamp(intervals[i].far, -far_away, far_away) : -far_away;
   }
   write_buffer(device_, "light culling: bounds", buffer, values.data(), values.size() * sizeof(float));
   return {buffer, DepthBoundsMode::minmax};
@@ -150,7 +163,8 @@ std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
 uint32_t LightCuller::invalid_depth_tiles() {
   cl_uint count = 0;
   if (invalid_tiles_counter_ == 0) return count;
-  read_buffer(device_, "light culling: counters", counters_, &count, sizeof count, invalid_tiles_counter_ * sizeof count);
+  read_buffer(device_, "light culling: counters", counters_, &count, sizeof count,
+              invalid_tiles_counter_ * sizeof count);
   return count;
 }
 

@@ -14,7 +14,9 @@ constexpr size_t bin_blocks = BIN_TILES / block_tiles * (BIN_TILES / block_tiles
 constexpr size_t usual_items = 256;  // of kernels whose work-groups may have any size
 
 // Empty if `items` is the kernel's own default.
-std::string group_define(size_t items) { return items == usual_items ? "" : fmt::format(" -DGROUP={}", items); }
+std::string group_define(size_t items) {
+  return items == usual_items ? "" : fmt::format(" -DGROUP={}", items);
+}
 
 class GroupPipeline : public CullPipeline {
  public:
@@ -22,14 +24,17 @@ class GroupPipeline : public CullPipeline {
       : CullPipeline(options), device_(device) {
     const size_t allowed = device.info().max_group_items;
     if (allowed < project_items) {
-      throw machine_error("light culling: kernel shape group needs work-groups of {} items, and {} allows {}; use shape lanes",
-                          project_items, device.info().name, allowed);
+      throw machine_error(
+          "light culling: kernel shape group needs work-groups of {} items, and {} allows {}; use shape "
+          "lanes",
+          project_items, device.info().name, allowed);
     }
     project_ = programs.kernel("gpu/project_lights", options.light_defines);
     while (write_items_ > allowed) write_items_ /= 2;
     if (options.group_size > 0) cull_items_ = size_t(options.group_size);
     while (cull_items_ > allowed) cull_items_ /= 2;
-    cull_ = programs.kernel("gpu/cull_lights", fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
+    cull_ =
+        programs.kernel("gpu/cull_lights", fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
     write_ = programs.kernel("gpu/write_lists", index_define(options) + group_define(write_items_));
   }
 
@@ -46,23 +51,28 @@ class GroupPipeline : public CullPipeline {
 
   void enqueue(const CullJob& job) override {
     const CullParams& p = job.params;
-    launch(device_, "project_lights", project_, cl::NDRange(project_groups(p) * project_items), cl::NDRange(project_items),
-           job.lights, views_.get(), light_marks_.get(), job.counters, job.params_buffer);
-    launch(device_, "cull_lights", cull_, cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_), views_.get(),
-           light_marks_.get(), job.bounds, job.slices, ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells,
-           job.counters, job.params_buffer);
-    launch(device_, "write_lists", write_, cl::NDRange(blocks(p) * write_items_), cl::NDRange(write_items_), ids_.get(),
-           places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters, job.params_buffer);
+    launch(device_, "project_lights", project_, cl::NDRange(project_groups(p) * project_items),
+           cl::NDRange(project_items), job.lights, views_.get(), light_marks_.get(), job.counters,
+           job.params_buffer);
+    launch(device_, "cull_lights", cull_, cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_),
+           views_.get(), light_marks_.get(), job.bounds, job.slices, ids_.get(), places_.get(), totals_.get(),
+           cell_marks_.get(), job.cells, job.counters, job.params_buffer);
+    launch(device_, "write_lists", write_, cl::NDRange(blocks(p) * write_items_), cl::NDRange(write_items_),
+           ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters,
+           job.params_buffer);
   }
 
   size_t candidate_bytes() const override { return sizeof(cl_uint); }
 
   size_t memory_bytes() const override {
-    return views_.bytes() + light_marks_.bytes() + ids_.bytes() + cell_marks_.bytes() + places_.bytes() + totals_.bytes();
+    return views_.bytes() + light_marks_.bytes() + ids_.bytes() + cell_marks_.bytes() + places_.bytes() +
+           totals_.bytes();
   }
 
  private:
-  static size_t project_groups(const CullParams& p) { return (p.light_count + project_items - 1) / project_items; }
+  static size_t project_groups(const CullParams& p) {
+    return (p.light_count + project_items - 1) / project_items;
+  }
   static size_t blocks(const CullParams& p) { return size_t(p.bins_x) * p.bins_y * bin_blocks; }
 
   ClDevice& device_;
@@ -73,7 +83,8 @@ class GroupPipeline : public CullPipeline {
 
 }  // namespace
 
-std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options) {
+std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs,
+                                                  const PipelineOptions& options) {
   return std::make_unique<GroupPipeline>(device, programs, options);
 }
 

@@ -133,8 +133,8 @@ class SceneSweep {
   // As many points as the time allows on one view, then as many views: first with FLIP and flicker, then
   // without.
   void measure_figures() {
-    const bool own =
-        std::ranges::any_of(measured_, [](const MeasuredPoint& m) { return has_own_surfaces(m.run.point()); });
+    const bool own = std::ranges::any_of(
+        measured_, [](const MeasuredPoint& m) { return has_own_surfaces(m.run.point()); });
     double view_s = 0;  // of the last one
     bool whole = has_time_for_flip();
     for (int view = 0; view < int(views_.size()); ++view) {

@@ -66,7 +66,8 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
   double beside = baseline.draw();
   for (size_t i = 0; i < order.size(); i += 2) {
     if (job.progress)
-      job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0), fmt::format("times, round {}", round));
+      job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
+                   fmt::format("times, round {}", round));
     MeasuredPoint& first = points[order[i]];
     add_time(first, view, timed(first, view), beside, times);
     if (i + 1 == order.size()) break;

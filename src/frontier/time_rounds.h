@@ -21,9 +21,9 @@ struct MeasuredPoint {
 
 constexpr int slow_rounds = 3;  // of slow points
 
-// Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round. A
-// point counts with the baseline run beside it. Slow points are left out of late rounds. The first round does
-// not count, and has no slow points: drivers compile in it what they dropped.
+// Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
+// A point counts with the baseline run beside it. Slow points are left out of late rounds. The first round
+// does not count, and has no slow points: drivers compile in it what they dropped.
 struct TimeRounds {
   const FrontierJob& job;
   const Timer& timer;  // of the scene

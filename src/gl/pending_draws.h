@@ -8,8 +8,8 @@
 namespace lightgrid {
 
 // At most two portions of draws wait. llvmpipe stores the vertices and triangles of all draws that it has not
-// rasterised yet, hundreds of megabytes if a scene is drawn once a light, and keeps this memory until the context
-// ends.
+// rasterised yet, hundreds of megabytes if a scene is drawn once a light, and keeps this
+// memory until the context ends.
 class PendingDraws {
  public:
   PendingDraws() = default;

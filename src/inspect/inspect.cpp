@@ -119,7 +119,8 @@ std::vector<DepthInterval> pieces_of(const Cell& cell, const std::vector<glm::dv
     const float distance = float(-p.z);
     const int i = length > 0 ? std::clamp(int((distance - near) / length), 0, count - 1) : 0;
     DepthInterval& piece = pieces[i];
-    piece = mask ? DepthInterval{near + i * length, near + (i + 1) * length}  // a slot's bit has no finer depth
+    // A slot's bit has no finer depth
+    piece = mask ? DepthInterval{near + i * length, near + (i + 1) * length}
                  : DepthInterval{std::min(piece.near, distance), std::max(piece.far, distance)};
   }
   std::erase_if(pieces, [](const DepthInterval& piece) { return !(piece.near <= piece.far); });

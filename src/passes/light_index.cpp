@@ -34,7 +34,8 @@ struct Order {
 class LightIndexState : public PassState {
  public:
   explicit LightIndexState(RenderView& v)
-      : layout(light_index_layout(v.plan.settings, v.plan.local.size())), group_of_light(v.plan.local.size(), no_group) {
+      : layout(light_index_layout(v.plan.settings, v.plan.local.size())),
+        group_of_light(v.plan.local.size(), no_group) {
     require_exact_blending(v, layout);
     find_influence(v);
   }
@@ -73,8 +74,12 @@ void put_in_order(const RenderView& v, const LightIndexState& state, std::vector
   });
 }
 
-LightExtent extent_in_space(const LightVolume& v) { return {v.center - v.radius, v.center + v.radius, v.center, v.radius}; }
-LightExtent extent_on_screen(const LightVolume& v) { return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)}; }
+LightExtent extent_in_space(const LightVolume& v) {
+  return {v.center - v.radius, v.center + v.radius, v.center, v.radius};
+}
+LightExtent extent_on_screen(const LightVolume& v) {
+  return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)};
+}
 
 // Sort: lights without a group are left out. With stencil, lights that do not touch in space share no pixel,
 // whatever the camera; with front faces, the rectangles on screen must not touch.
@@ -82,20 +87,24 @@ void put_in_groups(const RenderView& v, LightIndexState& state, std::vector<Ligh
   const bool on_screen = v.plan.settings.lidr_volumes == LidrVolumes::front_faces;
   if (on_screen || !state.grouped) {
     std::vector<LightExtent> extents;
-    for (const LightVolume& v : volumes) extents.push_back(on_screen ? extent_on_screen(v) : extent_in_space(v));
+    for (const LightVolume& v : volumes)
+      extents.push_back(on_screen ? extent_on_screen(v) : extent_in_space(v));
     const std::vector<uint32_t> groups = group_lights(extents, state.layout.groups);
     for (size_t i = 0; i < groups.size(); ++i) state.group_of_light[volumes[i].light] = groups[i];
     state.grouped = true;
   }
   const auto group = [&](const LightVolume& v) { return state.group_of_light[v.light]; };
   std::erase_if(volumes, [&](const LightVolume& v) { return group(v) == no_group; });
-  std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) { return group(a) < group(b); });
+  std::stable_sort(volumes.begin(), volumes.end(),
+                   [&](const LightVolume& a, const LightVolume& b) { return group(a) < group(b); });
 }
 
 // Rounds in which no two volumes share a pixel, because the stencil marks one volume at a time. A single
 // round if nothing is marked and each draw's channels are fixed.
-std::vector<uint32_t> rounds_of(const RenderView& v, const LightIndexLayout& layout, const std::vector<LightVolume>& volumes) {
-  const bool sorted = layout.packing == LidrPacking::sort, marked = v.plan.settings.lidr_volumes == LidrVolumes::stencil;
+std::vector<uint32_t> rounds_of(const RenderView& v, const LightIndexLayout& layout,
+                                const std::vector<LightVolume>& volumes) {
+  const bool sorted = layout.packing == LidrPacking::sort,
+             marked = v.plan.settings.lidr_volumes == LidrVolumes::stencil;
   if (!marked && (sorted || layout.groups == 1)) return std::vector<uint32_t>(volumes.size(), 0);
   std::vector<LightExtent> extents;
   for (const LightVolume& v : volumes) extents.push_back(extent_on_screen(v));
@@ -110,17 +119,22 @@ Order order_of(const RenderView& v, LightIndexState& state, std::vector<LightVol
   // Within a round of a group any order gives the same image; this one needs few calls. If there is only one
   // round, the order decides which lights are kept when slots run out.
   const auto batch_of = [&](uint32_t i) {
-    return std::tuple(sorted ? state.group_of_light[volumes[i].light] : 0, rounds[i], volumes[i].crosses_near, volumes[i].mesh);
+    return std::tuple(sorted ? state.group_of_light[volumes[i].light] : 0, rounds[i], volumes[i].crosses_near,
+                      volumes[i].mesh);
   };
   std::vector<uint32_t> order(volumes.size());
   std::iota(order.begin(), order.end(), 0u);
-  const bool any_order = sorted || v.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
-  if (any_order) std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
+  const bool any_order =
+      sorted || v.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
+  if (any_order)
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
   Order out;
   for (size_t i = 0; i < order.size(); ++i) {
     const auto [group, round, crosses, mesh] = batch_of(order[i]);
     const auto [last_group, last_round, last_crosses, last_mesh] = batch_of(order[i ? i - 1 : 0]);
-    if (i == 0 || group != last_group || round != last_round || crosses != last_crosses) out.batches.push_back({i, 0, group});
+    if (i == 0 || group != last_group || round != last_round || crosses != last_crosses)
+      out.batches.push_back({i, 0, group});
     ++out.batches.back().count;
     out.volumes.push_back(volumes[order[i]]);
   }
@@ -147,7 +161,8 @@ class Drawing {
   // The initial stencil value: the number of free slots.
   GLint cleared_stencil() const {
     if (layout_.packing == LidrPacking::sort) return 255;
-    return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside : has_room - 1 + layout_.overlap);
+    return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside
+                         : has_room - 1 + layout_.overlap);
   }
 
  private:
@@ -172,7 +187,8 @@ class Drawing {
     const GLuint step = inside_ ? 2 : 1;  // stencil steps a slot takes
     const GLuint of_group = layout_.groups > 1 ? step * layout_.slots : 0;
     glStencilMask(255);
-    glStencilFunc(GL_EQUAL, GLint(has_room | (group == 0 ? of_group : 0)), has_room | of_group | (inside_ ? not_inside : 0));
+    glStencilFunc(GL_EQUAL, GLint(has_room | (group == 0 ? of_group : 0)),
+                  has_room | of_group | (inside_ ? not_inside : 0));
     glStencilOp(GL_KEEP, inside_ ? GL_INCR : GL_KEEP, GL_DECR);
   }
 
@@ -207,22 +223,26 @@ class Drawing {
 std::vector<GLuint> index_images(RenderView& v, const LightIndexLayout& layout) {
   std::vector<GLuint> images;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
-    images.push_back(v.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
+    images.push_back(
+        v.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
   }
   return images;
 }
 
 void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
   const float none[4] = {};
-  for (uint32_t i = 0; i < layout.targets(); ++i) glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), none);
+  for (uint32_t i = 0; i < layout.targets(); ++i)
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), none);
   glStencilMask(255);
   glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
 }
 
-void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolumes& volumes, const Order& order, GLuint framebuffer) {
+void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolumes& volumes,
+                  const Order& order, GLuint framebuffer) {
   const LightIndexLayout& layout = state.layout;
   const Drawing drawing(v, layout, volumes);
-  const GlProgram& program = v.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
+  const GlProgram& program =
+      v.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, v.view.width, v.view.height);
   clear(layout, framebuffer, drawing.cleared_stencil());

@@ -10,7 +10,8 @@ void read_back(RenderView& v, const ShadedImage& shaded, Image& image) {
     image = Image(v.view.width, v.view.height);
   }
   if (shaded.in_cl) {
-    read_buffer(*v.renderer.cl, "reading the image back", shaded.in_cl->cl_buffer(), image.pixels.data(), image.pixels.size() * 16);
+    read_buffer(*v.renderer.cl, "reading the image back", shaded.in_cl->cl_buffer(), image.pixels.data(),
+                image.pixels.size() * 16);
   } else {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);

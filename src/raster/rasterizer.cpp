@@ -134,9 +134,10 @@ void Rasterizer::State::enqueue() {
   params_upload.put(device, "rasterizer: params", std::vector<RasterParams>{params});
   pipeline->prepare(params);
   pipeline->enqueue({params, params_upload.buffer(), positions.get(), indices.get(), cluster_indices.get(),
-                     cluster_triangles.get(), clusters.get(), records.buffer(), runs.buffer(), pair_list.buffer(),
-                     frame.buffer(), clip.get(), image ? image_triangles.get() : cl::Buffer(),
-                     image ? image_depths.get() : cl::Buffer(), counters, masks});
+                     cluster_triangles.get(), clusters.get(), records.buffer(), runs.buffer(),
+                     pair_list.buffer(), frame.buffer(), clip.get(),
+                     image ? image_triangles.get() : cl::Buffer(), image ? image_depths.get() : cl::Buffer(),
+                     counters, masks});
 }
 
 void Rasterizer::State::read_counters(uint32_t (&counted)[RASTER_COUNTERS]) {
@@ -161,7 +162,8 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
     return true;
   }
   if (entries > params.entry_capacity) {
-    grow(entries, sizeof(cl_uint2), most_numbers, "pairs of a triangle and a tile or window", params.entry_capacity);
+    grow(entries, sizeof(cl_uint2), most_numbers, "pairs of a triangle and a tile or window",
+         params.entry_capacity);
     return true;
   }
   return false;

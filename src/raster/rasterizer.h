@@ -150,8 +150,8 @@ class Rasterizer {
   // kinds above.
   void set_view(const RasterView& view);
 
-  // Throws input where set_view is missing. Waits for the queue, after a call of `meanwhile`: work of the host
-  // that the device does not need yet.
+  // Throws input where set_view is missing. Waits for the queue, after a call of `meanwhile`: work of the
+  // host that the device does not need yet.
   Visibility draw(const std::function<void()>& meanwhile = {});
 
   // The same without an image, with RasterOptions::drawing_order: blended surfaces are laid over one another

@@ -30,9 +30,9 @@ class PassState {
   // Called after the camera, the lights or the plan changed. Returns false if the state no longer fits; it is
   // then created again at its next use.
   virtual bool follow(RenderView&) { return false; }
-  // What follow() may leave for later: uploads of what the rasteriser does not read. RenderView::upload_states
-  // calls it while the device draws triangles; the pass calls it too, before it reads them. Only the first
-  // call after follow() does anything.
+  // What follow() may leave for later: uploads of what the rasteriser does not read.
+  // RenderView::upload_states calls it while the device draws triangles; the pass calls it too, before it
+  // reads them. Only the first call after follow() does anything.
   virtual void upload(RenderView&) {}
 };
 

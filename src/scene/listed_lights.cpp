@@ -17,8 +17,10 @@ void place_lists(ListedLights& lists) {
   }
   const uint64_t memory = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
   if (entries > memory / 2 / sizeof(uint32_t)) {
-    throw machine_error("{} pairs of pixels and lights are more than this machine's memory holds; use fewer lights or a smaller "
-                        "--size", entries);
+    throw machine_error(
+        "{} pairs of pixels and lights are more than this machine's memory holds; use fewer lights or a "
+        "smaller --size",
+        entries);
   }
   lists.indices.resize(entries);
 }

@@ -15,7 +15,8 @@ SHARED_FUNCTION real viewer_term(Lobe l) { return 2.0f / l.alpha_squared - 2.0f;
 // D V, 1 / sr. h is the unnormalised half vector; the others are |h|^2, n.h (a cosine times |h|) and sine^2
 // times |h|^2.
 SHARED_FUNCTION real specular_lobe(Lobe l, real n_dot_l, real h_squared, real n_dot_h, real across_squared) {
-  real lobe = (l.viewer + 2.0f) * (0.125f / SHADING_PI) * power_of_cosine(l.viewer, h_squared, across_squared);
+  real lobe =
+      (l.viewer + 2.0f) * (0.125f / SHADING_PI) * power_of_cosine(l.viewer, h_squared, across_squared);
   return n_dot_h * n_dot_l > REAL(0.0f) ? lobe : REAL(0.0f);
 }
 

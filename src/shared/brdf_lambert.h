@@ -1,6 +1,7 @@
-// Lambert: base colour / pi, whatever the metalness and the roughness. The light loop with the fewest terms, against
-// which the cost of a specular lobe is measured. Metals reflect their base colour too: (1 - metallic), as glTF's
-// diffuse part has it, would turn them black, and a light that a list loses would not show on them.
+// Lambert: base colour / pi, whatever the metalness and the roughness. The light loop with the
+// fewest terms, against which the cost of a specular lobe is measured. Metals reflect their base
+// colour too: (1 - metallic), as glTF's diffuse part has it, would turn them black, and a light that
+// a list loses would not show on them.
 #pragma once
 
 #include "shared/material_models.h"
@@ -10,8 +11,8 @@ namespace lightgrid {
 #endif
 
 // As in brdf_microfacet.h; to_viewer, metallic and roughness are not read.
-SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color, real metallic,
-                                           real roughness) {
+SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color,
+                                           real metallic, real roughness) {
   ShadingPoint p;
   p.position = position;
   p.normal = normal;

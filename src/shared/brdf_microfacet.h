@@ -29,8 +29,8 @@ SHARED_FUNCTION Lobe lobe_of(Real3 normal, Real3 to_viewer, real roughness) {
 }
 
 // to_viewer and normal are unit vectors; roughness is perceptual.
-SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color, real metallic,
-                                           real roughness) {
+SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real3 normal, Real3 base_color,
+                                           real metallic, real roughness) {
   ShadingPoint p;
   p.position = position;
   p.normal = normal;

@@ -6,6 +6,7 @@
 // Relative error of a distance computed from depth. It allows for a shader's division that is 2.5 units off:
 // docs/hard_cases.md#slack.
 #define WIDEN 4.8e-7f
-// GPUs cull by blocks of BLOCK_TILES x BLOCK_TILES tiles. A work-group of gpu/project_lights.cl takes PROJECT_GROUP lights.
+// GPUs cull by blocks of BLOCK_TILES x BLOCK_TILES tiles. A work-group of
+// gpu/project_lights.cl takes PROJECT_GROUP lights.
 #define BLOCK_TILES 4u
 #define PROJECT_GROUP 128

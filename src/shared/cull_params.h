@@ -27,7 +27,8 @@ typedef struct CullParams {
   float depth_a, depth_a_rest, depth_b;
   float depth_step;             // one step of the depth format, if coarser than the slack covers; else 0
   float near_distance;
-  // Slack for the rounding of tile sides (docs/hard_cases.md#slack): perspective, of a distance; orthographic, metres.
+  // Slack for the rounding of tile sides (docs/hard_cases.md#slack): perspective, of a
+  // distance; orthographic, metres.
   float side_slack, side_slack_m;
   float cone_slack_m;           // rounding of a spot's uploaded position
   uint orthographic;            // 0 or 1

@@ -21,7 +21,8 @@ enum class GridLists { lists, masks };
 
 #define DEPTH_NONE 0
 #define DEPTH_MINMAX 1          // least and greatest distance: Harada, McKee, Yang, "Forward+" (2012)
-#define DEPTH_HALFZ 2           // that interval cut at its middle: Thomas, "Tiled-Based Compute Rendering" (GDC 2015)
+#define DEPTH_HALFZ 2           // that interval cut at its middle: Thomas, "Tiled-Based Compute
+                                // Rendering" (GDC 2015)
 #define DEPTH_HALFZ_MODIFIED 3  // both halves shrunk to the depths in them (the same)
 #define DEPTH_MASK32 4          // the interval in 32 slots, a bit for each occupied one: Harada, "A 2.5D
                                 // Culling for Forward+" (SIGGRAPH Asia 2012)

@@ -1,5 +1,6 @@
-// The tables of cull tests and depth-bounds modes: settings, culling, checks and inspection loop over them. A new row also
-// needs its number in shared/cull_settings.h and its kernel text; docs/overview.md lists the steps.
+// The tables of cull tests and depth-bounds modes: settings, culling, checks and inspection loop over
+// them. A new row also needs its number in shared/cull_settings.h and its kernel text;
+// docs/overview.md lists the steps.
 #pragma once
 
 #include <iterator>

@@ -22,8 +22,8 @@ typedef int16 mask_t;  // 0 or -1 a lane
 #error "LANES must be 1 or 16"
 #endif
 
-// a < b ? a : b compiles to one instruction on every device seen; fmin, which treats NaN apart, compiles to three.
-// Where a is NaN the result is b.
+// a < b ? a : b compiles to one instruction on every device seen; fmin, which treats NaN apart, compiles to
+// three. Where a is NaN the result is b.
 static inline real lane_min(real a, real b) { return a < b ? a : b; }
 static inline real lane_max(real a, real b) { return a > b ? a : b; }
 

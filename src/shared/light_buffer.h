@@ -101,8 +101,8 @@ SHARED_FUNCTION real luminance_of_terms(LightTerms t) {
 }
 #endif
 
-// The light that the models of the appendix take for a cosine of 1, of the reference light: as bright as the brightest
-// light is at half its range, not at an eighth.
+// The light that the models of the appendix take for a cosine of 1, of the reference light: as bright as the
+// brightest light is at half its range, not at an eighth.
 #define LIGHT_OF_COSINE_1 0.0625f
 
 // What a surface reflects diffusely of finite sums, without a coat over it.

@@ -24,7 +24,9 @@ SHARED_FUNCTION uint cell_in_slice(uint first_cell, uint slice, uint tiles_x, ui
 // A bin's tiles in the order of their lists in memory: Morton order (1966). Four slots from a multiple of 4
 // are a quad of 2 x 2 tiles; sixteen from a multiple of 16 are a block of 4 x 4.
 SHARED_FUNCTION uint tile_x_of_slot(uint slot) { return (slot & 1u) | (slot >> 1 & 2u) | (slot >> 2 & 4u); }
-SHARED_FUNCTION uint tile_y_of_slot(uint slot) { return (slot >> 1 & 1u) | (slot >> 2 & 2u) | (slot >> 3 & 4u); }
+SHARED_FUNCTION uint tile_y_of_slot(uint slot) {
+  return (slot >> 1 & 1u) | (slot >> 2 & 2u) | (slot >> 3 & 4u);
+}
 SHARED_FUNCTION uint slot_of_tile(uint x, uint y) {
   return (x & 1u) | (y & 1u) << 1 | (x & 2u) << 1 | (y & 2u) << 2 | (x & 4u) << 2 | (y & 4u) << 3;
 }

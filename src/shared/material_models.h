@@ -1,5 +1,5 @@
-// Diffuse models besides Lambert's, in the form of Engel, "Designing a Renderer for Multiple Lights" (ShaderX7, 2009),
-// appendix; docs/material_models.md.
+// Diffuse models besides Lambert's, in the form of Engel, "Designing a Renderer for Multiple Lights"
+// (ShaderX7, 2009), appendix; docs/material_models.md.
 //   SKIN: some surface has light that leaves it beside where it entered.
 //   MINNAERT: some surface's diffuse part follows Minnaert's cosines. k = 1 is Lambert, to the bit.
 #pragma once
@@ -11,7 +11,8 @@ namespace lightgrid {
 #endif
 
 #ifdef SKIN
-// roll_off, 0 to 1: the cosine behind the terminator at which the light beneath ends. 0: none, whatever the colour.
+// roll_off, 0 to 1: the cosine behind the terminator at which the light beneath
+// ends. 0: none, whatever the colour.
 SHARED_FUNCTION ShadingPoint with_skin(ShadingPoint p, Real3 color, real roll_off) {
   ShadingPoint skin = p;
   skin.subsurface = scale3(color, REAL(1.0f / SHADING_PI));
@@ -33,13 +34,14 @@ SHARED_FUNCTION Real3 subsurface_of(ShadingPoint p, Real3 to_light) {
   return scale3(p.subsurface, max_real(rolled, REAL(0.0f)));
 }
 
-// The integral of that term over all directions is roll_off times the colour. A macro, as AMBIENT_REFLECTANCE is.
+// The integral of that term over all directions is roll_off times the colour. A
+// macro, as AMBIENT_REFLECTANCE is.
 #define SUBSURFACE_REFLECTANCE(p) scale3((p).subsurface, REAL(SHADING_PI) * (p).roll_off)
 #endif
 
 #ifdef MINNAERT
-// x^e of 1e-7 <= x <= 1 and |e| <= 1 within 2e-6 of itself, from 1e-30 on 6e-6. Of plain operations: OpenCL's own differ between
-// a vector and its parts.
+// x^e of 1e-7 <= x <= 1 and |e| <= 1 within 2e-6 of itself, from 1e-30 on 6e-6. Of plain operations: OpenCL's
+// own differ between a vector and its parts.
 SHARED_FUNCTION real power_of(real x, real e) {
   // x = 2^n m with m in 1/sqrt 2 to sqrt 2, log m = 2 artanh((m - 1) / (m + 1)).
   Whole bits = bits_of_real(x);
@@ -47,17 +49,21 @@ SHARED_FUNCTION real power_of(real x, real e) {
   real m = real_of_bits(bits - (n << WHOLE(23)));
   real t = (m - 1.0f) / (m + 1.0f);
   real t2 = t * t;
-  real series = mad_real(t2, mad_real(t2, mad_real(t2, mad_real(t2, 0.32059890f, 0.41219859f), 0.57707802f), 0.96179669f), 2.8853901f);
+  real series = mad_real(t2, mad_real(t2, 0.32059890f, 0.41219859f), 0.57707802f);
+  series = mad_real(t2, mad_real(t2, series, 0.96179669f), 2.8853901f);
   real log2_x = mad_real(series, t, real_of_whole(n));
   // 2^y = 2^whole e^(rest log 2), the rest in -1/2 to 1/2.
   real y = e * log2_x;
   real nearest = floor_real(y + 0.5f);
   real r = (y - nearest) * 0.69314718f;
-  real power = mad_real(r, mad_real(r, mad_real(r, mad_real(r, mad_real(r, mad_real(r, 1.0f / 720.0f, 1.0f / 120.0f), 1.0f / 24.0f), 1.0f / 6.0f), 0.5f), 1.0f), 1.0f);
+  real power = mad_real(r, mad_real(r, 1.0f / 720.0f, 1.0f / 120.0f), 1.0f / 24.0f);
+  power = mad_real(r, mad_real(r, power, 1.0f / 6.0f), 0.5f);
+  power = mad_real(r, mad_real(r, power, 1.0f), 1.0f);
   return power * real_of_bits((whole_of_real(nearest) + WHOLE(127)) << WHOLE(23));
 }
 
-// A floor of n.v: at silhouettes, where it is 0 or by an interpolated normal below, k > 1 would have no bound.
+// A floor of n.v: at silhouettes, where it is 0 or by an interpolated normal below, k > 1 would have no
+// bound.
 #define MINNAERT_N_DOT_V_FLOOR 0.0625f
 
 // (n.l)^k (n.v)^(1 - k) in place of n.l. to_viewer is a unit vector.

@@ -11,8 +11,10 @@
 #define MATERIAL_MASK 32u
 #define MATERIAL_UNLIT 64u
 #define MATERIAL_CLEARCOAT 128u
-#define MATERIAL_UV1_FIRST 256u             // shifted by the slot: base colour 0, metallic-roughness 1, normal 2,
-#define MATERIAL_UV_TRANSFORM_FIRST 65536u  // occlusion 3, emissive 4, coat 5, its roughness 6, its normal 7
+// Shifted by the slot: base colour 0, metallic-roughness 1, normal 2, occlusion 3, emissive 4, coat 5, its
+// roughness 6, its normal 7.
+#define MATERIAL_UV1_FIRST 256u
+#define MATERIAL_UV_TRANSFORM_FIRST 65536u
 #define MATERIAL_CLEARCOAT_MAP 16777216u
 #define MATERIAL_CLEARCOAT_ROUGHNESS_MAP 33554432u
 #define MATERIAL_CLEARCOAT_NORMAL_MAP 67108864u

@@ -1,5 +1,5 @@
-// The models of a scene's materials by number (scene/material_model.h), as shaders and kernels read them: two vectors of
-// four floats each.
+// The models of a scene's materials by number (scene/material_model.h), as shaders and kernels read them:
+// two vectors of four floats each.
 #pragma once
 
 #include "shared/language.h"
@@ -11,7 +11,8 @@ struct MaterialModelRecord {
   vec4 subsurface;  // colour; roll-off
   vec4 minnaert;    // k; three unused
 };
-layout(std140, binding = 5) uniform MaterialModelsBlock { MaterialModelRecord of[MOST_MODELS + 1]; } material_models;
+layout(std140, binding = 5) uniform MaterialModelsBlock { MaterialModelRecord of[MOST_MODELS + 1]; }
+material_models;
 #else
 #if !defined(__OPENCL_VERSION__)
 namespace lightgrid {

@@ -1,8 +1,8 @@
-// One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its range. Never NaN:
-// attenuation and BRDF are finite, and their product with the intensity may overflow to infinity.
-// SPOTS: at least one light has a cone.
-// WINDOW_SMOOTH, WINDOW_NONE: how lights fade towards their range (scene/light_ranges.h), if not as in KHR_lights_punctual.
-// LEAST_FALLOFF: inside its range a light counts as if it were no farther than where 1 / distance^2 is color.w.
+// One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its
+// range. Never NaN: attenuation and BRDF are finite, and their product with the intensity may overflow to
+// infinity. SPOTS: at least one light has a cone. WINDOW_SMOOTH, WINDOW_NONE: how lights fade towards their
+// range (scene/light_ranges.h), if not as in KHR_lights_punctual. LEAST_FALLOFF: inside its range a light
+// counts as if it were no farther than where 1 / distance^2 is color.w.
 #pragma once
 
 #include "shared/brdf.h"
@@ -58,7 +58,8 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
 #endif
   arrival.attenuation = window * min_real(falloff, REAL(LARGEST_ATTENUATION));
 #ifdef SPOTS
-  real along = light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y + light.cone.z * arrival.to_light.z;
+  real along = light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y +
+               light.cone.z * arrival.to_light.z;
   real angular = min_real(max_real(light.cone.w - along, REAL(0.0f)), REAL(1.0f));
   arrival.attenuation = arrival.attenuation * (angular * angular);
 #endif

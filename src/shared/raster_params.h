@@ -20,7 +20,8 @@
 #define RASTER_BLOCKS 1   // blocks of records that were asked for
 #define RASTER_RECORDS 2
 #define RASTER_INVALID 3  // triangles with a corner that is not finite
-#define RASTER_ENTRIES 4  // low word, then high word: pairs of a record and a tile, or a window (gpu/raster_small.cl)
+// Low word, then high word: pairs of a record and a tile, or a window (gpu/raster_small.cl).
+#define RASTER_ENTRIES 4
 #define RASTER_LARGE 6    // records of triangles that are not drawn at once, in the group shape
 #define RASTER_COUNTERS 8
 

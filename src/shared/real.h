@@ -1,5 +1,5 @@
-// The number type of shading code that GLSL, OpenCL C and C++ all compile: `real` is one float in GLSL and C++, and LANES
-// of them, a pixel each, in OpenCL C (shared/lanes.h).
+// The number type of shading code that GLSL, OpenCL C and C++ all compile: `real` is one float in GLSL and
+// C++, and LANES of them, a pixel each, in OpenCL C (shared/lanes.h).
 #pragma once
 
 #include "shared/language.h"
@@ -29,7 +29,8 @@ static inline real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z *
 static inline Real3 add3(Real3 a, Real3 b) { return real3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Real3 scale3(Real3 v, real s) { return real3(v.x * s, v.y * s, v.z * s); }
 static inline Real3 cross3(Real3 a, Real3 b) {
-  return real3(mad_real(a.y, b.z, -(b.y * a.z)), mad_real(a.z, b.x, -(b.z * a.x)), mad_real(a.x, b.y, -(b.x * a.y)));
+  return real3(mad_real(a.y, b.z, -(b.y * a.z)), mad_real(a.z, b.x, -(b.z * a.x)),
+               mad_real(a.x, b.y, -(b.x * a.y)));
 }
 #define max_real lane_max
 #define min_real lane_min

@@ -42,14 +42,16 @@ namespace lightgrid {
   return reached;
 
 #if !defined(LIGHTGRID_GLSL) || defined(SLICES)
-SHARED_FUNCTION uint slice_of_key(float key EDGES) { RETURN_REACHED(MOST_SLICES, SLICE_EDGE) }
+SHARED_FUNCTION uint slice_of_key(float key EDGES){RETURN_REACHED(MOST_SLICES, SLICE_EDGE)}
 #endif
 #if !defined(LIGHTGRID_GLSL) || defined(Z_BINS)
-SHARED_FUNCTION uint z_bin_of_key(float key EDGES) { RETURN_REACHED(MOST_Z_BINS, Z_BIN_EDGE) }
+SHARED_FUNCTION uint z_bin_of_key(float key EDGES){RETURN_REACHED(MOST_Z_BINS, Z_BIN_EDGE)}
 
 // A light's z-bins in one word: the first in the low half, one past the last in the high half. True if any of
 // them lies in [first, last].
-SHARED_FUNCTION bool bins_meet(uint bins, uint first, uint last) { return last >= (bins & 0xffffu) && first < bins >> 16; }
+SHARED_FUNCTION bool bins_meet(uint bins, uint first, uint last) {
+  return last >= (bins & 0xffffu) && first < bins >> 16;
+}
 SHARED_FUNCTION bool bins_hold(uint bins, uint bin) { return bins_meet(bins, bin, bin); }
 #endif
 

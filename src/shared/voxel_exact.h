@@ -1,6 +1,6 @@
-// voxel-lights-exact: what one light adds to a voxel light buffer at a point, so that it can be taken out again and shaded by
-// itself. kernels/common/voxel_light.h fills the volume by the same formulas (docs/techniques/voxel_lights.md);
-// VoxelLights.ExactLightsLeaveNothingOfThemselves holds both together.
+// voxel-lights-exact: what one light adds to a voxel light buffer at a point, so that it can be taken out
+// again and shaded by itself. kernels/common/voxel_light.h fills the volume by the same formulas
+// (docs/techniques/voxel_lights.md); VoxelLights.ExactLightsLeaveNothingOfThemselves holds both together.
 #pragma once
 
 #include "shared/punctual_light.h"
@@ -18,8 +18,9 @@ SHARED_FUNCTION Real3 voxel_sample(Real3 position, Real3 place, Real3 sample_pla
   return real3((sample_place.x - VOXELS(x_from_1)) / VOXELS(x_from_x) * distance,
                (sample_place.y - VOXELS(y_from_1)) / VOXELS(y_from_y) * distance, -distance);
 #else
-  Real3 along = real3((sample_place.x - place.x) * VOXELS(spacing_x), (sample_place.y - place.y) * VOXELS(spacing_y),
-                      (sample_place.z - place.z) * VOXELS(spacing_z));
+  Real3 along =
+      real3((sample_place.x - place.x) * VOXELS(spacing_x), (sample_place.y - place.y) * VOXELS(spacing_y),
+            (sample_place.z - place.z) * VOXELS(spacing_z));
   return add3(position, turned_to_view(along GIVEN_LOOKUP));
 #endif
 }
@@ -52,37 +53,44 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
   arrival.to_light = scale3(d, sqrt_real(inverse_squared));
   arrival.attenuation = window * falloff * inverse_sqrt_real(growth);
 #ifdef SPOTS
-  float scale_squared = light.cone.x * light.cone.x + light.cone.y * light.cone.y + light.cone.z * light.cone.z;
+  float scale_squared =
+      light.cone.x * light.cone.x + light.cone.y * light.cone.y + light.cone.z * light.cone.z;
   if (scale_squared > 0.0f) {
     float scale = sqrt(scale_squared), cos_outer = -light.cone.w / scale;
     real q = min_real(grown * inverse_squared, REAL(4.0f));
-    real x = light.cone.w - (light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y + light.cone.z * arrival.to_light.z);
+    real x = light.cone.w - (light.cone.x * arrival.to_light.x + light.cone.y * arrival.to_light.y +
+                             light.cone.z * arrival.to_light.z);
     real soft_squared = scale_squared * q * ((1.0f - cos_outer * cos_outer) + 0.25f * q);
     real size = max_real(x, -x);
     real root = max_real(sqrt_real(x * x + soft_squared) + size, REAL(1e-30f));
     real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
     real angular = x < -4.0f * scale * sqrt_real(q) ? REAL(0.0f) : min_real(y, REAL(1.0f));
-    arrival.attenuation = arrival.attenuation * (angular * angular) * ((1.0f - cos_outer) / ((1.0f - cos_outer) + 0.5f * q));
+    arrival.attenuation =
+        arrival.attenuation * (angular * angular) * ((1.0f - cos_outer) / ((1.0f - cos_outer) + 0.5f * q));
   }
 #endif
   return arrival;
 }
 
 // What is left of the volume's light at a point without `share` of a light, which is 0 or 1.
-SHARED_FUNCTION VoxelLight without_light(VoxelLight rest, Real3 position, PunctualLight light, real share VOXEL_ARGUMENT) {
+SHARED_FUNCTION VoxelLight without_light(VoxelLight rest, Real3 position, PunctualLight light,
+                                         real share VOXEL_ARGUMENT) {
   Real3 place = voxel_place(position GIVEN_LOOKUP);
-  Real3 first = real3(min_real(floor(place.x), REAL(VOXELS(last_x) - 1.0f)), min_real(floor(place.y), REAL(VOXELS(last_y) - 1.0f)),
+  Real3 first = real3(min_real(floor(place.x), REAL(VOXELS(last_x) - 1.0f)),
+                      min_real(floor(place.y), REAL(VOXELS(last_y) - 1.0f)),
                       min_real(floor(place.z), REAL(VOXELS(last_z) - 1.0f)));
   Real3 in_cell = real3(place.x - first.x, place.y - first.y, place.z - first.z);
   VoxelLight left = rest;
   for (uint corner = 0u; corner < 8u; ++corner) {
     bool x = (corner & 1u) != 0u, y = (corner & 2u) != 0u, z = (corner & 4u) != 0u;
     Real3 at = real3(first.x + (x ? 1.0f : 0.0f), first.y + (y ? 1.0f : 0.0f), first.z + (z ? 1.0f : 0.0f));
-    real weight = share * (x ? in_cell.x : 1.0f - in_cell.x) * (y ? in_cell.y : 1.0f - in_cell.y) * (z ? in_cell.z : 1.0f - in_cell.z);
+    real weight = share * (x ? in_cell.x : 1.0f - in_cell.x) * (y ? in_cell.y : 1.0f - in_cell.y) *
+                  (z ? in_cell.z : 1.0f - in_cell.z);
     Arrival arrival = arrival_at_sample(voxel_sample(position, place, at GIVEN_LOOKUP), light GIVEN_LOOKUP);
     real part = weight * arrival.attenuation;
     real luminance = part * (0.2126f * light.color.x + 0.7152f * light.color.y + 0.0722f * light.color.z);
-    left.irradiance = add3(left.irradiance, real3(-part * light.color.x, -part * light.color.y, -part * light.color.z));
+    left.irradiance =
+        add3(left.irradiance, real3(-part * light.color.x, -part * light.color.y, -part * light.color.z));
     left.directions = add3(left.directions, scale3(arrival.to_light, -luminance));
     left.weight = left.weight - luminance;
   }

@@ -30,14 +30,17 @@ void pixel_finds_its_tile(Check& c) {
       for (uint x = 0; x < 127; ++x) {
         const auto list = list_of(grid, cell_of_pixel(x, y, uint(options.tile), uint(grid.cells_x)));
         c.trials(1);
-        if (!std::binary_search(list.begin(), list.end(), y * 127 + x)) c.lost("tile {}: pixel {} {}", options.tile, x, y);
+        if (!std::binary_search(list.begin(), list.end(), y * 127 + x))
+          c.lost("tile {}: pixel {} {}", options.tile, x, y);
       }
     }
   }
 }
 
 void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const char* what) {
-  if (!c.that(inner.cells.size() == outer.cells.size(), "{}: {} and {} cells", what, inner.cells.size(), outer.cells.size())) return;
+  if (!c.that(inner.cells.size() == outer.cells.size(), "{}: {} and {} cells", what, inner.cells.size(),
+              outer.cells.size()))
+    return;
   for (size_t i = 0; i < inner.cells.size(); ++i) {
     const auto a = list_of(inner, i), b = list_of(outer, i);
     c.that(std::includes(b.begin(), b.end(), a.begin(), a.end()), "{}: cell {} lists more", what, i);
@@ -48,7 +51,9 @@ void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const
 void tests_are_nested(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const OverTiles over = scattered_over_tiles(named.view, 300, true, 51);
-    const auto grid_by = [&](CullTest test) { return c.grid(named.view, over.lights, over.bounds, {options_of(test)}); };
+    const auto grid_by = [&](CullTest test) {
+      return c.grid(named.view, over.lights, over.bounds, {options_of(test)});
+    };
     const HostGrid both = grid_by(CullTest::planes_aabb);
     for (const CullTest test : {CullTest::planes, CullTest::aabb})
       expect_subset(c, both, grid_by(test), "planes+aabb within one of the two");
@@ -68,7 +73,8 @@ void bounds_are_nested(Check& c) {
     };
     const HostGrid minmax = grid_by(DepthBoundsMode::minmax);
     expect_subset(c, minmax, grid_by(DepthBoundsMode::none), "min/max within none");
-    for (const DepthBoundsMode mode : {DepthBoundsMode::halfz, DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32})
+    for (const DepthBoundsMode mode :
+         {DepthBoundsMode::halfz, DepthBoundsMode::halfz_modified, DepthBoundsMode::mask32})
       expect_subset(c, grid_by(mode), minmax, "tighter bounds within min/max");
   }
 }
@@ -77,7 +83,8 @@ void narrower_intervals_list_less(Check& c) {
   Random random(53);
   const auto lights = scattered_lights(sixty(), 300, false, random);
   HostGrid outer = c.grid(sixty(), lights, {every_distance});
-  for (const DepthInterval b : {DepthInterval{1, 50}, DepthInterval{3, 20}, DepthInterval{5, 6}, DepthInterval{5.5, 5.5}}) {
+  for (const DepthInterval b :
+       {DepthInterval{1, 50}, DepthInterval{3, 20}, DepthInterval{5, 6}, DepthInterval{5.5, 5.5}}) {
     const HostGrid inner = c.grid(sixty(), lights, {b});
     expect_subset(c, inner, outer, "a narrower interval within a wider one");
     outer = inner;
@@ -124,7 +131,8 @@ CullView sliced(CullView view, int slices) {
 
 // 32 slices in a box, and in front of an eye with reversed and standard depth.
 std::vector<CullView> sliced_views() {
-  CullView box = view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 48, 32);
+  CullView box =
+      view_through({.half_x = 4, .half_y = 3, .near = 0, .far = 128, .orthographic = true}, 48, 32);
   for (int i = 1; i < 32; ++i) box.slice_edges.push_back(float(4 * i));
   const CullView standard = view_through({.near = 0.1, .far = 1000, .order = DepthOrder::standard}, 48, 32);
   return {box, sliced(field_of_view(60, 48, 32), 32), sliced(standard, 32)};
@@ -184,7 +192,8 @@ void on_edges_of_every_format(Check& c, const CullView& view, const std::vector<
 }
 
 void on_slice_edges(Check& c) {
-  for (const CullView& view : sliced_views()) on_edges_of_every_format(c, view, view.slice_edges, c.every_test());
+  for (const CullView& view : sliced_views())
+    on_edges_of_every_format(c, view, view.slice_edges, c.every_test());
 }
 
 CullView with_z_bins(CullView view) {
@@ -201,22 +210,27 @@ void on_z_bin_edges(Check& c) {
 }
 
 // No bin may hold a light that reaches none of its distances, up to a step of `more` for rounding.
-void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLight>& lights, const HostGrid& grid) {
+void expect_tight_bins(Check& c, const CullView& view, const std::vector<CullLight>& lights,
+                       const HostGrid& grid) {
   const std::vector<OracleLight> exact = oracle_lights(view, lights);
   const std::vector<float>& edges = view.z_bin_edges;
   if (!c.that(grid.z_bins.size() == lights.size(), "{} words of z-bins", grid.z_bins.size())) return;
   for (size_t i = 0; i < lights.size(); ++i) {
     const glm::dvec3& p = exact[i].position;
-    const double r = exact[i].radius, d = -p.z, ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
+    const double r = exact[i].radius, d = -p.z,
+                 ends = is_orthographic(view) ? std::abs(distance_at(view, 0)) : 0;
     for (size_t bin = 0; bin <= edges.size(); ++bin) {
       if (!bins_hold(grid.z_bins[i], uint(bin))) continue;
       const double near = bin > 0 ? edges[bin - 1] : -no_end, far = bin < edges.size() ? edges[bin] : no_end;
       // How far a depth's rounding moves the bin's ends.
       const auto step = [&](double edge) {
         const double depth = depth_at(view, edge);
-        return std::isfinite(edge) ? std::abs(distance_at(view, depth + 0x1p-24 * std::abs(depth)) - edge) : 0.0;
+        return std::isfinite(edge) ? std::abs(distance_at(view, depth + 0x1p-24 * std::abs(depth)) - edge)
+                                   : 0.0;
       };
-      const double more = step(near) + step(far) + 64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) + 2 * exact[i].position_error;
+      const double more = step(near) + step(far) +
+                          64 * 0x1p-24 * (std::abs(p.x) + std::abs(p.y) + 2 * std::abs(d) + 2 * r + ends) +
+                          2 * exact[i].position_error;
       c.that(!exact[i].lists_nothing && d + r >= near - more && d - r <= far + more,
              "bin {} from {} to {} includes a light from {} to {}", bin, near, far, d - r, d + r);
     }
@@ -233,7 +247,8 @@ void z_bins_of_lights(Check& c) {
     auto [depth, lights] = scattered_over_depth(view, 300, true, seed++);
     std::vector<CullLight> axial;
     for (const double d : {-3.0, -0.5, 0.0, 0.05, 0.1, 0.3, 1.0, 6.0, 99.0, 100.0, 1000.0})
-      for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0}) axial.push_back(point({0, 0, -d}, r));
+      for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0})
+        axial.push_back(point({0, 0, -d}, r));
     move_to_world(view, axial);
     lights.insert(lights.end(), axial.begin(), axial.end());
     expect_tight_bins(c, view, lights, c.pixels(view, lights, depth, {CullerOptions{}}));
@@ -253,7 +268,8 @@ void slices_make_the_whole(Check& c) {
     for (size_t i = 0; i < tiles; ++i) {
       for (int slice = 0; slice < slices; ++slice) {
         const auto part = list_of(grid, i + slice * tiles), all = list_of(whole, i);
-        c.that(std::includes(all.begin(), all.end(), part.begin(), part.end()), "slice {} of tile {} lists more", slice, i);
+        c.that(std::includes(all.begin(), all.end(), part.begin(), part.end()),
+               "slice {} of tile {} lists more", slice, i);
       }
     }
   }
@@ -272,39 +288,47 @@ void slices_and_bounds(Check& c) {
 std::vector<HardCase> agreement_cases() {
   const char* g = "agreement";
   return {
-      {g, "pixel_finds_its_tile", "a tiny light at each pixel's centre, in every tile size", "shading and culling round the tile differently",
-       "the cell that shading finds lists it", pixel_finds_its_tile},
-      {g, "on_slice_edges", "surfaces on slice edges and one step beside, reversed and standard, D32F, D24, D16; lights that just reach them",
-       "a second log() in the shader: 0.7 to 85 in a million differ", "the slice that shading finds by the stored depth lists the light",
-       on_slice_edges},
+      {g, "pixel_finds_its_tile", "a tiny light at each pixel's centre, in every tile size",
+       "shading and culling round the tile differently", "the cell that shading finds lists it",
+       pixel_finds_its_tile},
+      {g, "on_slice_edges",
+       "surfaces on slice edges and one step beside, reversed and standard, D32F, D24, D16; lights that just "
+       "reach them",
+       "a second log() in the shader: 0.7 to 85 in a million differ",
+       "the slice that shading finds by the stored depth lists the light", on_slice_edges},
       {g, "on_z_bin_edges", "the same on the edges of z-bins",
-       "bins of lights and of pixels round differently", "the pixel's bin includes the light", on_z_bin_edges},
-      {g, "z_bins_of_lights", "lights across near, behind, past the last edge, of infinite range, of size 0, in every view",
-       "a light only in the bin of its centre; a last bin with an end", "every lit pixel's bin includes the light, no bin includes a light outside it",
-       z_bins_of_lights},
-      {g, "slices_make_the_whole", "2 to 64 slices against one", "gaps between slices", "nothing lost; no slice lists more than the whole",
-       slices_make_the_whole},
-      {g, "slices_and_bounds", "slices cut by depth bounds", "the slice's end overrides the surface's", "nothing lost", slices_and_bounds},
+       "bins of lights and of pixels round differently", "the pixel's bin includes the light",
+       on_z_bin_edges},
+      {g, "z_bins_of_lights",
+       "lights across near, behind, past the last edge, of infinite range, of size 0, in every view",
+       "a light only in the bin of its centre; a last bin with an end",
+       "every lit pixel's bin includes the light, no bin includes a light outside it", z_bins_of_lights},
+      {g, "slices_make_the_whole", "2 to 64 slices against one", "gaps between slices",
+       "nothing lost; no slice lists more than the whole", slices_make_the_whole},
+      {g, "slices_and_bounds", "slices cut by depth bounds", "the slice's end overrides the surface's",
+       "nothing lost", slices_and_bounds},
       {g, "tests_are_nested", "every cull test over the same cells", "two forms of a shared test diverge",
        "exact ⊆ planes+aabb ⊆ planes, aabb", tests_are_nested},
-      {g, "bounds_are_nested", "every depth-bounds mode over the same depth", "a mask widens the bounds", "mask, half-z ⊆ min/max ⊆ none",
-       bounds_are_nested},
-      {g, "narrower_intervals_list_less", "intervals within each other", "a reversed comparison", "lists within each other",
-       narrower_intervals_list_less},
-      {g, "larger_lights_list_more", "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone", "lists within each other",
-       larger_lights_list_more},
-      {g, "whole_pixels_hold_centres", "cells to pixels' edges and to their centres", "half a pixel to the wrong side",
-       "centres' lists within whole pixels'", whole_pixels_hold_centres},
-      {g, "portable_form", "with and without CPU-specific builtins", "the faster form rounds differently", "the same bytes", portable_form},
+      {g, "bounds_are_nested", "every depth-bounds mode over the same depth", "a mask widens the bounds",
+       "mask, half-z ⊆ min/max ⊆ none", bounds_are_nested},
+      {g, "narrower_intervals_list_less", "intervals within each other", "a reversed comparison",
+       "lists within each other", narrower_intervals_list_less},
+      {g, "larger_lights_list_more", "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone",
+       "lists within each other", larger_lights_list_more},
+      {g, "whole_pixels_hold_centres", "cells to pixels' edges and to their centres",
+       "half a pixel to the wrong side", "centres' lists within whole pixels'", whole_pixels_hold_centres},
+      {g, "portable_form", "with and without CPU-specific builtins", "the faster form rounds differently",
+       "the same bytes", portable_form},
   };
 }
 
 const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases;
-    for (const auto& group : {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
-                              light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases(), world_cases(),
-                              prepass_cases(), voxel_cases()})
+    for (const auto& group :
+         {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
+          light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases(), world_cases(),
+          prepass_cases(), voxel_cases()})
       cases.insert(cases.end(), group.begin(), group.end());
     return cases;
   }();

@@ -30,8 +30,9 @@ std::vector<CullView> every_lens(int width, int height) {
   for (const DepthOrder order : {DepthOrder::reversed, DepthOrder::standard}) {
     views.push_back(view_through({.near = 0.1, .far = 1000, .order = order}, width, height));
     views.push_back(view_through({.near = 0.1, .order = order}, width, height));
-    views.push_back(view_through({.half_x = 9, .half_y = 9, .near = 0, .far = 1000, .orthographic = true, .order = order},
-                                 width, height));
+    views.push_back(
+        view_through({.half_x = 9, .half_y = 9, .near = 0, .far = 1000, .orthographic = true, .order = order},
+                     width, height));
   }
   return views;
 }
@@ -91,15 +92,20 @@ void position_from_depth_bounded(Check& c) {
       for (int tile = 0; tile < 64; ++tile) {
         const int pixel = tile / 8 * 8 * 64 + tile % 8 * 8;
         const double value = depth.values[pixel], d = depth.distances[pixel];
-        const double step = format.steps > 0 ? 1 / format.steps : has_standard_depth(view) ? 0x1p-24 : 0x1p-23 * value;
+        const double step = format.steps > 0           ? 1 / format.steps
+                            : has_standard_depth(view) ? 0x1p-24
+                                                       : 0x1p-23 * value;
         if (value == depth_of_nothing(view) || value - 2 * step <= 0 || value + 2 * step >= 1) continue;
         const DepthInterval b = found[tile];
         c.trials(1);
-        if (!(b.near <= d && d <= b.far)) c.lost("a surface at {:.9g} m is outside of [{:.9g}, {:.9g}]", d, b.near, b.far);
+        if (!(b.near <= d && d <= b.far))
+          c.lost("a surface at {:.9g} m is outside of [{:.9g}, {:.9g}]", d, b.near, b.far);
         const double ends[] = {distance_at(view, value - 2 * step), distance_at(view, value + 2 * step)};
-        const double more = 32 * 0x1p-24 * (is_orthographic(view) ? std::abs(distance_at(view, 0)) + std::abs(d) : d);
+        const double more =
+            32 * 0x1p-24 * (is_orthographic(view) ? std::abs(distance_at(view, 0)) + std::abs(d) : d);
         c.that(b.near >= std::min(ends[0], ends[1]) - more && b.far <= std::max(ends[0], ends[1]) + more,
-               "a surface at {:.9g} m is within [{:.9g}, {:.9g}], wider than two steps of depth", d, b.near, b.far);
+               "a surface at {:.9g} m is within [{:.9g}, {:.9g}], wider than two steps of depth", d, b.near,
+               b.far);
       }
     }
   }
@@ -112,15 +118,20 @@ void mask_around_the_eye(Check& c) {
   for (const double reach : {1e3, 1e5}) {
     for (const double ahead : {1.0, 1.3, 0.37, 2.9}) {
       const double half = reach / 1000;
-      const CullView view = view_through({.half_x = half, .half_y = half, .near = -reach, .far = ahead * reach, .orthographic = true}, 32, 32);
+      const CullView view = view_through(
+          {.half_x = half, .half_y = half, .near = -reach, .far = ahead * reach, .orthographic = true}, 32,
+          32);
       const DepthImage depth = depth_of(view, [&](int x, int y) {
         const int pixel = x % 16 + y % 16 * 16, step = (x / 16 + 2 * (y / 16)) + 4 * (pixel / 33);
-        return pixel == 0 ? -half : pixel == 1 ? half : half * ((pixel % 33) / 16.0 - 1) + (step - 16) * 0x1p-25 * reach;
+        return pixel == 0   ? -half
+               : pixel == 1 ? half
+                            : half * ((pixel % 33) / 16.0 - 1) + (step - 16) * 0x1p-25 * reach;
       });
       std::vector<CullLight> lights;
       for (const CullLight& on : lights_at_surfaces(view, depth, 0)) {
         const double r = half / 1000;
-        for (const double side : {-1.0, 1.0}) lights.push_back(point(on.position + glm::dvec3(0, 0, side * r), r * (1 + 0x1p-30)));
+        for (const double side : {-1.0, 1.0})
+          lights.push_back(point(on.position + glm::dvec3(0, 0, side * r), r * (1 + 0x1p-30)));
       }
       c.pixels(view, lights, depth, every_mode());
     }
@@ -132,16 +143,20 @@ void mask_around_the_eye(Check& c) {
 std::vector<HardCase> depth_format_cases() {
   const char* g = "depth";
   return {
-      {g, "depth_of_16_bits", "D16, reversed and standard, perspective and orthographic; lights at the surfaces' true positions",
-       "a step is 180 m at 1 km; a mask uses the slot of the rounded depth", "bounds contain the true distance, lists the light, in every mode",
-       depth_of_16_bits},
+      {g, "depth_of_16_bits",
+       "D16, reversed and standard, perspective and orthographic; lights at the surfaces' true positions",
+       "a step is 180 m at 1 km; a mask uses the slot of the rounded depth",
+       "bounds contain the true distance, lists the light, in every mode", depth_of_16_bits},
       {g, "depth_of_24_bits", "D24, the same", "a step is 0.6 m at 1 km", "the same", depth_of_24_bits},
       {g, "depth_of_floats", "D32F, the same", "standard depth: as D24", "the same", depth_of_floats},
       {g, "position_from_depth", "tiles of one surface each, in each format, order and kind of view",
-       "distances from depth off by more than a step of it", "the interval contains the surface and at most two steps to either side",
-       position_from_depth_bounded},
-      {g, "mask_around_the_eye", "orthographic, near plane 10³ and 10⁵ m behind the eye, far plane as far in front; surfaces around the eye on the mask's edges",
-       "the distance is the difference of two large numbers", "nothing lost in any mode", mask_around_the_eye},
+       "distances from depth off by more than a step of it",
+       "the interval contains the surface and at most two steps to either side", position_from_depth_bounded},
+      {g, "mask_around_the_eye",
+       "orthographic, near plane 10³ and 10⁵ m behind the eye, far plane as far in front; surfaces around "
+       "the eye on the mask's edges",
+       "the distance is the difference of two large numbers", "nothing lost in any mode",
+       mask_around_the_eye},
   };
 }
 

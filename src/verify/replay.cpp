@@ -14,7 +14,8 @@
 namespace lightgrid::verify {
 namespace {
 
-const HardCase replayed{"replay", "float_twin", "a captured frame, under every test and every kind of bounds", "", "", nullptr};
+const HardCase replayed{"replay", "float_twin", "a captured frame, under every test and every kind of bounds",
+                        "",       "",           nullptr};
 
 std::vector<CullerOptions> chosen_settings(int tile, bool every_combination) {
   const CullerOptions usual;
@@ -52,18 +53,21 @@ void count_lost(Check& c, const Replay& r, const CullView& view, const CullerOpt
   const LitPairs pairs = count_pairs(r.frame.view, r.covered, r.true_lights, listed_lights(r.frame, grid));
   c.trials(pairs.lit);
   if (pairs.lost == 0) return;
-  const auto at = std::find_if(pairs.lost_of_pixel.begin(), pairs.lost_of_pixel.end(), [](uint32_t n) { return n > 0; });
+  const auto at =
+      std::find_if(pairs.lost_of_pixel.begin(), pairs.lost_of_pixel.end(), [](uint32_t n) { return n > 0; });
   const int pixel = int(at - pairs.lost_of_pixel.begin()), width = r.frame.view.width;
-  c.lost_pairs(pairs.lost, "{}, {} slices, {} z-bins: {} of {} lit (pixel, light) pairs lost, the first at pixel {},{}",
-               to_string(options), view.slice_edges.size() + 1, view.z_bin_edges.size() + 1, pairs.lost, pairs.lit,
-               pixel % width, pixel / width);
+  c.lost_pairs(pairs.lost,
+               "{}, {} slices, {} z-bins: {} of {} lit (pixel, light) pairs lost, the first at pixel {},{}",
+               to_string(options), view.slice_edges.size() + 1, view.z_bin_edges.size() + 1, pairs.lost,
+               pairs.lit, pixel % width, pixel / width);
 }
 
 }  // namespace
 
 VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engines, const CapturedFrame& frame,
                           const ReplayOptions& options) {
-  const Replay replay{frame, cull_lights_of(frame), local_lights(frame), covered_depth(frame), {.values = frame.depth}};
+  const Replay replay{
+      frame, cull_lights_of(frame), local_lights(frame), covered_depth(frame), {.values = frame.depth}};
   std::vector<CullView> views = {cull_view(frame.view)};
   views.insert(views.end(), options.more_views.begin(), options.more_views.end());
   const std::vector<CullerOptions> settings = chosen_settings(frame.tile, options.every_combination);
@@ -100,10 +104,13 @@ std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::opti
   Settings settings = frame_settings(frame, set);
   for (const std::string& key : settings.given) {
     if (key != "slices" && key != "z-bins" && key != "slice-spacing")
-      throw input_error("verify: --replay already runs every value of the other settings; --set {} is not one of slices, z-bins "
-                        "and slice-spacing", key);
+      throw input_error(
+          "verify: --replay already runs every value of the other settings; --set {} is not one of slices, "
+          "z-bins and slice-spacing",
+          key);
   }
-  const TechniqueNeeds needs{.slices = settings.given.contains("slices"), .z_bins = settings.given.contains("z-bins")};
+  const TechniqueNeeds needs{.slices = settings.given.contains("slices"),
+                             .z_bins = settings.given.contains("z-bins")};
   if (needs.slices || needs.z_bins) views.push_back(cull_view_of(frame, grid_settings(settings, needs)));
   return views;
 }

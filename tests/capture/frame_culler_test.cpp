@@ -188,11 +188,13 @@ TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
       frame.surfaces_far_m = far_m;
       uint64_t listed[2];
       for (const GridLists lists : {GridLists::lists, GridLists::masks}) {
-        const FrameGrid grid = cull(frame, {.slices = 8, .z_bins = 64, .grid_lists = lists}, {.slices = true, .z_bins = true});
+        const FrameGrid grid =
+            cull(frame, {.slices = 8, .z_bins = 64, .grid_lists = lists}, {.slices = true, .z_bins = true});
         EXPECT_EQ(grid.lists.slices, 8);
         EXPECT_EQ(grid.slice_edges.size(), 7u);
         EXPECT_EQ(grid.z_bin_edges.size(), 63u);
-        EXPECT_NEAR(grid.slice_edges.back(), 0.25 * std::pow((far_m > 0 ? far_m : 12.0) / 0.25, 7.0 / 8), 1e-4);
+        EXPECT_NEAR(grid.slice_edges.back(), 0.25 * std::pow((far_m > 0 ? far_m : 12.0) / 0.25, 7.0 / 8),
+                    1e-4);
         const InspectionMaps maps = inspection_maps(frame, grid);
         EXPECT_EQ(maps.pairs.lost, 0u);
         EXPECT_EQ(maps.pairs.wrong, 0u);
@@ -253,12 +255,15 @@ TEST_P(CaptureOf, HasTheGridThatTheRendererShadesFrom) {
   EXPECT_EQ(frame.depth, read_depth(run.view()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, CaptureOf,
-                         testing::Values(std::pair("forward_plus", Settings{}), std::pair("clustered", Settings{}),
-                                         std::pair("forward_plus", Settings{.z_bins = 64}),
-                                         std::pair("clustered", Settings{.slices = 8, .slice_spacing = SliceSpacing::linear,
-                                                                         .z_bins = 16, .grid_lists = GridLists::masks})),
-                         [](const auto& info) { return std::to_string(info.index) + info.param.first; });
+INSTANTIATE_TEST_SUITE_P(
+    Techniques, CaptureOf,
+    testing::Values(std::pair("forward_plus", Settings{}), std::pair("clustered", Settings{}),
+                    std::pair("forward_plus", Settings{.z_bins = 64}),
+                    std::pair("clustered", Settings{.slices = 8,
+                                                    .slice_spacing = SliceSpacing::linear,
+                                                    .z_bins = 16,
+                                                    .grid_lists = GridLists::masks})),
+    [](const auto& info) { return std::to_string(info.index) + info.param.first; });
 
 }  // namespace
 }  // namespace lightgrid

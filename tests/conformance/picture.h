@@ -46,10 +46,12 @@ inline Camera camera_at_the_corner(const Scene& scene) {
     const glm::dvec3 world(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                            corner & 4 ? box.max.z : box.min.z);
     const glm::dvec3 p = view_from_world * (world - center);
-    distance = std::max(distance, p.z + std::max(std::abs(p.x), std::abs(p.y)) / std::tan(camera.fov_y_rad / 2));
+    distance =
+        std::max(distance, p.z + std::max(std::abs(p.x), std::abs(p.y)) / std::tan(camera.fov_y_rad / 2));
   }
   camera.near_m = 1e-3 * size;
-  camera.world_from_view[3] = glm::dvec4(center + glm::dvec3(camera.world_from_view[2]) * (1.05 * distance), 1);
+  camera.world_from_view[3] =
+      glm::dvec4(center + glm::dvec3(camera.world_from_view[2]) * (1.05 * distance), 1);
   return camera;
 }
 

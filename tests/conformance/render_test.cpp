@@ -29,7 +29,8 @@ struct Model {
 // As `lightgrid render` shows a model: with the default lights if it has none.
 std::vector<uint8_t> picture_of(const std::string& file, const std::string& camera) {
   Scene scene = load_gltf(shared_folder() / "scenes/conformance" / file);
-  const View view = make_view(camera.empty() ? camera_at_the_corner(scene) : choose_camera(scene, camera), width, height);
+  const View view =
+      make_view(camera.empty() ? camera_at_the_corner(scene) : choose_camera(scene, camera), width, height);
   if (scene.lights.empty()) {
     DefaultLights added = default_lights(view);
     scene.lights = std::move(added.lights);
@@ -56,11 +57,16 @@ TEST_P(ConformanceModel, ShowsWhatItsReadmeSays) {
 }
 
 const std::vector<Model> models = {
-    {"02_node_hierarchy/02_node_hierarchy.gltf", "", {{.40f, .62f, 131, 131, 131}, {.66f, .30f, 159, 159, 159}}},
+    {"02_node_hierarchy/02_node_hierarchy.gltf",
+     "",
+     {{.40f, .62f, 131, 131, 131}, {.66f, .30f, 159, 159, 159}}},
     // Opaque: alpha ignored, black stays. Masks: cut out above the mark, where the wall behind is visible.
     {"AlphaBlendModeTest/AlphaBlendModeTest.glb",
      "eye:0,1.2,6,target:0,1.2,0,fov:45",
-     {{.0625f, .36f, 14, 14, 11}, {.5175f, .4067f, 192, 181, 162}, {.745f, .45f, 195, 187, 171}, {.93f, .50f, 200, 194, 183}}},
+     {{.0625f, .36f, 14, 14, 11},
+      {.5175f, .4067f, 192, 181, 162},
+      {.745f, .45f, 195, 187, 171},
+      {.93f, .50f, 200, 194, 183}}},
     {"Box With Spaces/Box With Spaces.gltf", "", {{.38f, .62f, 6, 6, 6}, {.67f, .53f, 35, 58, 4}}},
     {"BoxInterleaved/BoxInterleaved.glb", "", {{.40f, .60f, 151, 0, 0}, {.70f, .50f, 131, 0, 0}}},
     {"BoxTextured-Embedded/BoxTextured.gltf", "", {{.42f, .42f, 70, 128, 169}, {.70f, .55f, 54, 85, 8}}},
@@ -68,7 +74,9 @@ const std::vector<Model> models = {
     {"Cameras/Cameras.gltf", "", {{.50f, .50f, 172, 172, 172}}},
     {"CesiumMan/CesiumMan.gltf", "", {{.50f, .12f, 68, 127, 169}, {.48f, .45f, 201, 201, 201}}},
     {"CesiumMilkTruck/CesiumMilkTruck.glb", "", {{.36f, .45f, 6, 50, 36}}},
-    {"EmissiveStrengthTest/EmissiveStrengthTest.glb", "", {{.70f, .525f, 218, 237, 255}, {.60f, .53f, 150, 150, 150}}},
+    {"EmissiveStrengthTest/EmissiveStrengthTest.glb",
+     "",
+     {{.70f, .525f, 218, 237, 255}, {.60f, .53f, 150, 150, 150}}},
     {"InterpolationTest/InterpolationTest.glb", "", {{.45f, .55f, 175, 175, 175}}},
     {"LightOrientation/LightOrientation.gltf", "", {{.50f, .45f, 0, 39, 0}, {.67f, .60f, 39, 0, 0}}},
     {"LightsPunctualLamp/LightsPunctualLamp.gltf", "", {{.45f, .40f, 255, 235, 230}}},
@@ -80,13 +88,21 @@ const std::vector<Model> models = {
     {"RecursiveSkeletons/RecursiveSkeletons.glb", "", {{.50f, .50f, 154, 154, 154}}},
     {"SimpleSkin/SimpleSkin.gltf", "", {{.50f, .50f, 154, 154, 154}}},
     // The sparse values lift three corners into peaks; between them it is dark.
-    {"SimpleSparseAccessor/SimpleSparseAccessor.gltf", "", {{.50f, .65f, 156, 156, 156}, {.45f, .35f, 0, 0, 0}}},
-    {"TextureTransformTest/TextureTransformTest.gltf", "", {{.40f, .30f, 4, 150, 4}, {.50f, .33f, 4, 4, 150}}},
-    {"TriangleWithoutIndices/TriangleWithoutIndices.gltf", "", {{.40f, .60f, 158, 158, 158}, {.60f, .30f, 0, 0, 0}}},
+    {"SimpleSparseAccessor/SimpleSparseAccessor.gltf",
+     "",
+     {{.50f, .65f, 156, 156, 156}, {.45f, .35f, 0, 0, 0}}},
+    {"TextureTransformTest/TextureTransformTest.gltf",
+     "",
+     {{.40f, .30f, 4, 150, 4}, {.50f, .33f, 4, 4, 150}}},
+    {"TriangleWithoutIndices/TriangleWithoutIndices.gltf",
+     "",
+     {{.40f, .60f, 158, 158, 158}, {.60f, .30f, 0, 0, 0}}},
     {"Unicode❤♻Test/Unicode❤♻Test.gltf", "", {{.43f, .52f, 181, 7, 23}, {.58f, .60f, 13, 148, 5}}},
     // #FF7F00 and #007FFF, through the tone map alone.
     {"UnlitTest/UnlitTest.glb", "", {{.40f, .60f, 241, 125, 33}, {.66f, .65f, 33, 125, 241}}},
-    {"VertexColorTest/VertexColorTest.glb", "", {{.40f, .36f, 200, 5, 5}, {.50f, .40f, 5, 200, 5}, {.66f, .43f, 4, 4, 200}}},
+    {"VertexColorTest/VertexColorTest.glb",
+     "",
+     {{.40f, .36f, 200, 5, 5}, {.50f, .40f, 5, 200, 5}, {.66f, .43f, 4, 4, 200}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, ConformanceModel, testing::ValuesIn(models), [](const auto& info) {

@@ -109,14 +109,16 @@ TEST_P(Pending, CallsOutliveTheCullerOrItsMove) {
     const cl::Buffer values = culler->depth_bounds({depth}).opaque.values;
     std::unique_ptr<LightCuller> other = moved ? std::make_unique<LightCuller>(std::move(*culler)) : nullptr;
     culler.reset();
-    const std::vector<std::vector<char>> taken(64, std::vector<char>(sizeof(LightCuller), 0x7f));  // its memory, again
+    // its memory, again
+    const std::vector<std::vector<char>> taken(64, std::vector<char>(sizeof(LightCuller), 0x7f));
     gate.open();
     EXPECT_EQ(values_of(device, values), of_a) << moved;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Pending, testing::ValuesIn(kernel_shapes),
-                         [](const auto& info) { return info.param == KernelShape::lanes ? "lanes" : "group"; });
+INSTANTIATE_TEST_SUITE_P(Shapes, Pending, testing::ValuesIn(kernel_shapes), [](const auto& info) {
+  return info.param == KernelShape::lanes ? "lanes" : "group";
+});
 
 TEST(CullerCalls, BeforeSetViewAreRefusedByName) {
   LightCuller culler(test_device(), test_programs(), {});
@@ -146,7 +148,8 @@ TEST(CullerCalls, RefuseDepthBuffersThatDoNotCoverTheView) {
   EXPECT_THAT(message_of({buffer_of(two_samples), -64}), HasSubstr("row_pixels is -64"));
   EXPECT_THAT(message_of({buffer_of(two_samples), 0, -1, 0}), HasSubstr("x is -1"));
   EXPECT_THAT(message_of({buffer_of(two_samples), 0, 0, -1}), HasSubstr("y is -1"));
-  EXPECT_THAT(message_of({buffer_of(two_samples), 1 << 30, 0, 1 << 20}), HasSubstr("9007602981667328"));  // no wrap
+  // No wrap
+  EXPECT_THAT(message_of({buffer_of(two_samples), 1 << 30, 0, 1 << 20}), HasSubstr("9007602981667328"));
   culler.depth_bounds({buffer_of(two_samples)});  // just enough
 }
 

@@ -12,7 +12,8 @@
 namespace lightgrid {
 namespace {
 
-std::vector<DepthInterval> bounds_in(const CullView& view, const DepthInput& depth, const CullerOptions& options) {
+std::vector<DepthInterval> bounds_in(const CullView& view, const DepthInput& depth,
+                                     const CullerOptions& options) {
   LightCuller culler(test_device(), test_programs(), options);
   culler.set_view(view);
   return culler.read_bounds(culler.depth_bounds(depth).opaque);
@@ -60,10 +61,12 @@ TEST(DepthInput, OfSeveralSamplesGivesBoundsOfAll) {
         const auto bounds = bounds_in(view, {buffer_of(one)}, {.shape = shape, .tile = tile});
         if (s == 0) expected = bounds;
         for (size_t i = 0; i < bounds.size(); ++i) {
-          expected[i] = {std::min(expected[i].near, bounds[i].near), std::max(expected[i].far, bounds[i].far)};
+          expected[i] = {std::min(expected[i].near, bounds[i].near),
+                         std::max(expected[i].far, bounds[i].far)};
         }
       }
-      EXPECT_TRUE(bounds_in(view, {buffer_of(depth)}, {.shape = shape, .tile = tile, .samples = samples}) == expected)
+      EXPECT_TRUE(bounds_in(view, {buffer_of(depth)}, {.shape = shape, .tile = tile, .samples = samples}) ==
+                  expected)
           << samples;
     }
   }
@@ -82,7 +85,8 @@ int missed(const Projection& made, DepthFormat written, DepthFormat told, Kernel
     depth.insert(depth.end(), tile, float(std::round(made.depth_at(distances.back()) * steps) / steps));
   }
   const CullView view = view_through(made, tiles * tile, 1);
-  const auto bounds = bounds_in(view, {buffer_of(depth)}, {.shape = shape, .tile = tile, .depth_format = told});
+  const auto bounds =
+      bounds_in(view, {buffer_of(depth)}, {.shape = shape, .tile = tile, .depth_format = told});
   int count = 0, skies = 0;
   for (int i = 0; i < tiles; ++i) {
     const bool sky = depth[i * tile] == (made.standard ? 1 : 0);

@@ -315,12 +315,14 @@ TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
     const std::vector<float> depth = depth_with_gaps(named.view, 17);
     const auto lights = scattered_lights(named.view, 400, true, 18);
     const LitBlocks lit = find_lit_blocks(named.view, depth, lights);
-    // The two tightest tests under every depth-bounds mode, the others under every second, since each is a kernel to compile.
-    // Tile sizes alternate; every sixth setting also runs the other shape.
-    const bool every_mode = GetParam() == CullTest::planes_aabb || GetParam() == CullTest::exact || long_tests();
+    // The two tightest tests under every depth-bounds mode, the others under every second, since each is a
+    // kernel to compile. Tile sizes alternate; every sixth setting also runs the other shape.
+    const bool every_mode =
+        GetParam() == CullTest::planes_aabb || GetParam() == CullTest::exact || long_tests();
     for (int mode = 0; mode < int(std::size(depth_bounds_modes)); ++mode) {
       if (!every_mode && (mode + int(GetParam())) % 2 != 0) continue;
-      const int combination = int(std::size(depth_bounds_modes)) * int(GetParam()) + mode, tile = 8 << combination % 4;
+      const int combination = int(std::size(depth_bounds_modes)) * int(GetParam()) + mode,
+                tile = 8 << combination % 4;
       CullerOptions options = grid_options(GetParam(), KernelShape::lanes);
       options.tile = tile, options.depth_bounds = DepthBoundsMode(mode);
       SCOPED_TRACE(fmt::format("{} mode {} tile {}", named.name, mode, tile));

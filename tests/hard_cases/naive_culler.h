@@ -50,7 +50,8 @@ class NaiveCuller : public CullEngine {
                         fault_ == Fault::mask_in_float;
     check(o, view, lights.size());
     if (masked && o.depth_bounds == DepthBoundsMode::mask32) {
-      for (size_t tile = 0; tile < bounds.size(); ++tile) masks.push_back(depth_.mask_of(o, view, depth, tile));
+      for (size_t tile = 0; tile < bounds.size(); ++tile)
+        masks.push_back(depth_.mask_of(o, view, depth, tile));
     }
     return cull_masked(o, view, lights, bounds, masks);
   }

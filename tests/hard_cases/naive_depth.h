@@ -71,7 +71,8 @@ class NaiveDepth {
     }
   }
 
-  NaiveMask mask_of(const CullerOptions& o, const CullView& view, const DepthImage& depth, size_t tile) const {
+  NaiveMask mask_of(const CullerOptions& o, const CullView& view, const DepthImage& depth,
+                    size_t tile) const {
     NaiveMask mask;
     std::vector<double> distances;
     for_each_value(o, view, depth, tile, [&](float value) {

@@ -1,4 +1,5 @@
-// Whether a light reaches a cell, in double with, optionally, one fault of naive code (hard_cases/naive_culler.h).
+// Whether a light reaches a cell, in double with, optionally, one fault of naive
+// code (hard_cases/naive_culler.h).
 #pragma once
 
 #include <algorithm>

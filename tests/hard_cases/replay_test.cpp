@@ -50,13 +50,14 @@ TEST(Replay, CountsWhatAFaultyCullerLoses) {
   }
 }
 
-// One light, lost under every setting: as many pairs as pixels that it lights, times the 5 tests and 5 kinds of bounds, of
-// which one pair of defaults is in both, or times their 25 combinations.
+// One light, lost under every setting: as many pairs as pixels that it lights, times the 5 tests and 5 kinds
+// of bounds, of which one pair of defaults is in both, or times their 25 combinations.
 TEST(Replay, CountsPairsOfPixelsAndLightsUnderEverySetting) {
   CapturedFrame frame = small_frame();
   frame.lights = {frame.lights[0]};
   const Outcome outcome = replay_by(Fault::zero_means_none, frame).cases[0].outcome;
-  const LitPairs pairs = count_pairs(frame.view, covered_depth(frame), local_lights(frame), list_every_light(1));
+  const LitPairs pairs =
+      count_pairs(frame.view, covered_depth(frame), local_lights(frame), list_every_light(1));
   ASSERT_GT(pairs.lit, 0u);
   EXPECT_EQ(outcome.lost, 9 * pairs.lit);
   std::vector<std::unique_ptr<CullEngine>> engines;
@@ -69,7 +70,8 @@ TEST(Replay, CountsPairsOfPixelsAndLightsUnderEverySetting) {
 TEST(ReplayCommand, LosesNothingAndSaysSo) {
   const TempFolder folder;
   write_frame(folder.path, small_frame());
-  const ProgramRun run = run_program({"verify", "--replay", folder.path.string(), "--json", "-"}, {}, std::chrono::minutes(10));
+  const ProgramRun run =
+      run_program({"verify", "--replay", folder.path.string(), "--json", "-"}, {}, std::chrono::minutes(10));
   ASSERT_EQ(run.status, 0) << run.err << run.out;
   const auto json = nlohmann::json::parse(run.out);
   for (const auto& row : json["cases"]) {

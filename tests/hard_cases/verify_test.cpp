@@ -38,13 +38,16 @@ TEST_P(HardCasesOf, Hold) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf, testing::Values("depth", "camera", "lights", "lists", "agreement", "raster", "world", "prepass", "voxels"),
+INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf,
+                         testing::Values("depth", "camera", "lights", "lists", "agreement", "raster", "world",
+                                         "prepass", "voxels"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 // HardCases.AreThoseOfTheDocument checks their number.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
-  const std::set<std::string> groups = {"depth", "camera", "lights", "lists", "agreement", "raster", "world", "prepass", "voxels"};
+  const std::set<std::string> groups = {"depth",  "camera", "lights",  "lists", "agreement",
+                                        "raster", "world",  "prepass", "voxels"};
   std::set<std::string> names, used;
   for (const HardCase& c : hard_cases()) {
     EXPECT_TRUE(names.insert(c.name).second) << c.name;
@@ -58,7 +61,8 @@ TEST(HardCases, AreThoseOfTheDocument) {
   std::ifstream file(std::string(source_folder) + "/docs/hard_cases.md");
   std::vector<std::string> rows;
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("| ") && std::isdigit(line[2]) && line.find(" | `") != std::string::npos) rows.push_back(line);
+    if (line.starts_with("| ") && std::isdigit(line[2]) && line.find(" | `") != std::string::npos)
+      rows.push_back(line);
   }
   EXPECT_EQ(rows, catalogue_rows(chosen_cases("")));
 }

@@ -37,13 +37,17 @@ TEST(LightIndexLayout, BytesOfAPixelInEachRow) {
     int overlap, lights;
     size_t bytes;
   };
-  for (const Row& row : {Row{LidrPacking::bitshift, 1, 15, 1}, {LidrPacking::bitshift, 2, 15, 1}, {LidrPacking::bitshift, 4, 15, 2},
-                         {LidrPacking::bitshift, 8, 15, 4}, {LidrPacking::bitshift, 16, 15, 8}, {LidrPacking::bitshift, 1, 255, 1},
-                         {LidrPacking::bitshift, 2, 255, 2}, {LidrPacking::bitshift, 4, 255, 4}, {LidrPacking::bitshift, 8, 255, 8},
-                         {LidrPacking::bitshift, 16, 255, 16}, {LidrPacking::bitshift, 1, 65535, 2}, {LidrPacking::bitshift, 2, 65535, 4},
-                         {LidrPacking::bitshift, 4, 65535, 8}, {LidrPacking::bitshift, 8, 65535, 16}, {LidrPacking::maxblend, 1, 255, 1},
-                         {LidrPacking::maxblend, 2, 255, 2}, {LidrPacking::maxblend, 4, 255, 4}, {LidrPacking::maxblend, 4, 65535, 8},
-                         {LidrPacking::sort, 4, 15, 4}, {LidrPacking::sort, 16, 255, 16}, {LidrPacking::sort, 8, 65535, 16}}) {
+  for (const Row& row : {Row{LidrPacking::bitshift, 1, 15, 1}, {LidrPacking::bitshift, 2, 15, 1},
+                         {LidrPacking::bitshift, 4, 15, 2},    {LidrPacking::bitshift, 8, 15, 4},
+                         {LidrPacking::bitshift, 16, 15, 8},   {LidrPacking::bitshift, 1, 255, 1},
+                         {LidrPacking::bitshift, 2, 255, 2},   {LidrPacking::bitshift, 4, 255, 4},
+                         {LidrPacking::bitshift, 8, 255, 8},   {LidrPacking::bitshift, 16, 255, 16},
+                         {LidrPacking::bitshift, 1, 65535, 2}, {LidrPacking::bitshift, 2, 65535, 4},
+                         {LidrPacking::bitshift, 4, 65535, 8}, {LidrPacking::bitshift, 8, 65535, 16},
+                         {LidrPacking::maxblend, 1, 255, 1},   {LidrPacking::maxblend, 2, 255, 2},
+                         {LidrPacking::maxblend, 4, 255, 4},   {LidrPacking::maxblend, 4, 65535, 8},
+                         {LidrPacking::sort, 4, 15, 4},        {LidrPacking::sort, 16, 255, 16},
+                         {LidrPacking::sort, 8, 65535, 16}}) {
     const LightIndexLayout layout = layout_of(row.packing, row.overlap, row.lights);
     EXPECT_EQ(layout.pixel_bytes(), row.bytes) << layout.name();
   }
@@ -53,7 +57,8 @@ TEST(LightIndexLayout, LeavesOpenIsTheLeastAndTheMost) {
   EXPECT_EQ(light_index_layout({}, 15).name(), "bitshift, 16 overlaps of 15 lights");
   EXPECT_EQ(light_index_layout({}, 16).name(), "bitshift, 16 overlaps of 255 lights");
   EXPECT_EQ(light_index_layout({}, 256).name(), "bitshift, 8 overlaps of 65535 lights");
-  EXPECT_EQ(light_index_layout({.lidr_packing = LidrPacking::maxblend}, 256).name(), "maxblend, 4 overlaps of 65535 lights");
+  EXPECT_EQ(light_index_layout({.lidr_packing = LidrPacking::maxblend}, 256).name(),
+            "maxblend, 4 overlaps of 65535 lights");
 }
 
 // OpenGL's blending with the arithmetic of a simulated machine, a channel at a time.
@@ -61,7 +66,9 @@ using BlendOne = std::function<uint32_t(uint32_t source, uint32_t there)>;
 
 LightIndexBlender blender_of(const BlendOne& blend) {
   return [=](const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds) {
-    const uint32_t packing = layout.packing == LidrPacking::sort ? LIDR_SORT : layout.packing == LidrPacking::maxblend ? LIDR_MAXBLEND : LIDR_BITSHIFT;
+    const uint32_t packing = layout.packing == LidrPacking::sort       ? LIDR_SORT
+                             : layout.packing == LidrPacking::maxblend ? LIDR_MAXBLEND
+                                                                       : LIDR_BITSHIFT;
     const size_t pixels = size_t(probe_size) * probe_size, stride = layout.targets() * 4;
     std::vector<uint16_t> channels(pixels * stride, 0);
     for (size_t r = 0; r < rounds.size(); ++r) {
@@ -95,13 +102,15 @@ TEST(LightIndexProbe, PassesBlendingThatKeepsEveryIndex) {
   }
 }
 
-// A quarter as 63 / 255, an ulp short, and truncated; 0.25 rounded; the article's 0.251 rounded and truncated.
+// A quarter as 63 / 255, an ulp short, and truncated; 0.25 rounded; the article's 0.251 rounded and
+// truncated.
 TEST(LightIndexProbe, TellsMachinesApart) {
   const LightIndexLayout layout = layout_of(LidrPacking::bitshift, 4, 255);
   const auto fails = [&](double factor, bool truncates) {
     return why_blending_fails(layout, blender_of([=](uint32_t s, uint32_t d) {
                                 const double down = d * factor;
-                                return std::min(255u, s + uint32_t(truncates ? std::floor(down) : std::floor(down + 0.5)));
+                                return std::min(255u, s + uint32_t(truncates ? std::floor(down)
+                                                                             : std::floor(down + 0.5)));
                               }));
   };
   EXPECT_EQ(fails(0.25, false), "");
@@ -114,7 +123,8 @@ TEST(LightIndexProbe, TellsMachinesApart) {
 
 TEST(LightIndexProbe, NamesWhatBecomesOfWhichLights) {
   const LightIndexLayout layout = layout_of(LidrPacking::maxblend, 2, 255);
-  const std::string why = why_blending_fails(layout, blender_of([](uint32_t s, uint32_t d) { return std::max(s, d) | 1; }));
+  const std::string why =
+      why_blending_fails(layout, blender_of([](uint32_t s, uint32_t d) { return std::max(s, d) | 1; }));
   // Index 2 becomes 3; of 255 - 2 and 255 - 1 the greater becomes 255, which is index 0.
   EXPECT_TRUE(why.starts_with("lights 0 1 become 2, and so ")) << why;
 }
@@ -123,7 +133,9 @@ TEST(LightIndexProbe, SeesOneStateOfAll) {
   const LightIndexLayout layout = layout_of(LidrPacking::bitshift, 4, 255);
   const BlendOne exact = exact_blend(layout);
   for (const uint32_t wrong : {4u, 8u, 64u, 100u, 252u}) {
-    const auto one_wrong = [&](uint32_t s, uint32_t d) { return exact(s, d) ^ (d == wrong && s == 192 ? 1u : 0u); };
+    const auto one_wrong = [&](uint32_t s, uint32_t d) {
+      return exact(s, d) ^ (d == wrong && s == 192 ? 1u : 0u);
+    };
     EXPECT_NE(why_blending_fails(layout, blender_of(one_wrong)), "") << wrong;
   }
 }
@@ -132,7 +144,8 @@ std::vector<LightExtent> random_extents(int count, double spread, bool balls) {
   Random random(7);
   std::vector<LightExtent> extents;
   for (int i = 0; i < count; ++i) {
-    const glm::dvec3 center(random.uniform(-1, 1) * spread, random.uniform(-1, 1) * spread, balls ? random.uniform(-1, 1) * spread : 0);
+    const glm::dvec3 center(random.uniform(-1, 1) * spread, random.uniform(-1, 1) * spread,
+                            balls ? random.uniform(-1, 1) * spread : 0);
     const double radius = i % 50 == 0 ? 0.3 * spread : std::exp(random.uniform(-3, 0.5));
     extents.push_back({center - radius, center + radius, center});
     if (balls) extents.back().radius = radius;
@@ -147,7 +160,8 @@ bool plainly_touch(const LightExtent& a, const LightExtent& b) {
   for (int k = 0; k < 3; ++k) {
     if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
   }
-  return std::isinf(a.radius) || std::isinf(b.radius) || glm::length(a.center - b.center) <= a.radius + b.radius;
+  return std::isinf(a.radius) || std::isinf(b.radius) ||
+         glm::length(a.center - b.center) <= a.radius + b.radius;
 }
 
 TEST(LightGroups, HoldLightsThatDoNotTouchAndAsManyAsFit) {

@@ -95,7 +95,8 @@ inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene,
   const size_t pixels = size_t(drawn.width) * drawn.height;
   drawn.triangles = read_all<uint32_t>(visibility.triangle, pixels, device);
   drawn.depths = read_all<float>(visibility.depth, pixels, device);
-  drawn.instances = read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size(), device);
+  drawn.instances =
+      read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size(), device);
   size_t vertices = 0;
   for (const RasterInstanceRecord& i : drawn.instances)
     vertices = i.first_clip_vertex + size_t(i.vertex_count);

@@ -19,7 +19,8 @@ TEST(Rasterizer, InstancesThatMoveKeepTheirNumbers) {
   EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene)));
 }
 
-// Instances that are not drawn, in each shape: the others' pixels as if they were not there, under the same numbers.
+// Instances that are not drawn, in each shape: the others' pixels as if they were not
+// there, under the same numbers.
 class InstancesNotDrawn : public testing::TestWithParam<KernelShape> {
  protected:
   InstancesNotDrawn() { set_scene(rasterizer, scene); }

@@ -24,7 +24,8 @@ Curve curve(const std::string& name, std::vector<std::pair<double, double>> poin
 
 TEST(Crossings, LieWhereStraightLinesOnLogarithmicAxesCross) {
   // 2 x and 200 x^0 meet at 100.
-  const auto found = crossings_of({curve("linear", {{10, 20}, {1000, 2000}}), curve("constant", {{10, 200}, {1000, 200}})});
+  const auto found =
+      crossings_of({curve("linear", {{10, 20}, {1000, 2000}}), curve("constant", {{10, 200}, {1000, 200}})});
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found[0].below, "linear");
   EXPECT_EQ(found[0].above, "constant");
@@ -46,7 +47,8 @@ TEST(Crossings, AreNotMadeOfNoise) {
 
 TEST(Crossings, SpanPointsThatDecideNothing) {
   // Equal but for noise at 10; the order of the medians changes between 10 and 100.
-  const auto found = crossings_of({curve("a", {{1, 10}, {10, 100}, {100, 1000}}), curve("b", {{1, 50}, {10, 100.5}, {100, 300}})});
+  const auto found = crossings_of(
+      {curve("a", {{1, 10}, {10, 100}, {100, 1000}}), curve("b", {{1, 50}, {10, 100.5}, {100, 300}})});
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_GT(found[0].x, 10);
   EXPECT_LT(found[0].x, 11);
@@ -102,23 +104,27 @@ TEST(ChartsOverViews, TellWhereTechniquesCross) {
   ASSERT_NE(at, charts[0].crossings.end());
   EXPECT_NEAR(at->x, 60 * std::pow(214 / 302.5, 4.0 / 3), 1e-6);
   EXPECT_EQ(charts[0].sentences[0],
-            "The fastest exact technique, over lights: forward at 15, forward_plus:cull-test=exact from 60 to 240.");
-  EXPECT_THAT(charts[0].sentences[1], HasSubstr("forward and forward_plus:cull-test=exact cross at about 35.7 lights"));
+            "The fastest exact technique, over lights: forward at 15, forward_plus:cull-test=exact from 60 "
+            "to 240.");
+  EXPECT_THAT(charts[0].sentences[1],
+              HasSubstr("forward and forward_plus:cull-test=exact cross at about 35.7 lights"));
 }
 
 TEST(ChartsOverViews, KeepScenesSizesAndLightsApart) {
   std::vector<ReportView> views;
   for (int lights : {0, 15, 60}) {
     for (int side : {8, 16}) {
-      for (const char* scene : {"a", "b"}) views.push_back(view_of(synthetic_view(scene, side, side, lights)));
+      for (const char* scene : {"a", "b"})
+        views.push_back(view_of(synthetic_view(scene, side, side, lights)));
     }
   }
   std::vector<std::string> titles;
   for (const Chart& chart : charts_over_views(views)) titles.push_back(chart.title + " over " + chart.axis);
-  EXPECT_THAT(titles, testing::UnorderedElementsAre(
-                          "a, 8 × 8 over lights", "a, 16 × 16 over lights", "b, 8 × 8 over lights", "b, 16 × 16 over lights",
-                          "a, 0 lights over pixels", "a, 15 lights over pixels", "a, 60 lights over pixels",
-                          "b, 0 lights over pixels", "b, 15 lights over pixels", "b, 60 lights over pixels"));
+  EXPECT_THAT(titles, testing::UnorderedElementsAre("a, 8 × 8 over lights", "a, 16 × 16 over lights",
+                                                    "b, 8 × 8 over lights", "b, 16 × 16 over lights",
+                                                    "a, 0 lights over pixels", "a, 15 lights over pixels",
+                                                    "a, 60 lights over pixels", "b, 0 lights over pixels",
+                                                    "b, 15 lights over pixels", "b, 60 lights over pixels"));
 }
 
 TEST(ChartsOverSettings, HaveALineAPackingAndFlatOnesForTheRest) {
@@ -142,7 +148,8 @@ TEST(ChartsOverSettings, HaveALineAPackingAndFlatOnesForTheRest) {
   EXPECT_EQ(charts[0].axis, "lidr-overlap");
   std::vector<std::string> names;
   for (const Curve& c : charts[0].curves) names.push_back(c.name + (c.flat ? " flat" : ""));
-  EXPECT_THAT(names, ElementsAre("lidr:lidr-packing=sort", "lidr:lidr-packing=bitshift", "forward_plus flat"));
+  EXPECT_THAT(names,
+              ElementsAre("lidr:lidr-packing=sort", "lidr:lidr-packing=bitshift", "forward_plus flat"));
   EXPECT_THAT(charts[0].crossings, SizeIs(2));
   EXPECT_NEAR(charts[0].crossings[0].x, 2.5, 1e-9);  // 20 x crosses 50
 }

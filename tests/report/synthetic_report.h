@@ -135,14 +135,15 @@ inline CompareReport synthetic_report(int width, int height, int light_count = 6
   return report;
 }
 
-// The same with times that go with a power of the number of lights: forward with the first, forward_plus with the
-// fourth root. They cross at 60 * (214 / 302.5)^(4 / 3) = 37.83 lights.
+// The same with times that go with a power of the number of lights: forward with the first, forward_plus with
+// the fourth root. They cross at 60 * (214 / 302.5)^(4 / 3) = 37.83 lights.
 inline CompareReport synthetic_view(const std::string& scene, int width, int height, int lights) {
   CompareReport report = synthetic_report(width, height, lights);
   report.scene = scene;
   const auto scale = [&](RunResult& row, double ms) {
     const double factor = ms / row.frame_ms.median;
-    for (double* time : {&row.frame_ms.min, &row.frame_ms.median, &row.frame_ms.p90, &row.frame_ms.max}) *time *= factor;
+    for (double* time : {&row.frame_ms.min, &row.frame_ms.median, &row.frame_ms.p90, &row.frame_ms.max})
+      *time *= factor;
     for (PassResult& pass : row.passes) pass.median_ms *= factor;
   };
   scale(report.rows[0], 302.5 * lights / 60);

@@ -93,22 +93,25 @@ CompareReport with_faster_row(double max_rel) {
 
 TEST(Verdict, ToldApartAreTheFastestExactAndAFasterLossyTechnique) {
   EXPECT_THAT(verdict(with_faster_row(2e-3)), testing::StartsWith("forward_plus wins: 214 ms"));
-  EXPECT_THAT(verdict(with_faster_row(2e-3)),
-              HasSubstr(". deferred is quicker (100 ms) but lossy: its image differs by at most 2.0e-03 of the "
-                        "brightest channel."));
+  EXPECT_THAT(
+      verdict(with_faster_row(2e-3)),
+      HasSubstr(". deferred is quicker (100 ms) but lossy: its image differs by at most 2.0e-03 of the "
+                "brightest channel."));
   EXPECT_THAT(verdict(with_faster_row(9e-6)), testing::StartsWith("deferred wins: 100 ms"));
   EXPECT_THAT(telling_figures(with_faster_row(2e-3))[0], HasSubstr("forward_plus is 11.3 times"));
 }
 
 TEST(TellingFigures, EndWithAFasterTechniqueOfAnotherPicture) {
   EXPECT_EQ(telling_figures(with_faster_row(2e-3)).back(),
-            "deferred draws 10.0 frames a second (100 ms); its image differs by at most 2.0e-03 of the brightest channel");
+            "deferred draws 10.0 frames a second (100 ms); its image differs by at most 2.0e-03 of the "
+            "brightest channel");
   EXPECT_THAT(telling_figures(with_faster_row(9e-6)).back(), testing::StartsWith("lights per pixel"));
 }
 
 // Against the oracle, at pixels where forward is off by `of_reference`.
 bool exact_at(double max_rel, double of_oracle, double of_reference) {
-  return is_exact(ImageError{max_rel, max_rel, max_rel, 0, {}, false, OracleError{of_oracle, of_oracle, of_reference}});
+  return is_exact(
+      ImageError{max_rel, max_rel, max_rel, 0, {}, false, OracleError{of_oracle, of_oracle, of_reference}});
 }
 
 TEST(Verdict, ExactIsAtMostHalfAsFarAgainFromTheOracleAsTheReference) {
@@ -125,14 +128,16 @@ TEST(Verdict, ExactIsAtMostHalfAsFarAgainFromTheOracleAsTheReference) {
 TEST(Verdict, SaysWhatAFailedGateDoesToTheImage) {
   auto report = with_faster_row(0.2);
   report.rows[2].pairs->wrong = 7;
-  EXPECT_THAT(verdict(report), HasSubstr("deferred is quicker still (100 ms) but has 7 wrong pairs, and its image "
-                                         "differs by at most 2.0e-01 of the brightest channel."));
+  EXPECT_THAT(verdict(report),
+              HasSubstr("deferred is quicker still (100 ms) but has 7 wrong pairs, and its image "
+                        "differs by at most 2.0e-01 of the brightest channel."));
 }
 
 TEST(Verdict, WithoutAnExactTechniqueNamesTheFastestThatFailsNoGate) {
   auto report = with_faster_row(2e-3);
   report.rows.erase(report.rows.begin(), report.rows.begin() + 2);
-  EXPECT_THAT(verdict(report), HasSubstr("No technique is exact: deferred is the fastest that fails no gate, 100 ms"));
+  EXPECT_THAT(verdict(report),
+              HasSubstr("No technique is exact: deferred is the fastest that fails no gate, 100 ms"));
 }
 
 TEST(Verdict, LeavesOutWhatWasRefused) {
@@ -154,7 +159,8 @@ TEST(Verdict, SaysWhoIsNotClearlySlower) {
   report.rows.push_back(report.rows[1]);
   report.rows[2].technique = "clustered";
   report.rows[2].frame_ms = {210, 240, 250, 260, 5};
-  EXPECT_THAT(verdict(report), testing::EndsWith("the last bit. Within the spread of the runs is clustered (240 ms)."));
+  EXPECT_THAT(verdict(report),
+              testing::EndsWith("the last bit. Within the spread of the runs is clustered (240 ms)."));
   report.rows[2].frame_ms.min = 215;
   EXPECT_EQ(verdict(report), verdict(two_rows()));
 }

@@ -31,7 +31,8 @@ RunResult small_result() {
   result.lights_total = 1024;
   result.lights_in_view = 871;
   result.frame_ms = {1, 2, 3, 4, 5};
-  result.passes = {{"depth_prepass", "gl", 0.5, 10, 20}, {"resolve", "cl", 0.75, 30, 40, {{"resolve", 0.25}}}};
+  result.passes = {{"depth_prepass", "gl", 0.5, 10, 20},
+                   {"resolve", "cl", 0.75, 30, 40, {{"resolve", 0.25}}}};
   result.memory_total = 3;
   result.memory_light_grid = 2;
   result.memory_gbuffer = 1;

@@ -8,8 +8,8 @@
 
 namespace lightgrid {
 
-// A square wall of columns x columns small squares, 2 m before the eye and from -half_m to half_m, each with a
-// normal of its own: all directions evenly, even those that no rasterised surface shows to the eye. Its
+// A square wall of columns x columns small squares, 2 m before the eye and from -half_m to half_m, each with
+// a normal of its own: all directions evenly, even those that no rasterised surface shows to the eye. Its
 // material is the scene's only one.
 inline Scene wall_of_normals(int columns, float half_m) {
   Mesh mesh;

@@ -32,18 +32,21 @@ TEST_P(Shading, InFloatIsTheOraclesWithinItsRounding) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Shading, testing::Values("hall", "spheres", "terrain", "street", "gallery"),
                          [](const auto& info) { return std::string(info.param); });
 
-// No peak multiplies a rounding. A position is rounded to 1e-7 of its distance from the eye, which is up to some hundred
-// times its distance from a lamp: 2 * 100 * 1e-7. Measured: 2.4e-5.
+// No peak multiplies a rounding. A position is rounded to 1e-7 of its distance from the eye, which is up to
+// some hundred times its distance from a lamp: 2 * 100 * 1e-7. Measured: 2.4e-5.
 TEST(LambertShading, InFloatIsTheOraclesWithinItsRounding) {
   const Scene scene = find_builtin_scene("spheres")->make();
-  TechniqueRun run(test_devices(), scene, default_view(scene, 160, 90), {.brdf = Brdf::lambert}, find_technique("forward"));
+  TechniqueRun run(test_devices(), scene, default_view(scene, 160, 90), {.brdf = Brdf::lambert},
+                   find_technique("forward"));
   run.run_frame();
-  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  const ReferenceErrors errors =
+      measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
   EXPECT_LT(errors.precision.max_rel, 5e-5);
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
 }
 
-// Every technique against the oracle, at a sample of pixels and where it differs most from forward: as exact as forward.
+// Every technique against the oracle, at a sample of pixels and where it differs most
+// from forward: as exact as forward.
 void expect_each_exact(const Scene& scene, const View& view, const Settings& settings = {}) {
   TechniqueRun forward(test_devices(), scene, view, settings, find_technique("forward"));
   forward.run_frame();
@@ -61,10 +64,12 @@ void expect_each_exact(const Scene& scene, const View& view, const Settings& set
     pixels.insert(pixels.end(), sample.begin(), sample.end());
     ImageError error = compare_images(image, forward.image());
     error.oracle = oracle_error(image, forward.image(), pixels, oracle.shade(pixels, true));
-    fmt::print("{:<22} max_rel {:.2e}, of oracle {:.2e}, forward {:.2e}, ratio {:.2f}\n", technique->name, error.max_rel,
-               error.oracle->max_rel, error.oracle->of_reference_max_rel, error.oracle->max_rel / error.oracle->of_reference_max_rel);
-    EXPECT_TRUE(is_exact(error)) << fmt::format("off the oracle by {:.2e}, forward by {:.2e}; apart by {:.2e}", error.oracle->max_rel,
-                                                error.oracle->of_reference_max_rel, error.max_rel);
+    fmt::print("{:<22} max_rel {:.2e}, of oracle {:.2e}, forward {:.2e}, ratio {:.2f}\n", technique->name,
+               error.max_rel, error.oracle->max_rel, error.oracle->of_reference_max_rel,
+               error.oracle->max_rel / error.oracle->of_reference_max_rel);
+    EXPECT_TRUE(is_exact(error)) << fmt::format(
+        "off the oracle by {:.2e}, forward by {:.2e}; apart by {:.2e}", error.oracle->max_rel,
+        error.oracle->of_reference_max_rel, error.max_rel);
   }
 }
 
@@ -73,7 +78,8 @@ TEST_P(Shading, OfEveryTechniqueIsAsExactAsForwards) {
   expect_each_exact(scene, default_view(scene, 160, 90));
 }
 
-// Balls of polished metal among strong lamps, `scale` metres large: highlights that multiply each rounding by 2 / alpha.
+// Balls of polished metal among strong lamps, `scale` metres large: highlights that
+// multiply each rounding by 2 / alpha.
 Scene polished(double scale, float roughness, float intensity) {
   Scene scene;
   scene.ambient = glm::vec3(0.01f);
@@ -85,7 +91,8 @@ Scene polished(double scale, float roughness, float intensity) {
     const int mesh = add_mesh(scene, shapes::finished(std::move(ball), "ball", material));
     for (int i = 0; i < 3; ++i) {
       glm::dmat4 matrix(scale * 0.9);
-      matrix[3] = glm::dvec4(glm::dvec3(2.1 * i - 2.1, material == metal ? 1.1 : -1.1, -5 - 0.4 * i) * scale, 1);
+      matrix[3] =
+          glm::dvec4(glm::dvec3(2.1 * i - 2.1, material == metal ? 1.1 : -1.1, -5 - 0.4 * i) * scale, 1);
       add_instance(scene, "ball", mesh, matrix);
     }
   }
@@ -112,13 +119,19 @@ TEST_P(Polished, EveryTechniqueIsAsExactAsForward) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, Polished,
-                         testing::Combine(testing::Values(1e-3, 1.0, 1e4), testing::Values(0.0f, 0.1f), testing::Values(1.0f, 1000.0f)),
+                         testing::Combine(testing::Values(1e-3, 1.0, 1e4), testing::Values(0.0f, 0.1f),
+                                          testing::Values(1.0f, 1000.0f)),
                          [](const auto& info) {
-                           return fmt::format("{}mRoughness{}Intensity{}", std::get<0>(info.param) < 1 ? "1m" : std::get<0>(info.param) > 1 ? "10k" : "1",
-                                              std::get<1>(info.param) > 0 ? "01" : "0", int(std::get<2>(info.param)));
+                           return fmt::format("{}mRoughness{}Intensity{}",
+                                              std::get<0>(info.param) < 1   ? "1m"
+                                              : std::get<0>(info.param) > 1 ? "10k"
+                                                                            : "1",
+                                              std::get<1>(info.param) > 0 ? "01" : "0",
+                                              int(std::get<2>(info.param)));
                          });
 
-// All of them lacquered, so that highlights of two widths lie over each other; under half of the coats a normal map.
+// All of them lacquered, so that highlights of two widths lie over each other; under
+// half of the coats a normal map.
 Scene polished_and_coated() {
   Scene scene = polished(1, 0.4f, 10);
   for (Material& m : scene.materials) m.clearcoat = 1, m.clearcoat_roughness = 0.1f;
@@ -127,19 +140,23 @@ Scene polished_and_coated() {
   return scene;
 }
 
-TEST(PolishedUnderCoats, EveryTechniqueIsAsExactAsForward) { expect_each_exact(polished_and_coated(), view_at(1, 192, 108)); }
+TEST(PolishedUnderCoats, EveryTechniqueIsAsExactAsForward) {
+  expect_each_exact(polished_and_coated(), view_at(1, 192, 108));
+}
 
 TEST(CoatShading, InFloatIsTheOraclesWithinItsRounding) {
   const Scene scene = polished_and_coated();
   TechniqueRun run(test_devices(), scene, view_at(1, 192, 108), {}, find_technique("forward"));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  const ReferenceErrors errors =
+      measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
   EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
   Scene bare = scene;
   for (Material& m : bare.materials) m.clearcoat = 0;
-  EXPECT_GT(compare_images(run.image(), render(bare, view_at(1, 192, 108), "forward")).max_rel, 0.1) << "the coats are seen";
+  EXPECT_GT(compare_images(run.image(), render(bare, view_at(1, 192, 108), "forward")).max_rel, 0.1)
+      << "the coats are seen";
 }
 
 // A coat whose map is black is compiled and sampled, and changes no bit.
@@ -162,10 +179,13 @@ TEST(CoatShading, LambertHasNone) {
   Scene bare = scene;
   for (Material& m : bare.materials) m.clearcoat = 0;
   const View view = view_at(1, 95, 53);
-  EXPECT_TRUE(identical(render(scene, view, "forward", {.brdf = Brdf::lambert}), render(bare, view, "forward", {.brdf = Brdf::lambert})));
+  EXPECT_TRUE(identical(render(scene, view, "forward", {.brdf = Brdf::lambert}),
+                        render(bare, view, "forward", {.brdf = Brdf::lambert})));
 }
 
-TEST(PolishedBlinnPhong, EveryTechniqueIsAsExactAsForward) { expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {.brdf = Brdf::blinn}); }
+TEST(PolishedBlinnPhong, EveryTechniqueIsAsExactAsForward) {
+  expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {.brdf = Brdf::blinn});
+}
 
 // Skin, Minnaert's of k below and above 1, one under a coat, and Lambert's.
 Scene balls_of_all_models() {
@@ -181,14 +201,17 @@ Scene balls_of_all_models() {
   for (int i = 0; i < 5; ++i) {
     const int material = add_material(scene, "ball", {0.7f, 0.6f, 0.5f}, 0.1f, 0.5f);
     scene.materials[size_t(material)].model = models[i];
-    if (i == 4) scene.materials[size_t(material)].clearcoat = 1, scene.materials[size_t(material)].clearcoat_roughness = 0.3f;
+    if (i == 4)
+      scene.materials[size_t(material)].clearcoat = 1,
+      scene.materials[size_t(material)].clearcoat_roughness = 0.3f;
     add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
                  placed({2.1 * i - 4.2, i % 2 ? 0.8 : -0.8, -7 - 0.4 * i}));
   }
   Random random(5);
   for (int i = 0; i < 60; ++i) {
     const glm::vec3 at{random.uniform(-5, 5), random.uniform(-4, 4), random.uniform(-5, -2)};  // in front
-    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1, random.uniform(3, 7));
+    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1,
+              random.uniform(3, 7));
   }
   return scene;
 }
@@ -199,7 +222,8 @@ TEST(ModelShading, InFloatIsTheOraclesWithinItsRounding) {
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  const ReferenceErrors errors =
+      measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
   EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
   Scene bare = scene;
@@ -213,8 +237,10 @@ TEST(ModelShading, WithLambertIsTheOraclesInTheShadersOfForwardAndDeferred) {
   const View view = view_at(1, 160, 90);
   TechniqueRun run(test_devices(), scene, view, {.brdf = Brdf::lambert}, find_technique("forward"));
   run.run_frame();
-  EXPECT_LT(measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000).precision.max_rel, 5e-5);
-  EXPECT_LT(compare_images(run.image(), render(scene, view, "deferred", {.brdf = Brdf::lambert})).max_rel, 1e-5);
+  EXPECT_LT(measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000).precision.max_rel,
+            5e-5);
+  EXPECT_LT(compare_images(run.image(), render(scene, view, "deferred", {.brdf = Brdf::lambert})).max_rel,
+            1e-5);
 }
 
 }  // namespace

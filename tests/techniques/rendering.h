@@ -37,7 +37,8 @@ inline bool same_bytes(const Image& a, const Image& b) {
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec4)) == 0;
 }
 
-// Meshes that stand for lights: corners of three floats, indices of 16 bits (docs/techniques/deferred.md counts them).
+// Meshes that stand for lights: corners of three floats, indices of 16 bits
+// (docs/techniques/deferred.md counts them).
 inline constexpr size_t light_mesh_bytes = 469 * 12 + 2667 * 2;
 
 // Says how far apart two images are where they should be one.
@@ -61,8 +62,8 @@ inline void expect_exact(const Scene& scene, const View& view, const Settings& s
   EXPECT_EQ(pairs.wrong, 0u);
 }
 
-// The median of pixels' largest differences, and the share of pixels that are further apart than 1/100, both of the reference's
-// brightest channel.
+// The median of pixels' largest differences, and the share of pixels that are further apart than 1/100, both
+// of the reference's brightest channel.
 struct ImageDistance {
   double median = 0, share_apart = 0;
 };
@@ -83,16 +84,16 @@ inline ImageDistance distance_of(const Image& image, const Image& reference) {
   return {differences[differences.size() / 2], double(differences.end() - end) / double(differences.size())};
 }
 
-// What another rasteriser and another texture filter may change: silhouettes, and little elsewhere. llvmpipe's levels of detail
-// are up to 0.09 of an octave off.
+// What another rasteriser and another texture filter may change: silhouettes, and little elsewhere.
+// llvmpipe's levels of detail are up to 0.09 of an octave off.
 inline void expect_near(const Image& image, const Image& forward) {
   const ImageDistance distance = distance_of(image, forward);
   EXPECT_LT(distance.median, 1e-3);
   EXPECT_LT(distance.share_apart, 0.02);
 }
 
-// A technique that sums in another order or precision: its image within `bound` of forward's brightest channel, its pairs
-// as above.
+// A technique that sums in another order or precision: its image within `bound` of forward's
+// brightest channel, its pairs as above.
 inline void expect_close(const Scene& scene, const View& view, const Settings& settings, const Image& forward,
                          const char* technique, double bound = 1e-5) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));

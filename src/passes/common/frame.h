@@ -20,8 +20,8 @@ struct DepthBuffer {
   cl::Buffer values;
 };
 
-// The nearest opaque triangle of each pixel by its number: those of these instances one after the other. Until
-// the view's next look().
+// The nearest opaque triangle of each pixel by its number: those of these instances one after the
+// other. Until the view's next look().
 struct TriangleBuffer {
   cl::Buffer numbers;
   std::span<const int> instances;  // of the scene

@@ -25,9 +25,10 @@ void require_numbers(const RenderView& v) {
   if (!v.plan.skin && !v.plan.minnaert) return;
   const size_t models = material_models(v.scene).size() - 1;
   if (models <= MOST_MODELS) return;
-  throw input_error("scene \"{}\": {} models of skin and Minnaert; a geometry buffer numbers at most {}: forward techniques "
-                    "and visibility take any number",
-                    v.scene.name, models, MOST_MODELS);
+  throw input_error(
+      "scene \"{}\": {} models of skin and Minnaert; a geometry buffer numbers at most {}: forward "
+      "techniques and visibility take any number",
+      v.scene.name, models, MOST_MODELS);
 }
 
 }  // namespace
@@ -35,8 +36,10 @@ void require_numbers(const RenderView& v) {
 GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use) {
   require_numbers(v);
   constexpr const char* names[] = {"gbuffer 0", "gbuffer 1", "gbuffer 2"};
-  GBufferInCl g{.base_lighting = base_lighting, .layout = &gbuffer_layout(v.plan.settings), .coats = v.plan.clearcoat};
-  for (size_t i = 0; i < g.images(); ++i) g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
+  GBufferInCl g{
+      .base_lighting = base_lighting, .layout = &gbuffer_layout(v.plan.settings), .coats = v.plan.clearcoat};
+  for (size_t i = 0; i < g.images(); ++i)
+    g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
   g.image = &v.shared_pixels("image", 16);
   return g;
 }

@@ -14,8 +14,8 @@ inline constexpr int probe_size = 256;
 
 // Draws an index a pixel into cleared images of the layout, one round after another (0: no light, but shifts
 // the others on); round r writes the channels of group r / slots. Returns read_channels().
-using LightIndexBlender =
-    std::function<std::vector<uint16_t>(const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds)>;
+using LightIndexBlender = std::function<std::vector<uint16_t>(
+    const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds)>;
 
 // Sends every possible history of a channel, or each index, through `blend`. Empty if all come out unchanged,
 // else a description of the first failure.

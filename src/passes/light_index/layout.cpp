@@ -17,7 +17,9 @@ const char* name_of(LidrPacking packing) {
 }
 
 uint32_t number_of(LidrPacking packing) {
-  return packing == LidrPacking::sort ? LIDR_SORT : packing == LidrPacking::maxblend ? LIDR_MAXBLEND : LIDR_BITSHIFT;
+  return packing == LidrPacking::sort       ? LIDR_SORT
+         : packing == LidrPacking::maxblend ? LIDR_MAXBLEND
+                                            : LIDR_BITSHIFT;
 }
 
 // The layout of such a row, possible or not.
@@ -38,11 +40,12 @@ LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights) 
 
 std::string why_not(const LightIndexLayout& row) {
   if (row.packing == LidrPacking::maxblend && row.groups > 2) {
-    return "two passes find the greatest and least index of two lights each, four in all; use lidr-packing=bitshift";
+    return "two passes find the greatest and least index of two lights each, four in all; use "
+           "lidr-packing=bitshift";
   }
   if (row.targets() > most_targets) {
-    return fmt::format("it takes {} targets of {} channels, and {} is the most; use lidr-overlap={}", row.targets(), row.target_channels(),
-                       most_targets, row.overlap / 2);
+    return fmt::format("it takes {} targets of {} channels, and {} is the most; use lidr-overlap={}",
+                       row.targets(), row.target_channels(), most_targets, row.overlap / 2);
   }
   return "";
 }
@@ -57,35 +60,47 @@ uint32_t least_that_holds(size_t lights) {
 }  // namespace
 
 GLenum LightIndexLayout::format() const {
-  if (channel_bits == 16) return target_channels() == 1 ? GL_R16 : target_channels() == 2 ? GL_RG16 : GL_RGBA16;
+  if (channel_bits == 16)
+    return target_channels() == 1 ? GL_R16 : target_channels() == 2 ? GL_RG16 : GL_RGBA16;
   return target_channels() == 1 ? GL_R8 : target_channels() == 2 ? GL_RG8 : GL_RGBA8;
 }
 
 std::vector<std::string> LightIndexLayout::defines() const {
   // A missing channel reads as 0, or as 1 for alpha.
   const uint32_t present = target_channels() == 4 ? ~0u : (1u << 8 * target_channels()) - 1;
-  const char* kind = packing == LidrPacking::sort ? "LIDR_APART" : packing == LidrPacking::maxblend ? "LIDR_GREATEST" : "LIDR_SHIFTED";
-  return {kind, fmt::format("LIDR_PACKING {}u", number_of(packing)), fmt::format("LIDR_GROUPS {}u", groups),
-          fmt::format("LIDR_SLOTS {}u", slots), fmt::format("LIDR_CHANNELS {}u", channels), fmt::format("LIDR_SHIFT {}u", shift),
-          fmt::format("LIDR_MOST {}u", most()), fmt::format("LIDR_TARGETS {}", targets()), fmt::format("LIDR_PRESENT {}u", present)};
+  const char* kind = packing == LidrPacking::sort       ? "LIDR_APART"
+                     : packing == LidrPacking::maxblend ? "LIDR_GREATEST"
+                                                        : "LIDR_SHIFTED";
+  return {kind,
+          fmt::format("LIDR_PACKING {}u", number_of(packing)),
+          fmt::format("LIDR_GROUPS {}u", groups),
+          fmt::format("LIDR_SLOTS {}u", slots),
+          fmt::format("LIDR_CHANNELS {}u", channels),
+          fmt::format("LIDR_SHIFT {}u", shift),
+          fmt::format("LIDR_MOST {}u", most()),
+          fmt::format("LIDR_TARGETS {}", targets()),
+          fmt::format("LIDR_PRESENT {}u", present)};
 }
 
 std::string LightIndexLayout::name() const {
-  return fmt::format("{}, {} overlap{} of {} lights", name_of(packing), overlap, overlap == 1 ? "" : "s", lights);
+  return fmt::format("{}, {} overlap{} of {} lights", name_of(packing), overlap, overlap == 1 ? "" : "s",
+                     lights);
 }
 
 LightIndexLayout light_index_layout(const Settings& settings, size_t lights) {
-  const uint32_t most_lights = settings.lidr_lights ? uint32_t(settings.lidr_lights) : least_that_holds(lights);
+  const uint32_t most_lights =
+      settings.lidr_lights ? uint32_t(settings.lidr_lights) : least_that_holds(lights);
   if (lights > most_lights) {
-    throw input_error("lidr: {} point and spot lights are more than the {} that have an index{}", lights, most_lights,
-                      most_lights < 65535 ? "; use lidr-lights=auto" : "");
+    throw input_error("lidr: {} point and spot lights are more than the {} that have an index{}", lights,
+                      most_lights, most_lights < 65535 ? "; use lidr-lights=auto" : "");
   }
   uint32_t overlap = uint32_t(settings.lidr_overlap);
   if (!overlap) {
     for (overlap = 16; !why_not(row_of(settings.lidr_packing, overlap, most_lights)).empty();) overlap /= 2;
   }
   const LightIndexLayout row = row_of(settings.lidr_packing, overlap, most_lights);
-  if (const std::string why = why_not(row); !why.empty()) throw input_error("lidr: no images hold {}: {}", row.name(), why);
+  if (const std::string why = why_not(row); !why.empty())
+    throw input_error("lidr: no images hold {}: {}", row.name(), why);
   return row;
 }
 
@@ -110,7 +125,8 @@ void unpack_light_index(const LightIndexLayout& layout, std::span<const uint16_t
         uint32_t index = 0;
         for (uint32_t first = 0; first < layout.channels; first += 4) {
           uint32_t word = 0;
-          for (uint32_t c = first; c < std::min(first + 4, layout.channels); ++c) word |= uint32_t(own[c]) << 8 * (c - first);
+          for (uint32_t c = first; c < std::min(first + 4, layout.channels); ++c)
+            word |= uint32_t(own[c]) << 8 * (c - first);
           index |= light_index_in_word(word, slot, layout.shift) << layout.shift * first;
         }
         take(index);

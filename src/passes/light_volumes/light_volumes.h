@@ -33,8 +33,8 @@ const std::vector<LightMesh>& light_meshes();
 
 // In the lights' order. Lights that cannot reach anything in view are omitted: off the screen, or of radius 0
 // or below. `meshes` selects the meshes of spheres; `box` also those of cones.
-std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLight> lights, VolumeMeshes meshes,
-                                       int subpixel_bits);
+std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLight> lights,
+                                       VolumeMeshes meshes, int subpixel_bits);
 
 // Draws volumes with shaders/common/light_volume.glsl. One vertex buffer for all meshes; matrix and light are
 // attributes of an instance.
