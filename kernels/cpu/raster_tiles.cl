@@ -199,7 +199,8 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
 }
 
 // Every other row of tiles, then the rest. A thread takes a range of work-items, at first half of them where
-// there are two threads, and near and far, masked and open parts of a scene lie in different parts of an image.
+// there are two threads, and near and far, masked and open parts of a scene lie in different parts of an
+// image.
 static inline uint tile_of_item(uint item, constant RasterParams* p) {
   const uint row = item / p->tiles_x, even = (p->tiles_y + 1) / 2;
   return (row < even ? 2 * row : 2 * (row - even) + 1) * p->tiles_x + item % p->tiles_x;

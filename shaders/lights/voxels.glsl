@@ -1,6 +1,6 @@
 // The light of a voxel light buffer (shared/voxel_volume.h), interpolated by the sampler: no loop over lights.
-//   VOXEL_EXACT: as many lights of the pixel's cell are shaded by themselves, those that matter most. After
-//   cell.glsl. Interpolated in float
+//   VOXEL_EXACT: as many lights of the pixel's cell are shaded by themselves, those that matter most, and
+//   the volume is interpolated in float. After cell.glsl.
 #include "shared/voxel_volume.h"
 
 layout(binding = 14) uniform sampler3D voxel_irradiance;  // and the number of lights

@@ -118,7 +118,8 @@ WorldCellEstimate estimate_cell(const LightSample& sample, WorldGridShape shape,
     glm::dvec3 away(0);
     away[int(points) % 3] = int(points) % 2 == 0 ? light.radius_m : -light.radius_m;
     const double edge = edge_of(light, sample, shape, cell);
-    const double others = listed_at(light.position + away, edge, sample, columns) - 1;  // it stands for itself
+    const double others =
+        listed_at(light.position + away, edge, sample, columns) - 1;  // it stands for itself
     estimate.listed += 1 + std::max(others, 0.0) * sample.lights_of_each;
   }
   estimate.listed /= points;

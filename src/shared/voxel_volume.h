@@ -1,6 +1,8 @@
-// The voxel light buffer: a volume of samples, each with the irradiance that arrives there and the sum of its directions.
-// How kernels fill it, and where a point lies in it. Geldreich on Halo Wars (2009); docs/techniques/voxel_lights.md.
-//   VOXELS_LOG: samples in the view's own projection: x / distance, y / distance and log(distance). Without: along three axes.
+// The voxel light buffer: a volume of samples, each with the irradiance that arrives there and the sum of its
+// directions. How kernels fill it, and where a point lies in it. Geldreich on Halo Wars (2009);
+// docs/techniques/voxel_lights.md.
+//   VOXELS_LOG: samples in the view's own projection: x / distance, y / distance and log(distance). Without:
+//   along three axes.
 #pragma once
 
 #include "shared/brdf.h"
@@ -9,8 +11,8 @@
 #define VOXEL_BRICK_X 8
 #define VOXEL_BRICK_Y 8
 #define VOXEL_BRICK_Z 4
-// A GPU's work-group fills fewer, of one slice, which fewer lights reach: a divisor of the brick along each axis. Each sample has
-// several work-items, which share its lights.
+// A GPU's work-group fills fewer, of one slice, which fewer lights reach: a divisor of the brick along each
+// axis. Each sample has several work-items, which share its lights.
 #define VOXEL_GROUP_X 8
 #define VOXEL_GROUP_Y 4
 #define VOXEL_GROUP_SAMPLES (VOXEL_GROUP_X * VOXEL_GROUP_Y)
@@ -31,8 +33,8 @@ namespace lightgrid {
 #endif
 
 #ifndef LIGHTGRID_GLSL
-// The samples. Metres along the volume's axes; with VOXELS_LOG x and y are x / distance and y / distance. What a slice of
-// equal z shares is in a table, VoxelSlice each.
+// The samples. Metres along the volume's axes; with VOXELS_LOG x and y are x / distance and y / distance.
+// What a slice of equal z shares is in a table, VoxelSlice each.
 typedef struct VoxelGrid {
   uint size_x, size_y, size_z;  // samples
   uint groups;                  // of lights, VOXEL_LIGHT_GROUP each
@@ -44,9 +46,9 @@ typedef struct VoxelGrid {
 
 // Metres and their squares.
 typedef struct VoxelSlice {
-  float place;                 // along the volume's z axis; with VOXELS_LOG the distance
-  float half_diagonal_squared; // of the cells between samples
-  float core_squared;          // nearer than this a light counts as if it were this far away
+  float place;                  // along the volume's z axis; with VOXELS_LOG the distance
+  float half_diagonal_squared;  // of the cells between samples
+  float core_squared;           // nearer than this a light counts as if it were this far away
   float unused;
 } VoxelSlice;
 #endif
@@ -65,10 +67,11 @@ typedef struct VoxelLookup {
   float view_x_from_x, view_x_from_y, view_x_from_z;
   float view_y_from_x, view_y_from_y, view_y_from_z;
   float view_z_from_x, view_z_from_y, view_z_from_z;
-  float last_x, last_y, last_z;  // places of the last samples: sizes less 1
-  float inverse_scale;           // of what is stored
+  float last_x, last_y, last_z;           // places of the last samples: sizes less 1
+  float inverse_scale;                    // of what is stored
   float spacing_x, spacing_y, spacing_z;  // metres, along the volume's axes
-  float half_diagonal_squared, core_squared;  // of VoxelSlice; with VOXELS_LOG at distance 1, of whose square they are multiples
+  // Of VoxelSlice; with VOXELS_LOG at distance 1, of whose square they are multiples.
+  float half_diagonal_squared, core_squared;
 #ifdef LIGHTGRID_GLSL
 } voxel_lookup;
 #else
@@ -83,16 +86,19 @@ SHARED_FUNCTION Real3 voxel_place(Real3 position VOXEL_ARGUMENT) {
 #else
   Real3 q = position;
 #endif
-  real x = mad_real(VOXELS(x_from_x), q.x, mad_real(VOXELS(x_from_y), q.y, mad_real(VOXELS(x_from_z), q.z, VOXELS(x_from_1))));
-  real y = mad_real(VOXELS(y_from_x), q.x, mad_real(VOXELS(y_from_y), q.y, mad_real(VOXELS(y_from_z), q.z, VOXELS(y_from_1))));
-  real z = mad_real(VOXELS(z_from_x), q.x, mad_real(VOXELS(z_from_y), q.y, mad_real(VOXELS(z_from_z), q.z, VOXELS(z_from_1))));
+  real x = mad_real(VOXELS(x_from_x), q.x,
+                    mad_real(VOXELS(x_from_y), q.y, mad_real(VOXELS(x_from_z), q.z, VOXELS(x_from_1))));
+  real y = mad_real(VOXELS(y_from_x), q.x,
+                    mad_real(VOXELS(y_from_y), q.y, mad_real(VOXELS(y_from_z), q.z, VOXELS(y_from_1))));
+  real z = mad_real(VOXELS(z_from_x), q.x,
+                    mad_real(VOXELS(z_from_y), q.y, mad_real(VOXELS(z_from_z), q.z, VOXELS(z_from_1))));
   return real3(min_real(max_real(x, REAL(0.0f)), REAL(VOXELS(last_x))),
                min_real(max_real(y, REAL(0.0f)), REAL(VOXELS(last_y))),
                min_real(max_real(z, REAL(0.0f)), REAL(VOXELS(last_z))));
 }
 
-// What a volume holds at a point, interpolated: irradiance on a surface that faces each light, and the sum of the directions to
-// the lights weighted by luminance, with the sum of the weights.
+// What a volume holds at a point, interpolated: irradiance on a surface that faces each light, and the sum of
+// the directions to the lights weighted by luminance, with the sum of the weights.
 SHARED_STRUCT(VoxelLight) {
   Real3 irradiance, directions;
   real weight;
@@ -122,8 +128,9 @@ SHARED_FUNCTION VoxelLight voxel_light_in_view(VoxelLight stored VOXEL_ARGUMENT)
   return light;
 }
 
-// What a surface reflects of light in view space: the part in which directions agree as a light from their mean, the rest as if
-// it came from all sides. Over all normals of a diffuse surface its mean and first moments are those of the lights.
+// What a surface reflects of light in view space: the part in which directions agree as a light from their
+// mean, the rest as if it came from all sides. Over all normals of a diffuse surface its mean and first
+// moments are those of the lights.
 SHARED_FUNCTION Real3 radiance_of_voxels(ShadingPoint p, VoxelLight light) {
   real squared = max_real(dot3(light.directions, light.directions), REAL(1.2e-38f));
   real inverse = inverse_sqrt_real(squared);

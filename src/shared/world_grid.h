@@ -1,9 +1,10 @@
-// How a position finds its cell of the world grid, and the cell's list: the same code for the kernels that build the lists,
-// for shaders and for C++. docs/techniques/world_grid.md derives why no light is lost.
+// How a position finds its cell of the world grid, and the cell's list: the same code for the kernels that
+// build the lists, for shaders and for C++. docs/techniques/world_grid.md derives why no light is lost.
 //
-// Space is cut into cubes, the cells; lengths are in edges of the smallest ones, from the grid's middle. The outer cells have
-// no end, so every position has a cell. A cell of level n has edges of 2^n. Blocks of 64 cells that list any light are stored,
-// and found by buckets: a bucket is one block's number, or a hash of the block's key.
+// Space is cut into cubes, the cells; lengths are in edges of the smallest ones, from the grid's middle. The
+// outer cells have no end, so every position has a cell. A cell of level n has edges of 2^n. Blocks of 64
+// cells that list any light are stored, and found by buckets: a bucket is one block's number, or a hash of
+// the block's key.
 #pragma once
 
 #include "shared/real.h"
@@ -67,15 +68,16 @@ typedef struct WorldGridParams {
 #else
 layout(std140, binding = 4) uniform WorldGridBlock {
 #endif
-  uint cells_x, cells_y, cells_z;     // of level 0: 1, or even
-  float least_x, least_y, least_z;    // the lower edges of the first and of the last cell, were they as long as the others
+  uint cells_x, cells_y, cells_z;  // of level 0: 1, or even
+  // The lower edges of the first and of the last cell, were they as long as the others.
+  float least_x, least_y, least_z;
   float most_x, most_y, most_z;
-  uint shift_x, shift_y, shift_z;     // log2 of a block's cells
-  uint blocks_x, blocks_y;            // of level 0
-  uint bucket_bits;                   // 0: a bucket is a block's number; else the bits of its key's hash
-  uint levels;                        // a bit a level that has lights
+  uint shift_x, shift_y, shift_z;  // log2 of a block's cells
+  uint blocks_x, blocks_y;         // of level 0
+  uint bucket_bits;                // 0: a bucket is a block's number; else the bits of its key's hash
+  uint levels;                     // a bit a level that has lights
   uint everywhere_first, everywhere_count;  // lights that belong to every list
-  float slack, reach;                 // world_slack
+  float slack, reach;                       // world_slack
 #ifndef LIGHTGRID_GLSL
 } WorldGridParams;
 #else
@@ -124,8 +126,8 @@ SHARED_FUNCTION Real3 world_position(Real3 p WORLD_VIEW_ARGUMENT) {
                p.x * WORLD_VIEW(z_x) + p.y * WORLD_VIEW(z_y) + p.z * WORLD_VIEW(z_z) + WORLD_VIEW(z_offset));
 }
 
-// The cell of level 0 along an axis, from 0. Monotone, so that a light's first and last cell enclose those of all positions
-// between its ends. NaN is in the first cell.
+// The cell of level 0 along an axis, from 0. Monotone, so that a light's first and last cell enclose those of
+// all positions between its ends. NaN is in the first cell.
 SHARED_FUNCTION WORLD_WHOLE world_coordinate(real at, float least, float most) {
   return TO_WORLD_WHOLE(world_floor(min_real(max_real(at, REAL(least)), REAL(most))) - REAL(least));
 }
@@ -157,13 +159,14 @@ inline uint world_bucket(glm::uvec2 key, WORLD_ARGUMENT) {
   return (h ^ h >> 13u) * 0x297a2d39u >> (32u - WORLD(bucket_bits));
 }
 
-// The list of a cell of level 0, as (first, count): that of the smallest stored cell around it, which has the lights of all
-// larger ones too. (0, 0) where no block is stored.
+// The list of a cell of level 0, as (first, count): that of the smallest stored cell around it, which has the
+// lights of all larger ones too. (0, 0) where no block is stored.
 SHARED_FUNCTION Uint2 world_range(uint x, uint y, uint z WORLD_LISTS_ARGUMENT) {
   for (uint levels = WORLD(levels); levels != 0u; levels &= levels - 1u) {
     uint level = WORLD_LOWEST_BIT(levels);
     uint cell_x = x >> level, cell_y = y >> level, cell_z = z >> level;
-    Uint2 key = world_key(cell_x >> WORLD(shift_x), cell_y >> WORLD(shift_y), cell_z >> WORLD(shift_z), level);
+    Uint2 key =
+        world_key(cell_x >> WORLD(shift_x), cell_y >> WORLD(shift_y), cell_z >> WORLD(shift_z), level);
 #ifdef LIGHTGRID_GLSL
     uint bucket = world_bucket(key);
 #else
@@ -175,7 +178,8 @@ SHARED_FUNCTION Uint2 world_range(uint x, uint y, uint z WORLD_LISTS_ARGUMENT) {
       if (found.x != key.x || found.y != key.y) continue;
       uint in_x = cell_x & ((1u << WORLD(shift_x)) - 1u), in_y = cell_y & ((1u << WORLD(shift_y)) - 1u);
       uint in_z = cell_z & ((1u << WORLD(shift_z)) - 1u);
-      return WORLD_CELL(block * WORLD_BLOCK_CELLS + (((in_z << WORLD(shift_y)) + in_y) << WORLD(shift_x)) + in_x);
+      return WORLD_CELL(block * WORLD_BLOCK_CELLS + (((in_z << WORLD(shift_y)) + in_y) << WORLD(shift_x)) +
+                        in_x);
     }
   }
   return UINT2(0u, 0u);

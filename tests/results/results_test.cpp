@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "results/results.h"
 #include "report/synthetic_report.h"
+#include "results/results.h"
 
 namespace lightgrid {
 namespace {
