@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plan/plan_history.h"
+#include "plan/path_plans.h"
 #include "scene/camera_path.h"
 #include "support/small_scene.h"
 
@@ -19,12 +19,12 @@ constexpr TechniqueNeeds reads_grid{.light_grid = true}, reads_no_grid{};
 // Ahead, left, behind, right, and the same again: frames 0 and 4 show the scene.
 std::vector<PlanChange> along_two_turns(const Scene& scene, const Settings& settings = {},
                                         const TechniqueNeeds& needs = reads_grid) {
-  PlanHistory history;
+  PathPlans plans;
   for (int turn = 0; turn < 2; ++turn) {
     for (const View& view : camera_path(scene, small_view(32, 32), "turn:4"))
-      history.add(plan_frame(scene, view, settings, needs));
+      plans.add(plan_frame(scene, view, settings, needs));
   }
-  return history.changes();
+  return plans.changes();
 }
 
 std::vector<PlanChange> with_effect(const std::string& name, const Settings& settings = {},

@@ -6,7 +6,7 @@
 
 namespace lightgrid {
 
-class PlanHistory {
+class PathPlans {
  public:
   // The next frame's plan. The first has nothing to differ from, and with the setting everything-on no plan
   // differs from another.

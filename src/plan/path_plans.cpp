@@ -1,8 +1,8 @@
-#include "plan/plan_history.h"
+#include "plan/path_plans.h"
 
 namespace lightgrid {
 
-void PlanHistory::add(const FramePlan& plan) {
+void PathPlans::add(const FramePlan& plan) {
   const size_t frame = frames_++;
   if (plan.settings.everything_on) return;
   for (PlanChange& change : plan_changes(before_, plan.decisions, frame))
