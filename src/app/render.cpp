@@ -4,10 +4,14 @@
 #include <filesystem>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
 #include "compare/run_technique.h"
+#include "plan/path_plans.h"
+#include "results/path_changes.h"
 
 namespace lightgrid {
 namespace {
@@ -29,16 +33,20 @@ std::filesystem::path numbered(const std::filesystem::path& path, size_t number)
 int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const std::vector<View>& path,
                 const SceneMotion& advance) {
   run.prepare();
+  PathPlans plans;
   for (size_t i = 0; i < path.size(); ++i) {
     const SceneChanges changes = advance ? advance(i) : SceneChanges();
     gpu.update(changes);
     run.look(path[i], changes);
     run.run_frame();
+    plans.add(run.view().plan);
     save_image(numbered(o.output, i), run.image());
   }
   if (!o.json.empty()) {
     run.run_profiled_frames();
-    write_json(o.json, json_text(run.result()));
+    nlohmann::json json = to_json(run.result());
+    json["moving"] = {{"frames", path.size()}, {"plan_changes", plan_changes_json(plans.changes())}};
+    write_json(o.json, json_text(json));
   }
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include "base/resident.h"
 #include "compare/oracle.h"
+#include "plan/path_plans.h"
 #include "results/metrics.h"
 
 namespace lightgrid {
@@ -27,6 +28,7 @@ struct Path {
   double error_sum = 0;
   uint64_t error_count = 0;
   double brightest = 0;  // of the reference, over the path
+  PathPlans plans;
   MovingResult result;
 };
 
@@ -105,6 +107,7 @@ void finish(Path& p, size_t frames) {
   p.result.temporal_max_rel = p.flicker_max * scale;
   p.result.temporal_rmse_rel =
       p.flicker_count ? std::sqrt(p.flicker_sum / double(p.flicker_count)) * scale : 0;
+  p.result.plan_changes = p.plans.changes();
   p.row->moving = p.result;
 }
 
@@ -133,6 +136,7 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
     }
     for (Path& p : paths) {
       run_one(p, path[frame], changes, frame);
+      p.plans.add(p.run->view().plan);
       add_pairs(p);  // before the next run draws into the images that they share
     }
     for (Path& p : paths) add_errors(p, reference.image());

@@ -7,10 +7,10 @@
 #include "base/embedded.h"
 #include "base/image.h"
 #include "report/charts.h"
-#include "results/error_measures.h"
-#include "results/metrics.h"
 #include "report/overview.h"
 #include "report/page_template.h"
+#include "results/error_measures.h"
+#include "results/metrics.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -133,7 +133,7 @@ json page_data(const std::vector<ReportView>& views) {
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
   for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "charts.js", "matrix.js",
-                           "view.js", "report.js"}) {
+                           "changes.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
   const json results =

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "report/report.h"
+#include "results/path_changes.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -220,6 +221,7 @@ std::vector<std::string> telling_figures(const CompareReport& report) {
   const auto* lossy = fastest_lossy(report);
   if (lossy != row && quicker(lossy, *row) && lossy->error)
     lines.push_back(other_picture_figure(report, *lossy));
+  if (const std::string changes = plan_changes_in_words(report); !changes.empty()) lines.push_back(changes);
   return lines;
 }
 

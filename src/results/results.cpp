@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "results/error_measures.h"
+#include "results/path_changes.h"
 
 namespace lightgrid {
 namespace {
@@ -207,7 +208,8 @@ json to_json(const CompareReport& report) {
   if (const auto& memory = report.path_memory) {
     out["moving"] = {
         {"resident_bytes",
-         {{"frames", memory->frames}, {"then", memory->bytes}, {"at_end", memory->bytes_at_end}}}};
+         {{"frames", memory->frames}, {"then", memory->bytes}, {"at_end", memory->bytes_at_end}}},
+        {"plan_changes", plan_changes_json(report)}};
   }
   return out;
 }

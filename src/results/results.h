@@ -11,6 +11,7 @@
 
 #include "base/image.h"
 #include "base/timer.h"
+#include "plan/plan_changes.h"
 
 namespace lightgrid {
 
@@ -76,6 +77,7 @@ struct MovingResult {
   // After the first two frames.
   int gl_programs = 0, cl_programs = 0;  // compiled
   size_t scene_bytes = 0;                // uploaded
+  std::vector<PlanChange> plan_changes;  // by frame
 };
 
 // Of the whole process, along a camera path.

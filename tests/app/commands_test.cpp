@@ -228,6 +228,35 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
   }
 }
 
+// Half a turn in the hall: its gates and its glass are then behind the camera.
+TEST(CameraPath, RenderAndCompareSayAlikeWhereThePlanChanged) {
+  const TempFolder folder;
+  const std::vector<std::string> path = {"hall",          "--size", "32x18",  "--lights", "8",
+                                         "--camera-path", "turn:2", "--json", "-",        "-t"};
+  const auto plan_changes = [&](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), path.begin(), path.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(run.out)["moving"]["plan_changes"];
+  };
+  const auto rendered = plan_changes({"render"}, {"forward_plus", "-o", folder.path / "frame.png"});
+  const auto compared = plan_changes({"compare"}, {"forward_plus,visibility", "--frames", "1", "--warmup",
+                                                   "0", "-o", folder.path / "report"});
+  EXPECT_EQ(rendered, compared);
+  EXPECT_EQ(rendered, nlohmann::json::parse(R"([
+    {"frame": 1, "effect": "blend", "from": "on", "to": "off",
+     "why": "left: material 16 \"stained glass\" on node 29 \"screen\""},
+    {"frame": 1, "effect": "emissive maps", "from": "on", "to": "off",
+     "why": "left: material 17 \"rose window\" on node 6 \"rose window\""},
+    {"frame": 1, "effect": "alpha masks", "from": "on", "to": "off",
+     "why": "left: material 14 \"iron lattice\" on node 62 \"gate\""},
+    {"frame": 1, "effect": "base lighting", "from": "on", "to": "off",
+     "why": "left: material 17 \"rose window\" on node 6 \"rose window\""},
+    {"frame": 1, "effect": "blended light grid", "from": "on", "to": "off",
+     "why": "left: material 16 \"stained glass\" on node 29 \"screen\""}])"));
+}
+
 TEST(ScenesCommand, ListsTheBuiltInScenes) {
   const ProgramRun run = run_program({"scenes"});
   EXPECT_EQ(run.status, 0);

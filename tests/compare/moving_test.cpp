@@ -9,11 +9,12 @@
 
 #include <gmock/gmock.h>
 
+#include "compare/oracle.h"
+#include "results/metrics.h"
+#include "results/path_changes.h"
 #include "scene/builtin.h"
 #include "scene/camera_path.h"
 #include "scene/rig.h"
-#include "results/metrics.h"
-#include "compare/oracle.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 
@@ -148,6 +149,34 @@ TEST(Moving, ErrorsAreThoseOfThePathsFrames) {
   EXPECT_GT(report.rows[1].moving->max_rel, 1e-4);
   EXPECT_GT(report.rows[1].moving->rmse_rel, 1e-5);
   EXPECT_EQ(report.rows[0].moving->max_rel, 0);
+}
+
+// The pane leaves the view at the first turn of two and comes back with the second. Only forward_plus has a
+// grid for it.
+TEST(Moving, RecordsWhenThePlanChangedAndWhy) {
+  SmallScene s = small_scene();
+  effect("blend").add(s);
+  const View start = small_view(32, 32);
+  CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+  for (int turn = 0; turn < 2; ++turn)
+    for (const View& view : camera_path(s.scene, start, "turn:3")) options.path.push_back(view);
+  const CompareReport report =
+      compare_techniques(software_devices(), s.scene, start,
+                         {{&find_technique("forward"), {}}, {&find_technique("forward_plus"), {}}}, options);
+  const std::string pane = "material 2 \"glass\" on node 2 \"pane\"";
+  const PlanChange left{1, "blend", false, "left: " + pane}, came{3, "blend", true, "came: " + pane},
+      left_again{4, "blend", false, "left: " + pane};
+  EXPECT_THAT(report.rows[0].moving->plan_changes, testing::ElementsAre(left, came, left_again));
+  const std::vector<SharedPlanChange> shared = shared_plan_changes(report);
+  ASSERT_EQ(shared.size(), 6u);
+  for (size_t i = 0; i < 6; i += 2) {
+    EXPECT_THAT(shared[i].rows, testing::ElementsAre(0, 1));
+    EXPECT_EQ(shared[i + 1].change.effect, "blended light grid");
+    EXPECT_EQ(shared[i + 1].change.frame, shared[i].change.frame);
+    EXPECT_THAT(shared[i + 1].rows, testing::ElementsAre(1));
+  }
+  EXPECT_EQ(plan_changes_in_words(report),
+            "the plan changed at 3 of 6 frames along the path; effects that came or left: 6");
 }
 
 // Deformed meshes, moved instances and lights: the picture equals that of a scene created in that state.

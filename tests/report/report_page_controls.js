@@ -87,6 +87,13 @@ addEventListener("load", () => {
   seen.settingsCharts = get("settings-part").hidden ? 0 : document.querySelectorAll("#settings-charts .chart").length;
   if (views.length > 1) seen.several = tryViews(get, column);
   seen.skipped = [...get("skipped").children].map((item) => item.textContent);
+  seen.planChanges = get("plan-changes").hidden ? null : {
+    title: get("plan-changes").querySelector("h3").textContent,
+    lines: [...document.querySelectorAll(".changes tbody tr")].map((line) =>
+      [...line.cells].map((cell) => cell.textContent)),
+    folded: document.querySelectorAll("#plan-changes details tbody tr").length,
+    text: get("plan-changes").querySelector("p")?.textContent ?? "",
+  };
   seen.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
   document.querySelector("figure button")?.click();
   seen.zoomed = get("zoom").open;

@@ -72,6 +72,7 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   EXPECT_EQ(seen["sorted"], 2);
   EXPECT_EQ(seen["overviewHidden"], true);
   EXPECT_EQ(seen["settingsCharts"], 0);
+  EXPECT_TRUE(seen["planChanges"].is_null()) << "no camera path";
   EXPECT_THAT(strings(seen["cutInPrint"]), IsEmpty());
   EXPECT_THAT(strings(seen["memory"]), testing::SizeIs(6));
   EXPECT_THAT(strings(seen["memory"]), Each(Eq("48.0 MiB")));
@@ -156,6 +157,59 @@ TEST_F(ReportPage, DrawsACurveOverASettingThatOneViewSweeps) {
   ASSERT_TRUE(seen.is_object());
   EXPECT_THAT(strings(seen["faults"]), IsEmpty());
   EXPECT_EQ(seen["settingsCharts"], 1);
+}
+
+// All rows but the refused one moved along a path of 100 frames.
+CompareReport moved_report(size_t toggles) {
+  CompareReport report = synthetic_report(34, 18);
+  std::vector<PlanChange> changes;
+  for (size_t i = 0; i < toggles; ++i) {
+    const bool came = i % 2;
+    const std::string why =
+        (came ? "came: " : "left: ") + std::string("material 2 \"<glass>\" on node 1 \"pane\"");
+    for (const char* effect : {"blend", "textures"}) changes.push_back({3 + 4 * i, effect, came, why});
+  }
+  for (RunResult& row : report.rows) {
+    if (row.refused.empty()) row.moving = MovingResult{.frames = 100, .plan_changes = changes};
+  }
+  report.path_memory = PathMemory{50, 1 << 20, 1 << 20};
+  return report;
+}
+
+TEST_F(ReportPage, ListsWhereThePlanChangedAlongThePath) {
+  CompareReport moved = moved_report(2);
+  for (const size_t row : {1, 2})
+    moved.rows[row].moving->plan_changes.push_back({8, "blended light grid", false, "left: material 5"});
+  write_report(folder.path, moved);
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(strings(seen["faults"]), IsEmpty());
+  const std::string pane = "material 2 \"<glass>\" on node 1 \"pane\"";
+  const json expected = {
+      {"title", "Changed along the path"},
+      {"lines",
+       {{"3", "blend, textures", "on \u2192 off", "left: " + pane},
+        {"7", "blend, textures", "off \u2192 on", "came: " + pane},
+        {"8", "blended light grid (" + both_tests + ", clustered)", "on \u2192 off", "left: material 5"}}},
+      {"folded", 0},
+      {"text", ""}};
+  EXPECT_EQ(seen["planChanges"], expected);
+}
+
+TEST_F(ReportPage, FoldsAwayAllButTheFirstTwentyChangesOfThePlan) {
+  write_report(folder.path, moved_report(24));
+  const auto many = seen_in_browser(folder.path, controls, "500,900");
+  ASSERT_TRUE(many.is_object());
+  EXPECT_THAT(strings(many["faults"]), IsEmpty());
+  EXPECT_EQ(many["planChanges"]["lines"].size(), 24u);
+  EXPECT_EQ(many["planChanges"]["folded"], 4);
+  EXPECT_EQ(many["overflow"], 0);
+  EXPECT_THAT(strings(many["cutInPrint"]), IsEmpty());
+  write_report(folder.path, moved_report(0));
+  const auto none = seen_in_browser(folder.path, controls, "1280,900");
+  ASSERT_TRUE(none.is_object());
+  EXPECT_EQ(none["planChanges"]["text"], "All frames have one plan.");
+  EXPECT_EQ(none["planChanges"]["lines"], json::array());
 }
 
 TEST_F(ReportPage, OfSeveralViewsFitsAPhoneAndASheetOfPaper) {

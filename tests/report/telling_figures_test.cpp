@@ -39,6 +39,15 @@ TEST(TellingFigures, AreTimeImageAndLights) {
           "lights per pixel: 2.0 listed, 1.5 lit, 0 lost"));
 }
 
+TEST(TellingFigures, AlongAPathSayHowOftenThePlanChanged) {
+  auto report = two_rows();
+  for (auto& row : report.rows)
+    row.moving = MovingResult{.frames = 9, .plan_changes = {{4, "blend", true, "came: pane"}}};
+  ASSERT_THAT(telling_figures(report), testing::SizeIs(4));
+  EXPECT_EQ(telling_figures(report)[3],
+            "the plan changed at 1 of 9 frames along the path; effects that came or left: 1");
+}
+
 TEST(TellingFigures, CountThePixelsThatDiffer) {
   auto report = two_rows();
   report.rows[1].error = ImageError{0.1, 3.14e-6, 2.2e-7, 0, {}, false};

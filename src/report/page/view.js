@@ -153,6 +153,7 @@ function showView(view) {
   showErrors(view);
   byId("techniques").replaceChildren(...ranRows(view).map((row) => techniqueCard(view, row)));
   showSkipped(view);
+  showPlanChanges(view);
   byId("settings-part").hidden = view.page.charts.length === 0;
   const rows = ranRows(view);
   return [
