@@ -123,7 +123,11 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
   }
   const bool reference_runs = std::ranges::find(runs, &reference) == runs.end();
   if (reference_runs) reference.prepare();
-  for (Path& p : paths) p.run->prepare();
+  for (Path& p : paths) {
+    p.run->prepare();
+    p.frame_ms.reserve(path.size());
+    for (auto* times : {&p.resting_ms, &p.over_resting}) times->reserve(path.size() * resting_frames);
+  }
   PathMemory memory{.frames = std::min<size_t>(100, path.size() / 2)};
   for (size_t frame = 0; frame < path.size(); ++frame) {
     if (frame == memory.frames) memory.bytes = resident_bytes();

@@ -93,6 +93,7 @@ TEST(Moving, HoldsNoMoreMemoryTheLongerThePath) {
     TechniqueRun run(software_devices(), gpu, start, {}, find_technique(name));
     std::vector<RunResult> rows(1);
     std::vector<size_t> heap;
+    heap.reserve(path.size());
     const PathMemory memory =
         run_along_path({&run}, run, {gpu, path, {}}, rows, [&](double) { heap.push_back(heap_bytes()); });
     ASSERT_EQ(heap.size(), 90u);
