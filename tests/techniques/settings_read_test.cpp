@@ -104,7 +104,7 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
   std::map<std::string, std::string> found;
   for (const Assignments& company : companies_of(technique)) {
     const Observed& base = seen_of(technique, company);
-    for (const size_t value : company.empty() ? std::vector<size_t>{1, 2, 3} : std::vector<size_t>{2}) {
+    for (size_t value = 1; value <= (company.empty() ? 3 : 2); ++value) {
       const Assignments others = not_declared(technique, value);
       const std::string all = difference(base, seen_of(technique, with(company, others)));
       if (all.empty()) continue;
