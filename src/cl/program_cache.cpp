@@ -78,6 +78,7 @@ ProgramCache::ProgramCache(ClDevice& device, std::filesystem::path folder)
     : device_(device), folder_(disk_is_off() ? std::filesystem::path() : std::move(folder)) {}
 
 cl::Kernel ProgramCache::kernel(const std::string& file, const std::string& defines) {
+  if (asked_) asked_->insert(file + ' ' + defines);
   const bool declared = may_declare_builtins(device_.info());
   return kernel_of(file + ' ' + defines, file, declared ? "-D_OPENCL_H_ " + defines : defines, [&] {
     const std::string text = with_includes("kernels/" + file + ".cl");

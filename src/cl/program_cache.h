@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "cl/device.h"
@@ -38,6 +39,9 @@ class ProgramCache {
   };
   const Counts& counts() const { return counts_; }
 
+  // Receives the file and the defines of each embedded kernel that is asked for; null: nobody does.
+  void note_kernels(std::set<std::string>* asked) { asked_ = asked; }
+
   static std::filesystem::path default_folder();
 
  private:
@@ -50,6 +54,7 @@ class ProgramCache {
   std::filesystem::path folder_;
   std::map<std::string, cl::Program> programs_;
   Counts counts_;
+  std::set<std::string>* asked_ = nullptr;
 };
 
 }  // namespace lightgrid

@@ -17,26 +17,13 @@ struct Star {
   int frames = 1;
 };
 
-// Each technique as it is; then the cull tests of two techniques, buffers of fewer bits, the capacity of
-// lidr, a finer volume; model errors of ranges, windows and BRDFs. What does not depend on the technique is
-// varied on the fastest one. So few that several views of each of the default scenes fit into the default
-// budget: --vary measures further ones.
-constexpr Star default_points[] = {
-    {"forward", ""},
-    {"forward_zprepass", ""},
-    {"forward_multipass", ""},
-    {"forward_plus", ""},
-    {"forward_plus_compute", ""},
-    {"clustered", ""},
-    {"deferred", ""},
-    {"deferred_tiled", ""},
-    {"light_prepass", ""},
-    {"lidr", ""},
-    {"visibility", ""},
-    {"voxel_lights", ""},
+// After each technique as it is: the rasteriser, a finer volume, the cull tests of two techniques, buffers of
+// fewer bits, the capacity of lidr; model errors of ranges, windows and BRDFs. What does not depend on the
+// technique is varied on the fastest one. So few that several views of each of the default scenes fit into
+// the default budget: --vary measures further ones.
+constexpr Star default_variations[] = {
     {"voxel_lights", "raster=opencl"},
     {"voxel_lights", "raster=opencl voxel-size=128x128x64"},
-    {"world_grid", ""},
     {"world_grid", "raster=opencl"},
     {"forward_plus", "cull-test=sphere"},
     {"forward_plus", "cull-test=aabb"},
@@ -86,13 +73,14 @@ ChosenPoint point(const Technique& technique, const Settings& settings, int fram
 
 std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
   std::vector<ChosenPoint> points;
-  for (const Star& s : default_points) {
-    const Technique& technique = find_technique(s.technique);
+  const auto add = [&](const Technique& technique, const char* assignments, int frames) {
     Settings settings = common;
-    for (const std::string& assignment : words(s.settings, ' ')) apply_setting(settings, assignment);
-    if (draws_with_opengl(technique.needs, settings) && !opengl) continue;
-    points.push_back(point(technique, settings, s.frames));
-  }
+    for (const std::string& assignment : words(assignments, ' ')) apply_setting(settings, assignment);
+    if (draws_with_opengl(technique.needs, settings) && !opengl) return;
+    points.push_back(point(technique, settings, frames));
+  };
+  for (const Technique* technique : techniques()) add(*technique, "", 1);
+  for (const Star& s : default_variations) add(find_technique(s.technique), s.settings, s.frames);
   return points;
 }
 

@@ -40,6 +40,7 @@ const GlProgram& Renderer::program(const std::string& vertex, const std::string&
                                    const std::vector<std::string>& defines) {
   std::string key = vertex + " " + fragment;
   for (const std::string& name : defines) key += " " + name;
+  if (asked_) asked_->insert(key);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
   return programs_.try_emplace(key, vertex, fragment, defines).first->second;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,11 @@ class Renderer {
                            const std::vector<std::string>& defines);
 
   RendererCounts counts() const;
+  // Receives the name and the defines of each program and kernel that is asked for; null: nobody does.
+  void note_programs(std::set<std::string>* asked) {
+    asked_ = asked;
+    kernels->note_kernels(asked);
+  }
   void note_scene_bytes(size_t bytes) const { scene_bytes_ += bytes; }
 
  private:
@@ -61,6 +67,7 @@ class Renderer {
 
   std::map<std::string, GlProgram> programs_;
   mutable size_t scene_bytes_ = 0;
+  std::set<std::string>* asked_ = nullptr;
 };
 
 }  // namespace lightgrid

@@ -20,7 +20,7 @@ extern const Technique forward{.name = "forward",
                                .summary = "every light at every pixel",
                                .source = "the baseline",
                                .needs = {},
-                               .settings = {"brdf", "depth-bounds", "tile"},
+                               .settings = {"brdf", "depth-bounds", "tile", "kernel-shape"},
                                .render = render};
 
 }  // namespace lightgrid

@@ -11,7 +11,7 @@ extern const Technique forward_multipass{
     .summary = "an additive pass for each object and light",
     .source = "the baseline of Trebilco: Light Indexed Deferred Rendering, ShaderX7, 2009",
     .needs = {.reversed_triangles = true},
-    .settings = {"brdf", "depth-bounds", "tile"},
+    .settings = {"brdf", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
     .listed = listed_of_objects};
 

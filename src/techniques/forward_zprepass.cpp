@@ -11,7 +11,7 @@ extern const Technique forward_zprepass{
     .summary = "depth first, then up to eight lights a draw",
     .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
     .needs = {.reversed_triangles = true},
-    .settings = {"brdf", "depth-bounds", "tile"},
+    .settings = {"brdf", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
     .listed = listed_of_objects};
 

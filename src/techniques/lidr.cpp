@@ -40,7 +40,7 @@ extern const Technique lidr{
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
     .needs = {.stencil = true},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
-                 "lidr-order", "volume-mesh", "depth-bounds", "tile"},
+                 "lidr-order", "volume-mesh", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
     .listed = listed,
     .limited_lists = true};

@@ -1,0 +1,195 @@
+// Technique::settings and common_settings() against runs: a declared setting changes something that a run
+// shows, and all others together change nothing.
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include "cl/avx512.h"
+#include "support/long_tests.h"
+#include "support/small_scene.h"
+#include "techniques/observed_run.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Key;
+using Assignments = std::set<std::string>;
+
+// The company in which a setting shows that is without effect among the defaults.
+const std::vector<Assignments>& companies() {
+  static const std::vector<Assignments> all = {
+      {},
+      {"raster=opencl"},
+      {"kernel-shape=group"},
+      {"z-bins=16"},
+      {"range=cutoff"},
+      {"range=stochastic"},
+      {"range=stochastic", "alpha=1"},
+      {"lidr-overlap=2"},
+      {"lidr-volumes=front-faces"},
+      {"prepass-lights=volumes"},
+      {"prepass-specular=fifth-term"},
+      {"voxel-lights-exact=1"},
+      {"voxel-lights-exact=1", "kernel-shape=group"},
+  };
+  return all;
+}
+
+std::string key_of(const std::string& assignment) { return assignment.substr(0, assignment.find('=')); }
+
+bool holds_key(const Assignments& assignments, const std::string& key) {
+  return std::ranges::count(assignments, key, key_of) > 0;
+}
+
+std::vector<Assignments> companies_of(const Technique& technique) {
+  std::vector<Assignments> own;
+  for (const Assignments& company : companies()) {
+    if (std::ranges::all_of(company, [&](auto& each) { return reads_setting(technique, key_of(each)); }))
+      own.push_back(company);
+  }
+  return own;
+}
+
+// A mask, glass, clearcoat, textures, point and spot lights and a sun.
+const Scene& observed_scene() {
+  static const Scene scene = [] {
+    SmallScene s = small_scene();
+    for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
+    return s.scene;
+  }();
+  return scene;
+}
+
+// Kept by the technique's name: a run does not depend on the declaration.
+const Observed& seen_of(const Technique& technique, const Assignments& settings) {
+  static std::map<std::string, std::map<Assignments, Observed>> by_technique;
+  auto& seen = by_technique[technique.name];
+  const auto found = seen.find(settings);
+  if (found != seen.end()) return found->second;
+  return seen[settings] = observe(test_devices(), observed_scene(), small_view(33, 19), technique, settings);
+}
+
+// The facts that differ, one of which may be that a run was refused.
+std::string difference(const Observed& a, const Observed& b) {
+  std::set<std::string> facts;
+  for (const auto& [fact, value] : a) {
+    if (!b.contains(fact) || b.at(fact) != value) facts.insert(fact);
+  }
+  for (const auto& [fact, value] : b) {
+    if (!a.contains(fact)) facts.insert(fact);
+  }
+  return fmt::format("{}", fmt::join(facts, ", "));
+}
+
+Assignments with(Assignments company, const Assignments& others) {
+  company.insert(others.begin(), others.end());
+  return company;
+}
+
+// All settings that the technique does not declare, at their value of this number or their last.
+Assignments not_declared(const Technique& technique, size_t value) {
+  Assignments others;
+  for (const SettingHelp& s : setting_help()) {
+    if (!reads_setting(technique, s.key))
+      others.insert(s.key + "=" + s.values[std::min(value, s.values.size() - 1)]);
+  }
+  return others;
+}
+
+// The settings that the technique does not declare and a run shows, with what shows them.
+std::map<std::string, std::string> read_but_not_declared(const Technique& technique) {
+  std::map<std::string, std::string> found;
+  for (const Assignments& company : companies_of(technique)) {
+    const Observed& base = seen_of(technique, company);
+    for (size_t value = 1; value <= (company.empty() ? 3 : 2); ++value) {
+      const Assignments others = not_declared(technique, value);
+      const std::string all = difference(base, seen_of(technique, with(company, others)));
+      if (all.empty()) continue;
+      bool alone = false;
+      for (const std::string& one : others) {
+        const std::string by_one = difference(base, seen_of(technique, with(company, {one})));
+        if (!by_one.empty()) alone = true, found.emplace(key_of(one), by_one);
+      }
+      if (!alone) found.emplace(fmt::format("{}", fmt::join(others, " ")), all);
+    }
+  }
+  return found;
+}
+
+// Whether a value of the setting changes what a run shows, beyond refusing to run.
+bool shows(const Technique& technique, const SettingHelp& setting) {
+  for (size_t i = 1; i < setting.values.size(); ++i) {
+    for (const Assignments& company : companies_of(technique)) {
+      if (holds_key(company, setting.key)) continue;
+      const Observed& seen = seen_of(technique, with(company, {setting.key + "=" + setting.values[i]}));
+      if (!seen.contains("refused") && seen != seen_of(technique, company)) return true;
+    }
+  }
+  return false;
+}
+
+// Without any, `portable` leaves nothing out: a device has but one form of each kernel.
+bool has_builtins() { return builds_avx512(*test_devices().cl, *test_devices().kernels); }
+
+// The keys that the technique declares and that no setting has, that it shares with all techniques or whose
+// setting no run shows.
+std::vector<std::string> declared_but_not_read(const Technique& technique) {
+  std::vector<std::string> found;
+  const auto is_wrong = [&](const std::string& key) {
+    const auto setting = std::ranges::find(setting_help(), key, &SettingHelp::key);
+    if (setting == setting_help().end()) return true;
+    if (key == "portable" && !has_builtins()) return false;
+    return !shows(technique, *setting);
+  };
+  for (const std::string key : technique.settings) {
+    if (std::ranges::count(common_settings(), key) > 0 || is_wrong(key)) found.push_back(key);
+  }
+  std::ranges::copy_if(common_settings(), std::back_inserter(found), is_wrong);
+  return found;
+}
+
+struct SettingsRead : testing::TestWithParam<const Technique*> {};
+
+TEST_P(SettingsRead, OthersThanTheDeclaredChangeNothing) {
+  EXPECT_THAT(read_but_not_declared(*GetParam()), IsEmpty());
+}
+
+TEST_P(SettingsRead, EachOfTheDeclaredChangesSomething) {
+  EXPECT_THAT(declared_but_not_read(*GetParam()), IsEmpty());
+}
+
+// Copies of forward_plus, in long tests of every technique, whose list is one key too short, or one too long.
+std::vector<const Technique*> planted_in() {
+  return long_tests() ? techniques() : std::vector{&find_technique("forward_plus")};
+}
+
+TEST(SettingsReadPlanted, FindsAKeyThatIsMissing) {
+  for (const Technique* technique : planted_in()) {
+    for (const std::string key : technique->settings) {
+      if (key == "portable" && !has_builtins()) continue;
+      Technique planted = *technique;
+      std::erase_if(planted.settings, [&](const std::string& own) { return own == key; });
+      EXPECT_THAT(read_but_not_declared(planted), Contains(Key(key))) << technique->name;
+    }
+  }
+}
+
+TEST(SettingsReadPlanted, FindsAKeyTooMuch) {
+  for (const Technique* technique : planted_in()) {
+    for (const char* key : {"slices", "buffer-bits", "lidr-order", "voxel-reuse", "range", "no-such-key"}) {
+      if (std::string(key) != "range" && reads_setting(*technique, key)) continue;
+      Technique planted = *technique;
+      planted.settings.push_back(key);
+      EXPECT_THAT(declared_but_not_read(planted), ElementsAre(key)) << technique->name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, SettingsRead, testing::ValuesIn(techniques()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+}  // namespace
+}  // namespace lightgrid
