@@ -15,7 +15,7 @@ endfunction()
 
 function(lightgrid_float_twin)
   # One for each row of cull_tests.
-  file(STRINGS ${PROJECT_SOURCE_DIR}/src/shared/cull_tests.h rows REGEX "^    {CullTest::")
+  file(STRINGS ${PROJECT_SOURCE_DIR}/src/shared/cull_settings.h rows REGEX "^    {CullTest::")
   list(LENGTH rows tests)
   math(EXPR last "${tests} - 1")
   foreach(test RANGE ${last})

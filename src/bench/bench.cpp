@@ -8,7 +8,7 @@
 #include "bench/raster_run.h"
 #include "bench/row_filter.h"
 #include "scene/builtin.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid {
 namespace {

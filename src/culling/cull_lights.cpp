@@ -11,7 +11,7 @@
 #include "culling/bounds_layout.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid {
 

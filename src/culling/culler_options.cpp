@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid {
 namespace {

@@ -10,7 +10,7 @@
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
 #include "capture/frame_lists.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid {
 namespace {

@@ -1,4 +1,4 @@
-// The choices of light culling as numbers, for kernels and host.
+// The choices of light culling: as numbers for kernels, as tables for the host.
 #pragma once
 
 #include "shared/language.h"
@@ -10,6 +10,55 @@ enum class DepthBoundsMode { none, minmax, halfz, halfz_modified, mask32 };
 enum class KernelShape { automatic, lanes, group };
 enum class SliceSpacing { exponential, linear };
 enum class GridLists { lists, masks };
+
+// The tables of cull tests and depth-bounds modes: settings, culling, checks and inspection loop over them.
+// docs/overview.md#how-to-add lists what a new row needs.
+
+// What a light's sphere is tested against, besides the cell's interval of distances. All parts must hold.
+struct CullTestRow {
+  CullTest test;
+  const char* name;  // the setting cull-test
+  bool sphere;       // the sphere around the cell's box
+  bool planes;       // the cell's side planes
+  bool box;          // the cell's box in view space
+  bool distance;     // the distance to the cell itself
+};
+
+inline constexpr CullTestRow cull_tests[] = {
+    {CullTest::sphere, "sphere", true, false, false, false},
+    {CullTest::planes, "planes", false, true, false, false},
+    {CullTest::aabb, "aabb", false, false, true, false},
+    {CullTest::planes_aabb, "planes+aabb", false, true, true, false},
+    {CullTest::exact, "exact", false, true, true, true},
+};
+
+struct DepthBoundsRow {
+  DepthBoundsMode mode;
+  const char* name;  // the setting depth-bounds
+};
+
+inline constexpr DepthBoundsRow depth_bounds_modes[] = {
+    {DepthBoundsMode::none, "none"},
+    {DepthBoundsMode::minmax, "minmax"},
+    {DepthBoundsMode::halfz, "halfz"},
+    {DepthBoundsMode::halfz_modified, "halfz-modified"},
+    {DepthBoundsMode::mask32, "mask32"},
+};
+
+constexpr const CullTestRow& row_of(CullTest test) { return cull_tests[int(test)]; }
+constexpr const DepthBoundsRow& row_of(DepthBoundsMode mode) { return depth_bounds_modes[int(mode)]; }
+
+constexpr bool rows_are_in_order() {
+  int test = 0, mode = 0;
+  for (const CullTestRow& row : cull_tests) {
+    if (int(row.test) != test++) return false;
+  }
+  for (const DepthBoundsRow& row : depth_bounds_modes) {
+    if (int(row.mode) != mode++) return false;
+  }
+  return true;
+}
+static_assert(rows_are_in_order());
 }  // namespace lightgrid
 #else
 #define CULL_SPHERE 0       // the sphere around the cell's box

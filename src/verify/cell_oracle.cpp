@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "reference/position.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 #include "verify/float_twin.h"

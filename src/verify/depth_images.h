@@ -1,7 +1,7 @@
 // Depth images of hard cases, and the options that they run under.
 #pragma once
 
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 #include "verify/check.h"
 #include "verify/tangent_lights.h"
 

@@ -1,6 +1,6 @@
 #include "verify/hunt_settings.h"
 
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 #include "verify/check.h"
 
 namespace lightgrid::verify {

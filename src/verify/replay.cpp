@@ -8,7 +8,7 @@
 #include "reference/lit_set.h"
 #include "capture/frame_culler.h"
 #include "capture/frame_lists.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 #include "verify/check.h"
 
 namespace lightgrid::verify {

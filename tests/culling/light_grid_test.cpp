@@ -11,7 +11,7 @@
 #include "reference/lit_blocks.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
-#include "shared/cull_tests.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid {
 namespace {
