@@ -5,7 +5,7 @@
 namespace lightgrid {
 
 // Fewer waits of more draws are faster: each begins llvmpipe's work on the image anew.
-constexpr size_t most_pending_indices = size_t(1) << 19;
+constexpr size_t most_pending_indices = size_t(5) << 17;
 
 void PendingDraws::add(size_t indices) {
   indices_ += indices;

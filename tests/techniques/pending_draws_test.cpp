@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t portion = size_t(1) << 19;  // indices
+constexpr size_t portion = size_t(5) << 17;  // indices
 
 // While it lives, counts the indices of draws that no wait has covered yet.
 class DrawCounter {
