@@ -56,20 +56,25 @@ typedef ushort packed_t;
 #define INDEX_LANE(v, i) ((size_t)(uint)(v))
 #endif
 
-// Makes the compiler read a struct's lanes from memory. There, one number for all lanes of an operand, or for
-// an address, costs nothing; out of a vector that it holds in a register, each of them costs a shuffle.
-#if LANES == 16 && defined(AVX512)
-#define LANES_FROM_MEMORY(v) __asm__("" : "+m"(v))
-#else
-#define LANES_FROM_MEMORY(v) (void)0
-#endif
-
 // What a trilinear filter takes of a level: the numbers of the first texel of both rows, and weights. A
 // texel's is its row's times its column's.
 typedef struct LevelTaps {
   whole low, high;
   real low_weight, high_weight, left_weight, right_weight;
 } LevelTaps;
+
+// The same taps, which the compiler then has to read from memory, since it cannot know where a volatile
+// pointer leads. There, one number for all lanes of an operand, or for an address, costs nothing; out of a
+// vector that it holds in a register, each of them costs a shuffle. (Inline assembly would say the same, but
+// PoCL 6 ends the process when it compiles any.)
+static inline const LevelTaps* in_memory(const LevelTaps* taps) {
+#if LANES == 16 && defined(AVX512)
+  const LevelTaps* volatile at = taps;
+  return at;
+#else
+  return taps;
+#endif
+}
 
 static inline LevelTaps level_taps(LevelFootprint f, real weight) {
   LevelTaps t;
@@ -98,14 +103,13 @@ static inline float4 add_texels_4(float4 sum, global const ushort* chain, const 
 
 // Into sums, a lane each, what a footprint's texels weigh. The coarse level is not read where it counts
 // nothing in any lane.
-#define SUM_TEXELS(sums, TEXEL, ADD_TEXELS, chain, f)                                      \
-  const bool two_levels = any_lane(f.mix > REAL(0.0f));                                    \
-  LevelTaps fine = level_taps(f.fine, 1.0f - f.mix), coarse = level_taps(f.coarse, f.mix); \
-  LANES_FROM_MEMORY(fine);                                                                 \
-  LANES_FROM_MEMORY(coarse);                                                               \
-  _Pragma("unroll") for (uint i = 0; i < LANES; ++i) {                                     \
-    sums[i] = ADD_TEXELS((TEXEL)(0.0f), chain, &fine, i);                                  \
-    if (two_levels) sums[i] = ADD_TEXELS(sums[i], chain, &coarse, i);                      \
+#define SUM_TEXELS(sums, TEXEL, ADD_TEXELS, chain, f)                                            \
+  const bool two_levels = any_lane(f.mix > REAL(0.0f));                                          \
+  const LevelTaps fine = level_taps(f.fine, 1.0f - f.mix), coarse = level_taps(f.coarse, f.mix); \
+  const LevelTaps *fine_taps = in_memory(&fine), *coarse_taps = in_memory(&coarse);              \
+  _Pragma("unroll") for (uint i = 0; i < LANES; ++i) {                                           \
+    sums[i] = ADD_TEXELS((TEXEL)(0.0f), chain, fine_taps, i);                                    \
+    if (two_levels) sums[i] = ADD_TEXELS(sums[i], chain, coarse_taps, i);                        \
   }
 
 typedef struct Texels4 {

@@ -27,7 +27,7 @@ bool is_regular(int file) {
 
 void check_machine(const fs::path& path, const FrontierMachine& there, const FrontierMachine& here) {
   const auto same = [&](const char* what, const std::string& a, const std::string& b) {
-    const json in_file = json::parse(line_text(b));  // the other has been in a file
+    const std::string in_file = json::parse(line_text(b));  // the other has been in a file
     if (a == in_file) return;
     throw input_error(
         "{}: begun with {} \"{}\", here it is \"{}\"; a part is of one machine: use another folder",
