@@ -12,7 +12,7 @@
 
 #if VOXEL_BITS == 16
 typedef half stored_voxel_t;
-#define TWO_VOXELS(from) vload_half8(0, from)
+#define TWO_VOXELS(from) ((float8)(vload_half4(0, from), vload_half4(1, from)))  // each aligned to its size
 #else
 typedef float stored_voxel_t;
 #if LANES == 16

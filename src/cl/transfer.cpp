@@ -28,6 +28,21 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
   checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from); });
 }
 
+MappedBuffer::MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes)
+    : device_(device), buffer_(buffer) {
+  if (bytes == 0) return;
+  checked(what, [&] { data_ = device.queue().enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, bytes); });
+}
+
+MappedBuffer::~MappedBuffer() {
+  if (!data_) return;
+  try {
+    device_.queue().enqueueUnmapMemObject(buffer_, data_);
+  } catch (const cl::Error&) {
+    // What was read is right; the queue's next use reports what is wrong with it.
+  }
+}
+
 void enqueue_write(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
   if (bytes == 0) return;
   checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_FALSE, 0, bytes, from); });

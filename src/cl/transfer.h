@@ -14,6 +14,22 @@ void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, voi
 void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes,
                   size_t offset = 0);
 
+// A buffer's first bytes for the host to read until this object goes; waits for the queue. On CPUs nothing is
+// copied.
+class MappedBuffer {
+ public:
+  MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes);
+  ~MappedBuffer();
+  MappedBuffer(const MappedBuffer&) = delete;
+  MappedBuffer& operator=(const MappedBuffer&) = delete;
+  const void* data() const { return data_; }
+
+ private:
+  ClDevice& device_;
+  const cl::Buffer buffer_;
+  void* data_ = nullptr;
+};
+
 // Enqueues and does not wait: `from` must neither change nor go until the queue has been waited for.
 void enqueue_write(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes);
 

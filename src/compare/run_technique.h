@@ -33,7 +33,9 @@ class TechniqueRun {
   // Other random ranges of the lights (RenderView::draw_ranges), for the frames that follow.
   void draw_ranges(uint32_t seed) { view_.draw_ranges(seed); }
 
-  // One frame, from the first draw to the image read back; its time is recorded unless `warmup`.
+  // One frame, from the first draw until the host can read the image; its time is recorded unless `warmup`.
+  // image() is a copy, which on an OpenCL device that is a CPU the time does not count: there the host can
+  // read the original.
   void run_frame(bool warmup = false);
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
@@ -56,7 +58,7 @@ class TechniqueRun {
   RunResult result() const;
 
  private:
-  void render();
+  double render();  // ms
 
   const Technique& technique_;
   std::unique_ptr<GpuScene> own_scene_;

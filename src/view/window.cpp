@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -60,6 +61,10 @@ class WindowGlContext final : public GlContext {
 }  // namespace
 
 Window::Window(int width, int height, const std::string& title, bool fits_screen) {
+#ifdef GLFW_PLATFORM
+  // GLFW 3.4 tries Wayland first, whose library complains on stderr where there is no session.
+  if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
   if (!glfwInit()) {
     throw machine_error(
         "view: no window: {}; it needs a display (DISPLAY), and xvfb-run gives one without a screen",
