@@ -50,7 +50,11 @@ void time_interleaved(std::vector<ContestantRun>& entries, const CompareOptions&
       ContestantRun& entry = entries[i];
       if (hands_on(entry)) entry.run->reuse(std::move(memory));
       attempt(entry, [&] {
-        round < rounds ? entry.run->run_frame(round < options.warmup) : entry.run->run_profiled_frames();
+        if (round < rounds) {
+          entry.run->run_frame(round < options.warmup);
+        } else {
+          entry.run->run_profiled_frames();
+        }
       });
       if (hands_on(entry)) memory = entry.run->take_image();
     }

@@ -13,7 +13,7 @@ namespace {
 
 // Everything is built by then.
 constexpr size_t frames_to_settle = 2;
-constexpr int frames_before = 2;   // the camera moves
+constexpr size_t frames_before = 2;
 constexpr int resting_frames = 2;  // of each view
 
 // One technique along the path.
@@ -37,23 +37,21 @@ RendererCounts since(const RendererCounts& now, const RendererCounts& before) {
           now.scene_bytes - before.scene_bytes};
 }
 
-double ms_of_frame(TechniqueRun& run) {
-  const Timer timer;
-  run.run_frame(true);
-  return timer.elapsed_ms();
-}
-
-// Each frame that is timed follows two of the same run, so that what other runs left in the processor's
-// caches makes none slower: after one alone, a frame of the same view still takes 1.04 times as long as the
-// next (visibility in hall). Only where the scene moves there are no such frames before the camera's move.
-void run_one(Path& p, const View& view, const SceneChanges& changes, size_t frame) {
+// Each frame that is timed follows those of the two views before it, moves included, as where a camera does
+// nothing else: what other runs and this one's errors left in the processor's caches then makes none slower
+// (after one frame alone, the next of the same view still takes 1.04 times as long as the one after it,
+// visibility in hall). Where the scene moves too there are no such frames, since it cannot go back.
+void run_one(Path& p, const std::vector<View>& path, const SceneChanges& changes, size_t frame) {
   const bool timed = frame >= frames_to_settle;
   const RendererCounts before = p.run->view().renderer.counts();
-  for (int i = 0; timed && changes.empty() && i < frames_before; ++i) p.run->run_frame(true);
+  for (size_t i = frame - frames_before; timed && changes.empty() && i < frame; ++i) {
+    p.run->look(path[i]);
+    p.run->run_frame(true);
+  }
   const Timer timer;
-  p.run->look(view, changes);
-  p.run->run_frame(true);
-  const double ms = timer.elapsed_ms();
+  p.run->look(path[frame], changes);
+  const double look_ms = timer.elapsed_ms();
+  const double ms = look_ms + p.run->run_frame(true);
   if (!timed) return;
   p.frame_ms.push_back(ms);
   const RendererCounts made = since(p.run->view().renderer.counts(), before);
@@ -61,7 +59,7 @@ void run_one(Path& p, const View& view, const SceneChanges& changes, size_t fram
   p.result.cl_programs += made.cl_programs;
   p.result.scene_bytes += made.scene_bytes;
   for (int i = 0; i < resting_frames; ++i) {
-    p.resting_ms.push_back(ms_of_frame(*p.run));
+    p.resting_ms.push_back(p.run->run_frame(true));
     p.over_resting.push_back(ms / p.resting_ms.back());
   }
 }
@@ -139,7 +137,7 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
       reference.run_frame(true);
     }
     for (Path& p : paths) {
-      run_one(p, path[frame], changes, frame);
+      run_one(p, path, changes, frame);
       p.plans.add(p.run->view().plan);
       add_pairs(p);  // before the next run draws into the images that they share
     }

@@ -46,9 +46,10 @@ double TechniqueRun::render() {
   return ms;
 }
 
-void TechniqueRun::run_frame(bool warmup) {
+double TechniqueRun::run_frame(bool warmup) {
   const double ms = render();
   if (!warmup) frame_ms_.push_back(ms);
+  return ms;
 }
 
 void TechniqueRun::run_profiled_frames(double most_ms) {

@@ -33,10 +33,10 @@ class TechniqueRun {
   // Other random ranges of the lights (RenderView::draw_ranges), for the frames that follow.
   void draw_ranges(uint32_t seed) { view_.draw_ranges(seed); }
 
-  // One frame, from the first draw until the host can read the image; its time is recorded unless `warmup`.
-  // image() is a copy, which on an OpenCL device that is a CPU the time does not count: there the host can
-  // read the original.
-  void run_frame(bool warmup = false);
+  // One frame. Returns its time in ms, from the first draw until the host can read the image, which is
+  // recorded unless `warmup`. image() is a copy, which that time does not count on an OpenCL device that is a
+  // CPU: there the host can read the original.
+  double run_frame(bool warmup = false);
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.

@@ -1,5 +1,7 @@
 #include "passes/rasterize.h"
 
+#include <algorithm>
+
 #include "cl/uploaded_buffer.h"
 #include "renderer/shown_meshes.h"
 #include "renderer/surface_instances.h"
@@ -45,18 +47,16 @@ class InstanceRasterizer {
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
   void follow(RenderView& v, std::span<const int> listed, std::span<const int> drawn) {
     if (shape_version_ != v.gpu.shape_version()) set_meshes(v);
-    instances_.clear();
-    bool masked = false;
-    for (const int i : listed) {
-      const Instance& instance = v.scene.instances[i];
-      const Material& m = material_of(v.scene, i);
-      const bool mask = m.alpha_mode == AlphaMode::mask, in_view = !drawn.empty() && drawn.front() == i;
-      instances_.push_back({instance.mesh, instance.world_from_object, m.double_sided,
-                            mask ? v.scene.meshes[instance.mesh].material : -1, in_view});
-      if (in_view) drawn = drawn.subspan(1);
-      masked |= mask && in_view;
+    if (instances_version_ != v.gpu.instances_version() || !std::ranges::equal(listed, known_)) {
+      set_instances(v, listed);
     }
-    rasterizer.set_instances(instances_);
+    bool masked = false;
+    for (size_t i = 0; i < listed.size(); ++i) {
+      const bool in_view = !drawn.empty() && drawn.front() == listed[i];
+      rasterizer.set_drawn(i, in_view);
+      if (in_view) drawn = drawn.subspan(1);
+      masked |= masked_[i] && in_view;
+    }
     rasterizer.set_view(
         {v.view.width, v.view.height, v.view.clip_from_view, v.view.view_from_world, v.view.eye});
     const ClScene* scene = masked ? &v.gpu.in_cl(v.plan.settings.texels) : nullptr;
@@ -80,6 +80,21 @@ class InstanceRasterizer {
   UploadedBuffer surfaces;
 
  private:
+  void set_instances(RenderView& v, std::span<const int> listed) {
+    std::vector<RasterInstance> instances;
+    masked_.clear();
+    for (const int i : listed) {
+      const Instance& instance = v.scene.instances[i];
+      const Material& m = material_of(v.scene, i);
+      masked_.push_back(m.alpha_mode == AlphaMode::mask);
+      instances.push_back({instance.mesh, instance.world_from_object, m.double_sided,
+                           masked_.back() ? v.scene.meshes[instance.mesh].material : -1});
+    }
+    rasterizer.set_instances(instances);
+    known_.assign(listed.begin(), listed.end());
+    instances_version_ = v.gpu.instances_version();
+  }
+
   void set_meshes(RenderView& v) {
     const std::vector<bool> shown = shown_meshes(v.scene);
     std::vector<RasterMesh> meshes;
@@ -92,11 +107,13 @@ class InstanceRasterizer {
     }
     rasterizer.set_meshes(meshes);
     shape_version_ = v.gpu.shape_version();
+    instances_version_ = -1;
   }
 
-  int shape_version_ = 0;
+  int shape_version_ = 0, instances_version_ = -1;  // -1: the rasteriser has no instances
   size_t geometry_bytes_ = 0;
-  std::vector<RasterInstance> instances_;
+  std::vector<int> known_;    // to the rasteriser
+  std::vector<bool> masked_;  // of those
   std::vector<SurfaceInstance> records_;
   std::span<const int> listed_;
   bool uploaded_ = false;
@@ -108,9 +125,7 @@ struct OpaqueRasterizer : PassState {
     of.follow(v, instances(v), v.plan.opaque);
     return true;
   }
-  void upload(RenderView& v) override {
-    of.upload_surfaces(v);
-  }
+  void upload(RenderView& v) override { of.upload_surfaces(v); }
   size_t memory_bytes() const override { return of.memory_bytes(); }
   std::span<const int> instances(const RenderView& v) const { return kept.empty() ? v.plan.opaque : kept; }
 

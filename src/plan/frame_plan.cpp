@@ -258,6 +258,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
                      const TechniqueNeeds& needs, PlannedInstances instances) {
   FramePlan plan;
   plan.settings = settings;
+  plan.decisions.reserve(std::size(feature_names) + 16);
   plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil ||
                  (draws_light_volumes(needs, settings) && settings.volume_culling == VolumeCulling::stencil);

@@ -113,6 +113,13 @@ void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
   s.shown.clip = s.clip.get();
 }
 
+void Rasterizer::set_drawn(size_t instance, bool drawn) {
+  std::vector<RasterInstance>& instances = state_->instances;
+  if (instance >= instances.size())
+    throw input_error("rasterizer: instance {} of {}", instance, instances.size());
+  instances[instance].drawn = drawn;
+}
+
 void Rasterizer::set_masks(const RasterMasks& masks) { state_->masks = masks; }
 
 void Rasterizer::set_view(const RasterView& view) {
@@ -227,8 +234,8 @@ size_t Rasterizer::memory_bytes() const {
                                  &s.clusters, &s.clip, &s.image_triangles, &s.image_depths}) {
     bytes += b->bytes();
   }
-  for (const UploadedBuffer* b : {&s.records, &s.triangle_instance, &s.runs, &s.pair_list, &s.frame,
-                                  &s.params_upload})
+  for (const UploadedBuffer* b :
+       {&s.records, &s.triangle_instance, &s.runs, &s.pair_list, &s.frame, &s.params_upload})
     bytes += b->bytes();
   return bytes;
 }

@@ -144,6 +144,8 @@ class Rasterizer {
   // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 1 triangles
   // or vertices or more.
   void set_instances(std::span<const RasterInstance> instances);
+  // As RasterInstance::drawn, from now on. Throws input: there is no such instance.
+  void set_drawn(size_t instance, bool drawn);
   // Null buffers: masked triangles are drawn whole.
   void set_masks(const RasterMasks& masks);
   // Throws input: a size out of range, a matrix or an eye that is not finite, a projection that is not of the

@@ -8,6 +8,7 @@ void GpuScene::update(const SceneChanges& changes) {
   if (in_gl_) in_gl_->update(changes);
   for (const auto& [layout, scene] : in_cl_) scene->update(changes);
   shape_version_ += changes.meshes.empty() ? 0 : 1;
+  instances_version_ += changes.instances.empty() ? 0 : 1;
   if (changes.lights.empty()) return;
   ++lights_version_;
   changed_lights_.push_back(changes.lights);

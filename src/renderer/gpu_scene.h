@@ -33,8 +33,9 @@ class GpuScene {
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
   std::shared_ptr<WorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
 
-  // Count the updates that moved vertices and lights, for whoever holds positions of its own.
+  // Count the updates that moved vertices, instances and lights, for whoever holds positions of its own.
   int shape_version() const { return shape_version_; }
+  int instances_version() const { return instances_version_; }
   int lights_version() const { return lights_version_; }
   // Lights of the scene, ascending, that changed after lights_version() was `version`. Nothing if that is too
   // long ago.
@@ -46,7 +47,7 @@ class GpuScene {
   std::unique_ptr<GlScene> in_gl_;
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
   std::vector<std::pair<WorldGridKey, std::weak_ptr<WorldGrid>>> world_grids_;
-  int shape_version_ = 0, lights_version_ = 0;
+  int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
   std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any
 };
 

@@ -28,14 +28,6 @@ PassTimer::Clock clock_of(Renderer& renderer) {
   return clock;
 }
 
-FramePlan tuned_plan(const Scene& scene, const View& view, const Settings& settings,
-                     const TechniqueNeeds& needs, const TunedSizes& tuned,
-                     PlannedInstances instances = PlannedInstances::in_view) {
-  FramePlan plan = plan_frame(scene, view, settings, needs, instances);
-  plan.settings = with_tuned(std::move(plan.settings), tuned);
-  return plan;
-}
-
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
   ViewParams p = view_params(cull_view(view), plan.settings.tile);
   p.light_count = uint(plan.local.size());
@@ -58,11 +50,11 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       gpu(gpu),
       scene(gpu.scene()),
       view(view),
-      plan(tuned_plan(scene, view, settings, needs, renderer.tuned)),
+      plan(plan_frame(scene, view, with_tuned(settings, renderer.tuned), needs)),
       params(params_of(view, plan, scene.ambient)),
       timer(clock_of(renderer)),
       targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
-      settings_(settings),
+      settings_(with_tuned(settings, renderer.tuned)),
       needs_(needs),
       opengl_(draws_with_opengl(needs, settings)),
       shared_pool_(std::move(pool)) {
@@ -78,7 +70,7 @@ void RenderView::look(const View& next, PlannedInstances instances) {
   const FramePlan before = std::move(plan);
   if (next.orthographic != view.orthographic) programs_.clear();
   view = next;
-  plan = tuned_plan(scene, view, settings_, needs_, renderer.tuned, instances);
+  plan = plan_frame(scene, view, settings_, needs_, instances);
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
