@@ -61,6 +61,16 @@ TEST_P(InstancesNotDrawn, LeaveTheOthersAsTheyAre) {
   EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(all));
 }
 
+TEST_P(InstancesNotDrawn, ByANumberAlone) {
+  const Drawn all = drawn_by(rasterizer, scene);
+  rasterizer.set_drawn(1, false);
+  scene.instances[1].drawn = false;
+  expect_instance_1_left_out();
+  rasterizer.set_drawn(1, true);
+  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(all));
+  EXPECT_THROW(rasterizer.set_drawn(scene.instances.size(), true), Error);
+}
+
 TEST_P(InstancesNotDrawn, FromTheFirstFrame) {
   for (RasterInstance& i : scene.instances) i.drawn = false;
   const Drawn nothing = drawn(scene, options);
