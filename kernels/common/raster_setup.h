@@ -67,7 +67,7 @@ static inline real least_of(const real* v) { return lane_min(v[0], lane_min(v[1]
 static inline real most_of(const real* v) { return lane_max(v[0], lane_max(v[1], v[2])); }
 
 // Triangles whose corners need no cut, where `live`. Fills all of the record but its numbers, and returns
-// which triangles face the eye and may cover a pixel's centre.
+// which triangles face the eye and may cover a pixel's sample.
 static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLanes* out,
                             constant RasterParams* p) {
   const real half_x = p->half_x, half_y = p->half_y, zero = 0.0f, one = 1.0f;
@@ -76,8 +76,9 @@ static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLan
   for (int k = 0; k < 3; ++k) {
     const real per_w = one / v[k].w, sx = fma(v[k].x * per_w, half_x, half_x),
                sy = fma(v[k].y * per_w, half_y, half_y);
-    x[k] = TO_WHOLE(lane_rint(live ? sx : zero));
-    y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
+    // Moved so that the sample lies at the pixel's centre.
+    x[k] = TO_WHOLE(lane_rint(live ? sx : zero)) - p->sample_x;
+    y[k] = TO_WHOLE(lane_rint(live ? sy : zero)) - p->sample_y;
     z[k] = lane_min(v[k].z * per_w, one);
   }
   const whole low_x = whole_max((whole_min(x[0], whole_min(x[1], x[2])) + 127) >> 8, (whole)(0));

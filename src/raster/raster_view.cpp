@@ -28,6 +28,8 @@ void check_raster_view(const RasterView& view) {
     if (size < 1 || size > most_pixels)
       throw input_error("rasterizer: a view of {} pixels; 1 to {} will do", size, most_pixels);
   }
+  if (view.samples != 1 && view.samples != 4)
+    throw input_error("rasterizer: {} samples a pixel; 1 and 4 are possible", view.samples);
   require_finite(view.clip_from_view, "clip_from_view");
   require_finite(view.view_from_world, "view_from_world");
   for (int i = 0; i < 3; ++i) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "cl/launch.h"
 #include "cl/transfer.h"
 #include "cl/uploaded_buffer.h"
 #include "raster/raster_pipeline.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr const char* uploading = "rasterizer: scene";
 constexpr size_t spare = 48;  // values that kernels may read past the last
 constexpr uint32_t first_entries_a_tile = 64;
+constexpr size_t sample_group = 64;
 constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
 
 template <typename T>
@@ -38,7 +40,7 @@ bool same_layout(const RasterInstance& a, const RasterInstance& b) {
 
 struct Rasterizer::State {
   State(ClDevice& device, ProgramCache& programs, const RasterOptions& options)
-      : device(device), options(options) {
+      : device(device), programs(programs), options(options) {
     const bool lanes =
         options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
     // Only the lanes' lists are in an order.
@@ -50,11 +52,16 @@ struct Rasterizer::State {
 
   void upload_instances();
   void enqueue();
+  // Draws one sample of each pixel, again where room was short.
+  void draw_sample(const std::function<void()>& meanwhile, uint32_t (&counted)[RASTER_COUNTERS]);
+  // Puts that sample's image beside those of the others.
+  void keep_sample(int sample);
   void read_counters(uint32_t (&counted)[RASTER_COUNTERS]);
   // Whether it was short, after which there is more.
   bool grow_room(const uint32_t (&counted)[RASTER_COUNTERS]);
 
   ClDevice& device;
+  ProgramCache& programs;
   const RasterOptions options;
   std::unique_ptr<RasterPipeline> pipeline;
   RasterMeshes meshes;  // their places; the rest is on the device alone
@@ -65,8 +72,10 @@ struct Rasterizer::State {
   RasterCounts counts;
   RasterBuffers shown;
 
-  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, clip, image_triangles,
-      image_depths;
+  GrowingBuffer positions, indices, cluster_indices, cluster_triangles, clusters, clip;
+  GrowingBuffer image_triangles, image_depths;    // of a sample
+  GrowingBuffer sample_triangles, sample_depths;  // of all, where there are several
+  cl::Kernel sample_kernel;                       // built at first use
   UploadedBuffer records, triangle_instance, runs, pair_list, frame, params_upload;
   cl::Buffer counters;
   RasterMasks masks;
@@ -176,10 +185,33 @@ bool Rasterizer::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
   return false;
 }
 
+void Rasterizer::State::draw_sample(const std::function<void()>& meanwhile,
+                                    uint32_t (&counted)[RASTER_COUNTERS]) {
+  enqueue();
+  if (meanwhile) meanwhile();
+  for (read_counters(counted); grow_room(counted); read_counters(counted)) {
+    ++counts.redone;
+    enqueue();
+  }
+}
+
+void Rasterizer::State::keep_sample(int sample) {
+  const size_t pixels = size_t(view->width) * view->height, values = pixels * view->samples;
+  sample_triangles.at_least(device, values * sizeof(cl_uint));
+  sample_depths.at_least(device, (values + Visibility::spare_pixels) * sizeof(cl_float));
+  if (!sample_kernel()) sample_kernel = programs.kernel("raster_sample", "");
+  launch(device, "raster_sample", sample_kernel,
+         cl::NDRange((pixels + sample_group - 1) / sample_group * sample_group), cl::NDRange(sample_group),
+         image_triangles.get(), image_depths.get(), cl_uint(pixels), cl_uint(sample), cl_uint(view->samples),
+         sample_triangles.get(), sample_depths.get());
+}
+
 Visibility Rasterizer::draw(const std::function<void()>& meanwhile) {
   run(true, meanwhile);
-  return {state_->image_triangles.get(), state_->image_depths.get(), state_->view->width,
-          state_->view->height};
+  State& s = *state_;
+  const bool one = s.view->samples == 1;
+  return {(one ? s.image_triangles : s.sample_triangles).get(),
+          (one ? s.image_depths : s.sample_depths).get(), s.view->width, s.view->height, s.view->samples};
 }
 
 RasterLists Rasterizer::list() {
@@ -210,11 +242,14 @@ void Rasterizer::run(bool image, const std::function<void()>& meanwhile) {
 
   s.counts = {};
   uint32_t counted[RASTER_COUNTERS];
-  s.enqueue();
-  if (meanwhile) meanwhile();
-  for (s.read_counters(counted); s.grow_room(counted); s.read_counters(counted)) {
-    ++s.counts.redone;
-    s.enqueue();
+  const bool several = image && view.samples > 1;
+  for (int sample = 0; sample < (several ? view.samples : 1); ++sample) {
+    if (several) {
+      s.params.sample_x = raster_samples_of_4[sample].x;
+      s.params.sample_y = raster_samples_of_4[sample].y;
+    }
+    s.draw_sample(sample == 0 ? meanwhile : std::function<void()>(), counted);
+    if (several) s.keep_sample(sample);
   }
   for (const RasterInstance& i : s.instances) {
     if (i.drawn) s.counts.triangles += s.meshes.places[i.mesh].triangles;
@@ -230,8 +265,9 @@ const RasterCounts& Rasterizer::counts() const { return state_->counts; }
 size_t Rasterizer::memory_bytes() const {
   const State& s = *state_;
   size_t bytes = s.pipeline->memory_bytes() + RASTER_COUNTERS * sizeof(cl_uint);
-  for (const GrowingBuffer* b : {&s.positions, &s.indices, &s.cluster_indices, &s.cluster_triangles,
-                                 &s.clusters, &s.clip, &s.image_triangles, &s.image_depths}) {
+  for (const GrowingBuffer* b :
+       {&s.positions, &s.indices, &s.cluster_indices, &s.cluster_triangles, &s.clusters, &s.clip,
+        &s.image_triangles, &s.image_depths, &s.sample_triangles, &s.sample_depths}) {
     bytes += b->bytes();
   }
   for (const UploadedBuffer* b :

@@ -65,6 +65,10 @@ struct RasterInstance {
   bool drawn = true;        // false: its triangles keep their numbers and are left out
 };
 
+// From a pixel's centre, 1/256 pixel, x to the right and y up: where each of 4 samples lies (the standard
+// locations of Vulkan 1.3, "Multisampling", and Direct3D 11; its y goes down).
+constexpr glm::ivec2 raster_samples_of_4[4] = {{-32, 96}, {96, 32}, {-96, -32}, {32, -96}};
+
 struct RasterView {
   int width = 0, height = 0;  // pixels, 1 to 16,384
   // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or
@@ -72,18 +76,21 @@ struct RasterView {
   glm::dmat4 clip_from_view{1};
   glm::dmat4 view_from_world{1};  // rigid; its translation is not used
   glm::dvec3 eye{0};              // world, metres
+  // A pixel: 1, at its centre, or 4, for each of which the view is drawn once. Masks are looked up at
+  // centres.
+  int samples = 1;
 };
 
 constexpr uint32_t no_triangle = 0xffffffffu;
 
-// The rasteriser's own buffers, written again by the next draw(). Row 0 is at the bottom, rows lie without
-// gaps.
+// The rasteriser's own buffers, written again by the next draw(). Row 0 is at the bottom, rows and the
+// samples of a pixel lie without gaps.
 struct Visibility {
   static constexpr size_t spare_pixels = 16;  // of depth, that kernels may read past its end
-  cl::Buffer triangle;                        // uint a pixel: the nearest triangle's number, or no_triangle
-  cl::Buffer
-      depth;  // float a pixel: reversed z / w of clip_from_view, 0 where no triangle is: DepthInput::values
-  int width = 0, height = 0;
+  // A sample: uint, the nearest triangle's number, or no_triangle; float, reversed z / w of clip_from_view, 0
+  // where no triangle is: DepthInput::values.
+  cl::Buffer triangle, depth;
+  int width = 0, height = 0, samples = 1;
 };
 
 // What a triangle number leads to, on the device. Made by set_meshes and set_instances; `clip` is written by
@@ -118,7 +125,7 @@ struct RasterLists {
   uint32_t tiles_x = 0, tiles_y = 0;
 };
 
-// Of the last draw().
+// Of the last draw(), of its last sample.
 struct RasterCounts {
   uint64_t triangles = 0;          // of all drawn instances
   uint64_t clusters = 0;           // of up to 64 triangles, that may be in view
@@ -156,9 +163,9 @@ class Rasterizer {
   // host that the device does not need yet.
   Visibility draw(const std::function<void()>& meanwhile = {});
 
-  // The same without an image, with RasterOptions::drawing_order: blended surfaces are laid over one another
-  // from these lists. Parts of a triangle that clipping left follow up to 15 triangles of its mesh that come
-  // after it.
+  // The same without an image, for pixels' centres alone, with RasterOptions::drawing_order: blended surfaces
+  // are laid over one another from these lists. Parts of a triangle that clipping left follow up to 15
+  // triangles of its mesh that come after it.
   RasterLists list();
 
   const RasterBuffers& buffers() const;

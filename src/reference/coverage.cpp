@@ -59,9 +59,8 @@ int64_t twice_area_of(const SnappedPoint& a, const SnappedPoint& b, const Snappe
 
 }  // namespace
 
-int winding_at(const std::array<SnappedPoint, 3>& triangle, int x, int y) {
-  const int64_t sample_x = int64_t(x) * units_a_pixel + units_a_pixel / 2,
-                sample_y = int64_t(y) * units_a_pixel + units_a_pixel / 2;
+int winding_at(const std::array<SnappedPoint, 3>& triangle, const SnappedPoint& sample) {
+  const auto [sample_x, sample_y] = sample;
   int winding = 0;
   for (int i = 0; i < 3; ++i) {
     const SnappedPoint &from = triangle[i], &to = triangle[(i + 1) % 3];
@@ -131,14 +130,14 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
   };
   for (int y = pixel(bottom, height_ - 1); y <= pixel(top, height_ - 1); ++y) {
     for (int x = pixel(left, width_ - 1); x <= pixel(right, width_ - 1); ++x) {
-      if (winding_at(p, x, y) == 0) continue;
-      const SnappedPoint centre{int64_t(x) * units_a_pixel + units_a_pixel / 2,
-                                int64_t(y) * units_a_pixel + units_a_pixel / 2};
-      const long double weighted = z[0] * twice_area_of(centre, p[1], p[2]) +
-                                   z[1] * twice_area_of(p[0], centre, p[2]) +
-                                   z[2] * twice_area_of(p[0], p[1], centre);
+      const SnappedPoint sample{int64_t(x) * units_a_pixel + sample_.x,
+                                int64_t(y) * units_a_pixel + sample_.y};
+      if (winding_at(p, sample) == 0) continue;
+      const long double weighted = z[0] * twice_area_of(sample, p[1], p[2]) +
+                                   z[1] * twice_area_of(p[0], sample, p[2]) +
+                                   z[2] * twice_area_of(p[0], p[1], sample);
       const long double slope =
-          std::abs(gradient_x * (centre.x - p[0].x)) + std::abs(gradient_y * (centre.y - p[0].y));
+          std::abs(gradient_x * (sample.x - p[0].x)) + std::abs(gradient_y * (sample.y - p[0].y));
       CoveredPixel covered;
       covered.triangle = count_;
       covered.depth = double(weighted / twice_area);

@@ -1,4 +1,4 @@
-// The oracle of rasterising: which triangles cover a pixel's centre, in exact integers, and their depths
+// The oracle of rasterising: which triangles cover a pixel's sample, in exact integers, and their depths
 // there in extended precision. What is to be drawn is written down in docs/raster.md; this shares no code
 // with the kernels.
 //
@@ -36,9 +36,8 @@ struct SnappedPoint {
   bool operator==(const SnappedPoint&) const = default;
 };
 
-// Whether the outline of the triangle winds around the centre of a pixel: 1 counter-clockwise, -1 clockwise,
-// 0 not at all.
-int winding_at(const std::array<SnappedPoint, 3>& triangle, int x, int y);
+// Whether the outline of the triangle winds around a point: 1 counter-clockwise, -1 clockwise, 0 not at all.
+int winding_at(const std::array<SnappedPoint, 3>& triangle, const SnappedPoint& sample);
 
 // Where a vertex in front of the eye and within the guard band is snapped to.
 SnappedPoint snapped(const glm::vec4& clip, int width, int height);
@@ -50,7 +49,9 @@ std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3
 
 class CoverageOracle {
  public:
-  CoverageOracle(int width, int height) : width_(width), height_(height), pixels_(size_t(width) * height) {}
+  // sample: of each pixel, from its lower left corner; less than a pixel.
+  CoverageOracle(int width, int height, const SnappedPoint& sample = {128, 128})
+      : width_(width), height_(height), sample_(sample), pixels_(size_t(width) * height) {}
   // Triangles are numbered in the order of these calls.
   void add(const CoverageTriangle& triangle);
 
@@ -63,6 +64,7 @@ class CoverageOracle {
   void add_part(const std::array<glm::vec4, 3>& clip, const CoverageTriangle& triangle);
 
   int width_, height_;
+  SnappedPoint sample_;
   uint32_t count_ = 0, invalid_ = 0;
   std::vector<std::vector<CoveredPixel>> pixels_;
 };

@@ -38,6 +38,7 @@ typedef struct RasterParams {
   uint vertex_runs;
   uint chunks;                         // of the clusters in view: each is set up by one work-item
   uint record_blocks, entry_capacity;  // room
+  int sample_x, sample_y;              // from a pixel's centre to where it is sampled, 1/256 pixel
   uint cones;                          // 1: clusters that face away are left out
   uint drawing_order;                  // 1: clusters stay in the order of their instances, not nearest first
 } RasterParams;

@@ -1,5 +1,5 @@
 // The rasteriser on a scene's opaque and masked triangles, on the OpenCL device that lightgrid would use.
-//   raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable]
+//   raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable] [SAMPLES]
 // Prints what was drawn, then least and median milliseconds of each kernel and of the frame. The view is that
 // of the repository's benchmarks of Sponza.
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ void print_times(const std::string& name, std::vector<double> ms) {
   fmt::print("  {:18} least {:7.3f}  median {:7.3f}\n", name, ms.front(), ms[ms.size() / 2]);
 }
 
-void measure(const char* path, int width, int height, int runs, const RasterOptions& options) {
+void measure(const char* path, int width, int height, int runs, const RasterOptions& options, int samples) {
   const Scene scene = load_gltf(path);
   ClDevice device;
   ProgramCache programs(device);
@@ -43,7 +43,7 @@ void measure(const char* path, int width, int height, int runs, const RasterOpti
   rasterizer.set_meshes(meshes);
   rasterizer.set_instances(instances);
   const View view = make_view(look_at({-10, 2, 0}, {10, 3, 0}), width, height);
-  rasterizer.set_view({width, height, view.clip_from_view, view.view_from_world, view.eye});
+  rasterizer.set_view({width, height, view.clip_from_view, view.view_from_world, view.eye, samples});
   rasterizer.draw();
   rasterizer.draw();
 
@@ -82,9 +82,10 @@ int main(int count, char** arguments) {
   }
   try {
     if (count < 2)
-      throw lightgrid::input_error("raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable]");
+      throw lightgrid::input_error(
+          "raster_frame SCENE.gltf [WIDTHxHEIGHT] [RUNS] [lanes|group|portable] [SAMPLES]");
     lightgrid::measure(arguments[1], width, height, count > 3 ? std::max(1, std::atoi(arguments[3])) : 21,
-                       options);
+                       options, count > 5 ? std::atoi(arguments[5]) : 1);
   } catch (const lightgrid::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_code();

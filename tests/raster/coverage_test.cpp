@@ -4,43 +4,12 @@
 #include <cstring>
 #include <limits>
 
-#include "raster/drawn.h"
+#include "raster/random_triangles.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr int sizes[][2] = {{1, 1}, {17, 9}, {64, 64}, {65, 63}, {200, 130}};
-
-RasterScene scene_of(const RasterView& view) {
-  RasterScene scene;
-  scene.view = view;
-  scene.meshes.resize(1);
-  scene.instances.push_back({.mesh = 0});
-  return scene;
-}
-
-// `kind` 0: any; 1: small; 2: slivers; 3: corners on pixel centres and corners; 4: across the near plane; 5:
-// huge.
-void add_random_triangle(RandomNumbers& random, int kind, RasterScene& scene) {
-  const RasterView& view = scene.view;
-  const double x = random.between(-0.3, 1.3) * view.width, y = random.between(-0.3, 1.3) * view.height;
-  const double reach = kind == 1 ? 3 : kind == 5 ? 1e6 : 0.6 * std::max(view.width, view.height);
-  glm::vec3 corners[3];
-  for (int k = 0; k < 3; ++k) {
-    double px = x + random.between(-reach, reach), py = y + random.between(-reach, reach);
-    if (kind == 2)
-      px = x + (k == 0 ? -reach : reach), py = y + (k == 0   ? 1
-                                                    : k == 1 ? -1
-                                                             : -1.01) *
-                                                       random.between(0, 1) * reach;
-    if (kind == 3) px = std::round(px * 2) / 2, py = std::round(py * 2) / 2;
-    const double w = std::exp(random.between(std::log(0.1), std::log(1000.0)));
-    corners[k] = at(view, px, py, kind == 3 ? std::exp2(std::round(std::log2(w)) + 1) : w);
-    if (kind == 4)
-      corners[k] = glm::vec3(random.between(-5, 5), random.between(-5, 5), random.between(-5, 5));
-  }
-  add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
-}
 
 class RasterCoverage : public testing::TestWithParam<RasterOptions> {
  protected:

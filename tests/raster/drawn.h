@@ -88,11 +88,10 @@ inline void set_scene(Rasterizer& rasterizer, const RasterScene& scene) {
   rasterizer.set_view(scene.view);
 }
 
-inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene,
-                      ClDevice& device = raster_device()) {
+inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene, ClDevice& device = raster_device()) {
   const Visibility visibility = rasterizer.draw();
   Drawn drawn{visibility.width, visibility.height, {}, {}, {}, {}, rasterizer.counts()};
-  const size_t pixels = size_t(drawn.width) * drawn.height;
+  const size_t pixels = size_t(drawn.width) * drawn.height * visibility.samples;
   drawn.triangles = read_all<uint32_t>(visibility.triangle, pixels, device);
   drawn.depths = read_all<float>(visibility.depth, pixels, device);
   drawn.instances =
@@ -110,9 +109,10 @@ inline Drawn drawn(const RasterScene& scene, const RasterOptions& options = {}) 
   return drawn_by(rasterizer, scene);
 }
 
-// The oracle on the clip-space positions that the kernels made.
-inline CoverageOracle oracle_of(const Drawn& drawn, const RasterScene& scene) {
-  CoverageOracle oracle(drawn.width, drawn.height);
+// The oracle on the clip-space positions that the kernels made. sample: as CoverageOracle has it.
+inline CoverageOracle oracle_of(const Drawn& drawn, const RasterScene& scene,
+                                const SnappedPoint& sample = {128, 128}) {
+  CoverageOracle oracle(drawn.width, drawn.height, sample);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const std::vector<uint32_t>& indices = scene.meshes[scene.instances[i].mesh].indices;
     const glm::vec4* const clip = drawn.clip.data() + drawn.instances[i].first_clip_vertex;
@@ -124,6 +124,25 @@ inline CoverageOracle oracle_of(const Drawn& drawn, const RasterScene& scene) {
     }
   }
   return oracle;
+}
+
+// Vulkan 1.3, "Multisampling", standard sample locations, from a pixel's lower left corner: x, 1 - y.
+inline constexpr SnappedPoint standard_locations[4] = {
+    {int64_t(0.375 * 256), int64_t(0.875 * 256)},
+    {int64_t(0.875 * 256), int64_t(0.625 * 256)},
+    {int64_t(0.125 * 256), int64_t(0.375 * 256)},
+    {int64_t(0.625 * 256), int64_t(0.125 * 256)},
+};
+
+// One of an image's 4 samples a pixel.
+inline Drawn sample_of(const Drawn& all, int sample) {
+  Drawn one = all;
+  one.triangles.clear(), one.depths.clear();
+  for (size_t i = size_t(sample); i < all.triangles.size(); i += 4) {
+    one.triangles.push_back(all.triangles[i]);
+    one.depths.push_back(all.depths[i]);
+  }
+  return one;
 }
 
 // Every pixel against the oracle; says the first few that are wrong.

@@ -100,18 +100,26 @@ TEST(RasterHunt, FindsNoWrongPixel) {
       Rasterizer(raster_device(), raster_programs(), {.shape = KernelShape::group, .cluster_cones = false})};
   const size_t count = scenes_to_draw();
   for (size_t i = 0; i < count; ++i) {
-    const RasterScene scene = random_scene(random);
+    RasterScene scene = random_scene(random);
+    scene.view.samples = i % 8 < 6 ? 1 : 4;
     Rasterizer& rasterizer = shapes[i % 2];
     set_scene(rasterizer, scene);
     const Drawn result = drawn_by(rasterizer, scene);
-    const CoverageOracle oracle = oracle_of(result, scene);
-    ASSERT_EQ(count_wrong(result, oracle), 0) << "scene " << i;
+    if (scene.view.samples == 1) {
+      ASSERT_EQ(count_wrong(result, oracle_of(result, scene)), 0) << "scene " << i;
+    }
+    for (int s = 0; s < scene.view.samples && scene.view.samples > 1; ++s) {
+      const Drawn one = sample_of(result, s);
+      ASSERT_EQ(count_wrong(one, oracle_of(one, scene, standard_locations[s])), 0)
+          << "scene " << i << ", sample " << s;
+    }
     triangles += result.counts.triangles, pixels += result.triangles.size(), covered += result.covered();
     invalid += result.counts.invalid_triangles;
   }
   EXPECT_GT(covered, pixels / 10);
   EXPECT_EQ(invalid, 0u);
-  fmt::print("{} scenes, {} triangles, {} pixels, {} of them covered\n", count, triangles, pixels, covered);
+  fmt::print("{} scenes, {} triangles, {} pixels and samples, {} of them covered\n", count, triangles, pixels,
+             covered);
 }
 
 }  // namespace
