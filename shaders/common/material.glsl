@@ -65,7 +65,8 @@ vec2 uv_of(uint slot) {
 #endif
 
 vec4 material_base_color() {
-  vec4 color = material.base_color;
+  // Precise: as `own` in base_lighting.glsl.
+  precise vec4 color = material.base_color;
 #ifdef BASE_COLOR_MAP
   if (has(MATERIAL_BASE_COLOR_MAP)) color *= texture(base_color_map, uv_of(0u));
 #endif
