@@ -1,17 +1,25 @@
 #include "gl/pending_draws.h"
 
-#include "gl/gl.h"
-
 namespace lightgrid {
 
-// Fewer waits of more draws are faster: each begins llvmpipe's work on the image anew.
-constexpr size_t most_pending_indices = size_t(5) << 17;
+// One portion is rasterised while the next is drawn, so that at most two wait. Fewer waits of more draws are
+// faster: docs/techniques/forward_multipass.md.
+constexpr size_t portion_indices = size_t(5) << 16;
+
+PendingDraws::~PendingDraws() {
+  if (drawn_) glDeleteSync(drawn_);
+}
 
 void PendingDraws::add(size_t indices) {
   indices_ += indices;
-  if (indices_ < most_pending_indices) return;
-  glFinish();
+  if (indices_ < portion_indices) return;
   indices_ = 0;
+  const GLsync before = drawn_;
+  drawn_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  if (!before) return;
+  glClientWaitSync(before, 0, GL_TIMEOUT_IGNORED);
+  glDeleteSync(before);
 }
 
 }  // namespace lightgrid
