@@ -25,9 +25,11 @@ constexpr int label_rows = 24;  // the sides' names are drawn over the picture
 
 bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
 
-// Runs the program with its arguments in a display of its own.
+// Runs the program with its arguments in a display of its own. Without -noreset the server starts anew when
+// its last client has gone, and tells xvfb-run by a signal, which may come while that cleans up: it ended
+// with 5 once, though nothing was wrong.
 CommandOutcome run_in_display(const std::string& words) {
-  return run_command("LIGHTGRID_PROGRESS_S=86400 xvfb-run -a -s '-screen 0 1280x1024x24' " +
+  return run_command("LIGHTGRID_PROGRESS_S=86400 xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' " +
                      std::string(lightgrid_program) + " " + words + " 2>&1");
 }
 
