@@ -39,7 +39,7 @@ class ProgramCache {
   };
   const Counts& counts() const { return counts_; }
 
-  // Receives the file and the defines of each embedded kernel that is asked for; null: nobody does.
+  // From now on the set receives the file and the defines of each embedded kernel in use; null: no longer.
   void note_kernels(std::set<std::string>* asked) { asked_ = asked; }
 
   static std::filesystem::path default_folder();

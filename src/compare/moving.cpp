@@ -37,10 +37,10 @@ RendererCounts since(const RendererCounts& now, const RendererCounts& before) {
           now.scene_bytes - before.scene_bytes};
 }
 
-// Each frame that is timed follows those of the two views before it, moves included, as where a camera does
-// nothing else: what other runs and this one's errors left in the processor's caches then makes none slower
-// (after one frame alone, the next of the same view still takes 1.04 times as long as the one after it,
-// visibility in hall). Where the scene moves too there are no such frames, since it cannot go back.
+// Before a timed frame the two views before it are drawn again, moves included, as in a camera's path.
+// Otherwise it would be slower by what other runs and the error measures left in the processor's caches:
+// after one frame alone, the next of the same view still takes 1.04 times as long as the one after it
+// (visibility in hall). A scene that moves cannot go back, so that nothing is drawn before its frames.
 void run_one(Path& p, const std::vector<View>& path, const SceneChanges& changes, size_t frame) {
   const bool timed = frame >= frames_to_settle;
   const RendererCounts before = p.run->view().renderer.counts();

@@ -1,5 +1,7 @@
 #include "gl/pending_draws.h"
 
+#include <utility>
+
 namespace lightgrid {
 
 // One portion is rasterised while the next is drawn, so that at most two wait. Fewer waits of more draws are
@@ -14,11 +16,12 @@ void PendingDraws::add(size_t indices) {
   indices_ += indices;
   if (indices_ < portion_indices) return;
   indices_ = 0;
-  const GLsync before = drawn_;
-  drawn_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  const GLsync before = std::exchange(drawn_, glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
   glFlush();
   if (!before) return;
-  glClientWaitSync(before, 0, GL_TIMEOUT_IGNORED);
+  constexpr GLuint64 second = 1'000'000'000;
+  while (glClientWaitSync(before, 0, second) == GL_TIMEOUT_EXPIRED) {
+  }
   glDeleteSync(before);
 }
 

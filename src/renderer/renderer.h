@@ -50,7 +50,7 @@ class Renderer {
                            const std::vector<std::string>& defines);
 
   RendererCounts counts() const;
-  // Receives the name and the defines of each program and kernel that is asked for; null: nobody does.
+  // From now on the set receives the name and the defines of each program and kernel in use; null: no longer.
   void note_programs(std::set<std::string>* asked) {
     asked_ = asked;
     kernels->note_kernels(asked);

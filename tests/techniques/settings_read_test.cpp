@@ -18,8 +18,8 @@ using testing::IsEmpty;
 using testing::Key;
 using Assignments = std::set<std::string>;
 
-// The company in which a setting shows that is without effect among the defaults.
-const std::vector<Assignments>& companies() {
+// Other settings under which a setting shows that has no effect among the defaults.
+const std::vector<Assignments>& contexts() {
   static const std::vector<Assignments> all = {
       {},
       {"raster=opencl"},
@@ -44,11 +44,11 @@ bool holds_key(const Assignments& assignments, const std::string& key) {
   return std::ranges::count(assignments, key, key_of) > 0;
 }
 
-std::vector<Assignments> companies_of(const Technique& technique) {
+std::vector<Assignments> contexts_of(const Technique& technique) {
   std::vector<Assignments> own;
-  for (const Assignments& company : companies()) {
-    if (std::ranges::all_of(company, [&](auto& each) { return reads_setting(technique, key_of(each)); }))
-      own.push_back(company);
+  for (const Assignments& context : contexts()) {
+    if (std::ranges::all_of(context, [&](auto& each) { return reads_setting(technique, key_of(each)); }))
+      own.push_back(context);
   }
   return own;
 }
@@ -84,9 +84,9 @@ std::string difference(const Observed& a, const Observed& b) {
   return fmt::format("{}", fmt::join(facts, ", "));
 }
 
-Assignments with(Assignments company, const Assignments& others) {
-  company.insert(others.begin(), others.end());
-  return company;
+Assignments with(Assignments context, const Assignments& others) {
+  context.insert(others.begin(), others.end());
+  return context;
 }
 
 // All settings that the technique does not declare, at their value of this number or their last.
@@ -102,15 +102,15 @@ Assignments not_declared(const Technique& technique, size_t value) {
 // The settings that the technique does not declare and a run shows, with what shows them.
 std::map<std::string, std::string> read_but_not_declared(const Technique& technique) {
   std::map<std::string, std::string> found;
-  for (const Assignments& company : companies_of(technique)) {
-    const Observed& base = seen_of(technique, company);
-    for (size_t value = 1; value <= (company.empty() ? 3 : 2); ++value) {
+  for (const Assignments& context : contexts_of(technique)) {
+    const Observed& base = seen_of(technique, context);
+    for (size_t value = 1; value <= (context.empty() ? 3 : 2); ++value) {
       const Assignments others = not_declared(technique, value);
-      const std::string all = difference(base, seen_of(technique, with(company, others)));
+      const std::string all = difference(base, seen_of(technique, with(context, others)));
       if (all.empty()) continue;
       bool alone = false;
       for (const std::string& one : others) {
-        const std::string by_one = difference(base, seen_of(technique, with(company, {one})));
+        const std::string by_one = difference(base, seen_of(technique, with(context, {one})));
         if (!by_one.empty()) alone = true, found.emplace(key_of(one), by_one);
       }
       if (!alone) found.emplace(fmt::format("{}", fmt::join(others, " ")), all);
@@ -122,10 +122,10 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
 // Whether a value of the setting changes what a run shows, beyond refusing to run.
 bool shows(const Technique& technique, const SettingHelp& setting) {
   for (size_t i = 1; i < setting.values.size(); ++i) {
-    for (const Assignments& company : companies_of(technique)) {
-      if (holds_key(company, setting.key)) continue;
-      const Observed& seen = seen_of(technique, with(company, {setting.key + "=" + setting.values[i]}));
-      if (!seen.contains("refused") && seen != seen_of(technique, company)) return true;
+    for (const Assignments& context : contexts_of(technique)) {
+      if (holds_key(context, setting.key)) continue;
+      const Observed& seen = seen_of(technique, with(context, {setting.key + "=" + setting.values[i]}));
+      if (!seen.contains("refused") && seen != seen_of(technique, context)) return true;
     }
   }
   return false;
