@@ -12,7 +12,6 @@
 // indices  out with `write`: entry_count
 // -DCOLUMNS   blocks are 8 x 8 columns, not 4 x 4 x 4 cubes
 // -DINDEX_32  indices are 32 bits, not 16
-// -DAVX512    with that instruction set's builtins
 #include "kernels/common/world_block.h"
 
 #ifdef INDEX_32
@@ -118,7 +117,7 @@ static inline uint test_lights(global const float4* lights, global const float4*
 
 // Writes the lights of one batch that `bits` has, in order. room: entries that may be written, kept or not.
 static inline void write_batch(global const uint* members, uint bits, global index_t* indices, uint room) {
-#ifdef AVX512
+#if defined(AVX512) || defined(AVX2)
   if (room >= BATCH) {
     append_indices(indices, as_int16(vload16(0, members)), bits);
     return;

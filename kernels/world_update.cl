@@ -11,7 +11,7 @@
 // old_blocks   of each block: its number before the lights moved; UINT_MAX: it was not stored
 // old_cells, old_indices  the lists before
 // keys, totals, cells, indices  as in world_lists
-// -DCOLUMNS, -DINDEX_32, -DAVX512  as in world_lists
+// -DCOLUMNS, -DINDEX_32  as in world_lists
 #include "kernels/common/world_block.h"
 
 #ifdef INDEX_32

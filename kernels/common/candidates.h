@@ -12,7 +12,7 @@ typedef struct Candidates {
 
 // Appends those of the 16 lights at `from` that `bits` keeps. Returns how many.
 static inline uint append_lights(global float* to, global const float* from, size_t stride, uint bits) {
-#ifdef AVX512
+#if defined(AVX512) || defined(AVX2)
 #pragma unroll
   for (uint a = 0; a < VIEW_ARRAYS; ++a) append_reals(to + a * stride, vload16(0, from + a * stride), bits);
 #else
@@ -28,7 +28,7 @@ static inline uint append_lights(global float* to, global const float* from, siz
 // The same for 16 records.
 static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles,
                                   global const uint* ids, global const float* records, uint bits) {
-#ifdef AVX512
+#if defined(AVX512) || defined(AVX2)
   append_reals(to + VIEW_X * stride, l.sphere.x, bits), append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
   append_reals(to + VIEW_D * stride, l.sphere.d, bits), append_reals(to + VIEW_R * stride, l.sphere.r, bits);
   append_reals(to + VIEW_TILES * stride, as_float16(tiles), bits);
@@ -81,7 +81,7 @@ static inline uint select_lights(RegionLights all, PackedRange range, global uin
     const int count = (int)all.counts[run];
     for (int i = 0; i < count; i += 16, tiles += 16) {
       const int16 meets = meets_bin(vload16(0, tiles), vload16(0, tiles + all.stride), range);
-      const uint bits = mask_bits(meets & (i + LANE_INDEX < count));
+      const uint bits = mask_bits(meets) & first_lanes((uint)(count - i));
       append_uints(ids + n, as_int16(vload16(0, tiles + 2 * all.stride)), bits);
       n += popcount(bits);
     }
@@ -123,10 +123,9 @@ static inline uint narrow(const Candidates* all, uint x, uint y, uint side, cons
   for (uint i = 0; i < all->count; i += 16) {
     global const float* from = all->lights + i;
     const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * all->stride));
-    const int16 keep = ((tiles & columns) != 0) & ((tiles & rows) != 0) &
-                       ((int)i + LANE_INDEX < (int)all->count) &
-                       may_touch_coarsely(load_sphere(from, all->stride), &b);
-    const uint bits = mask_bits(keep);
+    const uint bits = bits_of_both((tiles & columns) != 0, (tiles & rows) != 0) &
+                      mask_bits(may_touch_coarsely(load_sphere(from, all->stride), &b)) &
+                      first_lanes(all->count - i);
     if (bits != 0) n += append_lights(out + n, from, all->stride, bits);
   }
   return n;

@@ -8,8 +8,7 @@
 
 #define TEXEL_STEP (1.0f / 65535.0f)
 
-#if defined(AVX512) && LANES == 16
-typedef ushort unaligned_ushorts_8 __attribute__((ext_vector_type(8), aligned(2)));
+#if defined(AVX512) || defined(AVX2)
 #define TEXELS_16(p) convert_float16(*(global const unaligned_ushorts*)(p))
 #define TEXELS_8(p) convert_float8(*(global const unaligned_ushorts_8*)(p))
 #elif LANES == 16
@@ -28,8 +27,7 @@ typedef ushort unaligned_ushorts_8 __attribute__((ext_vector_type(8), aligned(2)
 typedef uchar packed_t;
 #define PACKED_STEP (1.0f / 255.0f)
 static inline float16 packed_texels(global const uchar* at) {
-#if defined(AVX512) && LANES == 16
-  typedef uchar unaligned_uchars __attribute__((ext_vector_type(16), aligned(1)));
+#if defined(AVX512) || defined(AVX2)
   const float16 t = convert_float16(*(global const unaligned_uchars*)at);
 #elif LANES == 16
   const float16 t = convert_float16(vload16(0, at));
@@ -68,7 +66,7 @@ typedef struct LevelTaps {
 // vector that it holds in a register, each of them costs a shuffle. (Inline assembly would say the same, but
 // PoCL 6 ends the process when it compiles any.)
 static inline const LevelTaps* in_memory(const LevelTaps* taps) {
-#if LANES == 16 && defined(AVX512)
+#if defined(AVX512) || defined(AVX2)
   const LevelTaps* volatile at = taps;
   return at;
 #else

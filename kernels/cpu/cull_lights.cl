@@ -41,8 +41,8 @@ static inline uint list_cell(const Candidates* few, int tile, const TestCell* ce
   for (uint i = 0; i < few->count; i += 16) {
     global const float* from = few->lights + i;
     const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * few->stride));
-    const int16 held = ((tiles & tile) == tile) & ((int)i + LANE_INDEX < (int)few->count);
-    const uint bits = mask_bits(held & light_may_touch(from, few->stride, cell, p));
+    const uint bits = bits_of_both((tiles & tile) == tile, light_may_touch(from, few->stride, cell, p)) &
+                      first_lanes(few->count - i);
     n += append_ids(list + n, from + VIEW_ID * few->stride, bits);
   }
   return n;

@@ -56,8 +56,9 @@ kernel void project_lights(global const float* lights, global float* records, gl
       for (uint b = 0; b < n; ++b) {
         const TileRect rect = {vload16(b, held.first), vload16(b, held.last)};
         const uint bits = mask_bits(rect_meets(rect, first, last));
-        append_uints_3(list + count, stride, as_int16(tiles_in_region(rect, x, y)), vload16(b, held.span),
-                       (int)((base + b) * 16) + LANE_INDEX, bits);
+        append_uints(list + count, as_int16(tiles_in_region(rect, x, y)), bits);
+        append_uints(list + count + stride, vload16(b, held.span), bits);
+        append_uints(list + count + 2 * stride, (int)((base + b) * 16) + LANE_INDEX, bits);
         count += popcount(bits);
       }
       counts[r * items + item] = count;

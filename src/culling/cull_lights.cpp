@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "cl/avx512.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
 #include "cl/uploaded_buffer.h"
@@ -21,9 +20,7 @@ static constexpr size_t most_entries = 0xffffffffu;
 CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
   // Depth bounds alone need no cull kernels: they are built at the first cull.
-  if (!avx512_)
-    avx512_ = !options_.portable && options_.shape == KernelShape::lanes && builds_avx512(device_, programs_);
-  options.avx512 = *avx512_;
+  options.portable = options_.portable;
   options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
   options.cones = cones_;

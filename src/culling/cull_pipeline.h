@@ -21,7 +21,7 @@ struct PipelineOptions {
   // Each kernel gets only the defines that it reads, so that none is compiled twice to the same code.
   std::string light_defines;  // cull test, cones
   std::string cell_defines;   // those, depth-bounds mode, slices
-  bool avx512 = false;
+  bool portable = false;  // as in CullerOptions
   bool slices = false;  // cells a tile: more than one
   bool cones = false;   // at least one light is a spot
   int index_bytes = 2;

@@ -28,10 +28,10 @@ class LanesPipeline : public CullPipeline {
  public:
   LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
-    const std::string builtins = options.avx512 ? " -DAVX512" : "", index = index_define(options);
-    project_ = programs.kernel("cpu/project_lights", options.light_defines + builtins);
-    cull_ = programs.kernel("cpu/cull_lights", options.cell_defines + index + builtins);
-    write_ = programs.kernel("cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + builtins);
+    const std::string form = options.portable ? " -DPORTABLE" : "", index = index_define(options);
+    project_ = programs.kernel("cpu/project_lights", options.light_defines + form);
+    cull_ = programs.kernel("cpu/cull_lights", options.cell_defines + index + form);
+    write_ = programs.kernel("cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + form);
   }
 
   void prepare(const CullParams& p) override {

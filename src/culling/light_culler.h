@@ -229,7 +229,6 @@ class LightCuller {
   ProgramCache& programs_;
   CullerOptions options_;
   bool cones_ = false;
-  std::optional<bool> avx512_;                 // whether the device builds AVX-512 kernels
   std::vector<CullLight> host_lights_;         // to upload again when the origin follows the eye
   std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
   std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: not uploaded yet

@@ -8,7 +8,6 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "cl/avx512.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
 #include "passes/voxels/grouped_lights.h"
@@ -95,8 +94,7 @@ class VoxelBuffers : public PassState {
  private:
   std::string defines_of(const RenderView& v) const {
     std::string defines = lookup_defines(v);
-    if (lanes && !v.plan.settings.portable && builds_avx512(*v.renderer.cl, *v.renderer.kernels))
-      defines += " -DAVX512";
+    if (lanes && v.plan.settings.portable) defines += " -DPORTABLE";
     if (v.plan.spots) defines += " -DSPOTS";
     for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
     return defines;

@@ -2,7 +2,6 @@
 // where lists have to be in drawing order.
 #include <algorithm>
 
-#include "cl/avx512.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
 #include "raster/raster_pipeline.h"
@@ -19,7 +18,7 @@ class RasterLanesPipeline : public RasterPipeline {
   RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable)
       : device_(device),
         programs_(programs),
-        defines_(!portable && builds_avx512(device, programs) ? "-DAVX512" : "") {
+        defines_(portable ? "-DPORTABLE" : "") {
     transform_ = programs.kernel("cpu/raster_transform", "");
     clusters_ = programs.kernel("cpu/raster_clusters", "");
     order_ = programs.kernel("cpu/raster_order", "");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "cl/avx512.h"
 #include "renderer/light_texels.h"
 
 namespace lightgrid {
@@ -40,8 +39,7 @@ size_t ClLights::memory_bytes() const {
 std::string light_defines(const RenderView& v, bool lanes, Brdf brdf) {
   std::string defines;
   if (lanes) defines += fmt::format(" -DTILE={}", v.plan.settings.tile);
-  if (lanes && !v.plan.settings.portable && builds_avx512(*v.renderer.cl, *v.renderer.kernels))
-    defines += " -DAVX512";
+  if (lanes && v.plan.settings.portable) defines += " -DPORTABLE";
   if (v.plan.index_bits == 32) defines += " -DINDEX_32";
   if (v.plan.z_bins > 1) defines += " -DZ_BINS";
   if (v.plan.spots) defines += " -DSPOTS";

@@ -1,7 +1,6 @@
 // What world_grid.cpp and world_update.cpp share.
 #pragma once
 
-#include "cl/avx512.h"
 #include "cl/launch.h"
 #include "renderer/world_grid.h"
 
@@ -16,7 +15,6 @@ void WorldGrid::run(const char* name, size_t items, const auto&... arguments) {
   if (file == "world_lists" || file == "world_update") {
     if (shape_ == WorldGridShape::columns) defines += " -DCOLUMNS";
     if (index_bits_ == 32) defines += " -DINDEX_32";
-    if (builds_avx512(*renderer_.cl, *renderer_.kernels)) defines += " -DAVX512";
   }
   cl::Kernel kernel = renderer_.kernels->kernel(file, defines);
   const size_t group = renderer_.cl->info().cpu ? 1 : 64;

@@ -31,9 +31,24 @@ static inline real lane_max(real a, real b) { return a > b ? a : b; }
 #define any_lane(m) ((m) != 0)
 #endif
 
-// One instruction where PoCL 3 has 14.
-#if LANES == 16 && defined(AVX512)
+// The instruction set whose builtins kernels use: clang, and with it PoCL, says what it compiles for. -DPORTABLE
+// uses none; the bytes are the same.
+#if LANES == 16 && !defined(PORTABLE)
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define AVX512
+#elif defined(__AVX2__)
+#define AVX2
+#endif
+#endif
+
+// One instruction, or two, where PoCL 3 has 14.
+#if defined(AVX512)
 #define ROUNDED(x, mode) __builtin_ia32_rndscaleps_mask((x), (mode), (x), (ushort)0xffff, 4)
+#elif defined(AVX2)
+#define ROUNDED(x, mode) \
+  (float16)(__builtin_ia32_roundps256((x).lo, (mode)), __builtin_ia32_roundps256((x).hi, (mode)))
+#endif
+#ifdef ROUNDED
 static inline real lane_floor(real x) { return ROUNDED(x, 9); }
 static inline real lane_rint(real x) { return ROUNDED(x, 8); }
 #else
