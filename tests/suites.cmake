@@ -14,6 +14,7 @@ if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND folder IN_LIST optimised_fo
   list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
 endif()
 
+# Further arguments: NAME=VALUE for the environment.
 function(add_entry name filter)
   add_test(${name} ${program} --gtest_filter=${filter} --gtest_brief=1)
   set(lock)
@@ -21,7 +22,7 @@ function(add_entry name filter)
     set(lock RESOURCE_LOCK ${folder}_kernel)
   endif()
   set_tests_properties(${name} PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 LABELS ${folder} COST ${cost} ${lock}
-                       ENVIRONMENT "${environment}")
+                       ENVIRONMENT "${environment};${ARGN}")
 endfunction()
 
 string(REPLACE "\n" ";" lines "${lines}")
@@ -30,5 +31,10 @@ foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.$")
     set(suite ${CMAKE_MATCH_1})
     add_entry(${suite} "${suite}.*")
+    if(suite IN_LIST of_each_form)
+      foreach(form avx2 sse2)
+        add_entry(${form}/${suite} "${suite}.*" POCL_KERNELLIB_NAME=${form})
+      endforeach()
+    endif()
   endif()
 endforeach()

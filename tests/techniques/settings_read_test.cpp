@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
-#include "cl/avx512.h"
 #include "support/long_tests.h"
 #include "support/small_scene.h"
 #include "techniques/observed_run.h"
@@ -131,9 +130,6 @@ bool shows(const Technique& technique, const SettingHelp& setting) {
   return false;
 }
 
-// Without any, `portable` leaves nothing out: a device has but one form of each kernel.
-bool has_builtins() { return builds_avx512(*test_devices().cl, *test_devices().kernels); }
-
 // The keys that the technique declares and that no setting has, that it shares with all techniques or whose
 // setting no run shows.
 std::vector<std::string> declared_but_not_read(const Technique& technique) {
@@ -141,7 +137,6 @@ std::vector<std::string> declared_but_not_read(const Technique& technique) {
   const auto is_wrong = [&](const std::string& key) {
     const auto setting = std::ranges::find(setting_help(), key, &SettingHelp::key);
     if (setting == setting_help().end()) return true;
-    if (key == "portable" && !has_builtins()) return false;
     return !shows(technique, *setting);
   };
   for (const std::string key : technique.settings) {
@@ -169,7 +164,6 @@ std::vector<const Technique*> planted_in() {
 TEST(SettingsReadPlanted, FindsAKeyThatIsMissing) {
   for (const Technique* technique : planted_in()) {
     for (const std::string key : technique->settings) {
-      if (key == "portable" && !has_builtins()) continue;
       Technique planted = *technique;
       std::erase_if(planted.settings, [&](const std::string& own) { return own == key; });
       EXPECT_THAT(read_but_not_declared(planted), Contains(Key(key))) << technique->name;
