@@ -16,9 +16,7 @@ constexpr uint32_t clusters_an_item = 256;
 class RasterLanesPipeline : public RasterPipeline {
  public:
   RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable)
-      : device_(device),
-        programs_(programs),
-        defines_(portable ? "-DPORTABLE" : "") {
+      : device_(device), programs_(programs), defines_(portable ? "-DPORTABLE" : "") {
     transform_ = programs.kernel("cpu/raster_transform", "");
     clusters_ = programs.kernel("cpu/raster_clusters", "");
     order_ = programs.kernel("cpu/raster_order", "");
@@ -71,10 +69,10 @@ class RasterLanesPipeline : public RasterPipeline {
     launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(),
            chunks_.get(), tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);
     if (!job.triangles()) return;
-    launch(device_, "raster_tiles", tiles_kernel(job.masks.alphas() != nullptr), cl::NDRange(tiles), one,
-           records_.get(), tile_begin_.get(), lists_.get(), job.instances, job.indices, job.clip,
-           job.masks.vertices, job.masks.materials, job.masks.alphas, job.triangles, job.depths, job.counters,
-           job.params_buffer);
+    launch(device_, "raster_tiles", tiles_kernel(job.masks.alphas() != nullptr),
+           cl::NDRange(std::min(tiles, units)), one, records_.get(), tile_begin_.get(), lists_.get(),
+           job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
+           job.triangles, job.depths, job.counters, job.params_buffer);
   }
 
   RasterLists lists(const RasterParams& p) const override {
