@@ -96,11 +96,9 @@ double parse_number(std::string_view text, const std::string& wish) {
   return value;
 }
 
-// The near plane where none is given: a thousandth of the scene's size, and at most 0.1 m, so that the ground
-// is seen from a man's height in a scene of any size. An edge that passes the near plane is interpolated
-// between depths of up to 1, with an error of about 6e-8, which at distance d is 6e-8 * d / near of d. In
-// scenes of more than 2 km near grows with the size and keeps that below 0.12 % at the far end.
-double default_near_m(double size_m) { return std::clamp(0.1, size_m / 20'000, size_m / 1000); }
+// The near plane where none is given: the ground is seen from eye height in a scene of any size. Reversed
+// depth loses no precision by it (docs/conventions.md#near).
+double default_near_m(double size_m) { return std::min(size_m / 1000, 0.1); }
 
 struct LookAtWish {
   glm::dvec3 eye{0}, target{0};

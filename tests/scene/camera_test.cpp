@@ -209,10 +209,10 @@ Scene scene_of_size(double size_m) {
   return scene;
 }
 
-TEST(ChooseCamera, NearIsAThousandthOfTheSceneATenthOfAMetreOrATwentyThousandth) {
+TEST(ChooseCamera, NearIsAThousandthOfTheSceneAndAtMostATenthOfAMetre) {
   const std::string eye = "eye:0,1.7,0,target:1,1.7,0";
   const std::pair<double, double> near_of_size[] = {{1e-3, 1e-6}, {1, 1e-3},   {100, 0.1},
-                                                    {500, 0.1},   {2000, 0.1}, {20'000, 1}};
+                                                    {500, 0.1},   {2000, 0.1}, {1e6, 0.1}};
   for (const auto& [size, near] : near_of_size) {
     EXPECT_DOUBLE_EQ(choose_camera(scene_of_size(size), eye).near_m, near) << size;
     EXPECT_EQ(choose_camera(scene_of_size(size), eye + ",near:0.25").near_m, 0.25) << size;
