@@ -123,7 +123,7 @@ std::filesystem::path nearest_existing(std::filesystem::path folder) {
 
 // Takes the place of the C library's, for drivers too. A handler of SIGABRT would not do: LLVM puts its own
 // in its place, after which abort() calls no other.
-extern "C" [[noreturn]] void abort() {
+extern "C" void abort() {
   using namespace lightgrid;
   if (const std::string_view why = lacking(); ends().main_runs && !why.empty()) end_with(why);
   remove_temporary();
