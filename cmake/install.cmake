@@ -6,15 +6,28 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(library_targets lightgrid_base lightgrid_shared lightgrid_cl lightgrid_culling lightgrid_raster)
+set(library_root ${PROJECT_BINARY_DIR}/include/library)
+file(MAKE_DIRECTORY ${library_root}/lightgrid)
 foreach(target IN LISTS library_targets)
   string(REPLACE lightgrid_ "" name ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  add_library(lightgrid::${name} ALIAS ${target})  # for those who add this project as a subfolder
+  # For those who add this project as a subfolder: the target, and headers as <lightgrid/FOLDER/x.h>.
+  add_library(lightgrid::${name} ALIAS ${target})
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${name} ${library_root}/lightgrid/${name} SYMBOLIC)
+  target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${library_root}> $<INSTALL_INTERFACE:include>)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL STATIC_LIBRARY)
+    # Shared libraries, such as an engine's plugin, may link these. Nobody replaces their functions at load time: without
+    # that the compiler inlines as it does in a program.
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  endif()
 endforeach()
 install(TARGETS ${library_targets} EXPORT lightgridTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 
-# The public headers and the headers that they include, under the same names as here.
+# The public headers and the headers that they include. As <lightgrid/FOLDER/x.h> no user's header has their name, and they
+# include each other by relative paths, where they are found first even if a user has a folder of that name.
 set(public_headers
   base/error.h
   shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h
@@ -24,7 +37,12 @@ set(public_headers
   raster/rasterizer.h)
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH folder)
-  install(FILES src/${header} DESTINATION include/lightgrid/${folder} COMPONENT library)
+  set(installed ${PROJECT_BINARY_DIR}/installed_headers/${header})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${header})
+  file(READ ${PROJECT_SOURCE_DIR}/src/${header} text)
+  string(REGEX REPLACE "#include \"([a-z]+/)" "#include \"../\\1" text "${text}")
+  file(CONFIGURE OUTPUT ${installed} CONTENT "${text}" @ONLY)
+  install(FILES ${installed} DESTINATION include/lightgrid/${folder} COMPONENT library)
 endforeach()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lightgrid)

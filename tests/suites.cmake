@@ -1,7 +1,7 @@
 # Run by ctest as it starts: adds a ctest entry for each test suite of `program`. A suite is one process, so that devices,
 # contexts, programs and kernels are made once: a process a test takes 1.5 to 5 times as long. Even a kernel that PoCL has in
 # its cache costs each process a tenth of a second. Skipped tests give their reason in Testing/Temporary/LastTest.log.
-cmake_policy(VERSION 3.25)
+cmake_policy(VERSION 3.22)
 execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   add_test(${folder}_tests_not_listed ${program} --gtest_list_tests)

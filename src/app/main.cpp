@@ -1,19 +1,62 @@
 // The command line: one subcommand a file, exit statuses as in docs/command_line.md.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/environment.h"
 #include "app/progress.h"
+#include "app/sudden_ends.h"
 #include "app/temporary_cache.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "cl/cache_folder.h"
 #include "cl/error.h"
+
+namespace {
+
+// A closed stream's number would go to the next file that is opened, into which the program would then print.
+// On this device a write to stdout or stderr still fails.
+void reserve_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream) {
+    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);
+  }
+}
+
+// Throws if not everything that was printed could be written. `code`: the errno of an earlier failure, if
+// known.
+void check_stdout(int code = 0) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if (!errno && !code) std::fputc('\n', stdout), std::fflush(stdout);  // fails for the same reason
+  if (errno) code = errno;
+  throw lightgrid::machine_error("stdout: cannot be written: {}", std::strerror(code ? code : EIO));
+}
+
+int run(const lightgrid::Command& command) {
+  try {
+    const int status = command();
+    check_stdout();
+    return status;
+  } catch (const std::system_error& error) {
+    check_stdout(error.code().value());  // fmt::print throws these
+    throw;
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace lightgrid;
+  reserve_standard_streams();
   prepare_environment();
   const TemporaryCache cache;
+  const SuddenEnds ends(pocl_cache_folder(), cache.folder());
   CommandLine line("lightgrid",
                    "lightgrid: scenes with very many lights: accuracy and time of each technique");
   for (const auto add : {add_render, add_compare, add_plan, add_capture, add_cull, add_inspect, add_scenes,
@@ -24,15 +67,14 @@ int main(int argc, char** argv) {
   cache.tell();
   const ProgressLines lines(argc > 1 ? argv[1] : "");
   try {
-    return command();
+    return run(command);
   } catch (const Error& error) {
     std::fprintf(stderr, "lightgrid: %s\n", line.with_option(error.what()).c_str());
     return error.exit_code();
   } catch (const cl::Error& error) {
     std::fprintf(stderr, "lightgrid: %s\n", cl_machine_error(error).what());
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr,
-                 "lightgrid: out of memory; a smaller --size, scene or number of lights would help\n");
+    std::fputs(out_of_memory_line.data(), stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lightgrid: %s\n", error.what());
   }

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/write_file.h"
 
 namespace lightgrid {
 
@@ -21,7 +21,7 @@ void add_scene_options(Subcommand& command, SceneChoice& o) {
 }
 
 void add_view_options(Subcommand& command, SceneChoice& o) {
-  command.option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees");
+  command.option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees,near:metres");
   command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.option("--seed", o.seed, "seed of the scatter");
@@ -82,12 +82,10 @@ void check_output_file(const std::string& option, const std::filesystem::path& p
 void write_json(const std::string& destination, const std::string& text) {
   const std::string whole = text.ends_with('\n') ? text : text + '\n';
   if (destination == "-") {
-    std::fwrite(whole.data(), 1, whole.size(), stdout);
+    std::fwrite(whole.data(), 1, whole.size(), stdout);  // main checks stdout
     return;
   }
-  std::ofstream file(destination);
-  file << whole;
-  if (!file.flush()) throw input_error("--json {}: cannot be written", destination);
+  write_file(destination, whole);
 }
 
 }  // namespace lightgrid

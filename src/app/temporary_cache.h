@@ -1,14 +1,15 @@
-// A cache folder for PoCL on machines without a writable one, such as containers without a home.
+// A cache folder for PoCL on machines without a usable one, such as containers without a home.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace lightgrid {
 
-// Sets POCL_CACHE_DIR to a new folder in the system's temporary one if PoCL's own is not writable and the
-// user has set none. main creates it before other threads start and before the first OpenCL call; it removes
-// the folder at the end. If no temporary folder can be created either, nothing is set, and ClDevice reports
-// the fault.
+// Sets POCL_CACHE_DIR to a new folder in the system's temporary one if PoCL's own is not writable, or its
+// disk has less than 32 MB of room, and the user has set none. main creates it before other threads start and
+// before the first OpenCL call; it removes the folder at the end. If no temporary folder can be created
+// either, nothing is set, and ClDevice reports the fault.
 class TemporaryCache {
  public:
   TemporaryCache();
@@ -16,10 +17,12 @@ class TemporaryCache {
   TemporaryCache(const TemporaryCache&) = delete;
   TemporaryCache& operator=(const TemporaryCache&) = delete;
 
-  void tell() const;  // reports the folder on stderr: compiled kernels are lost at the end
+  const std::filesystem::path& folder() const { return folder_; }  // empty: the usual one is used
+  void tell() const;  // reports on stderr that compiled kernels are lost at the end, and why
 
  private:
-  std::filesystem::path folder_, unwritable_;
+  std::filesystem::path folder_;
+  std::string why_;
 };
 
 }  // namespace lightgrid

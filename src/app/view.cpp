@@ -50,7 +50,7 @@ int view(const ViewOptions& o) {
   ChosenScene chosen = load_chosen_scene(o.scene);
   job.scene = std::move(chosen.scene);
   job.view = chosen.view;
-  job.seconds = job.scene.time_s;
+  job.seconds = chosen_time(o.scene);
   job.scene_words = scene_words(o);
   job.camera = o.scene.camera;
   job.device = o.device;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -24,12 +25,23 @@ int write_to(const fs::path& path, const void* data, size_t size) {
   return failure ? failure : closed ? 0 : (errno ? errno : EIO);
 }
 
+// Such as /dev/stdout, a link to whatever stdout is.
+bool is_in_system_folder(const fs::path& path) {
+  std::error_code failure;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(path, failure).parent_path(), failure);
+  const auto below = [&](const fs::path& root) {
+    return std::mismatch(root.begin(), root.end(), folder.begin(), folder.end()).first == root.end();
+  };
+  return below("/dev") || below("/proc");
+}
+
 void write_whole(const fs::path& path, const void* data, size_t size) {
   std::error_code ignored;
   const auto at_path = fs::symlink_status(path, ignored).type();
   if (fs::is_directory(path, ignored)) throw input_error("{}: is a folder, not a file", path.string());
-  const bool replaceable = at_path == fs::file_type::regular || at_path == fs::file_type::symlink ||
-                           at_path == fs::file_type::not_found || at_path == fs::file_type::none;
+  const bool replaceable = at_path == fs::file_type::regular || at_path == fs::file_type::not_found ||
+                           at_path == fs::file_type::none ||
+                           (at_path == fs::file_type::symlink && !is_in_system_folder(path));
   if (!replaceable) {
     if (const int failure = write_to(path, data, size)) throw write_error(path, failure);
     return;
@@ -44,13 +56,16 @@ void write_whole(const fs::path& path, const void* data, size_t size) {
   }
 }
 
+ErrorKind kind_of(int code) {
+  const bool full = code == ENOSPC || code == EDQUOT || code == EFBIG;
+  const bool machine = full || code == EIO || code == EMFILE || code == ENFILE;
+  return machine ? ErrorKind::machine : ErrorKind::input;
+}
+
 }  // namespace
 
 Error write_error(const fs::path& path, int code) {
-  const bool full = code == ENOSPC || code == EDQUOT || code == EFBIG;
-  const bool machine = full || code == EIO || code == EMFILE || code == ENFILE;
-  const auto message = fmt::format("{}: cannot be written: {}", path.string(), std::strerror(code));
-  return {machine ? ErrorKind::machine : ErrorKind::input, message};
+  return {kind_of(code), fmt::format("{}: cannot be written: {}", path.string(), std::strerror(code))};
 }
 
 void write_file(const fs::path& path, const std::vector<uint8_t>& bytes) {
@@ -60,11 +75,15 @@ void write_file(const fs::path& path, const std::vector<uint8_t>& bytes) {
 void write_file(const fs::path& path, std::string_view text) { write_whole(path, text.data(), text.size()); }
 
 void make_folder(const fs::path& path) {
-  std::error_code failure;
+  std::error_code failure, unreadable;
   fs::create_directories(path, failure);
-  if (!fs::is_directory(path)) {
+  if (!fs::is_directory(path, unreadable)) {
+    if (!failure) failure = unreadable;
     const auto why = failure ? failure.message() : std::string("it is a file");
-    throw input_error("{}: cannot be made a folder: {}", path.string(), why);
+    throw Error(kind_of(failure.value()), fmt::format("{}: cannot be made a folder: {}", path.string(), why));
+  }
+  if (access(path.c_str(), W_OK | X_OK) != 0) {
+    throw input_error("{}: no file can be made in it: {}", path.string(), std::strerror(errno));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "cl/device.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -69,6 +71,17 @@ bool holds(const std::string& text, const std::string& part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
+// Without it the ICD loader finds no driver, and says nothing: PoCL and LLVM take this much address space.
+constexpr size_t driver_bytes = size_t(512) << 20;
+
+bool can_have_memory(size_t bytes) {
+  void* const memory =
+      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) return false;
+  munmap(memory, bytes);
+  return true;
+}
+
 // 2 of "#2".
 std::optional<size_t> index_of(const std::string& text) {
   size_t index = 0;
@@ -95,6 +108,12 @@ std::string why_not_the_same_bytes(const ClDeviceInfo& device) {
 }
 
 size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::string& substring) {
+  if (devices.empty() && !can_have_memory(driver_bytes)) {
+    throw machine_error(
+        "there is no OpenCL device: out of memory. A driver takes up to {} MB, which this process cannot "
+        "have",
+        driver_bytes >> 20);
+  }
   if (devices.empty()) {
     const std::filesystem::path cache = pocl_cache_folder();
     const std::string why = why_not_writable(cache);

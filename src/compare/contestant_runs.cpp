@@ -17,7 +17,7 @@ std::vector<ContestantRun> make_entries(Renderer& renderer, GpuScene& gpu, const
   std::vector<ContestantRun> entries;
   const auto shared = std::make_shared<TargetPool>();
   for (const Contestant& c : contestants) {
-    ContestantRun& entry = entries.emplace_back(&c);
+    ContestantRun& entry = entries.emplace_back(ContestantRun{&c, {}, {}});
     const auto pool = reference.is(*c.technique, c.settings) ? nullptr : shared;
     attempt(entry, [&] {
       entry.run = std::make_unique<TechniqueRun>(renderer, gpu, view, c.settings, *c.technique, pool);

@@ -21,12 +21,12 @@ void collect_pictures(const fs::path& to, const FrontierAnswer& answer,
     for (const char* suffix : picture_suffixes) {
       const std::string name = record.image + suffix;
       for (const fs::path& folder : folders) {
-        std::error_code failure;
+        std::error_code failure, ignored;
         if (fs::exists(to / name, failure) || !fs::exists(folder / name, failure)) continue;
         make_folder(to);
-        if (!fs::copy_file(folder / name, to / name, failure))
-          throw input_error("{}: cannot be copied to {}: {}", (folder / name).string(), to.string(),
-                            failure.message());
+        if (fs::copy_file(folder / name, to / name, failure)) continue;
+        fs::remove(to / name, ignored);  // half a picture would stay for good
+        throw write_error(to / name, failure.value());
       }
     }
   }

@@ -38,7 +38,7 @@ void ObjectLights::update(const RenderView& v, const DrawList& list) {
     object.ranges =
         index_ranges(v.gpu.in_gl().mesh(v.scene.instances[object.instance].mesh), object.clusters);
   }
-  upload();
+  upload_lists();
 }
 
 void ObjectLights::add_item(const RenderView& v, const DrawItem& item,
@@ -61,7 +61,7 @@ void ObjectLights::add_item(const RenderView& v, const DrawItem& item,
   }
 }
 
-void ObjectLights::upload() {
+void ObjectLights::upload_lists() {
   const size_t bytes = lights_.size() * sizeof(uint32_t);
   if (bytes > buffer_bytes_) {
     GLint texels = 0;

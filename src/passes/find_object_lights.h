@@ -31,7 +31,7 @@ class ObjectLights : public PassState {
 
  private:
   void add_item(const RenderView& v, const DrawItem& item, const std::vector<uint32_t>& candidates);
-  void upload();
+  void upload_lists();
 
   std::vector<LightReach> reaches_;
   std::vector<Object> objects_;

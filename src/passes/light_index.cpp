@@ -6,9 +6,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "passes/light_index/light_groups.h"
 #include "passes/light_index/blending_probe.h"
 #include "passes/light_index/gl_state.h"
+#include "passes/light_index/light_groups.h"
 #include "passes/light_volumes/light_volumes.h"
 
 namespace lightgrid {
@@ -49,8 +49,8 @@ class LightIndexState : public PassState {
   }
 
   LightIndexLayout layout;
-  std::vector<double> influence;          // of each light
-  std::vector<uint32_t> group_of_light;   // while it does not depend on the camera
+  std::vector<double> influence;         // of each light
+  std::vector<uint32_t> group_of_light;  // while it does not depend on the camera
   bool grouped = false;
   Order order;
 
@@ -153,8 +153,14 @@ class Drawing {
     // next group.
     for (uint32_t group = counted ? layout_.groups : 1; group-- > 0;) {
       write_group(layout_, counted ? group : batch.group);
-      if (counted) test_free_slot(group); else test_mark_only();
-      if (inside_) write_marked(batch); else write_behind_front_faces(batch);
+      if (counted)
+        test_free_slot(group);
+      else
+        test_mark_only();
+      if (inside_)
+        write_marked(batch);
+      else
+        write_behind_front_faces(batch);
     }
   }
 
@@ -269,7 +275,7 @@ LightIndexImages light_index(RenderView& v) {
   {
     auto pass = v.timer.pass("light_volumes", "gl");
     Order order = order_of(v, state, volumes.update(v, v.plan.settings.volume_mesh));
-    volumes.upload(order.volumes);
+    volumes.upload_volumes(order.volumes);
     state.order = std::move(order);
   }
   auto pass = v.timer.pass("light_index", "gl");

@@ -23,8 +23,7 @@ std::optional<std::vector<int>> GpuScene::lights_changed_since(int version) cons
   for (auto of = changed_lights_.end() - updates; of != changed_lights_.end(); ++of)
     changed.insert(changed.end(), of->begin(), of->end());
   std::ranges::sort(changed);
-  const auto same = std::ranges::unique(changed);
-  changed.erase(same.begin(), same.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   return changed;
 }
 

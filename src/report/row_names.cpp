@@ -14,13 +14,13 @@ namespace {
 std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row,
                                const std::string& ignored) {
   std::vector<std::string> differing;
-  for (const auto& [key, value] : row.settings) {
-    if (key == ignored) continue;
+  for (const auto& setting : row.settings) {
+    if (setting.first == ignored) continue;
     const bool differs = std::any_of(rows.begin(), rows.end(), [&](const RunResult& other) {
-      const auto found = other.settings.find(key);
-      return other.technique == row.technique && (found == other.settings.end() || found->second != value);
+      const auto found = other.settings.find(setting.first);
+      return other.technique == row.technique && (found == other.settings.end() || *found != setting);
     });
-    if (differs) differing.push_back(spelled_setting(key) + "=" + value);
+    if (differs) differing.push_back(spelled_setting(setting.first) + "=" + setting.second);
   }
   return fmt::format("{}", fmt::join(differing, ","));
 }

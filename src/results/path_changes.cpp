@@ -30,8 +30,9 @@ std::vector<SharedPlanChange> shared_plan_changes(const CompareReport& report) {
     if (!report.rows[row].moving) continue;
     for (const PlanChange& change : report.rows[row].moving->plan_changes) {
       // Sorted by frame at all times: a new change goes behind those of its frame.
-      const auto [first, last] = std::ranges::equal_range(
-          shared, change.frame, {}, [](const SharedPlanChange& s) { return s.change.frame; });
+      const auto frame_of = [](const SharedPlanChange& s) { return s.change.frame; };
+      const auto first = std::ranges::lower_bound(shared, change.frame, {}, frame_of);
+      const auto last = std::ranges::upper_bound(shared, change.frame, {}, frame_of);
       const auto same = std::ranges::find(first, last, change, &SharedPlanChange::change);
       if (same == last) {
         shared.insert(last, {change, {row}});

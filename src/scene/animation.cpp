@@ -18,8 +18,8 @@ void check_animation(const Scene& scene, int animation) {
                     scene.rig ? scene.rig->file : scene.name, animation, animation_count(scene));
 }
 
-Pose pose_at(const Rig& rig, double seconds, int animation) {
-  return seconds == 0 && animation < 0 ? rest_pose(rig) : animated_pose(rig, seconds, animation);
+Pose pose_at(const Rig& rig, std::optional<double> seconds, int animation) {
+  return seconds ? animated_pose(rig, *seconds, animation) : rest_pose(rig);
 }
 
 // Light directions and camera axes of the rest pose, for nodes without any in the current pose. Rare, so
@@ -78,12 +78,12 @@ ShapeInputs inputs_of(const Rig& rig, const DeformingMesh& shape, const Pose& po
   return inputs;
 }
 
-void update_mesh(const Rig& rig, const DeformingMesh& shape, const ShapeInputs& inputs, double seconds,
-                 Mesh& mesh) {
+void update_mesh(const Rig& rig, const DeformingMesh& shape, const ShapeInputs& inputs,
+                 std::optional<double> seconds, Mesh& mesh) {
   deform(shape, inputs.weights, inputs.joints, mesh);
   if (const auto vertex = first_not_finite(mesh)) {
-    throw input_error("{}: {}: vertex {} is moved to infinity at {} s", rig.file, shape.label, *vertex,
-                      seconds);
+    const std::string when = seconds ? fmt::format("{} s", *seconds) : "rest";
+    throw input_error("{}: {}: vertex {} is moved to infinity at {}", rig.file, shape.label, *vertex, when);
   }
 }
 
@@ -111,7 +111,7 @@ std::vector<int> move_all(std::vector<Item>& items, const Pose& pose, RestFallba
 
 // `before` is empty if the present shapes are unknown: then all are recomputed.
 std::vector<int> deform_meshes(Scene& scene, const Pose& pose, const std::optional<Pose>& before,
-                               double seconds) {
+                               std::optional<double> seconds) {
   std::vector<int> changed;
   for (const DeformingMesh& shape : scene.rig->meshes) {
     const ShapeInputs inputs = inputs_of(*scene.rig, shape, pose);
@@ -124,15 +124,16 @@ std::vector<int> deform_meshes(Scene& scene, const Pose& pose, const std::option
 
 }  // namespace
 
-SceneChanges set_time(Scene& scene, double seconds, int animation) {
-  if (!std::isfinite(seconds)) {
-    throw input_error("{}: time {} is not a finite number of seconds", scene.name, seconds);
+SceneChanges set_time(Scene& scene, std::optional<double> seconds, int animation) {
+  if (seconds && !std::isfinite(*seconds)) {
+    throw input_error("{}: time {} is not a finite number of seconds", scene.name, *seconds);
   }
   check_animation(scene, animation);
   if (!scene.rig) return {};
   const Pose pose = pose_at(*scene.rig, seconds, animation);
   std::optional<Pose> before;
-  if (!std::isnan(scene.time_s)) before = pose_at(*scene.rig, scene.time_s, scene.animation);
+  const bool known = !scene.time_s || !std::isnan(*scene.time_s);
+  if (known) before = pose_at(*scene.rig, scene.time_s, scene.animation);
 
   // Meshes first: only they can fail, and the next call then recomputes and lists all of them.
   scene.time_s = std::numeric_limits<double>::quiet_NaN();

@@ -1,6 +1,7 @@
 // The pose of a scene at a time.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/scene.h"
@@ -22,9 +23,8 @@ struct SceneChanges {
 // animate the same property the later one applies), and returns what changed. Times outside an animation use
 // its first or last key (glTF 2.0, 3.11).
 //
-// Time 0 with animation -1 is the file at rest, as load_gltf returns it: nodes, joints and morph weights as
-// in the file without its animations. That may differ from the first keys; to pose those at 0, select the
-// animation.
+// Without a time the scene is at rest, as load_gltf returns it: nodes, joints and morph weights as in the
+// file without its animations. That may differ from the first keys, which time 0 poses.
 //
 // The result depends on the rig, `seconds` and `animation` alone, not on earlier poses. Instances on a node
 // that is scaled to no volume shrink to a point and cover no pixel; a light or camera on such a node keeps
@@ -33,14 +33,14 @@ struct SceneChanges {
 //
 // Throws Error(input) for a time that is not finite, an animation out of range or a pose that is not finite.
 // In the last case meshes may be partly updated; the next successful call updates and lists all that deform.
-SceneChanges set_time(Scene& scene, double seconds, int animation = -1);
+SceneChanges set_time(Scene& scene, std::optional<double> seconds, int animation = -1);
 
 // The time of the last key, in seconds, of one animation or (-1) of all; 0 if nothing is animated. Throws
 // Error(input) for an animation out of range.
 double duration_of(const Scene& scene, int animation = -1);
 
-// `seconds` for an animation that repeats: unchanged up to the duration, then reduced by whole durations.
-// Never 0 after the start, because 0 means the rest pose.
+// `seconds` for an animation that repeats: unchanged up to the duration, then reduced by whole durations. A
+// whole number of durations is the last key, not the first.
 double looped_time(const Scene& scene, double seconds, int animation = -1);
 
 // The number of animations of the file, named or not.

@@ -96,9 +96,14 @@ double parse_number(std::string_view text, const std::string& wish) {
   return value;
 }
 
+// The near plane where none is given: the ground is seen from eye height in a scene of any size. Reversed
+// depth loses no precision by it (docs/conventions.md#near).
+double default_near_m(double size_m) { return std::min(size_m / 1000, 0.1); }
+
 struct LookAtWish {
   glm::dvec3 eye{0}, target{0};
   double fov_deg = 60;
+  double near_m = 0;  // 0: not given
 };
 
 LookAtWish parse_look_at(const std::string& wish) {
@@ -109,9 +114,10 @@ LookAtWish parse_look_at(const std::string& wish) {
     int count;
     bool seen;
   };
-  std::array<Key, 3> keys{{{"eye:", &parsed.eye.x, 3, false},
+  std::array<Key, 4> keys{{{"eye:", &parsed.eye.x, 3, false},
                            {"target:", &parsed.target.x, 3, false},
-                           {"fov:", &parsed.fov_deg, 1, false}}};
+                           {"fov:", &parsed.fov_deg, 1, false},
+                           {"near:", &parsed.near_m, 1, false}}};
   std::string_view rest = wish;
   const auto next_item = [&rest] {
     const std::string_view item = rest.substr(0, rest.find(','));
@@ -123,8 +129,8 @@ LookAtWish parse_look_at(const std::string& wish) {
     const auto key =
         std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return item.starts_with(k.name); });
     if (key == keys.end() || key->seen) {
-      throw input_error("camera {}: \"{}\" is {}; the form is eye:x,y,z,target:x,y,z,fov:deg", wish, item,
-                        key == keys.end() ? "not eye:, target: or fov:" : "there twice");
+      throw input_error("camera {}: \"{}\" is {}; the form is eye:x,y,z,target:x,y,z,fov:deg,near:m", wish,
+                        item, key == keys.end() ? "not eye:, target:, fov: or near:" : "there twice");
     }
     key->seen = true;
     item.remove_prefix(key->name.size());
@@ -136,6 +142,9 @@ LookAtWish parse_look_at(const std::string& wish) {
   }
   if (!(parsed.fov_deg > 0 && parsed.fov_deg < 180)) {
     throw input_error("camera {}: fov {} is not between 0 and 180 degrees", wish, parsed.fov_deg);
+  }
+  if (keys[3].seen && !(parsed.near_m > 0)) {
+    throw input_error("camera {}: near {} is not above 0", wish, parsed.near_m);
   }
   if (parsed.eye == parsed.target) throw input_error("camera {}: the target is the eye", wish);
   return parsed;
@@ -210,7 +219,7 @@ Camera choose_camera(const Scene& scene, const std::string& wish, double aspect)
   const LookAtWish parsed = parse_look_at(wish);
   Camera camera = look_at(parsed.eye, parsed.target);
   camera.fov_y_rad = parsed.fov_deg * (std::numbers::pi / 180);
-  camera.near_m = 1e-3 * size_of(world_box(scene));
+  camera.near_m = parsed.near_m > 0 ? parsed.near_m : default_near_m(size_of(world_box(scene)));
   return camera;
 }
 

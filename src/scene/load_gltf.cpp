@@ -26,7 +26,7 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
           .meshes = {}};
   Scene scene;
   scene.name = path.stem().string();
-  scene.materials = gltf::read_materials(doc);
+  scene.materials = gltf::read_materials(doc, nodes);
   gltf::add_meshes(doc, nodes, scene, rig);
   scene.lights = gltf::read_lights(doc, nodes);
   scene.cameras = gltf::read_cameras(doc, nodes);

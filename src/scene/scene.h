@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -141,8 +142,8 @@ struct Scene {
   glm::vec3 ambient{0.02f};  // constant radiance from all sides; occlusion maps darken it
   glm::vec3 background{0};   // radiance without any surface
   std::shared_ptr<const Rig> rig;  // moving parts; null: none. Copies of a scene share it
-  double time_s = 0;               // the time of the pose, as last given to set_time
-  int animation = -1;              // the posed animation; -1: all animations, at time 0 the rest pose
+  std::optional<double> time_s;    // of the pose, as last given to set_time; empty: at rest
+  int animation = -1;              // the posed animation; -1: all animations
 };
 
 // The box around all instances, in world space; empty for a scene without geometry.

@@ -57,7 +57,11 @@ void load_lights(Scene& scene, const SceneChoice& choice) {
   scene.lights.resize(choice.lights);
 }
 
-double parse_time(const std::string& text) {
+}  // namespace
+
+std::optional<double> chosen_time(const SceneChoice& choice) {
+  const std::string& text = choice.time;
+  if (text.empty()) return {};
   double seconds = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (failure != std::errc() || end != text.data() + text.size() || !(seconds >= 0) || !(seconds <= 1e9)) {
@@ -65,8 +69,6 @@ double parse_time(const std::string& text) {
   }
   return seconds;
 }
-
-}  // namespace
 
 Scene load_scene(const std::string& name) {
   if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
@@ -90,7 +92,7 @@ ImageSize parse_size(const std::string& text) {
 
 View choose_view(Scene& scene, const SceneChoice& choice) {
   const ImageSize size = parse_size(choice.size);
-  if (!choice.time.empty()) set_time(scene, parse_time(choice.time));
+  if (const auto seconds = chosen_time(choice)) set_time(scene, seconds);
   check_light_radius(choice);
   std::string camera = choice.camera;
   if (!choice.lights_file.empty()) {
@@ -113,9 +115,10 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
 
 SceneMotion chosen_motion(Scene& scene, const SceneChoice& choice) {
   const LightMotion motion = light_motion(choice.light_motion);
-  const bool animated = !choice.time.empty() && animation_count(scene) > 0;
+  const std::optional<double> time = chosen_time(choice);
+  const bool animated = time && animation_count(scene) > 0;
   if (motion == LightMotion::none && !animated) return {};
-  const double start = choice.time.empty() ? 0 : parse_time(choice.time);
+  const double start = time.value_or(0);
   constexpr double frames_a_second = 30;
   return [&scene, animated, start, rig = make_light_rig(scene, motion)](size_t frame) {
     const double seconds = start + double(frame) / frames_a_second;

@@ -2,6 +2,7 @@
 // front ends. Error(input) names the field and its value.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct ImageSize {
 };
 ImageSize parse_size(const std::string& text);
 Scene load_scene(const std::string& name);
+// Seconds into the animations of the file; empty: at rest.
+std::optional<double> chosen_time(const SceneChoice& choice);
 // The view of a loaded scene; replaces its lights by those of the choice.
 View choose_view(Scene& scene, const SceneChoice& choice);
 // The scene's motion along a path, 30 frames a second from the chosen time; empty if nothing moves. The scene

@@ -37,6 +37,8 @@ void FlyCamera::go_to(const std::string& text, double aspect) {
   text_ = text;
   aspect_ = aspect;
   moved_ = false;
+  const bool is_placed = text.starts_with("eye:") || text.starts_with("target:");
+  near_given_ = is_placed && text.find("near:") != std::string::npos;
 }
 
 void FlyCamera::hold(double aspect) {
@@ -50,6 +52,7 @@ void FlyCamera::start_from_scene(double aspect) {
   if (moved_) return;
   const View view = make_view(choose_camera(scene_, text_, aspect), 1, 1);
   eye_ = view.eye;
+  near_m_ = view.near_m;
   const glm::dvec3 forward = -glm::transpose(glm::dmat3(view.view_from_world))[2];
   yaw_ = std::atan2(-forward.x, -forward.z);
   pitch_ = std::clamp(std::asin(std::clamp(forward.y, -1.0, 1.0)), -steepest_rad, steepest_rad);
@@ -91,7 +94,8 @@ void FlyCamera::write_text() {
   const auto point = [&](const glm::dvec3& p) {
     return fmt::format("{:.{}f},{:.{}f},{:.{}f}", p.x, decimals, p.y, decimals, p.z, decimals);
   };
-  text_ = fmt::format("eye:{},target:{},fov:{:.6g}", point(eye_), point(target), fov_deg_);
+  const std::string near = near_given_ ? fmt::format(",near:{}", near_m_) : "";
+  text_ = fmt::format("eye:{},target:{},fov:{:.6g}{}", point(eye_), point(target), fov_deg_, near);
 }
 
 View FlyCamera::view(int width, int height) {

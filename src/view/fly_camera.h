@@ -15,7 +15,8 @@ class FlyCamera {
  public:
   // The scene outlives it. `text`: the value of --camera, for an image of this aspect. Until the user moves
   // it, it is that camera of the scene, of any kind, and follows its animation; then it is upright and
-  // perspective, with the near plane from choose_camera. Throws Error(input) as choose_camera does.
+  // perspective, with the near plane from the text or else from choose_camera. Throws Error(input) as
+  // choose_camera does.
   FlyCamera(const Scene& scene, std::string text, double aspect);
 
   // Jumps to another camera, in the form of --camera. Throws Error(input) as choose_camera does.
@@ -44,7 +45,9 @@ class FlyCamera {
   double aspect_ = 1;  // of the last view
   glm::dvec3 eye_{0};
   double yaw_ = 0, pitch_ = 0, fov_deg_ = 60;  // yaw about y from -z, pitch upwards; radians
-  double size_m_ = 1;                          // of the scene
+  double near_m_ = 0;
+  bool near_given_ = false;  // by the text: the camera keeps it when it moves
+  double size_m_ = 1;        // of the scene
 };
 
 }  // namespace lightgrid

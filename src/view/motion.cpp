@@ -19,14 +19,14 @@ void add(std::vector<int>& to, const std::vector<int>& indices) {
 
 }  // namespace
 
-Motion::Motion(Scene& scene, LightMotion lights, double seconds)
+Motion::Motion(Scene& scene, LightMotion lights, std::optional<double> seconds)
     : scene_(scene),
       rig_(make_light_rig(scene, lights)),
       animated_(animation_count(scene) > 0),
       seconds_(seconds) {}
 
 SceneChanges Motion::follow(Controls& controls, double seconds_passed) {
-  const double before = seconds_;
+  const std::optional<double> before = seconds_;
   SceneChanges changes;
   if (controls.lights != rig_.motion) {
     changes = move_lights(scene_, rig_, 0);
@@ -34,10 +34,10 @@ SceneChanges Motion::follow(Controls& controls, double seconds_passed) {
   }
   if (controls.seconds) seconds_ = *controls.seconds;
   if (controls.step) {
-    seconds_ = std::round((seconds_ + seconds_a_step) * 1e6) / 1e6;
+    seconds_ = std::round((seconds() + seconds_a_step) * 1e6) / 1e6;
     controls.playing = false;
   } else if (controls.playing && can_play()) {
-    seconds_ = std::round((seconds_ + seconds_passed) * 1e6) / 1e6;
+    seconds_ = std::round((seconds() + seconds_passed) * 1e6) / 1e6;
   }
   controls.seconds.reset();
   controls.step = false;
@@ -52,8 +52,8 @@ SceneChanges Motion::follow(Controls& controls, double seconds_passed) {
 
 SceneChanges Motion::pose() {
   SceneChanges changes;
-  if (animated_) changes = set_time(scene_, looped_time(scene_, seconds_));
-  add(changes.lights, move_lights(scene_, rig_, seconds_).lights);
+  if (animated_ && seconds_) changes = set_time(scene_, looped_time(scene_, *seconds_));
+  add(changes.lights, move_lights(scene_, rig_, seconds()).lights);
   return changes;
 }
 
@@ -61,8 +61,8 @@ std::string Motion::words() const {
   std::string words;
   const bool lights = rig_.motion != LightMotion::none;
   // Animations repeat; render stops at their end if no lights move.
-  const double time = !lights && animated_ ? looped_time(scene_, seconds_) : seconds_;
-  if (time > 0 && (lights || animated_)) words += fmt::format(" --time {}", time);
+  const double time = !lights && animated_ ? looped_time(scene_, seconds()) : seconds();
+  if (seconds_ && (lights || animated_)) words += fmt::format(" --time {}", time);
   if (lights) words += fmt::format(" --light-motion {}", name_of(rig_.motion));
   return words;
 }

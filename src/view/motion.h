@@ -9,14 +9,14 @@ namespace lightgrid {
 
 class Motion {
  public:
-  // The scene outlives it; its pose is at `seconds`.
-  Motion(Scene& scene, LightMotion lights, double seconds);
+  // The scene outlives it; its pose is at `seconds`, or at rest.
+  Motion(Scene& scene, LightMotion lights, std::optional<double> seconds);
 
   // Applies lights, playing, step and seconds of the controls, and clears the last two. Returns what changed
   // in the scene.
   SceneChanges follow(Controls& controls, double seconds_passed);
 
-  double seconds() const { return seconds_; }
+  double seconds() const { return seconds_.value_or(0); }
   bool can_play() const { return animated_ || rig_.motion != LightMotion::none; }
   bool animated() const { return animated_; }
   // The options of `lightgrid render` for this time; empty at rest.
@@ -28,7 +28,7 @@ class Motion {
   Scene& scene_;
   LightRig rig_;
   bool animated_ = false;
-  double seconds_ = 0;
+  std::optional<double> seconds_;  // empty: at rest, until something plays
 };
 
 }  // namespace lightgrid

@@ -122,7 +122,7 @@ Run line(Words words) {
 }
 
 Run camera(Words words) {
-  expect_words(words, 1, "camera NAME|INDEX|eye:x,y,z,target:x,y,z,fov:degrees");
+  expect_words(words, 1, "camera NAME|INDEX|eye:x,y,z,target:x,y,z,fov:degrees,near:metres");
   return [wish = words[0]](Controls& controls, Input&) { controls.camera = wish; };
 }
 
@@ -212,7 +212,8 @@ Script::Script(std::string_view text, const std::string& name) {
 
 Script Script::read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
+  std::error_code unreadable;
+  if (!file || std::filesystem::is_directory(path, unreadable))
     throw input_error("--script {}: cannot be read", path.string());
   const std::string text(std::istreambuf_iterator<char>(file), {});
   return Script(text, path.string());

@@ -239,9 +239,10 @@ void Viewer::show(const Shown& shown) {
 
 void Viewer::take_screenshot() {
   std::filesystem::path path;
+  std::error_code unreadable;
   do {
     path = fmt::format("lightgrid_view_{:03}.png", screenshots_++);
-  } while (std::filesystem::exists(path));
+  } while (std::filesystem::exists(path, unreadable));
   screen_.save(path);
   note_ = path.string();
 }

@@ -20,12 +20,12 @@ class Interface;
 
 struct ViewJob {
   Scene scene;
-  View view;                // of the picture; the window adds its panel
-  std::string scene_words;  // the scene and its lights as command-line options
-  std::string camera;       // the value of --camera
-  std::string device;       // OpenCL, by a part of its name
-  double seconds = 0;       // of the scene's animations
-  Controls controls;        // initial values
+  View view;                      // of the picture; the window adds its panel
+  std::string scene_words;        // the scene and its lights as command-line options
+  std::string camera;             // the value of --camera
+  std::string device;             // OpenCL, by a part of its name
+  std::optional<double> seconds;  // of the scene's animations; empty: at rest
+  Controls controls;              // initial values
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
   Script script{"", ""};

@@ -30,6 +30,7 @@ TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
       << R"({"lights": [{"name": "lamp", "position": [0, 1, 0], "radius": 2}]})";
   std::ofstream(folder.path / "file") << "not a folder";
   std::filesystem::create_directory(folder.path / "is_a_folder.png");
+  std::filesystem::create_symlink("loop", folder.path / "loop");
   std::vector<std::string> arguments;
   for (const std::string& a : GetParam().arguments) arguments.push_back(replace_folder(a, folder.path));
   // A wrong argument must be reported first, even if no device could be opened.
@@ -40,7 +41,7 @@ TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
   for (const std::string& told : GetParam().told)
     EXPECT_THAT(run.err, HasSubstr(replace_folder(told, folder.path)));
   const auto files = std::distance(std::filesystem::directory_iterator(folder.path), {});
-  EXPECT_EQ(files, 3) << "something was written";
+  EXPECT_EQ(files, 4) << "something was written";
 }
 
 const char scene[] = "spheres";
@@ -171,6 +172,12 @@ INSTANTIATE_TEST_SUITE_P(
               {"compare", scene, "-t", "forward_plus", "--compare", "brdf=ggx,blinn", "-o", "FOLDER/r"},
               {"brdf=ggx", "brdf=blinn", "--brdf"}},
         Wrong{"CompareIntoAFile", {"compare", scene, "-o", "FOLDER/file"}, {"FOLDER/file"}},
+        Wrong{"CompareIntoAFolderThatCannotBeSeen",
+              {"compare", scene, "-o", "FOLDER/loop/r"},
+              {"FOLDER/loop/r: cannot be made a folder: "}},
+        Wrong{"CaptureIntoAFolderThatCannotBeSeen",
+              {"capture", scene, "-o", "FOLDER/loop/r"},
+              {"FOLDER/loop/r: cannot be made a folder: "}},
         Wrong{"CaptureUnknownScene", {"capture", "nosuchscene", "-o", "FOLDER/r"}, {"nosuchscene"}},
         Wrong{"CaptureIntoAFile", {"capture", scene, "-o", "FOLDER/file"}, {"FOLDER/file"}},
         Wrong{"CullNothing", {"cull", "-o", "FOLDER/r"}, {"FRAME"}},

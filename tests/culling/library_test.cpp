@@ -1,10 +1,13 @@
 // The culling library as other programs use it: installed, found by CMake, linked into the example of
 // docs/examples, run.
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 
+#include <filesystem>
+#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -99,6 +102,88 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
        {"libGL", "libEGL", "libOSMesa", "libglapi", "libX11", "libpng", "libspdlog", "libdraco"}) {
     EXPECT_THAT(libraries, Not(HasSubstr(name)));
   }
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path) << text;
+}
+
+TEST(Library, LinksIntoAPluginOfAnEngineThatHasABaseFolderOfItsOwn) {
+  if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  const TempFolder temp;
+  const std::string prefix = temp.path / "prefix", engine = temp.path / "engine", build = temp.path / "build";
+  write_text(temp.path / "engine/own/base/error.h", "#pragma once\nstruct EngineError { int code = 7; };\n");
+  write_text(temp.path / "engine/plugin.cpp", R"(
+#include "base/error.h"
+#include <lightgrid/base/error.h>
+#include <lightgrid/culling/light_culler.h>
+#include "raster/rasterizer.h"
+
+extern "C" int cull_nothing() {
+  try {
+    lightgrid::ClDevice device;
+    lightgrid::ProgramCache programs(device);
+    lightgrid::LightCuller culler(device, programs, {});
+    lightgrid::Rasterizer rasterizer(device, programs, {});
+    return 0;
+  } catch (const lightgrid::Error& error) {
+    return error.exit_code();
+  }
+}
+extern "C" int engine_code() { return EngineError().code; }
+)");
+  write_text(temp.path / "engine/CMakeLists.txt", R"(
+cmake_minimum_required(VERSION 3.22)
+project(engine LANGUAGES CXX)
+find_package(lightgrid 0.1 REQUIRED)
+add_library(plugin SHARED plugin.cpp)
+target_include_directories(plugin BEFORE PRIVATE own)
+target_link_libraries(plugin PRIVATE lightgrid::culling lightgrid::raster)
+target_link_options(plugin PRIVATE -Wl,--no-undefined)
+)");
+  for (const std::string& command :
+       {fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR,
+                    prefix),
+        fmt::format("{} -S {} -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE, engine, build, prefix),
+        fmt::format("{} --build {}", LIGHTGRID_CMAKE, build)}) {
+    const CommandOutcome outcome = run_command(command + " 2>&1");
+    ASSERT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
+  }
+  void* const plugin = dlopen((build + "/libplugin.so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(plugin, nullptr) << dlerror();
+  const auto call = [&](const char* name) { return reinterpret_cast<int (*)()>(dlsym(plugin, name))(); };
+  EXPECT_EQ(call("engine_code"), 7);
+  EXPECT_EQ(call("cull_nothing"), 0);
+}
+
+TEST(Library, AsASubfolderItLeavesTheProjectAboveItsSettings) {
+  if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  const TempFolder temp;
+  write_text(temp.path / "engine/CMakeLists.txt", fmt::format(R"(
+cmake_minimum_required(VERSION 3.22)
+project(engine LANGUAGES CXX)
+add_subdirectory({} lightgrid)
+add_library(engine STATIC engine.cpp)
+target_link_libraries(engine PRIVATE lightgrid::culling)
+get_target_property(unity engine UNITY_BUILD)
+get_target_property(options engine COMPILE_OPTIONS)
+get_target_property(ours lightgrid_culling UNITY_BUILD)
+message(STATUS "build type '${{CMAKE_BUILD_TYPE}}', unity '${{unity}}', options '${{options}}', ours '${{ours}}'")
+if(TARGET lightgrid)
+  message(FATAL_ERROR "the program is built too")
+endif()
+)",
+                                                              source_folder));
+  write_text(temp.path / "engine/engine.cpp", "#include <lightgrid/culling/light_culler.h>\n");
+  const std::string build = temp.path / "build";
+  const CommandOutcome outcome = run_command(fmt::format("{} -DCMAKE_BUILD_TYPE= -S {}/engine -B {} 2>&1",
+                                                         LIGHTGRID_CONFIGURE, temp.path.string(), build));
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              testing::ContainsRegex(
+                  "build type '', unity '(unity-)?(OFF|NOTFOUND)?', options '(options-NOTFOUND)?', "
+                  "ours 'ON'"));
 }
 
 // As on a machine with OpenCL, GLM and fmt and without the program's other dependencies.

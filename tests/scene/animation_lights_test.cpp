@@ -82,11 +82,11 @@ TEST(AnimationLights, a_node_scaled_to_nothing_leaves_the_directions_at_rest) {
   expect_near(glm::dvec3(scene.cameras[0].world_from_view[3]), {4, 0, 0});
 }
 
-TEST(AnimationLights, time_0_restores_them_bit_for_bit) {
+TEST(AnimationLights, rest_restores_them_bit_for_bit) {
   const Scene loaded = carried().load();
   Scene scene = loaded;
   set_time(scene, 1.3);
-  set_time(scene, 0);
+  set_time(scene, std::nullopt);
   for (size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(scene.lights[i].position, loaded.lights[i].position);
     EXPECT_EQ(scene.lights[i].direction, loaded.lights[i].direction);

@@ -189,16 +189,6 @@ TEST(AnimationNodes, one_key_holds_at_all_times) {
   for (const double seconds : {-1.0, 0.5, 2.0, 9.0}) expect_near(position_at(scene, seconds), {1, 2, 3});
 }
 
-TEST(AnimationNodes, time_0_is_the_file_at_rest_unless_an_animation_is_named) {
-  Scene scene = moving("LINEAR");
-  const glm::dmat4 rest = scene.instances[0].world_from_object;
-  expect_near(glm::dvec3(rest[3]), {-1, -1, -1});
-  expect_near(position_at(scene, 2), {4, 4, -2});
-  EXPECT_EQ(world_at(scene, 0), rest);
-  expect_near(position_at(scene, 0, 0), {2, 0, 0});
-  EXPECT_EQ(world_at(scene, -0.0), rest);
-}
-
 TEST(AnimationNodes, all_animations_play_at_once_the_later_over_the_earlier) {
   GltfBuilder made = GltfBuilder::triangle();
   animate(made, 0, "translation", {0, 2}, "VEC3", {0, 0, 0, 2, 0, 0}, "LINEAR", 0);
@@ -215,7 +205,7 @@ TEST(AnimationNodes, all_animations_play_at_once_the_later_over_the_earlier) {
   expect_near(at(world_at(scene, 1, 1), {1, 0, 0}), {1, 2, 0});
 }
 
-TEST(AnimationNodes, looped_times_never_return_to_the_rest_pose) {
+TEST(AnimationNodes, looped_times_end_with_the_last_key) {
   const Scene scene = moving("LINEAR");  // keys up to 3 s
   EXPECT_EQ(looped_time(scene, 0), 0);
   EXPECT_EQ(looped_time(scene, 2.5), 2.5);
@@ -233,14 +223,26 @@ TEST(AnimationNodes, changes_name_what_moved_and_nothing_else) {
   animate(made, 1, "translation", {1, 2}, "VEC3", {0, 0, 0, 1, 0, 0});
   animate(made, 3, "scale", {1, 3}, "VEC3", {1, 1, 1, 2, 2, 2});
   Scene scene = made.load();
-  EXPECT_TRUE(set_time(scene, 0).empty());
+  EXPECT_TRUE(set_time(scene, std::nullopt).empty());
   EXPECT_TRUE(set_time(scene, 1).empty()) << "the first keys are the rest pose";
   EXPECT_EQ(set_time(scene, 2).instances, (Ints{1, 2}));
   const SceneChanges changes = set_time(scene, 3);
   EXPECT_EQ(changes.instances, Ints{2});
   EXPECT_TRUE(changes.lights.empty() && changes.cameras.empty() && changes.meshes.empty());
   EXPECT_TRUE(set_time(scene, 3).empty());
-  EXPECT_EQ(set_time(scene, 0).instances, (Ints{1, 2}));
+  EXPECT_EQ(set_time(scene, std::nullopt).instances, (Ints{1, 2}));
+}
+
+TEST(AnimationNodes, time_0_is_a_time_of_the_animation_and_not_the_rest_pose) {
+  Scene scene = moving("LINEAR");
+  const glm::dmat4 at_rest = scene.instances[0].world_from_object;
+  expect_near(glm::dvec3(at_rest[3]), {-1, -1, -1});
+  EXPECT_EQ(set_time(scene, 0).instances, Ints{0});
+  expect_near(glm::dvec3(scene.instances[0].world_from_object[3]), {2, 0, 0});
+  EXPECT_TRUE(set_time(scene, -0.0).empty());
+  EXPECT_TRUE(set_time(scene, 1e-6).empty());
+  EXPECT_EQ(set_time(scene, std::nullopt).instances, Ints{0});
+  EXPECT_EQ(scene.instances[0].world_from_object, at_rest);
 }
 
 TEST(AnimationNodes, a_pose_depends_on_its_time_alone) {

@@ -195,6 +195,31 @@ TEST(ChooseCamera, SaysWhatIsWrong) {
   EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,fov:180"), HasSubstr("fov 180 "));
   EXPECT_THAT(refused("eye:0,0,0,eye:0,0,1"), HasSubstr("there twice"));
   EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,roll:3"), HasSubstr("\"roll:3\""));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,near:0"), HasSubstr("near 0 is not above 0"));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,near:-0.1"), HasSubstr("near -0.1 is not above 0"));
+  EXPECT_THAT(refused("eye:0,0,0,target:0,0,1,near:inf"), HasSubstr("\"inf\" is not a number"));
+}
+
+// A scene whose box has this diagonal.
+Scene scene_of_size(double size_m) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.bounds = {{0, 0, 0}, {3, 0, 4}};
+  scene.instances.push_back({.mesh = 0, .world_from_object = glm::dmat4(glm::dmat3(size_m / 5))});
+  return scene;
+}
+
+TEST(ChooseCamera, NearIsAThousandthOfTheSceneAndAtMostATenthOfAMetre) {
+  const std::string eye = "eye:0,1.7,0,target:1,1.7,0";
+  const std::pair<double, double> near_of_size[] = {{1e-3, 1e-6}, {1, 1e-3},   {100, 0.1},
+                                                    {500, 0.1},   {2000, 0.1}, {1e6, 0.1}};
+  for (const auto& [size, near] : near_of_size) {
+    EXPECT_DOUBLE_EQ(choose_camera(scene_of_size(size), eye).near_m, near) << size;
+    EXPECT_EQ(choose_camera(scene_of_size(size), eye + ",near:0.25").near_m, 0.25) << size;
+  }
+  Scene with_camera = scene_of_size(2000);
+  with_camera.cameras.push_back(simple_camera());
+  EXPECT_EQ(choose_camera(with_camera, "").near_m, 0.5) << "a camera of the scene keeps its own";
 }
 
 TEST(ChooseCamera, DefaultSeesTheWholeScene) {

@@ -54,20 +54,43 @@ TEST(GltfCameras, aspect_far_plane_and_orthographic_sizes_are_read) {
   EXPECT_EQ(flat.far_m, 50);
 }
 
-TEST(GltfCameras, impossible_cameras_are_refused) {
+// The warning with which the file's one camera is left out; its mesh is drawn.
+std::string camera_warning(const GltfBuilder& made) {
+  Scene scene;
+  const std::string warning = warnings_of([&] { scene = made.load(); });
+  EXPECT_TRUE(scene.cameras.empty());
+  EXPECT_EQ(scene.meshes.size(), 1u);
+  EXPECT_THAT(warning, HasSubstr("; this camera is left out\n"));
+  return warning;
+}
+
+TEST(GltfCameras, impossible_cameras_are_left_out_with_a_warning) {
   const auto perspective = [](double yfov, double znear, double zfar) {
-    return with_camera(
-               {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", znear}, {"zfar", zfar}}}})
-        .refusal();
+    return camera_warning(with_camera(
+        {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", znear}, {"zfar", zfar}}}}));
   };
-  EXPECT_THAT(perspective(0, 1, 2), HasSubstr("camera 0: yfov is 0"));
+  EXPECT_THAT(perspective(0, 1, 2), HasSubstr("made.gltf: camera 0: yfov is 0"));
   EXPECT_THAT(perspective(3.2, 1, 2), HasSubstr("camera 0: yfov is 3.2"));
   EXPECT_THAT(perspective(1, 0, 2), HasSubstr("camera 0: znear is 0"));
   EXPECT_THAT(perspective(1, 2, 1), HasSubstr("camera 0: zfar is 1, not beyond znear 2"));
-  EXPECT_THAT(with_camera({{"type", "orthographic"},
-                           {"orthographic", {{"xmag", 0}, {"ymag", 3}, {"znear", 0}, {"zfar", 5}}}})
-                  .refusal(),
-              HasSubstr("camera 0: xmag is 0"));
+  EXPECT_THAT(
+      camera_warning(with_camera({{"type", "orthographic"},
+                                  {"orthographic", {{"xmag", 0}, {"ymag", 3}, {"znear", 0}, {"zfar", 5}}}})),
+      HasSubstr("camera 0: xmag is 0"));
+}
+
+TEST(GltfCameras, one_left_out_leaves_the_others_and_the_number_is_told) {
+  GltfBuilder made = with_camera({{"type", "perspective"}, {"perspective", {{"yfov", 0}, {"znear", 1}}}});
+  made.root["cameras"].push_back(
+      {{"type", "perspective"}, {"name", "good"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+  made.root["nodes"].push_back({{"camera", 1}});
+  made.root["nodes"].push_back({{"camera", 0}});
+  made.root["scenes"][0]["nodes"] = {0, 1, 2};
+  Scene scene;
+  const std::string warning = warnings_of([&] { scene = made.load(); });
+  EXPECT_THAT(warning, HasSubstr("camera 0: yfov is 0; this camera is left out, and 1 more\n"));
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_EQ(scene.cameras[0].name, "good");
 }
 
 GltfBuilder with_light(const json& light) {
@@ -147,6 +170,16 @@ TEST(GltfLights, what_the_extension_forbids_is_refused_by_name) {
               HasSubstr("light 0: intensity 1e+30 times color passes the largest float, 3.40282e+38"));
   EXPECT_THAT(with_light({{"type", "point"}, {"color", {1, 1}}}).refusal(), HasSubstr("color has 2 numbers"));
   EXPECT_THAT(with_light({{"type", "lamp"}}).refusal(), HasSubstr("light 0: type is \"lamp\""));
+}
+
+TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {
+  GltfBuilder made = with_light({{"type", "point"}});
+  made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "point"}, {"intensity", -1}});
+  EXPECT_EQ(made.load().lights.size(), 1u);
+  made.node()["extensions"]["KHR_lights_punctual"]["light"] = 1;
+  EXPECT_THAT(made.refusal(), HasSubstr("light 1: intensity is -1"));
+  made.node()["extensions"]["KHR_lights_punctual"]["light"] = 2;
+  EXPECT_THAT(made.refusal(), HasSubstr("node 0: KHR_lights_punctual.light is 2, but there are 2"));
 }
 
 TEST(GltfLights, cones_that_differ_by_less_than_a_float_still_differ) {

@@ -259,6 +259,21 @@ TEST(GltfMaterial, materials_that_no_mesh_uses_cost_no_image) {
   EXPECT_TRUE(scene.bitmaps.empty());
 }
 
+TEST(GltfMaterial, what_is_wrong_with_a_material_or_an_image_matters_only_if_a_mesh_uses_it) {
+  GltfBuilder made = with_material({{"name", "plain"}});
+  made.root["materials"].push_back(
+      {{"alphaMode", "SOLID"}, {"pbrMetallicRoughness", {{"metallicFactor", 7}}}});
+  made.root["materials"].push_back({{"emissiveTexture", {{"index", 0}}}});
+  made.root["images"][0] = json::object();
+  made.root["meshes"].push_back(made.root["meshes"][0]);  // no node has it
+  made.root["meshes"][1]["primitives"][0]["material"] = 1;
+  EXPECT_EQ(made.load().materials.at(0).name, "plain");
+  made.primitive()["material"] = 1;
+  EXPECT_THAT(made.refusal(), HasSubstr("material 1: metallicFactor is 7, outside 0 to 1"));
+  made.primitive()["material"] = 2;
+  EXPECT_EQ(made.refusal(), "made.gltf: images[0] must have either a bufferView or a uri");
+}
+
 GltfBuilder with_image(const Bytes& file) {
   GltfBuilder made = with_material({{"normalTexture", {{"index", 0}}}});
   made.root["images"][0] = {{"bufferView", made.view(file)}, {"mimeType", "image/png"}, {"name", "im"}};

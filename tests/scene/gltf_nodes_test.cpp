@@ -177,5 +177,13 @@ TEST(GltfSkins, joints_out_of_range_or_out_of_the_scene_are_refused) {
   EXPECT_THAT(made.refusal(), HasSubstr("skin 0: joint 1 is not in the scene"));
 }
 
+TEST(GltfSkins, a_skin_without_joints_is_refused_only_if_a_mesh_uses_it) {
+  GltfBuilder made = skinned();
+  made.root["skins"].push_back(json::object());
+  EXPECT_EQ(made.load().meshes.size(), 1u);
+  made.node()["skin"] = 1;
+  EXPECT_EQ(made.refusal(), "made.gltf: skin 1: has no joints");
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -27,22 +27,24 @@ struct ProgramRun {
   std::string out, err;
 };
 
-// `environment`: NAME=VALUE each, in addition to the test's own. Lines of progress, which depend on the
-// machine's speed, are off unless it enables them.
-inline ProgramRun run_program(std::vector<std::string> arguments, std::vector<std::string> environment = {},
-                              std::chrono::seconds limit = std::chrono::seconds(120)) {
+// The first word is a program, found in PATH. `environment`: NAME=VALUE each, in addition to the test's own.
+// Lines of progress, which depend on the machine's speed, are off unless it enables them. `out_file`: for
+// stdout, which is then not recorded.
+inline ProgramRun run_words(std::vector<std::string> words, std::vector<std::string> environment = {},
+                            std::chrono::seconds limit = std::chrono::seconds(120),
+                            const std::string& out_file = {}) {
   environment.emplace_back("LIGHTGRID_PROGRESS_S=86400");
   const TempFolder folder;
-  const std::string out = folder.path / "stdout", err = folder.path / "stderr";
+  const std::string out = out_file.empty() ? std::string(folder.path / "stdout") : out_file,
+                    err = folder.path / "stderr";
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
 
-  arguments.insert(arguments.begin(), lightgrid_program);
   std::vector<char*> argv, envp;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
+  for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   // Of two entries with one name the first is used: ours come first.
   for (std::string& variable : environment) envp.push_back(variable.data());
@@ -51,7 +53,7 @@ inline ProgramRun run_program(std::vector<std::string> arguments, std::vector<st
 
   ProgramRun run;
   pid_t pid = 0;
-  const int failure = posix_spawn(&pid, lightgrid_program, &actions, nullptr, argv.data(), envp.data());
+  const int failure = posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), envp.data());
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) return run;
 
@@ -70,9 +72,17 @@ inline ProgramRun run_program(std::vector<std::string> arguments, std::vector<st
     std::ifstream stream(path, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(stream), {});
   };
-  run.out = text_of(out);
+  if (out_file.empty()) run.out = text_of(out);
   run.err = text_of(err);
   return run;
+}
+
+inline ProgramRun run_program(std::vector<std::string> arguments,
+                              const std::vector<std::string>& environment = {},
+                              std::chrono::seconds limit = std::chrono::seconds(120),
+                              const std::string& out_file = {}) {
+  arguments.insert(arguments.begin(), lightgrid_program);
+  return run_words(arguments, environment, limit, out_file);
 }
 
 }  // namespace lightgrid

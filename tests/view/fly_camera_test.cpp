@@ -100,6 +100,16 @@ TEST(FlyCamera, IsTheTextThatItGives) {
   expect_same(make_view(choose_camera(scene, camera.text()), 320, 180), camera.view(320, 180));
 }
 
+TEST(FlyCamera, KeepsANearPlaneThatWasGiven) {
+  const Scene scene = ten_metres_with_camera();
+  FlyCamera camera(scene, "eye:1,2,3,target:0,0,0,near:0.25", wide);
+  camera.turn(31.7, -12.9, 180);
+  EXPECT_EQ(camera.view(320, 180).near_m, 0.25);
+  camera.go_to("eye:1,2,3,target:0,0,0", wide);
+  camera.turn(31.7, -12.9, 180);
+  EXPECT_NE(camera.view(320, 180).near_m, 0.25);
+}
+
 // As `lightgrid render` sees the scene at that time and size.
 TEST(FlyCamera, FollowsAnAnimatedCameraOfTheSceneUntilItMoves) {
   Scene scene = ten_metres_with_camera();

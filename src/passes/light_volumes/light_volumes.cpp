@@ -242,11 +242,11 @@ const std::vector<LightVolume>& LightVolumes::update(RenderView& v, VolumeMeshes
   const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
   lights_.clear();
   for (int i : v.plan.local) lights_.push_back(all[i]);
-  upload(light_volumes(v.view, lights_, meshes, subpixel_bits_));
+  upload_volumes(light_volumes(v.view, lights_, meshes, subpixel_bits_));
   return volumes_;
 }
 
-void LightVolumes::upload(std::vector<LightVolume> volumes) {
+void LightVolumes::upload_volumes(std::vector<LightVolume> volumes) {
   volumes_ = std::move(volumes);
   std::vector<VolumeInstance> instances;
   for (const LightVolume& volume : volumes_) instances.push_back({volume.clip_from_mesh, volume.light});

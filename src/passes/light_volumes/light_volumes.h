@@ -47,7 +47,7 @@ class LightVolumes : public PassState {
   // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights.
   const std::vector<LightVolume>& update(RenderView& v, VolumeMeshes meshes);
   // The same in the caller's order, to which the indices of draw() refer.
-  void upload(std::vector<LightVolume> volumes);
+  void upload_volumes(std::vector<LightVolume> volumes);
   const std::vector<LightVolume>& volumes() const { return volumes_; }
   // Point and spot lights of the last update, by LightVolume::light.
   const std::vector<ViewLight>& lights() const { return lights_; }

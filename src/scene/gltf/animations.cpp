@@ -37,7 +37,7 @@ Interpolation read_interpolation(const Document& doc, const std::string& name, c
 
 class AnimationReader {
  public:
-  AnimationReader(Document& doc, std::vector<PlacedNode>& nodes)
+  AnimationReader(Document& doc, const std::vector<PlacedNode>& nodes)
       : doc_(doc),
         nodes_(nodes),
         values_left_(doc.limits.max_animation_values),
@@ -45,7 +45,20 @@ class AnimationReader {
     for (size_t i = 0; i < nodes.size(); ++i) place_of_node_[nodes[i].node] = static_cast<int>(i);
   }
 
+  // After an error the reader is unchanged, except by warnings.
   Animation read(const AnimationEntry& entry, const std::string& place) {
+    if (entry.fault) throw *entry.fault;
+    const size_t values_before = values_left_;
+    try {
+      return read_channels(entry, place);
+    } catch (const Error&) {
+      values_left_ = values_before;
+      throw;
+    }
+  }
+
+ private:
+  Animation read_channels(const AnimationEntry& entry, const std::string& place) {
     Animation out{.name = entry.name, .channels = {}};
     std::set<std::pair<int, AnimatedPath>> targets;
     for (size_t i = 0; i < entry.channels.size(); ++i) {
@@ -56,22 +69,20 @@ class AnimationReader {
         throw doc_.error("{}: an earlier channel animates the {} of node {} too", inner,
                          entry.channels[i].path, entry.channels[i].node);
       if (entry.channels[i].sampler < 0) throw doc_.error("{}: has no sampler", inner);
-      read_keys(entry.samplers[entry.channels[i].sampler],
+      read_keys(checked(doc_, entry.samplers, entry.channels[i].sampler, inner, "sampler"),
                 fmt::format("{} sampler {}", place, entry.channels[i].sampler), *channel);
-      PlacedNode& node = nodes_[channel->node];
-      (channel->path == AnimatedPath::weights ? node.morphs : node.moves) = true;
       out.channels.push_back(*std::move(channel));
     }
     return out;
   }
 
- private:
   // Empty if the channel moves nothing in this scene.
   std::optional<AnimationChannel> read_target(const AnimationEntry::Channel& in, const std::string& place) {
     const auto path = read_path(in.path);
     if (!path && (in.node >= 0 || in.path == "pointer"))
       doc_.warn("animation path", "{}: path \"{}\" is not supported; left out", place, in.path);
-    if (!path || in.node < 0 || place_of_node_[in.node] < 0) return {};
+    if (!path || in.node < 0) return {};
+    if (checked(doc_, place_of_node_, in.node, place, "target node") < 0) return {};
     AnimationChannel out{.node = place_of_node_[in.node], .path = *path, .times = {}, .values = {}};
     if (*path == AnimatedPath::rotation) out.components = 4;
     if (*path == AnimatedPath::weights) {
@@ -143,7 +154,7 @@ class AnimationReader {
   }
 
   Document& doc_;
-  std::vector<PlacedNode>& nodes_;
+  const std::vector<PlacedNode>& nodes_;
   size_t values_left_;
   std::vector<int> place_of_node_;  // by the file's index; -1: not in the scene
 };
@@ -153,9 +164,22 @@ class AnimationReader {
 std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& nodes) {
   AnimationReader reader(doc, nodes);
   std::vector<Animation> out;
-  for (size_t i = 0; i < doc.animations.size(); ++i)
-    out.push_back(
-        reader.read(doc.animations[i], label("animation", static_cast<int>(i), doc.animations[i].name)));
+  std::vector<Error> faults;
+  for (const AnimationEntry& entry : doc.animations) {
+    const std::string place = label("animation", static_cast<int>(out.size()), entry.name);
+    Animation& animation = out.emplace_back(Animation{.name = entry.name, .channels = {}});
+    try {
+      animation = reader.read(entry, place);
+    } catch (const Error& fault) {
+      faults.push_back(fault);
+    }
+  }
+  Document::warn_left_out(faults, "animation");
+  for (const Animation& animation : out)
+    for (const AnimationChannel& channel : animation.channels) {
+      PlacedNode& node = nodes[channel.node];
+      (channel.path == AnimatedPath::weights ? node.morphs : node.moves) = true;
+    }
   for (PlacedNode& node : nodes)
     if (node.parent >= 0 && nodes[node.parent].moves) node.moves = true;
   return out;

@@ -70,6 +70,7 @@ void read_header(const Document& doc, Encoded& image) {
 
 Encoded fetch(Document& doc, int index) {
   const ImageEntry& entry = doc.images[index];
+  if (entry.fault) throw *entry.fault;
   const bool named_by_uri = entry.name.empty() && !entry.uri.starts_with("data:");
   Encoded out{.place = label("image", index, named_by_uri ? entry.uri : entry.name)};
   if (entry.view >= 0) {

@@ -145,14 +145,14 @@ std::vector<ImageEntry> take_images(const Reporter& report, json& root) {
   std::vector<ImageEntry> out;
   for (json& image : root["images"]) {
     ImageEntry entry{.name = string_of(image, "name"), .uri = string_of(image, "uri")};
+    if (image.contains("bufferView") && image["bufferView"].is_number())
+      entry.view = image["bufferView"].get<int>();
     if (image.contains("bufferView") == image.contains("uri"))
-      throw report.error("images[{}] must have either a bufferView or a uri", out.size());
-    if (image.contains("uri") && entry.uri.empty())
-      throw report.error("images[{}].uri is not a string", out.size());
-    if (image.contains("bufferView"))
-      entry.view = image["bufferView"].is_number() ? image["bufferView"].get<int>() : -1;
-    if (entry.view < 0 && entry.uri.empty())
-      throw report.error("images[{}].bufferView is not an index", out.size());
+      entry.fault = report.error("images[{}] must have either a bufferView or a uri", out.size());
+    else if (image.contains("uri") && entry.uri.empty())
+      entry.fault = report.error("images[{}].uri is not a string", out.size());
+    else if (entry.view < 0 && entry.uri.empty())
+      entry.fault = report.error("images[{}].bufferView is not an index", out.size());
     out.push_back(std::move(entry));
   }
   root.erase("images");
@@ -174,10 +174,10 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
   }
   PreparedJson out;
   out.models = take_models(report, root);
+  out.animations = take_animations(report, root);  // before the indices of all the rest are checked
   Tidier(report).tidy_object(root, true);
   out.buffers = take_buffers(report, root);
   out.images = take_images(report, root);
-  out.animations = take_animations(report, root);
   if (!root.contains("bufferViews")) root["bufferViews"] = json::array();
   out.absent_view = static_cast<int>(root["bufferViews"].size());
   root["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
@@ -187,10 +187,10 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
         throw report.error("an accessor's bufferView is {0}, but there are {0}", out.absent_view);
       if (!accessor.contains("bufferView")) accessor["bufferView"] = out.absent_view;
     }
-  // Optional in glTF, but tinygltf treats its absence as an error.
+  // The second is optional in glTF, but tinygltf treats the absence of either as an error.
   if (root.contains("skins"))
     for (json& skin : root["skins"]) {
-      if (!skin.contains("joints") || !skin["joints"].is_array()) throw report.error("a skin has no joints");
+      if (!skin.contains("joints") || !skin["joints"].is_array()) skin["joints"] = json::array();
       if (!skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
     }
   out.text = root.dump(-1, ' ', false, json::error_handler_t::replace);

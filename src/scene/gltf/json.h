@@ -19,7 +19,8 @@ struct BufferEntry {
 
 struct ImageEntry {
   std::string name, uri;
-  int view = -1;  // buffer view; -1: uri
+  int view = -1;               // buffer view; -1: uri
+  std::optional<Error> fault;  // thrown if the image is used
 };
 
 struct AnimationEntry {
@@ -34,6 +35,7 @@ struct AnimationEntry {
   std::string name;
   std::vector<Sampler> samplers;
   std::vector<Channel> channels;
+  std::optional<Error> fault;  // of its JSON, which then is not read to its end
 };
 
 // extras.lightgrid of a material.
@@ -62,7 +64,8 @@ struct PreparedJson {
 // view's bytes unchecked.
 PreparedJson prepare_json(const Reporter& report, std::string_view text);
 
-// Moves the animations out of the JSON. Errors: wrong types, and indices that are not non-negative integers.
+// Moves the animations, all of which are objects, out of the JSON. Faults (AnimationEntry::fault): wrong
+// types, and indices that are not non-negative integers.
 std::vector<AnimationEntry> take_animations(const Reporter& report, nlohmann::json& root);
 
 // Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of

@@ -43,6 +43,24 @@ void for_each_object(const Reporter& report, const json& object, const char* key
   }
 }
 
+void read_animation_entry(const Reporter& report, const json& animation, const std::string& place,
+                          AnimationEntry& entry) {
+  entry.name = animation_string(report, animation, "name", "", place);
+  for_each_object(report, animation, "samplers", place, [&](const json& sampler, const std::string& at) {
+    entry.samplers.push_back(
+        {.input = animation_index(report, sampler, "input", at),
+         .output = animation_index(report, sampler, "output", at),
+         .interpolation = animation_string(report, sampler, "interpolation", "LINEAR", at)});
+  });
+  for_each_object(report, animation, "channels", place, [&](const json& channel, const std::string& at) {
+    const json target = channel.value("target", json::object());
+    if (!target.is_object()) throw report.error("{}.target is not an object", at);
+    entry.channels.push_back({.sampler = animation_index(report, channel, "sampler", at),
+                              .node = animation_index(report, target, "node", at + ".target"),
+                              .path = animation_string(report, target, "path", "", at + ".target")});
+  });
+}
+
 }  // namespace
 
 std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) {
@@ -50,22 +68,12 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
   if (!root.contains("animations")) return out;
   for (const json& animation : root["animations"]) {
     const std::string place = fmt::format("animations[{}]", out.size());
-    AnimationEntry entry{
-        .name = animation_string(report, animation, "name", "", place), .samplers = {}, .channels = {}};
-    for_each_object(report, animation, "samplers", place, [&](const json& sampler, const std::string& at) {
-      entry.samplers.push_back(
-          {.input = animation_index(report, sampler, "input", at),
-           .output = animation_index(report, sampler, "output", at),
-           .interpolation = animation_string(report, sampler, "interpolation", "LINEAR", at)});
-    });
-    for_each_object(report, animation, "channels", place, [&](const json& channel, const std::string& at) {
-      const json target = channel.value("target", json::object());
-      if (!target.is_object()) throw report.error("{}.target is not an object", at);
-      entry.channels.push_back({.sampler = animation_index(report, channel, "sampler", at),
-                                .node = animation_index(report, target, "node", at + ".target"),
-                                .path = animation_string(report, target, "path", "", at + ".target")});
-    });
-    out.push_back(std::move(entry));
+    AnimationEntry& entry = out.emplace_back();
+    try {
+      read_animation_entry(report, animation, place, entry);
+    } catch (const Error& fault) {
+      entry.fault = fault;
+    }
   }
   root.erase("animations");
   return out;

@@ -67,10 +67,6 @@ bool has_range(const Document& doc, int light) {
 }  // namespace
 
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
-  std::vector<Light> templates;
-  for (size_t i = 0; i < doc.model.lights.size(); ++i)
-    templates.push_back(read_light(doc, doc.model.lights[i], has_range(doc, static_cast<int>(i)),
-                                   label("light", static_cast<int>(i), doc.model.lights[i].name)));
   std::vector<Light> out;
   for (size_t i = 0; i < nodes.size(); ++i) {
     const PlacedNode& placed = nodes[i];
@@ -80,8 +76,9 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     const std::string place = node_label(doc, placed.node);
     if (!extension->Has("light")) throw doc.error("{}: KHR_lights_punctual has no light", place);
     const int index = static_cast<int>(size_or(doc, *extension, "light", 0, place));
-    Light light = checked(doc, templates, index, place, "KHR_lights_punctual.light");
-    light.name = node.name.empty() ? doc.model.lights[index].name : node.name;
+    const tinygltf::Light& in = checked(doc, doc.model.lights, index, place, "KHR_lights_punctual.light");
+    Light light = read_light(doc, in, has_range(doc, index), label("light", index, in.name));
+    light.name = node.name.empty() ? in.name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
     if (placed.moves) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
@@ -117,28 +114,37 @@ void read_orthographic(const Document& doc, const tinygltf::OrthographicCamera& 
   out.near_m = in.znear, out.far_m = in.zfar;
 }
 
+Camera read_camera(const Document& doc, const PlacedNode& placed) {
+  const tinygltf::Node& node = doc.model.nodes[placed.node];
+  const std::string place = node_label(doc, placed.node);
+  const tinygltf::Camera& in = checked(doc, doc.model.cameras, node.camera, place, "camera");
+  const std::string camera_place = label("camera", node.camera, in.name);
+  Camera camera{.name = node.name.empty() ? in.name : node.name};
+  if (in.type == "orthographic")
+    read_orthographic(doc, in.orthographic, camera_place, camera);
+  else
+    read_perspective(doc, in.perspective, camera_place, camera);
+  const auto rigid = rigid_part(placed.world_from_node);
+  if (!rigid) throw doc.error("{}: its camera's axes are scaled to 0", place);
+  camera.world_from_view = *rigid;
+  return camera;
+}
+
 }  // namespace
 
 std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& nodes) {
   std::vector<Camera> out;
+  std::vector<Error> faults;
   for (size_t i = 0; i < nodes.size(); ++i) {
-    const PlacedNode& placed = nodes[i];
-    const tinygltf::Node& node = doc.model.nodes[placed.node];
-    if (node.camera < 0) continue;
-    const std::string place = node_label(doc, placed.node);
-    const tinygltf::Camera& in = checked(doc, doc.model.cameras, node.camera, place, "camera");
-    const std::string camera_place = label("camera", node.camera, in.name);
-    Camera camera{.name = node.name.empty() ? in.name : node.name};
-    if (in.type == "orthographic")
-      read_orthographic(doc, in.orthographic, camera_place, camera);
-    else
-      read_perspective(doc, in.perspective, camera_place, camera);
-    const auto rigid = rigid_part(placed.world_from_node);
-    if (!rigid) throw doc.error("{}: its camera's axes are scaled to 0", place);
-    camera.world_from_view = *rigid;
-    if (placed.moves) camera.node = static_cast<int>(i);
-    out.push_back(std::move(camera));
+    if (doc.model.nodes[nodes[i].node].camera < 0) continue;
+    try {
+      out.push_back(read_camera(doc, nodes[i]));
+      if (nodes[i].moves) out.back().node = static_cast<int>(i);
+    } catch (const Error& fault) {
+      faults.push_back(fault);
+    }
   }
+  Document::warn_left_out(faults, "camera");
   return out;
 }
 

@@ -173,14 +173,30 @@ Material read_material(Document& doc, const tinygltf::Material& in, const std::s
   return out;
 }
 
+// The materials of all primitives of the nodes' meshes.
+std::vector<char> used_materials(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes) {
+  std::vector<char> used(model.materials.size(), 0);
+  for (const PlacedNode& placed : nodes) {
+    const int mesh = model.nodes[placed.node].mesh;
+    if (mesh < 0) continue;
+    for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives)
+      if (primitive.material >= 0) used[primitive.material] = 1;
+  }
+  return used;
+}
+
 }  // namespace
 
-std::vector<Material> read_materials(Document& doc) {
+std::vector<Material> read_materials(Document& doc, const std::vector<PlacedNode>& nodes) {
+  const std::vector<char> used = used_materials(doc.model, nodes);
   std::vector<Material> out;
-  for (const tinygltf::Material& material : doc.model.materials)
-    out.push_back(
-        read_material(doc, material, label("material", static_cast<int>(out.size()), material.name)));
+  for (size_t i = 0; i < used.size(); ++i) {
+    const tinygltf::Material& material = doc.model.materials[i];
+    const std::string place = label("material", static_cast<int>(i), material.name);
+    out.push_back(used[i] ? read_material(doc, material, place) : Material());
+  }
   for (const ModelEntry& model : doc.models) {
+    if (!used[size_t(model.material)]) continue;
     const std::string place =
         label("material", model.material, out[size_t(model.material)].name) + ": extras.lightgrid";
     out[size_t(model.material)].model = read_model(doc, model, place);

@@ -1,13 +1,14 @@
 // Materials, and the textures that the scene's materials use.
 #pragma once
 
-#include "scene/gltf/document.h"
+#include "scene/gltf/nodes.h"
 #include "scene/scene.h"
 
 namespace lightgrid::gltf {
 
-// All of the file's materials, then glTF's default one. The slots hold texture indices of the file, checked.
-std::vector<Material> read_materials(Document& doc);
+// The file's materials by its index, then glTF's default one. The slots hold texture indices of the file,
+// checked. A material that no mesh of the nodes uses is not read: it is a default one.
+std::vector<Material> read_materials(Document& doc, const std::vector<PlacedNode>& nodes);
 
 // Drops the materials that no mesh of the scene uses.
 void keep_used_materials(Scene& scene);

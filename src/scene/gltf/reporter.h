@@ -3,6 +3,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -23,6 +24,14 @@ class Reporter {
   void warn(const std::string& kind, fmt::format_string<Args...> format, Args&&... args) {
     if (!warned_.insert(kind).second) return;
     log_warning_line(one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...)));
+  }
+
+  // The faults of optional parts of one kind, each of which is left out. Only the first is named.
+  static void warn_left_out(const std::vector<Error>& faults, const char* kind) {
+    if (faults.empty()) return;
+    const size_t others = faults.size() - 1;
+    const std::string rest = others ? fmt::format(", and {} more", others) : "";
+    log_warning_line(fmt::format("{}; this {} is left out{}", faults[0].what(), kind, rest));
   }
 
  private:

@@ -17,6 +17,7 @@ RigSkin read_skin(Document& doc, int index, const std::vector<PlacedNode>& nodes
       throw doc.error("{}: inverseBindMatrices has {} elements of {} components for {} joints", place,
                       inverse_bind.count(), inverse_bind.components, skin.joints.size());
   }
+  if (skin.joints.empty()) throw doc.error("{}: has no joints", place);
   RigSkin out;
   for (size_t i = 0; i < skin.joints.size(); ++i) {
     out.joints.push_back(checked(doc, place_of_node, skin.joints[i], place, "joint"));

@@ -78,24 +78,6 @@ void check_nodes(const tinygltf::Model& model, Checker& check) {
   }
 }
 
-void check_animations(const Document& doc, Checker& check) {
-  for (size_t i = 0; i < doc.animations.size(); ++i) {
-    const AnimationEntry& animation = doc.animations[i];
-    for (size_t s = 0; s < animation.samplers.size(); ++s) {
-      check.set_place("animation", i);
-      check.inside(fmt::format("sampler {}", s));
-      check.optional(animation.samplers[s].input, doc.model.accessors.size(), "input");
-      check.optional(animation.samplers[s].output, doc.model.accessors.size(), "output");
-    }
-    for (size_t c = 0; c < animation.channels.size(); ++c) {
-      check.set_place("animation", i);
-      check.inside(fmt::format("channel {}", c));
-      check.optional(animation.channels[c].sampler, animation.samplers.size(), "sampler");
-      check.optional(animation.channels[c].node, doc.model.nodes.size(), "target node");
-    }
-  }
-}
-
 }  // namespace
 
 void check_indices(const Document& doc, size_t buffer_count) {
@@ -118,7 +100,6 @@ void check_indices(const Document& doc, size_t buffer_count) {
   check_accessors(model, check);
   check_meshes(model, check);
   check_nodes(model, check);
-  check_animations(doc, check);
   check.set_place("scene", static_cast<size_t>(std::max(model.defaultScene, 0)));
   check.optional(model.defaultScene, model.scenes.size(), "the default scene");
 }

@@ -5,8 +5,9 @@
 
 namespace lightgrid::gltf {
 
-// Indices out of range are errors everywhere, also in unused parts. The readers check that a buffer view fits
-// its buffer, an accessor its view and an index value its vertices.
+// Indices out of range are errors everywhere, also in unused parts, but for those of animations, which their
+// reader checks. The readers check that a buffer view fits its buffer, an accessor its view and an index
+// value its vertices.
 void check_indices(const Document& doc, size_t buffer_count);
 
 }  // namespace lightgrid::gltf
