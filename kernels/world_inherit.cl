@@ -9,6 +9,7 @@
 // full_first, full_members  out with `write`: of each block, with those of larger levels;
 //                           behind the members 15 more numbers
 //              of lights, as in world_entries
+// counted, most  of world_counts_enough: counting then stops
 #include "kernels/common/world_cells.h"
 
 static inline uint world_block_of(uint2 key, global const uint2* keys, global const uint* buckets,
@@ -23,7 +24,8 @@ static inline uint world_block_of(uint2 key, global const uint2* keys, global co
 kernel void world_inherit(global const float4* lights, global const uint* block_first,
                           global const uint* members, global const uint2* keys, global const uint* buckets,
                           global uint* totals, global uint* full_first, global uint* full_members,
-                          uint block_count, uint chunk, uint write, constant WorldGridParams* world) {
+                          global volatile uint* counted, uint most, uint block_count, uint chunk, uint write,
+                          constant WorldGridParams* world) {
   const uint item = get_global_id(0);
   if ((ulong)item * chunk >= block_count) return;
   const uint block_end = min(item * chunk + chunk, block_count);
@@ -39,7 +41,16 @@ kernel void world_inherit(global const float4* lights, global const uint* block_
       if (around == UINT_MAX) continue;
       next[lists] = block_first[around], end[lists++] = block_first[around + 1];
     }
-    if (write) full_first[block] = at;
+    if (!write) {
+      uint reach = end[0] - next[0];
+      for (uint list = 1; list < lists; ++list) {
+        for (uint m = next[list]; m < end[list]; ++m)
+          reach += world_meets_block(lights[members[m]], x, y, z, level, world);
+      }
+      if (world_counts_enough(reach, &at, counted, most)) break;
+      continue;
+    }
+    full_first[block] = at;
     for (;;) {
       uint least = UINT_MAX, from = 0;
       for (uint list = 0; list < lists; ++list) {
@@ -51,10 +62,10 @@ kernel void world_inherit(global const float4* lights, global const uint* block_
         if (next[list] < end[list] && members[next[list]] < least) least = members[next[list]], from = list;
       }
       if (least == UINT_MAX) break;
-      if (write) full_members[at] = least;
-      ++at, ++next[from];
+      full_members[at++] = least;
+      ++next[from];
     }
-    if (!write || block + 1 < block_count) continue;
+    if (block + 1 < block_count) continue;
     full_first[block_count] = at;
     for (uint past = 0; past < 15; ++past) full_members[at + past] = members[0];
   }

@@ -10,6 +10,7 @@
 // totals   a chunk's number of entries out; with `write` its first entry in
 // cells    out with `write`: 64 a block: first entry and number
 // indices  out with `write`: entry_count
+// counted, most  of world_counts_enough: counting then stops
 // -DCOLUMNS   blocks are 8 x 8 columns, not 4 x 4 x 4 cubes
 // -DINDEX_32  indices are 32 bits, not 16
 #include "kernels/common/world_block.h"
@@ -129,8 +130,8 @@ static inline void write_batch(global const uint* members, uint bits, global ind
 kernel void world_lists(global const float4* lights, global const float4* cones,
                         global const uint* block_first, global const uint* members, global const uint2* keys,
                         global ushort* masks, global uint* totals, global uint2* cells,
-                        global index_t* indices, uint block_count, uint chunk, uint write, uint entry_count,
-                        constant WorldGridParams* world) {
+                        global index_t* indices, global volatile uint* counted, uint most, uint block_count,
+                        uint chunk, uint write, uint entry_count, constant WorldGridParams* world) {
   const uint item = get_global_id(0);
   if ((ulong)item * chunk >= block_count) return;
   const uint block_end = min(item * chunk + chunk, block_count);
@@ -140,7 +141,8 @@ kernel void world_lists(global const float4* lights, global const float4* cones,
     const uint first = block_first[block], count = block_first[block + 1] - first;
     global ushort* const own = masks + (size_t)(block + first / BATCH) * WORLD_BLOCK_CELLS;
     if (!write) {
-      at += test_lights(lights, cones, members + first, count, keys[block], own, world);
+      const uint listed = test_lights(lights, cones, members + first, count, keys[block], own, world);
+      if (world_counts_enough(listed, &at, counted, most)) break;
       continue;
     }
     for (uint i = 0; i < WORLD_BLOCK_CELLS; ++i) {

@@ -66,11 +66,16 @@ static inline whole whole_max(whole a, whole b) { return a > b ? a : b; }
 static inline real least_of(const real* v) { return lane_min(v[0], lane_min(v[1], v[2])); }
 static inline real most_of(const real* v) { return lane_max(v[0], lane_max(v[1], v[2])); }
 
+// Deeper corners count as this deep, so that gradients stay finite. In real numbers no pixel changes: a
+// corner has 2^-47 or more of a sample's weight, or none, so a sample off the edge between the other two is
+// behind the far plane anyway.
+#define DEEPEST (-1.8446744073709552e19f)  // -2^64
+
 // Triangles whose corners need no cut, where `live`. Fills all of the record but its numbers, and returns
 // which triangles face the eye and may cover a pixel's sample.
 static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLanes* out,
                             constant RasterParams* p) {
-  const real half_x = p->half_x, half_y = p->half_y, zero = 0.0f, one = 1.0f;
+  const real half_x = p->half_x, half_y = p->half_y, zero = 0.0f, one = 1.0f, deepest = DEEPEST;
   real z[3];
   whole x[3], y[3];
   for (int k = 0; k < 3; ++k) {
@@ -79,7 +84,7 @@ static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLan
     // Moved so that the sample lies at the pixel's centre.
     x[k] = TO_WHOLE(lane_rint(live ? sx : zero)) - p->sample_x;
     y[k] = TO_WHOLE(lane_rint(live ? sy : zero)) - p->sample_y;
-    z[k] = lane_min(v[k].z * per_w, one);
+    z[k] = lane_max(lane_min(v[k].z * per_w, one), deepest);
   }
   const whole low_x = whole_max((whole_min(x[0], whole_min(x[1], x[2])) + 127) >> 8, (whole)(0));
   const whole low_y = whole_max((whole_min(y[0], whole_min(y[1], y[2])) + 127) >> 8, (whole)(0));

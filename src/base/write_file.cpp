@@ -35,6 +35,8 @@ bool is_in_system_folder(const fs::path& path) {
   return below("/dev") || below("/proc");
 }
 
+fs::path partial_of(fs::path path) { return path += fmt::format(".{}.part", getpid()); }
+
 void write_whole(const fs::path& path, const void* data, size_t size) {
   std::error_code ignored;
   const auto at_path = fs::symlink_status(path, ignored).type();
@@ -46,8 +48,7 @@ void write_whole(const fs::path& path, const void* data, size_t size) {
     if (const int failure = write_to(path, data, size)) throw write_error(path, failure);
     return;
   }
-  auto partial = path;
-  partial += fmt::format(".{}.part", getpid());
+  const fs::path partial = partial_of(path);
   int failure = write_to(partial, data, size);
   if (!failure && std::rename(partial.c_str(), path.c_str()) != 0) failure = errno;
   if (failure) {
@@ -73,6 +74,29 @@ void write_file(const fs::path& path, const std::vector<uint8_t>& bytes) {
 }
 
 void write_file(const fs::path& path, std::string_view text) { write_whole(path, text.data(), text.size()); }
+
+void write_files(const fs::path& folder, std::span<const NamedBytes> files,
+                 std::span<const char* const> outdated) {
+  std::error_code ignored;
+  const auto fail = [&](const fs::path& path, int code) {
+    for (const NamedBytes& file : files) fs::remove(partial_of(folder / file.name), ignored);
+    throw write_error(path, code);
+  };
+  for (const auto& [name, bytes] : files) {
+    if (fs::is_directory(folder / name, ignored)) fail(folder / name, EISDIR);
+    if (const int failure = write_to(partial_of(folder / name), bytes.data(), bytes.size()))
+      fail(folder / name, failure);
+  }
+  const auto remove = [&](const fs::path& path) {
+    if (std::remove(path.c_str()) != 0 && errno != ENOENT) fail(path, errno);
+  };
+  remove(folder / files[0].name);
+  for (const char* name : outdated) remove(folder / name);
+  for (size_t i = files.size(); i-- > 0;) {
+    const fs::path path = folder / files[i].name;
+    if (std::rename(partial_of(path).c_str(), path.c_str()) != 0) fail(path, errno);
+  }
+}
 
 void make_folder(const fs::path& path) {
   std::error_code failure, unreadable;

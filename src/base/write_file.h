@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +22,18 @@ Error write_error(const std::filesystem::path& path, int code);
 // folder itself, not writable) and a machine error if the disk is full or fails.
 void write_file(const std::filesystem::path& path, const std::vector<uint8_t>& bytes);
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+struct NamedBytes {
+  std::string name;
+  std::string_view bytes;
+};
+
+// Files of a folder that belong together, in place of those of these names and of `outdated`. All are written
+// under temporary names first, so that a full disk leaves the folder as it was. Then the first one and
+// `outdated` are removed and the others renamed, the first one last: whatever ends that in between leaves a
+// folder without the first file, never files of two times beside it. Throws as write_file.
+void write_files(const std::filesystem::path& folder, std::span<const NamedBytes> files,
+                 std::span<const char* const> outdated = {});
 
 // Makes the folder and its parents. Throws an input error if that fails or no file can be made in it, and a
 // machine error if the disk is full or fails.

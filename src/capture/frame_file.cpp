@@ -19,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "frames are little-endian");
 
+constexpr const char* grid_files[] = {"grid.json", "grid.u32", "indices.u32", "masks.u32", "z_bins.u32"};
+
 // The file's size, checked before anything is allocated.
 uintmax_t size_of(const fs::path& path) {
   std::error_code failure;
@@ -181,9 +183,12 @@ std::optional<FrameGrid> read_frame_grid(const fs::path& folder, const CapturedF
 
 void write_frame(const fs::path& folder, const CapturedFrame& frame) {
   make_folder(folder);
-  write_file(folder / "view.json", view_file_text({frame.view, frame.tile, frame.surfaces_far_m}));
-  save_lights_file(folder / "lights.json", frame.lights);
-  write_file(folder / "depth.f32", bytes_of(frame.depth));
+  const std::string view = view_file_text({frame.view, frame.tile, frame.surfaces_far_m}),
+                    lights = lights_file_text(frame.lights);
+  const NamedBytes files[] = {
+      {"view.json", view}, {"lights.json", lights}, {"depth.f32", bytes_of(frame.depth)}};
+  // A grid that is there is an older frame's.
+  write_files(folder, files, grid_files);
 }
 
 void write_frame_grid(const fs::path& folder, const FrameGrid& grid) {
@@ -195,11 +200,12 @@ void write_frame_grid(const fs::path& folder, const FrameGrid& grid) {
   header["slice_edges"] = grid.slice_edges;
   if (!grid.z_bin_edges.empty()) header["z_bin_edges"] = grid.z_bin_edges;
   header["settings"] = settings_json(grid.settings);
-  write_file(folder / "grid.u32", bytes_of(lists.cells));
-  write_file(folder / "indices.u32", bytes_of(lists.indices));
-  if (!lists.masks.empty()) write_file(folder / "masks.u32", bytes_of(lists.masks));
-  if (!grid.z_bin_edges.empty()) write_file(folder / "z_bins.u32", bytes_of(lists.z_bins));
-  write_file(folder / "grid.json", text_by_fields(header));
+  const std::string text = text_by_fields(header);
+  std::vector<NamedBytes> files = {
+      {"grid.json", text}, {"grid.u32", bytes_of(lists.cells)}, {"indices.u32", bytes_of(lists.indices)}};
+  if (!lists.masks.empty()) files.push_back({"masks.u32", bytes_of(lists.masks)});
+  if (!grid.z_bin_edges.empty()) files.push_back({"z_bins.u32", bytes_of(lists.z_bins)});
+  write_files(folder, files, grid_files);
 }
 
 std::vector<Light> local_world_lights(const CapturedFrame& frame) {

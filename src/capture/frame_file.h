@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "culling/light_culler.h"
 #include "scene/camera.h"
 #include "scene/view_lights.h"
-#include "culling/light_culler.h"
 
 namespace lightgrid {
 
@@ -40,10 +40,12 @@ CapturedFrame read_frame(const std::filesystem::path& folder);
 // the indices, indices of existing lights.
 std::optional<FrameGrid> read_frame_grid(const std::filesystem::path& folder, const CapturedFrame& frame);
 
-// Writes view.json, lights.json and depth.f32; creates the folder if missing.
+// Writes view.json, lights.json and depth.f32, and removes an older frame's files and grid; creates the
+// folder if missing. As base/write_file.h's write_files: a full disk leaves the older frame as it was, and no
+// error leaves files of both.
 void write_frame(const std::filesystem::path& folder, const CapturedFrame& frame);
 
-// Writes grid.json, grid.u32 and indices.u32; masks.u32 and z_bins.u32 if the grid has them.
+// Writes grid.json, grid.u32 and indices.u32; masks.u32 and z_bins.u32 if the grid has them. Likewise.
 void write_frame_grid(const std::filesystem::path& folder, const FrameGrid& grid);
 
 // The point and spot lights in view space, in the order of the grid's indices.

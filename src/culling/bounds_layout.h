@@ -24,14 +24,4 @@ inline size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, 
   return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
 }
 
-inline size_t bounds_bytes(const CullParams& p, int planes) {
-  return size_t(p.bins_x) * p.bins_y * planes * BIN_SIZE * sizeof(float);
-}
-
-inline size_t bytes_of(const cl::Buffer& buffer) {
-  size_t bytes = 0;
-  if (buffer()) clGetMemObjectInfo(buffer(), CL_MEM_SIZE, sizeof bytes, &bytes, nullptr);
-  return bytes;
-}
-
 }  // namespace lightgrid

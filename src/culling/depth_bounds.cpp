@@ -75,14 +75,21 @@ cl::Buffer LightCuller::straight_depth(const DepthInput& depth, uint first, uint
   return straight;
 }
 
+// What depth_bounds returns, from its buffers.
+DepthBounds LightCuller::own_bounds(DepthBoundsMode mode, const cl::Buffer& blend) {
+  if (!bounds_view_) bounds_view_ = std::make_shared<BoundsView>();
+  *bounds_view_ = view_;
+  return {{opaque_, mode, bounds_view_},
+          {options_.blend ? blend : cl::Buffer(), DepthBoundsMode::minmax, bounds_view_}};
+}
+
 DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   require_view("depth_bounds");
   if (options_.depth_bounds == DepthBoundsMode::none) {
     const float near = params_.orthographic ? -far_away : 0.0f;
     if (!opaque_()) opaque_ = empty_bounds(2, near, far_away);
     invalid_tiles_counter_ = 0;
-    return {{opaque_, DepthBoundsMode::minmax},
-            {options_.blend ? opaque_ : cl::Buffer(), DepthBoundsMode::minmax}};
+    return own_bounds(DepthBoundsMode::minmax, opaque_);
   }
   read_layout(depth);
   const bool lanes = options_.shape == KernelShape::lanes;
@@ -118,8 +125,7 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
          cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other),
          params_upload_->buffer());
   invalid_tiles_counter_ = counter;
-  return {{opaque_, options_.depth_bounds},
-          {options_.blend ? blend_ : cl::Buffer(), DepthBoundsMode::minmax}};
+  return own_bounds(options_.depth_bounds, blend_);
 }
 
 TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
@@ -139,7 +145,7 @@ TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
         some ? std::clamp(intervals[i].far, -far_away, far_away) : -far_away;
   }
   write_buffer(device_, "light culling: bounds", buffer, values.data(), values.size() * sizeof(float));
-  return {buffer, DepthBoundsMode::minmax};
+  return {buffer, DepthBoundsMode::minmax, std::make_shared<BoundsView>(view_)};
 }
 
 std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {

@@ -48,11 +48,9 @@ void LightCuller::require_view(const char* call) const {
 }
 
 void LightCuller::require_bounds(const TileBounds& bounds, const char* call) const {
-  const size_t bytes = bounds_bytes(params_, planes_of(bounds.mode)), given = bytes_of(bounds.values);
-  if (given < bytes) {
-    throw input_error("light culler: {} was given bounds of {} bytes; those of this view have {}", call,
-                      given, bytes);
-  }
+  if (!bounds.values() || !bounds.view) throw input_error("light culler: {} was given no bounds", call);
+  if (*bounds.view != view_)
+    throw input_error("light culler: {} was given bounds of another view; make them after set_view", call);
 }
 
 void LightCuller::set_lights(std::span<const CullLight> lights) {
@@ -84,8 +82,9 @@ void LightCuller::upload_lights(const glm::dvec3& origin, double eye_reach) {
 
 // Uploads the positions relative to the eye if no fixed origin is accurate enough.
 void LightCuller::follow_eye() {
-  const bool fixed = fixed_origin_ && glm::length(eye_ * 0.5 - *fixed_origin_ * 0.5) < farthest_surface / 2;
-  const glm::dvec3 origin = fixed ? *fixed_origin_ : eye_;
+  const bool fixed =
+      fixed_origin_ && glm::length(view_.eye * 0.5 - *fixed_origin_ * 0.5) < farthest_surface / 2;
+  const glm::dvec3 origin = fixed ? *fixed_origin_ : view_.eye;
   params_.cone_slack_m = fixed && cones_ ? rounded_up(cone_slack_m_) : 0.0f;
   if (uploaded_origin_ != origin) upload_lights(origin, fixed ? farthest_surface : 0);
 }
@@ -103,7 +102,8 @@ void LightCuller::set_view(const CullView& view) {
   params_.inset = options_.pixel_centres && options_.samples == 1 ? 0.5f : 0.0f;
   params_.depth_step =
       oblique_ ? oblique_->depth_step : depth_step(options_.depth_format, params_.standard_depth);
-  eye_ = view.eye;
+  view_ = {view.width, view.height, options_.tile, view.clip_from_view, glm::dmat3(view.view_from_world),
+           view.eye};
   const auto upload = [&](cl::Buffer& buffer, const std::vector<cl_float2>& ranges) {
     if (ranges.size() == 1) return;
     buffer = device_buffer(device_, ranges.size() * sizeof ranges[0]);
@@ -116,6 +116,7 @@ void LightCuller::set_view(const CullView& view) {
   if (tiles != bounds_tiles_ || was_orthographic != bool(params_.orthographic)) {
     bounds_tiles_ = tiles;
     opaque_ = blend_ = cl::Buffer();
+    bounds_view_.reset();
   }
 }
 
@@ -132,7 +133,7 @@ void LightCuller::choose_regions() {
 void LightCuller::upload_params() {
   choose_regions();
   params_.light_count = light_count_, params_.light_stride = light_stride_;
-  const glm::dvec3 eye = eye_ - uploaded_origin_.value_or(eye_);
+  const glm::dvec3 eye = view_.eye - uploaded_origin_.value_or(view_.eye);
   const TwoFloats x = two_floats(eye.x), y = two_floats(eye.y), z = two_floats(eye.z);
   params_.eye_x = x.value, params_.eye_y = y.value, params_.eye_z = z.value;
   params_.eye_rest_x = x.rest, params_.eye_rest_y = y.rest, params_.eye_rest_z = z.rest;

@@ -50,12 +50,23 @@ struct DepthInput {
   int x = 0, y = 0;    // the view's lower left pixel in the image, 0 or more
 };
 
-// Intervals of distances, one or two a tile, on the device, for views of this size. Their layout is private
-// to the kernels: use LightCuller::read_bounds. The culler owns the buffer and overwrites it in the next
-// depth_bounds.
+// What bounds depend on beside the surfaces.
+struct BoundsView {
+  int width = 0, height = 0, tile = 0;
+  glm::dmat4 clip_from_view{1};
+  glm::dmat3 view_from_world{1};
+  glm::dvec3 eye{0};
+  bool operator==(const BoundsView&) const = default;
+};
+
+// Intervals of distances, one or two a tile, on the device. Their layout is private to the kernels: use
+// LightCuller::read_bounds. The culler owns the buffer that depth_bounds returns and overwrites it in the
+// next depth_bounds. Bounds serve their own view, with any lights, slices and z-bins, as often as is wanted;
+// with another view they are Error(input).
 struct TileBounds {
   cl::Buffer values;
   DepthBoundsMode mode = DepthBoundsMode::minmax;
+  std::shared_ptr<const BoundsView> view;  // whose surfaces `values` are of now
 };
 
 struct DepthBounds {
@@ -182,7 +193,7 @@ class LightCuller {
   // One interval a tile, in that order; the two halves of a tile are merged. Waits.
   std::vector<DepthInterval> read_bounds(const TileBounds& bounds);
 
-  // The grid of the lights, the view and the bounds (of this view), in `storage`. If memory sized by the last
+  // The grid of the lights, the view and its bounds, in `storage`. If memory sized by the last
   // grid does not suffice, it grows and the work is repeated. It grows to a quarter more than is needed, or
   // to the exact size if the device or `storage` throws Error. More than 2^32 - 1 indices or insufficient
   // memory is Error(machine), after which the culler is unchanged; nothing is ever left out.
@@ -219,6 +230,7 @@ class LightCuller {
   void make_masks(LightGrid& grid, GridStorage& storage);
   void enqueue_z_bins(LightGrid& grid, GridStorage& storage);
   cl::Buffer empty_bounds(int planes, float near, float far);
+  DepthBounds own_bounds(DepthBoundsMode mode, const cl::Buffer& blend);
   void choose_regions();
   void upload_params();
   void upload_lights(const glm::dvec3& origin, double eye_reach);
@@ -233,7 +245,6 @@ class LightCuller {
   std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
   std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: not uploaded yet
   double cone_slack_m_ = 0;
-  glm::dvec3 eye_{0};  // world
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
   std::optional<CullParams> uploaded_;     // contents of params_upload_ when the queue is done
@@ -247,6 +258,8 @@ class LightCuller {
   uint invalid_tiles_counter_ = 0;  // index in counters_ that the last depth_bounds counts in; 0: none yet
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
+  BoundsView view_;                          // set_view's
+  std::shared_ptr<BoundsView> bounds_view_;  // of opaque_ and blend_
   std::unique_ptr<GrowingBuffer> lights_;
   std::unique_ptr<UploadedBuffer> params_upload_;
   std::unique_ptr<CullPipeline> pipelines_[5];  // by DepthBoundsMode

@@ -68,6 +68,9 @@ RasterCluster cluster_of(const std::vector<Corners>& triangles) {
   return cluster;
 }
 
+// In clip space, of an instance: whole blocks of 16.
+size_t clip_room(const RasterMeshPlace& mesh) { return (size_t(mesh.vertices) + 15) / 16 * 16; }
+
 std::vector<uint32_t> mesh_order(const RasterMesh& mesh) {
   std::vector<uint32_t> order(mesh.indices.size() / 3);
   std::iota(order.begin(), order.end(), 0u);
@@ -101,11 +104,13 @@ void append_positions(std::span<const glm::vec3> positions, std::vector<float>& 
   }
 }
 
-}  // namespace
-
-RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_order) {
-  RasterMeshes all;
+// Before any memory is taken: meshes may share their arrays.
+void check_meshes(std::span<const RasterMesh> meshes) {
   size_t indices = 0, vertices = 0;
+  for (const RasterMesh& mesh : meshes)
+    indices += mesh.indices.size(), vertices += mesh.positions.size() + 15;
+  if (std::max(indices, vertices) > most_indices)
+    throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
   for (size_t m = 0; m < meshes.size(); ++m) {
     const RasterMesh& mesh = meshes[m];
     if (mesh.indices.size() % 3 != 0)
@@ -115,10 +120,27 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_orde
       throw input_error("rasterizer: mesh {}: index {} is past its {} positions", m, *largest,
                         mesh.positions.size());
     }
-    indices += mesh.indices.size(), vertices += mesh.positions.size() + 15;
-    if (std::max(indices, vertices) > most_indices)
-      throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
+  }
+}
 
+// Before any memory is taken: instances share their meshes.
+void check_instance_numbers(std::span<const RasterInstance> instances, const RasterMeshes& meshes) {
+  size_t triangles = 0, vertices = 0;
+  for (const RasterInstance& instance : instances) {
+    const RasterMeshPlace& mesh = meshes.places[instance.mesh];
+    triangles += mesh.triangles, vertices += clip_room(mesh);
+  }
+  // Clusters are no more than triangles.
+  if (std::max(triangles, vertices) > most_indices)
+    throw machine_error("rasterizer: instances have 2^32 triangles or vertices or more");
+}
+
+}  // namespace
+
+RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_order) {
+  check_meshes(meshes);
+  RasterMeshes all;
+  for (const RasterMesh& mesh : meshes) {
     RasterMeshPlace place;
     place.first_index = uint32_t(all.indices.size()), place.triangles = uint32_t(mesh.indices.size() / 3);
     place.first_vertex = all.places.empty() ? 0 : all.places.back().first_vertex + all.places.back().vertices;
@@ -154,15 +176,13 @@ void check_raster_instances(std::span<const RasterInstance> instances, const Ras
 }
 
 RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes) {
+  check_instance_numbers(instances, meshes);
   RasterInstances all;
   size_t triangles = 0;
   for (size_t i = 0; i < instances.size(); ++i) {
     const RasterInstance& instance = instances[i];
     const RasterMeshPlace& mesh = meshes.places[instance.mesh];
     triangles += mesh.triangles;
-    if (std::max(triangles, all.clip_vertices + mesh.vertices) > most_indices) {
-      throw machine_error("rasterizer: instances have 2^32 triangles or vertices or more");
-    }
     RasterInstanceRecord record{};
     record.first_triangle = uint32_t(triangles - mesh.triangles), record.triangle_count = mesh.triangles;
     record.first_index = mesh.first_index;
@@ -173,13 +193,12 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
     record.flags = (instance.two_sided ? RASTER_TWO_SIDED : 0) | (mirrored ? RASTER_MIRRORED : 0);
     record.alpha_material = instance.alpha_material;
     all.records.push_back(record);
-    all.clip_vertices += (mesh.vertices + 15) / 16 * 16;
+    all.clip_vertices += clip_room(mesh);
     all.triangle_instance.insert(all.triangle_instance.end(), mesh.triangles, uint32_t(i));
     for (uint32_t v = 0; v < mesh.vertices; v += RASTER_VERTEX_RUN)
       all.vertex_runs.push_back({uint32_t(i), v});
     for (uint32_t c = 0; c < mesh.clusters; ++c) all.pairs.push_back({uint32_t(i), mesh.first_cluster + c});
   }
-  if (all.pairs.size() > most_indices) throw machine_error("rasterizer: 2^32 clusters or more");
   return all;
 }
 

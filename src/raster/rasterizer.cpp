@@ -10,6 +10,7 @@
 #include "raster/raster_pipeline.h"
 #include "raster/raster_scene.h"
 #include "raster/raster_view.h"
+#include "shared/surface_records.h"
 
 namespace lightgrid {
 namespace {
@@ -50,6 +51,7 @@ struct Rasterizer::State {
     counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
   }
 
+  void check_masks() const;
   void upload_instances();
   void enqueue();
   // Draws one sample of each pixel, again where room was short.
@@ -66,6 +68,7 @@ struct Rasterizer::State {
   std::unique_ptr<RasterPipeline> pipeline;
   RasterMeshes meshes;  // their places; the rest is on the device alone
   std::vector<RasterInstance> instances;
+  int last_alpha_material = -1;
   std::optional<RasterView> view;
   RasterParams params{};
   uint32_t vertex_runs = 0, pairs = 0;
@@ -112,6 +115,9 @@ void Rasterizer::set_instances(std::span<const RasterInstance> instances) {
   }
   const RasterInstances made = raster_instances(instances, s.meshes);
   s.instances.assign(instances.begin(), instances.end());
+  s.last_alpha_material = -1;
+  for (const RasterInstance& i : instances)
+    s.last_alpha_material = std::max(s.last_alpha_material, i.alpha_material);
   s.vertex_runs = uint32_t(made.vertex_runs.size()), s.pairs = uint32_t(made.pairs.size());
   s.records.put(s.device, uploading, made.records);
   s.triangle_instance.put(s.device, uploading, made.triangle_instance);
@@ -129,11 +135,35 @@ void Rasterizer::set_drawn(size_t instance, bool drawn) {
   instances[instance].drawn = drawn;
 }
 
-void Rasterizer::set_masks(const RasterMasks& masks) { state_->masks = masks; }
+void Rasterizer::set_masks(const RasterMasks& masks) {
+  const bool vertices = masks.vertices() != nullptr, materials = masks.materials() != nullptr,
+             alphas = masks.alphas() != nullptr;
+  if (vertices != materials || vertices != alphas) {
+    throw input_error(
+        "rasterizer: masks have {}vertices, {}materials and {}alphas: all three or none will do",
+        vertices ? "" : "no ", materials ? "" : "no ", alphas ? "" : "no ");
+  }
+  state_->masks = masks;
+}
 
 void Rasterizer::set_view(const RasterView& view) {
   check_raster_view(view);
   state_->view = view;
+}
+
+// Kernels read vertices and materials by number.
+void Rasterizer::State::check_masks() const {
+  if (!masks.alphas() || last_alpha_material < 0) return;
+  const RasterMeshPlace& last = meshes.places.back();
+  const size_t vertices = size_t(last.first_vertex) + last.vertices,
+               given_vertices = bytes_of(masks.vertices) / sizeof(SurfaceVertex),
+               given_materials = bytes_of(masks.materials) / sizeof(SurfaceMaterial);
+  if (given_vertices < vertices)
+    throw input_error("rasterizer: masks have {} vertices, fewer than the meshes' {}", given_vertices,
+                      vertices);
+  if (given_materials <= size_t(last_alpha_material))
+    throw input_error("rasterizer: an instance's alpha_material is {}, and masks have {} materials",
+                      last_alpha_material, given_materials);
 }
 
 void Rasterizer::State::upload_instances() {
@@ -215,6 +245,8 @@ Visibility Rasterizer::draw(const std::function<void()>& meanwhile) {
 }
 
 RasterLists Rasterizer::list() {
+  if (!state_->options.drawing_order)
+    throw input_error("rasterizer: list needs a rasteriser with RasterOptions::drawing_order");
   run(false, {});
   return state_->pipeline->lists(state_->params);
 }
@@ -222,6 +254,7 @@ RasterLists Rasterizer::list() {
 void Rasterizer::run(bool image, const std::function<void()>& meanwhile) {
   State& s = *state_;
   if (!s.view) throw input_error("rasterizer: set_view has to come before draw");
+  s.check_masks();
   const RasterView& view = *s.view;
   const uint32_t blocks = s.params.record_blocks, entries = s.params.entry_capacity;
   s.params = raster_params(view);

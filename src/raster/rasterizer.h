@@ -148,12 +148,13 @@ class Rasterizer {
   // none.
   void set_meshes(std::span<const RasterMesh> meshes);
   // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. Throws
-  // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 1 triangles
-  // or vertices or more.
+  // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 64
+  // triangles or vertices or more, before it takes memory for them.
   void set_instances(std::span<const RasterInstance> instances);
   // As RasterInstance::drawn, from now on. Throws input: there is no such instance.
   void set_drawn(size_t instance, bool drawn);
-  // Null buffers: masked triangles are drawn whole.
+  // Null buffers: masked triangles are drawn whole. Throws input: some are null and others are not; draw()
+  // throws where vertices or materials are fewer than meshes and instances need.
   void set_masks(const RasterMasks& masks);
   // Throws input: a size out of range, a matrix or an eye that is not finite, a projection that is not of the
   // kinds above.
@@ -163,9 +164,9 @@ class Rasterizer {
   // host that the device does not need yet.
   Visibility draw(const std::function<void()>& meanwhile = {});
 
-  // The same without an image, for pixels' centres alone, with RasterOptions::drawing_order: blended surfaces
-  // are laid over one another from these lists. Parts of a triangle that clipping left follow up to 15
-  // triangles of its mesh that come after it.
+  // The same without an image, for pixels' centres alone: blended surfaces are laid over one another from
+  // these lists. Throws input without RasterOptions::drawing_order too. Parts of a triangle that clipping
+  // left follow up to 15 triangles of its mesh that come after it.
   RasterLists list();
 
   const RasterBuffers& buffers() const;

@@ -45,7 +45,8 @@ LitBox lit_box(std::span<const CullLight> lights, double most_radius) {
 WorldBox ordinary_box(const WorldBox& lit, const WorldBox& bounds) {
   if (lit.empty()) return {glm::dvec3(0), glm::dvec3(0)};
   const glm::dvec3 low = glm::max(lit.min, bounds.min), high = glm::min(lit.max, bounds.max);
-  return glm::all(glm::lessThanEqual(low, high)) ? WorldBox{low, high} : lit;
+  const WorldBox box = glm::all(glm::lessThanEqual(low, high)) ? WorldBox{low, high} : lit;
+  return {glm::clamp(box.min, -most_world_m, most_world_m), glm::clamp(box.max, -most_world_m, most_world_m)};
 }
 
 }  // namespace lightgrid

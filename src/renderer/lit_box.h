@@ -16,6 +16,9 @@ namespace lightgrid {
 
 constexpr uint32_t most_world_blocks = 1u << 20;  // of cubes and columns: a word each
 constexpr uint32_t most_blocks_of_light = 4096;   // a light that meets more is stored once, for every list
+// Cells lie within this of the origin, and none is larger: the outer ones have no end anyway. The differences
+// of any double from a place there, and of two such places, are finite.
+constexpr double most_world_m = 1e290;
 
 // Neither endless nor anywhere that is not a number.
 inline bool is_local(const CullLight& light) {
@@ -62,7 +65,8 @@ struct LitBox {
 LitBox lit_box(std::span<const CullLight> lights, double most_radius);
 
 // Where lights of ordinary size and surfaces (`bounds`) both are: elsewhere nothing needs small cells. The
-// lights' box alone where they do not meet; a point at the origin where there is no such light.
+// lights' box alone where they do not meet; a point at the origin where there is no such light. Within
+// most_world_m.
 WorldBox ordinary_box(const WorldBox& lit, const WorldBox& bounds);
 
 }  // namespace lightgrid

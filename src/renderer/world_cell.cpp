@@ -94,9 +94,9 @@ double listed_at(const glm::dvec3& at, double edge, const LightSample& sample, b
 
 // A light's edge of its cells.
 double edge_of(const CullLight& light, const LightSample& sample, WorldGridShape shape, double cell) {
-  if (shape != WorldGridShape::hashed) return cell * sample.median;
-  double edge = cell * std::max(sample.least, sample.median / 64);
-  while (edge < cell * light.radius_m) edge *= 2;
+  if (shape != WorldGridShape::hashed) return std::min(cell * sample.median, most_world_m);
+  double edge = std::min(cell * std::max(sample.least, sample.median / 64), most_world_m);
+  while (edge < std::min(cell * light.radius_m, most_world_m)) edge *= 2;
   return edge;
 }
 

@@ -76,6 +76,14 @@ uint64_t WorldGrid::scan(size_t count, bool read) {
   return total;
 }
 
+// For kernels that count at most `most`: a sum at which they stop, once there is no room for it; null: there
+// is.
+cl::Buffer WorldGrid::counted(uint64_t most, uint64_t room) {
+  if (most <= room) return {};
+  fill_buffer(*renderer_.cl, "clearing a count", counted_sum_.at_least(*renderer_.cl, 4), 0, 4);
+  return counted_sum_.get();
+}
+
 size_t WorldGrid::bucket_count() const {
   const WorldGridParams& p = layout_.params;
   return p.bucket_bits > 0 ? size_t(1) << p.bucket_bits
@@ -165,13 +173,16 @@ void WorldGrid::inherit() {
   ClDevice& device = *renderer_.cl;
   const size_t chunk = chunk_of(blocks_, 16), chunks = (blocks_ + chunk - 1) / chunk;
   totals_.at_least(device, chunks * 4);
+  const uint64_t room = most_world_count(device, 8);
+  const cl::Buffer stop = counted(uint64_t(blocks_) * layout_.lights.size(), room);
   const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& members) {
     run("inherit", chunks, lights_.buffer(), block_first_.get(), members_.get(), keys(), buckets(),
-        totals_.get(), first, members, cl_uint(blocks_), cl_uint(chunk), write, params());
+        totals_.get(), first, members, stop, cl_uint(room / 64), cl_uint(blocks_), cl_uint(chunk), write,
+        params());
   };
   step(0, {}, {});
   const uint64_t members = scan(chunks, true);
-  check_world_count(device, "pairs of blocks and lights", members, 8);
+  check_world_count(device, "pairs of blocks and lights or more", members, 8);
   step(1, full_first_.at_least(device, (blocks_ + 1) * 4),
        full_members_.at_least(device, size_t(members) * 4 + members_past_end));
   listed_count_ = size_t(members);
@@ -186,12 +197,14 @@ void WorldGrid::write_lists() {
   check_world_count(device, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   grown(cells_, sizes_[2], GL_RG32UI);
   const size_t chunk = chunk_of(blocks_, 4), chunks = (blocks_ + chunk - 1) / chunk;
+  const uint64_t room = most_world_count(device, size_t(index_bits_) / 8);
+  const cl::Buffer stop = counted(uint64_t(listed_count_) * WORLD_BLOCK_CELLS, room);
   const auto step = [&](cl_uint write, const cl::Buffer& indices) {
     if (blocks_ == 0) return;
     run("lists", chunks, lights_.buffer(), layout_.cones.empty() ? cl::Buffer() : cones_.buffer(),
         (inherited ? full_first_ : block_first_).get(), (inherited ? full_members_ : members_).get(), keys(),
-        masks_.get(), totals_.get(), cells(), indices, cl_uint(blocks_), cl_uint(chunk), write,
-        cl_uint(entries_), params());
+        masks_.get(), totals_.get(), cells(), indices, stop, cl_uint(room / 64), cl_uint(blocks_),
+        cl_uint(chunk), write, cl_uint(entries_), params());
   };
   // Each block's begin at its number plus that of whole batches before it.
   const size_t batches = blocks_ + listed_count_ / world_batch;
@@ -206,7 +219,7 @@ void WorldGrid::write_lists() {
 
 void WorldGrid::size_indices(uint64_t entries) {
   const size_t index_bytes = size_t(index_bits_) / 8, everywhere = layout_.everywhere.size();
-  check_world_count(*renderer_.cl, "list entries", entries + everywhere, index_bytes);
+  check_world_count(*renderer_.cl, "list entries or more", entries + everywhere, index_bytes);
   entries_ = size_t(entries);
   sizes_[3] = (entries_ + everywhere) * index_bytes;
   const GLenum format = index_bits_ == 16 ? GL_R16UI : GL_R32UI;

@@ -92,6 +92,7 @@ class WorldGrid {
   size_t bucket_count() const;
   void run(const char* kernel, size_t items, const auto&... arguments);
   uint64_t scan(size_t count, bool read);
+  cl::Buffer counted(uint64_t most, uint64_t room);
   void count_blocks();
   void sort_pairs();
   void find_blocks();
@@ -117,7 +118,8 @@ class WorldGrid {
   bool counted_ = false;  // count_blocks made the last build
   size_t moves_ = 0;      // lights that moved since then
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;
-  GrowingBuffer pairs_[2], totals_, total_, block_first_, members_, full_first_, full_members_, masks_;
+  GrowingBuffer pairs_[2], totals_, total_, counted_sum_, block_first_, members_, full_first_, full_members_,
+      masks_;
   GrowingBuffer moved_lights_, moved_balls_, moved_cones_, edits_, edit_first_, changes_, old_blocks_;
   Shared buckets_, keys_, cells_, indices_, old_cells_, old_indices_;
   GlBuffer block_;

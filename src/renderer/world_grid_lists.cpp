@@ -6,9 +6,14 @@
 namespace lightgrid {
 
 // The device has a limit for one buffer, and entries are counted in 32 bits.
+uint64_t most_world_count(ClDevice& device, size_t bytes_each) {
+  return std::min<uint64_t>(std::numeric_limits<uint32_t>::max() - 1,
+                            device.info().max_allocation_bytes / bytes_each);
+}
+
 void check_world_count(ClDevice& device, const char* what, uint64_t count, size_t bytes_each) {
-  const uint64_t most = device.device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  if (count < std::numeric_limits<uint32_t>::max() && count * bytes_each <= most) return;
+  const uint64_t most = device.info().max_allocation_bytes;
+  if (count <= most_world_count(device, bytes_each)) return;
   throw machine_error(
       "world grid: {} {} take {} bytes, more than the {} that this device gives to one buffer; use larger "
       "cells (world-cell), "
@@ -49,9 +54,10 @@ size_t WorldGrid::memory_bytes() const {
     bytes += shared->buffer ? shared->buffer->size() : 0;
   for (const UploadedBuffer* uploaded : {&params_, &lights_, &cones_, &levels_, &first_pairs_})
     bytes += uploaded->bytes();
-  for (const GrowingBuffer* buffer : {&pairs_[0], &pairs_[1], &totals_, &total_, &block_first_, &members_,
-                                      &full_first_, &full_members_, &masks_, &moved_lights_, &moved_balls_,
-                                      &moved_cones_, &edits_, &edit_first_, &changes_, &old_blocks_}) {
+  for (const GrowingBuffer* buffer :
+       {&pairs_[0], &pairs_[1], &totals_, &total_, &counted_sum_, &block_first_, &members_, &full_first_,
+        &full_members_, &masks_, &moved_lights_, &moved_balls_, &moved_cones_, &edits_, &edit_first_,
+        &changes_, &old_blocks_}) {
     bytes += buffer->bytes();
   }
   return bytes;

@@ -6,6 +6,7 @@
 
 namespace lightgrid {
 
+uint64_t most_world_count(ClDevice& device, size_t bytes_each);
 // Throws Error(machine) if the device gives no buffer that large, or if there are more than 32 bits count.
 void check_world_count(ClDevice& device, const char* what, uint64_t count, size_t bytes_each);
 

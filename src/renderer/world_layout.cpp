@@ -100,7 +100,7 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   const LitBox lit = lit_box(lights, 32 * cell * median);
   const bool hashed = shape == WorldGridShape::hashed;
   const double least = lit.least < LitBox::inf ? std::max(lit.least, median / 64) : median;
-  layout.cell_m = cell * (hashed ? least : median);
+  layout.cell_m = std::min(cell * (hashed ? least : median), most_world_m);
   const WorldBox box = ordinary_box(lit.box, bounds);
   layout.middle = 0.5 * (box.min + box.max);
   const glm::dvec3 extent = in_grid(box.max - box.min, layout.columns);

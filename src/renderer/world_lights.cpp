@@ -65,10 +65,11 @@ inline float marked(float radius, bool cone) {
     placed.ball.w = -1;
     return placed;
   }
-  // The first level that is large enough and needs few blocks.
+  // The first level that is large enough and needs few blocks. Cells far below the slack would list no less.
   const uint levels = p.bucket_bits > 0 ? WORLD_LEVELS : 1;
   uint level = 0;
-  while (level + 1 < levels && std::ldexp(layout.cell_m, int(level)) < layout.cell * light.radius_m) ++level;
+  const double size_m = std::max(light.radius_m, slack * layout.cell_m);
+  while (level + 1 < levels && std::ldexp(layout.cell_m, int(level)) < layout.cell * size_m) ++level;
   BlockSpan span = span_of(placed.ball, level, p);
   while (level + 1 < levels && span.blocks() > most_blocks_of_light) span = span_of(placed.ball, ++level, p);
   placed.everywhere = span.blocks() > most_blocks_of_light;

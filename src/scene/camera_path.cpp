@@ -39,7 +39,8 @@ std::vector<View> turn(const View& start, int count) {
 
 std::vector<View> dolly(const Scene& scene, const View& start, int count) {
   const WorldBox box = world_box(scene);
-  const double length = box.empty() ? 1 : 0.25 * glm::length(box.max - box.min);
+  const double size = box.empty() ? 4 : glm::length(box.max - box.min);
+  const double length = 0.25 * (std::isfinite(size) ? size : 4);  // past 1e154 m squares overflow
   const glm::dvec3 forward = -glm::transpose(glm::dmat3(start.view_from_world))[2];
   std::vector<View> views = {start};
   for (int i = 1; i < count; ++i)

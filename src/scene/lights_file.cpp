@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/write_file.h"
 
 namespace lightgrid {
 namespace {
@@ -251,12 +250,12 @@ std::string camera_of_lights_file(const std::filesystem::path& path) {
   return json["camera"].get<std::string>();
 }
 
-void save_lights_file(const std::filesystem::path& path, const std::vector<Light>& lights) {
+std::string lights_file_text(const std::vector<Light>& lights) {
   std::string text = "{\"lights\": [";
   for (size_t i = 0; i < lights.size(); ++i) {
     text += (i ? ",\n  " : "\n  ") + to_json(lights[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
   }
-  write_file(path, text + "\n]}\n");
+  return text + "\n]}\n";
 }
 
 }  // namespace lightgrid

@@ -30,8 +30,8 @@ inline constexpr uintmax_t max_lights_file_bytes = uintmax_t(128) << 20;
 // The optional "camera" of a lights file in the command line's form ("eye:…"), or empty.
 std::string camera_of_lights_file(const std::filesystem::path& path);
 
-// load_lights_file reads equal lights back: positions to the last bit of a double, the rest of a float.
-// Fields that a light's type does not use are omitted.
-void save_lights_file(const std::filesystem::path& path, const std::vector<Light>& lights);
+// A lights file from which load_lights_file reads equal lights back: positions to the last bit of a double,
+// the rest of a float. Fields that a light's type does not use are omitted.
+std::string lights_file_text(const std::vector<Light>& lights);
 
 }  // namespace lightgrid

@@ -107,6 +107,15 @@ typedef struct WorldLists {
   global const uint2* keys;    // of blocks
   global const uint2* cells;   // 64 a block: first entry of the list, and their number
 } WorldLists;
+
+// Adds a block's count to a work-item's. Returns whether counting may stop, since the sum of all work-items
+// is past what memory holds. counted: that sum in 64s, each block's part rounded down; null: it cannot be
+// past it. most: likewise in 64s.
+static inline bool world_counts_enough(uint of_block, uint* count, global volatile uint* counted, uint most) {
+  const uint sum = *count + of_block;
+  *count = sum < of_block ? UINT_MAX : sum;
+  return counted != 0 && atomic_add(counted, of_block / 64) + of_block / 64 > most;
+}
 #elif defined(LIGHTGRID_GLSL)
 #define WORLD_VIEW(member) world_view.member
 #define WORLD_VIEW_ARGUMENT

@@ -1,6 +1,7 @@
 // Hard cases of positions of lights: far from each other, parked far away, in worlds of any scale.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "verify/depth_images.h"
@@ -30,9 +31,14 @@ void spread_out(Check& c) {
 
 // Lights that are switched off by moving them far away.
 void parked(Check& c) {
-  constexpr double most = 3.4028234663852886e38;
-  const glm::dvec3 positions[] = {
-      {1e19, 0, 0}, {0, -1e30, 0}, {most, 0, 0}, {0, 0, -1e19}, {most, most, most}};
+  constexpr double most_float = std::numeric_limits<float>::max(), most = std::numeric_limits<double>::max();
+  const glm::dvec3 positions[] = {{1e19, 0, 0},
+                                  {0, -1e30, 0},
+                                  {most_float, 0, 0},
+                                  {0, 0, -1e19},
+                                  {most_float, most_float, most_float},
+                                  {most, 0, 0},
+                                  {most, -most, most}};
   const DepthImage depth = wall(sixty_degrees(), 1);
   for (const glm::dvec3& position : positions) {
     for (const size_t count : {1, 2, 300}) {
@@ -83,7 +89,7 @@ std::vector<HardCase> light_place_cases() {
       {g, "spread_out", "points and spots that just reach a wall at 3 m, and as many lights 10³ … 10⁹ m away",
        "positions rounded relative to the lights' median; cones without slack for that", "nothing lost",
        spread_out},
-      {g, "parked", "1, 2 and 300 lights at 10¹⁹, 10³⁰ and 3.4·10³⁸ m",
+      {g, "parked", "1, 2 and 300 lights at 10¹⁹, 10³⁰, 3.4·10³⁸ and 1.8·10³⁰⁸ m",
        "the others are far from the median, and dropped", "nothing lost; parked lights are in no list",
        parked},
       {g, "worlds_of_any_scale", "lights that just reach surfaces, in units of 10⁻¹⁴ … 10¹³ m",

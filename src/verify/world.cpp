@@ -32,7 +32,7 @@ CullLight world_spot(const glm::dvec3& position, double radius, const glm::dvec3
 
 bool lights_point(const CullLight& light, const glm::dvec3& point) {
   const glm::dvec3 from = point - light.position;
-  const double distance = glm::length(from);
+  const double distance = std::hypot(from.x, from.y, from.z);
   if (!(distance < light.radius_m)) return false;
   return light.cos_outer < 0 || glm::dot(from, light.direction) > distance * light.cos_outer;
 }
@@ -245,10 +245,34 @@ void invalid_numbers(Check& c) {
   }
 }
 
+// Lights whose distance from each other is no double, of every size, and the eye between them and at them.
+void at_the_ends_of_the_doubles(Check& c) {
+  constexpr double most = std::numeric_limits<double>::max();
+  for (const double end : {8.9e307, 9.1e307, most}) {
+    for (const double radius : {1.0, 1e15, 1e291, end / 2, end}) {
+      const std::vector<CullLight> lights = {
+          {{-end, 100, 0}, radius}, {{end, 100, 0}, radius}, {{0, -end, end}, radius}};
+      for (const glm::dvec3& eye : {glm::dvec3(0), lights[0].position, lights[1].position}) {
+        const View view = world_view(eye, eye == glm::dvec3(0) ? glm::dvec3(0, 0, -1) : glm::dvec3(0));
+        std::vector<glm::dvec3> points;
+        for (const double away : {0.0, 0.5, 1e6, 1e14})
+          points.insert(points.end(), {eye + glm::dvec3(away, 0, 0), eye - glm::dvec3(0, away, away)});
+        for (const auto& [shape, cell, name] : world_grids) {
+          const auto built = c.engine.world_lists({shape, cell, 16}, lights, no_surfaces, view);
+          if (!built) return c.skip("the engine has no world grid");
+          expect_listed(c, *built, view, lights, points, name);
+        }
+      }
+    }
+  }
+}
+
 void parked_far_away(Check& c) {
+  at_the_ends_of_the_doubles(c);
   std::vector<CullLight> lights = cloud({0, 0, 0}, 10, 1, 200, 17);
   const size_t near = lights.size();
-  for (const double far : {1e6, 1e19, 1e30, 3.4e38, 1e300}) lights.push_back({{far, -far, far / 2}, 1});
+  constexpr double most = std::numeric_limits<double>::max();
+  for (const double far : {1e6, 1e19, 1e30, 3.4e38, 1e300, most}) lights.push_back({{far, -far, far / 2}, 1});
   const View view = world_view({0, 0, 15}, {0, 0, 0});
   const std::vector<glm::dvec3> points =
       points_of(std::vector<CullLight>(lights.begin(), lights.begin() + std::ptrdiff_t(near)), 500, 3);
@@ -304,7 +328,8 @@ std::vector<HardCase> world_cases() {
        "blocks or cells of the last build are read", "every light that reaches is listed", moving_bounds},
       {g, "invalid_numbers", "positions NaN and ±∞; radii NaN, negative, 0",
        "bounds of NaN; a cell number from NaN", "listed nowhere, others unharmed", invalid_numbers},
-      {g, "parked_far_away", "lights at 10⁶ to 10³⁰⁰ m", "bounds that make one cell of everything else",
+      {g, "parked_far_away", "lights at 10⁶ to 1.8·10³⁰⁸ m, beside others and alone",
+       "bounds that make one cell of everything else; cells that double until they are ∞",
        "others unharmed; no list is longer", parked_far_away},
       {g, "sizes_mixed", "radii of 10⁻³ to 10³ m", "a small cell lacks the large lights around it",
        "every light that reaches is listed", sizes_mixed},

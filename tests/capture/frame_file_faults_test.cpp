@@ -1,7 +1,10 @@
 // Faults in a frame's files are reported in one line, whatever their bytes.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstring>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -37,6 +40,89 @@ class BrokenFrame : public testing::Test {
 
   TempFolder folder_;
 };
+
+// Files become no larger than this while it lives, as on a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(size_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit tight = before_;
+    tight.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &tight);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files[entry.path().filename().string()] = file_bytes(entry.path());
+  return files;
+}
+
+template <typename Call>
+void expect_disk_full(const Call& call) {
+  try {
+    call();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine) << error.what();
+  }
+}
+
+// The disk is full before the depth image: the view and the lights are the older frame's too.
+TEST(FrameOverAnOlderOne, IsAllOrNothing) {
+  const TempFolder folder;
+  CapturedFrame older = small_frame(97, 83), newer = small_frame(97, 83);
+  newer.view.clip_from_view[0][0] *= 0.5;
+  newer.lights.resize(5);
+  newer.depth.assign(newer.depth.size(), 0.5f);
+  write_frame(folder.path, older);
+  write_frame_grid(folder.path, small_grid());
+  const std::map<std::string, std::string> before = files_of(folder.path);
+  {
+    const FullDisk disk(before.at("depth.f32").size() - 1);
+    expect_disk_full([&] { write_frame(folder.path, newer); });
+  }
+  EXPECT_TRUE(files_of(folder.path) == before);
+  write_frame(folder.path, newer);
+  EXPECT_EQ(read_frame(folder.path).depth, newer.depth);
+  EXPECT_EQ(read_frame(folder.path).lights.size(), 5u);
+  EXPECT_EQ(files_of(folder.path).size(), 3u) << "the older frame's grid";
+}
+
+TEST(FrameOverAnOlderOne, HasItsOwnGridOrNone) {
+  const TempFolder folder;
+  FrameGrid grid = small_grid();
+  write_frame(folder.path, small_frame());
+  write_frame_grid(folder.path, grid);
+  const std::map<std::string, std::string> before = files_of(folder.path);
+  grid.settings["tile"] = "32";
+  grid.lists.indices.resize(5000, 1);
+  {
+    const FullDisk disk(10000);
+    expect_disk_full([&] { write_frame_grid(folder.path, grid); });
+    EXPECT_TRUE(files_of(folder.path) == before);
+    write_frame(folder.path, small_frame());
+    expect_disk_full([&] { write_frame_grid(folder.path, grid); });
+  }
+  EXPECT_FALSE(read_frame_grid(folder.path, read_frame(folder.path)).has_value());
+  // Masks of the last grid go with it.
+  grid = small_grid();
+  grid.settings["grid_lists"] = "masks";
+  grid.lists.masks.assign(12, 0);
+  write_frame_grid(folder.path, grid);
+  EXPECT_TRUE(files_of(folder.path).contains("masks.u32"));
+  write_frame_grid(folder.path, small_grid());
+  EXPECT_TRUE(files_of(folder.path) == before);
+}
 
 TEST_F(BrokenFrame, IsReadWhileWhole) { EXPECT_EQ(fault_of(folder_.path), ""); }
 

@@ -25,12 +25,9 @@ struct DoubleErrors {
 };
 
 inline SceneTriangle triangle_of(const Scene& scene, const double_surfaces::Hit& hit) {
-  SceneTriangle triangle{.instance = hit.instance};
-  if (hit.instance < 0) return triangle;
+  if (hit.instance < 0) return {};
   const std::vector<uint32_t>& indices = scene.meshes[scene.instances[hit.instance].mesh].indices;
-  std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(hit.triangle)), 3, triangle.vertices.begin());
-  std::ranges::sort(triangle.vertices);
-  return triangle;
+  return scene_triangle(hit.instance, &indices[3 * size_t(hit.triangle)]);
 }
 
 // At the pixels where all three show the same triangle. The scene has no blended surface in view.

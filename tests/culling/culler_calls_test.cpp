@@ -8,15 +8,14 @@
 #include <thread>
 
 #include "base/error.h"
-#include "culling/culled_grid.h"
 #include "culling/constants.h"
+#include "culling/culled_grid.h"
 #include "culling/projections.h"
 
 namespace lightgrid {
 namespace {
 
 using testing::HasSubstr;
-
 
 // Message of the Error that `call` throws; fails if it throws none, or another kind.
 template <typename Call>
@@ -159,7 +158,10 @@ TEST(CullerCalls, RefuseBoundsOfAnotherViewAndMoreIntervalsThanTiles) {
   culler.set_view(view_with_near(0.1));
   ClGridStorage storage(test_device());
   const TileBounds small = culler.bounds_of(std::vector<DepthInterval>(12, {1, 2}));
-  EXPECT_THAT(refusal(ErrorKind::input, [&] { culler.bounds_of(std::vector<DepthInterval>(13, {1, 2})); }),
+  EXPECT_THAT(refusal(ErrorKind::input,
+                      [&] {
+                        culler.bounds_of(std::vector<DepthInterval>(13, {1, 2}));
+                      }),
               HasSubstr("13 intervals for 12 tiles"));
   culler.set_view(view_through(projections()[0], 640, 480));
   for (const TileBounds& bounds : {small, TileBounds{}}) {
@@ -167,6 +169,66 @@ TEST(CullerCalls, RefuseBoundsOfAnotherViewAndMoreIntervalsThanTiles) {
     EXPECT_THAT(refusal(ErrorKind::input, [&] { culler.read_bounds(bounds); }), HasSubstr("bounds"));
     EXPECT_THAT(refusal(ErrorKind::input, [&] { culler.read_inputs(bounds); }), HasSubstr("bounds"));
   }
+}
+
+// Of the same size, so that lights would be lost without a word.
+TEST(CullerCalls, RefuseBoundsOfAnotherViewOfTheSameSize) {
+  const CullView made = view_with_near(0.1);
+  CullView moved = made, turned = made, wider = made;
+  moved.eye.x = 1;
+  turned.view_from_world = glm::dmat4(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
+  wider.clip_from_view[0][0] *= 0.5;
+  for (const DepthBoundsMode mode : {DepthBoundsMode::none, DepthBoundsMode::minmax}) {
+    LightCuller culler(test_device(), test_programs(), {.depth_bounds = mode, .blend = true});
+    culler.set_lights(std::vector<CullLight>(1));
+    ClGridStorage storage(test_device());
+    for (const CullView& view : {moved, turned, wider, view_with_near(0.2)}) {
+      culler.set_view(made);
+      const DepthBounds of_depth = culler.depth_bounds({buffer_of(same_depth)});
+      const TileBounds given = culler.bounds_of(std::vector<DepthInterval>(12, {1, 2}));
+      culler.set_view(view);
+      for (const TileBounds& bounds : {of_depth.opaque, of_depth.blend, given}) {
+        const auto expect_refused = [&](const auto& call) {
+          EXPECT_THAT(refusal(ErrorKind::input, call), HasSubstr("bounds of another view"));
+        };
+        expect_refused([&] { culler.cull(bounds, storage); });
+        expect_refused([&] { culler.read_bounds(bounds); });
+        expect_refused([&] { culler.read_inputs(bounds); });
+      }
+    }
+  }
+}
+
+TEST(CullerCalls, TakeBoundsOfTheirViewAsOftenAsIsWanted) {
+  LightCuller culler(test_device(), test_programs(), {});
+  ClGridStorage storage(test_device());
+  const CullView view = view_with_near(0.1);
+  culler.set_view(view);
+  const TileBounds of_depth = culler.depth_bounds({buffer_of(same_depth)}).opaque,
+                   given = culler.bounds_of(std::vector<DepthInterval>(12, {1, 2}));
+  const auto entries = [&](const TileBounds& bounds) { return culler.cull(bounds, storage).index_count; };
+  // Other lights; slices and z-bins; the view again after another one.
+  culler.set_lights(std::vector<CullLight>(2, {{0, 0, -1.5}, 0.3}));
+  const uint64_t listed = entries(given);
+  EXPECT_GT(listed, 0u);
+  CullView sliced = view;
+  sliced.slice_edges = {1.4f}, sliced.z_bin_edges = {1.2f, 1.6f};
+  sliced.view_from_world[3] = {1, 2, 3, 1};  // not used
+  culler.set_view(sliced);
+  EXPECT_GT(entries(given), listed);
+  EXPECT_NO_THROW(culler.cull(of_depth, storage));
+  culler.set_view(view_with_near(0.2));
+  culler.set_view(view);
+  EXPECT_EQ(entries(given), listed);
+  EXPECT_NO_THROW(culler.cull(of_depth, storage));
+  // But not those that another view's have overwritten.
+  culler.set_view(view_with_near(0.2));
+  culler.depth_bounds({buffer_of(same_depth)});
+  EXPECT_NO_THROW(culler.cull(of_depth, storage));
+  culler.set_view(view);
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { culler.cull(of_depth, storage); }),
+              HasSubstr("bounds of another view"));
+  EXPECT_EQ(entries(given), listed);
 }
 
 TEST(CullerCalls, RefuseAnEyeThatIsNowhere) {
@@ -181,7 +243,10 @@ TEST(CullerCalls, RefuseAnEyeThatIsNowhere) {
 TEST(CullerCalls, RefuseMoreLightsThanKernelsCanCount) {
   LightCuller culler(test_device(), test_programs(), {});
   const CullLight one;
-  EXPECT_THAT(refusal(ErrorKind::machine, [&] { culler.set_lights({&one, size_t(1) << 32}); }),
+  EXPECT_THAT(refusal(ErrorKind::machine,
+                      [&] {
+                        culler.set_lights({&one, size_t(1) << 32});
+                      }),
               HasSubstr("4294967296 lights"));
 }
 

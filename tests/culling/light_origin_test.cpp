@@ -79,7 +79,8 @@ TEST_P(Loss, NoneWhereMostLightsAreFarFromTheRoom) {
 }
 
 TEST_P(Loss, NoneWhereLightsAreParkedToSwitchThemOff) {
-  for (const double place : {1e16, 1e19, 1e30, double(std::numeric_limits<float>::max()), 1e300}) {
+  for (const double place : {1e16, 1e19, 1e30, double(std::numeric_limits<float>::max()), 1e300,
+                             std::numeric_limits<double>::max()}) {
     for (const int parked : {1, 50, 2000}) {
       SCOPED_TRACE(testing::Message() << parked << " lights at " << place);
       std::vector<ViewLight> lights = lights_at_the_wall(400, 5);

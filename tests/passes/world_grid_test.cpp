@@ -82,6 +82,57 @@ TEST(WorldGrid, ListsEveryLightThatReachesAPoint) {
   fmt::print("{} contacts, {} listed\n", contacts, listed);
 }
 
+// Radii of ten decades: most are far below what float leaves of a position, so cells of their size would list
+// them a thousand times over.
+TEST(WorldGrid, LightsSmallerThanTheirRoundingLieInFewBlocks) {
+  Random random(5);
+  const auto u = [&] { return double(random.uniform()); };
+  std::vector<CullLight> lights;
+  for (int i = 0; i < 1740; ++i)
+    lights.push_back(ball({10 * u() - 5, 2 * u(), 10 * u() - 5}, std::pow(10.0, 10 * u() - 8)));
+  const View view = view_from({0, 1, 3}, {0, 0, 0});
+  for (const double cell : {1.0, 0.25}) {
+    const Lists grid = lists_of(lights, view, WorldGridShape::hashed, cell);
+    EXPECT_LT(grid.layout.pairs, 8 * lights.size());
+    EXPECT_LT(grid.entries, 1e8);
+    uint64_t contacts = 0, lost = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const glm::vec3 point = in_view(view, at_the_edge(lights[random.next() % lights.size()], random));
+      const std::vector<uint32_t> list = list_at(grid, view, point);
+      for (uint32_t light = 0; light < lights.size(); ++light) {
+        if (!reaches(lights[light], view, point)) continue;
+        ++contacts;
+        lost += !std::ranges::binary_search(list, light);
+      }
+    }
+    EXPECT_EQ(lost, 0u) << "of " << contacts;
+    EXPECT_GT(contacts, 100000u);
+  }
+}
+
+// 40,000 small lights, each in blocks of its own, which all inherit 20,000 large ones: counting stops where
+// memory ends.
+TEST(WorldGridPastMemory, IsRefusedBeforeAllIsCounted) {
+  const size_t most = test_devices().cl->info().max_allocation_bytes;
+  if (most > size_t(5) << 30) GTEST_SKIP() << "lists of " << most << " bytes take long to count";
+  Random random(5);
+  const auto u = [&] { return double(random.uniform()); };
+  std::vector<CullLight> lights;
+  for (int i = 0; i < 60000; ++i) lights.push_back(ball({10 * u(), 10 * u(), 10 * u()}, i % 3 ? 0.01 : 15));
+  WorldGrid grid(test_devices(), WorldGridShape::hashed, 1, 32, false);
+  try {
+    grid.build(lights, {glm::dvec3(0), glm::dvec3(10)}, view_from({5, 5, 5}, {0, 0, 0}), 0);
+    FAIL() << "lists of " << grid.entries() << " entries";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::machine);
+    const std::string text = error.what();
+    EXPECT_NE(text.find("or more"), std::string::npos) << text;
+    const size_t counted = std::stoull(text.substr(text.find(": ") + 2));
+    EXPECT_LT(counted, most / 4 + most / 16) << text;  // entries of 4 bytes
+  }
+  EXPECT_FALSE(grid.serves(view_from({5, 5, 5}, {0, 0, 0}), 0));
+}
+
 // By hand: three balls of radius 1 along a line, cells of edge 1 whose middle is the second's centre.
 TEST(WorldGrid, IsTheGridByHand) {
   const std::vector<CullLight> lights = {ball({-4, 0, 0}, 1), ball({0, 0, 0}, 1), ball({4, 0, 0}, 1)};

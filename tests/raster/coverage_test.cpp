@@ -68,6 +68,44 @@ TEST_P(RasterCoverage, OrthographicViewsWithANearAndAFarPlane) {
   expect_right(scene, options());
 }
 
+// Corners up to 3e38 depth ranges behind the far plane: what of their triangles is before it is at most an
+// edge.
+TEST_P(RasterCoverage, CornersFarBehindTheFarPlane) {
+  RasterView steep = plain_view(90, 70, 1e30);  // its far plane is at 1 m, its near plane 1e-30 m before
+  steep.clip_from_view[2][2] = 1e30;
+  RandomNumbers random(6);
+  size_t covered = 0;
+  for (const RasterView& view : {flat_view(100, 75), flat_view(33, 130), steep}) {
+    const bool flat = view.clip_from_view[2][3] == 0;
+    for (const double deepest : {1e5, 1e16, 1e20, 1e25, 1e32, 3e38}) {
+      SCOPED_TRACE(fmt::format("{} x {}, {:g}", view.width, view.height, deepest));
+      RasterScene scene = scene_of(view);
+      scene.instances[0].two_sided = true;
+      for (int i = 0; i < 150; ++i) {
+        // One in three is in view whole, the others have one corner or two behind it.
+        const int deep = random.below(3);
+        glm::vec3 corners[3];
+        for (int k = 0; k < 3; ++k) {
+          const double depth =
+              k < deep ? std::exp(random.between(0, std::log(deepest))) : random.between(0, 1);
+          const double reach = i % 4 == 0 ? 100 : 1.5;
+          const double x = random.between(-reach, reach), y = random.between(-reach, reach);
+          const double distance = k < deep ? 1 + depth : 1 - 0.5 * depth;
+          corners[(k + i) % 3] = flat ? glm::vec3(x, y, -depth) : glm::vec3(x, y, -1) * float(distance);
+        }
+        add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
+      }
+      const Drawn result = drawn(scene, options());
+      ASSERT_EQ(count_wrong(result, oracle_of(result, scene)), 0);
+      if (flat) {
+        EXPECT_EQ(result.counts.invalid_triangles, 0u);
+      }
+      covered += result.covered();
+    }
+  }
+  EXPECT_GT(covered, 50000u);
+}
+
 TEST_P(RasterCoverage, TurnedMovedScaledAndMirroredInstances) {
   RandomNumbers random(11);
   RasterScene scene;

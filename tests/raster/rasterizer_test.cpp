@@ -3,15 +3,21 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 
 #include "base/error.h"
+#include "cl/growing_buffer.h"
 #include "cl/launch.h"
 #include "raster/many_triangles.h"
 #include "shared/raster_params.h"
+#include "shared/surface_records.h"
 
 namespace lightgrid {
 namespace {
@@ -129,6 +135,51 @@ TEST_P(RasterizerShapes, RoomThatIsShortGrowsAndNothingIsLost) {
   EXPECT_TRUE(drawn_by(rasterizer, few).same_image(drawn(few, options())));
 }
 
+std::string refusal(ErrorKind kind, auto&& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_P(RasterizerShapes, ListsAreRefusedWithoutDrawingOrder) {
+  const RasterScene scene = many_triangles(30, 70, 50, 3);
+  Rasterizer rasterizer(raster_device(), raster_programs(), options());
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.list(); }), HasSubstr("drawing_order"));
+  set_scene(rasterizer, scene);
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.list(); }), HasSubstr("drawing_order"));
+  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene, options())));
+}
+
+// Kernels would read where there is nothing.
+TEST_P(RasterizerShapes, MasksThatDoNotServeTheSceneAreRefused) {
+  RasterScene scene = many_triangles(30, 70, 50, 3);
+  scene.instances[2].alpha_material = 4;
+  Rasterizer rasterizer(raster_device(), raster_programs(), options());
+  set_scene(rasterizer, scene);
+  size_t vertices = 0;
+  for (const RasterScene::MeshData& mesh : scene.meshes) vertices += mesh.positions.size();
+  const auto buffer = [](size_t bytes) { return device_buffer(raster_device(), bytes); };
+  const RasterMasks enough{buffer(vertices * sizeof(SurfaceVertex)), buffer(5 * sizeof(SurfaceMaterial)),
+                           buffer(4096)};
+  RasterMasks masks = enough;
+  masks.materials = cl::Buffer();
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.set_masks(masks); }), HasSubstr("materials"));
+  masks = enough, masks.vertices = cl::Buffer();
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.set_masks(masks); }), HasSubstr("vertices"));
+  masks = enough, masks.materials = buffer(4 * sizeof(SurfaceMaterial));
+  rasterizer.set_masks(masks);
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.draw(); }), HasSubstr("alpha_material is 4"));
+  masks = enough, masks.vertices = buffer((vertices - 1) * sizeof(SurfaceVertex));
+  rasterizer.set_masks(masks);
+  EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.draw(); }), HasSubstr("vertices"));
+  rasterizer.set_masks({});
+  EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(drawn(scene, options())));
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, RasterizerShapes, testing::Values(KernelShape::lanes, KernelShape::group),
                          [](const auto& info) {
                            return info.param == KernelShape::lanes ? "Lanes" : "Group";
@@ -157,15 +208,7 @@ TEST(Rasterizer, LargestViews) {
 
 TEST(Rasterizer, RefusesWhatItCannotDraw) {
   Rasterizer rasterizer(raster_device(), raster_programs());
-  const auto message = [](auto&& call) -> std::string {
-    try {
-      call();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "no error";
-  };
+  const auto message = [](auto&& call) { return refusal(ErrorKind::input, call); };
   EXPECT_THAT(message([&] { rasterizer.draw(); }), HasSubstr("set_view has to come before"));
   const std::vector<glm::vec3> positions(3);
   const std::vector<uint32_t> two = {0, 1}, past = {0, 1, 3};
@@ -204,6 +247,39 @@ TEST(Rasterizer, RefusesWhatItCannotDraw) {
   EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[3][2] = -0.1; }), HasSubstr("reversed"));
   EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][3] = 0.1; }), HasSubstr("along -z"));
   EXPECT_EQ(refused([](RasterView&) {}), "no error");
+}
+
+// The process may take only this much more memory while it lives.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(size_t bytes) {
+    size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = pages * size_t(getpagesize()) + bytes;
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+// 2^32 triangles or indices in all, of one mesh of a million.
+TEST(Rasterizer, RefusesMoreThanItCanNumberBeforeItTakesMemory) {
+  const std::vector<glm::vec3> positions(3);
+  std::vector<uint32_t> indices(3'000'000, 0);
+  for (size_t i = 1; i < indices.size(); i += 3) indices[i] = 1, indices[i + 1] = 2;
+  const RasterMesh mesh{positions, indices};
+  Rasterizer rasterizer(raster_device(), raster_programs());
+  rasterizer.set_meshes({&mesh, 1});
+  const std::vector<RasterInstance> instances(4295);
+  const std::vector<RasterMesh> meshes(1432, mesh);
+  const MemoryLimit limit(size_t(1) << 30);
+  EXPECT_THAT(refusal(ErrorKind::machine, [&] { rasterizer.set_instances(instances); }),
+              HasSubstr("2^32 triangles"));
+  EXPECT_THAT(refusal(ErrorKind::machine, [&] { rasterizer.set_meshes(meshes); }), HasSubstr("2^32 indices"));
 }
 
 }  // namespace

@@ -41,6 +41,13 @@ TEST(CameraPath, DolliesByAQuarterOfTheScene) {
   EXPECT_NEAR(views[1].eye.z, 3 - glm::length(box.max - box.min) / 8, 1e-9);
 }
 
+// Whose squares no double holds.
+TEST(CameraPath, DolliesByAMetreInASceneOfAnySize) {
+  Scene hall = find_builtin_scene("hall")->make();
+  hall.instances[0].world_from_object[3].x = 1e200;
+  EXPECT_NEAR(camera_path(hall, start(), "dolly:2")[1].eye.z, 2.5, 1e-9);
+}
+
 TEST(CameraPath, FollowsKeysOfAFile) {
   const TempFolder folder;
   const std::string path = (folder.path / "path.json").string();

@@ -1,7 +1,5 @@
 #include "passes/read_outs/triangles.h"
 
-#include <algorithm>
-
 #include "renderer/draw.h"
 
 namespace lightgrid {
@@ -63,11 +61,9 @@ ShownTriangles read_triangles(RenderView& v) {
   const std::vector<uint32_t> indices = v.gpu.in_gl().read_indices();
   ShownTriangles shown;
   for (const glm::uvec2& found : target.drawn(v.opaque, GL_EQUAL)) {
-    SceneTriangle& triangle = shown.opaque.emplace_back();
-    if (found.x == TriangleTarget::none) continue;
-    triangle.instance = int(found.x);
-    std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(found.y)), 3, triangle.vertices.begin());
-    std::ranges::sort(triangle.vertices);
+    shown.opaque.push_back(found.x == TriangleTarget::none
+                               ? SceneTriangle{}
+                               : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
   }
   shown.blended.assign(v.pixels(), false);
   if (v.blended.empty()) return shown;

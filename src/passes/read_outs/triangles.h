@@ -1,6 +1,7 @@
 // The triangle that OpenGL shows at each pixel: not part of any technique's frame.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <vector>
@@ -9,12 +10,21 @@
 
 namespace lightgrid {
 
-// A triangle by what it connects, so that two drawings of a mesh in different orders can be compared.
+// A triangle by what it connects and which way it turns, so that two drawings of a mesh in different orders
+// can be compared.
 struct SceneTriangle {
-  int instance = -1;                   // of the scene; -1: nothing
-  std::array<uint32_t, 3> vertices{};  // of its mesh, ascending
+  int instance = -1;  // of the scene; -1: nothing
+  // Of its mesh, in the order of the mesh, which side faces front included; the least one first.
+  std::array<uint32_t, 3> vertices{};
   auto operator<=>(const SceneTriangle&) const = default;
 };
+
+// corners: three indices of the mesh.
+inline SceneTriangle scene_triangle(int instance, const uint32_t* corners) {
+  SceneTriangle triangle{instance, {corners[0], corners[1], corners[2]}};
+  std::ranges::rotate(triangle.vertices, std::ranges::min_element(triangle.vertices));
+  return triangle;
+}
 
 struct ShownTriangles {
   std::vector<SceneTriangle> opaque;  // a pixel each, row 0 at the bottom

@@ -25,12 +25,13 @@ uint64_t spread_bits(uint64_t x) {
 std::vector<uint32_t> neighbours_first(const std::vector<glm::dvec4>& lights) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::dvec4& l : lights) low = glm::min(low, glm::dvec3(l)), high = glm::max(high, glm::dvec3(l));
-  const glm::dvec3 size = glm::max(high - low, 1e-9);
-  const double large = 0.125 * glm::length(size);
+  // Half of it: all of it may be more than a double holds.
+  const glm::dvec3 size = glm::max(0.5 * high - 0.5 * low, 0.5e-9);
+  const double large = 0.25 * glm::length(size);
   std::vector<std::pair<uint64_t, uint32_t>> keys;
   keys.reserve(lights.size());
   for (uint32_t i = 0; i < lights.size(); ++i) {
-    const glm::dvec3 at = glm::clamp((glm::dvec3(lights[i]) - low) / size, 0.0, 1.0) * 1048575.0;
+    const glm::dvec3 at = glm::clamp((0.5 * glm::dvec3(lights[i]) - 0.5 * low) / size, 0.0, 1.0) * 1048575.0;
     const uint64_t code =
         spread_bits(uint64_t(at.x)) | spread_bits(uint64_t(at.y)) << 1 | spread_bits(uint64_t(at.z)) << 2;
     keys.emplace_back(code | (lights[i].w > large ? uint64_t(1) << 62 : 0), i);
