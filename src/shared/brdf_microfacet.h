@@ -47,8 +47,7 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
 #ifdef SPECULAR
 // KHR_materials_specular and KHR_materials_ior: the point with a dielectric part of reflectance f0, at most
 // f90 each, at normal and f90 at grazing incidence; before with_coat. 0.04 and 1 change no bit. Diffuse light
-// is what the largest channel of F = f0 + (f90 - f0) g leaves: 1 - max F = (1 - f90) + (f90 - max f0) (1 -
-// g).
+// is what the largest channel of F = f0 + (f90 - f0) g leaves: 1 - F = (1 - f90) + (f90 - f0) (1 - g).
 SHARED_FUNCTION ShadingPoint with_specular(ShadingPoint p, real metallic, Real3 f0, real f90) {
   ShadingPoint s = p;
   real dielectric = 1.0f - metallic;
@@ -56,7 +55,9 @@ SHARED_FUNCTION ShadingPoint with_specular(ShadingPoint p, real metallic, Real3 
                p.f0.z + (f0.z - DIELECTRIC_F0) * dielectric);
   s.f90 = mad_real(f90 - 1.0f, dielectric, 1.0f);
   real facing = f90 - max_real(f0.x, max_real(f0.y, f0.z));
-  s.diffuse_facing = mad_real(facing - (1.0f - DIELECTRIC_F0), 1.0f / (1.0f - DIELECTRIC_F0), 1.0f);
+  // In this form 1 of the default, and not below 0, where f0 is stored with a rounding of its own.
+  s.diffuse_facing =
+      max_real(mad_real(facing - (1.0f - DIELECTRIC_F0), 1.0f / (1.0f - DIELECTRIC_F0), 1.0f), REAL(0.0f));
   s.diffuse_always = (1.0f - f90) * (1.0f / (1.0f - DIELECTRIC_F0));
   return s;
 }
