@@ -153,7 +153,7 @@ inline const std::vector<Effect>& effects() {
          map(&Material::specular_map, false)(s);
          map(&Material::specular_color_map, true)(s);
          Material& m = s.scene.materials[s.wall_material];
-         m.ior = 1.9f, m.specular_color = {3, 1, 1}, m.roughness = 0.4f;
+         m.ior = 1.9f, m.specular_color = {3, 1, 1};
        }},
       {"unlit", "unlit materials", "UNLIT", on_ball,
        [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},
