@@ -34,7 +34,8 @@ constexpr MaterialMap material_maps[MATERIAL_MAPS] = {
     {feature_specular_color_map, MATERIAL_SPECULAR_COLOR_MAP, &Material::specular_color_map},
 };
 
-// Units 8 to 15 are those of lights. OpenGL 4.5 has 80 units, of which a shader may use 16.
+// Units 8 to 15 are those of lights. OpenGL 4.5 guarantees 80 units, of which a shader may use 16: one more
+// than that only if a material has all ten maps and the scene all kinds of lights. Drivers have 32.
 GLuint unit_of(int slot) { return GLuint(slot < 8 ? slot : slot + 8); }
 
 MaterialParams material_params(const Material& m, int model) {

@@ -14,13 +14,16 @@ class InstanceReader {
       : doc_(doc), attributes_(attributes), place_(std::move(place)) {}
 
   std::vector<NodeTransform> read() {
-    std::vector<NodeTransform> out(checked_count());
-    if (const auto moved = read_attribute("TRANSLATION", TINYGLTF_TYPE_VEC3))
-      for (size_t i = 0; i < out.size(); ++i) out[i].translation = vector_at(*moved, i);
-    if (const auto scaled = read_attribute("SCALE", TINYGLTF_TYPE_VEC3))
-      for (size_t i = 0; i < out.size(); ++i) out[i].scale = vector_at(*scaled, i);
-    if (const auto turned = read_attribute("ROTATION", TINYGLTF_TYPE_VEC4))
-      for (size_t i = 0; i < out.size(); ++i) out[i].rotation = rotation_at(*turned, i);
+    const size_t count = checked_count();
+    const auto moved = read_attribute("TRANSLATION", TINYGLTF_TYPE_VEC3);
+    const auto turned = read_attribute("ROTATION", TINYGLTF_TYPE_VEC4);
+    const auto scaled = read_attribute("SCALE", TINYGLTF_TYPE_VEC3);
+    std::vector<NodeTransform> out(count);
+    for (size_t i = 0; i < count; ++i) {
+      if (moved) out[i].translation = vector_at(*moved, i);
+      if (turned) out[i].rotation = rotation_at(*turned, i);
+      if (scaled) out[i].scale = vector_at(*scaled, i);
+    }
     return out;
   }
 
