@@ -42,7 +42,7 @@ struct LitSurface {
   int model;  // of shaders/common/read_gbuffer.glsl; 0: Lambert
 };
 
-// Of the dielectric part.
+// Reflectance of the dielectric part.
 struct Specular {
   vec3 f0;
   float f90;

@@ -38,7 +38,7 @@ enum MaterialFeature : uint32_t {
   feature_all = 1048575,
 };
 
-// Of the features those that shading with this BRDF reads: Lambert has no coat and no specular reflectance.
+// The features that shading with this BRDF reads: Lambert has no coat and no specular reflectance.
 uint32_t features_read(uint32_t features, Brdf brdf);
 
 std::vector<std::string> defines_of(uint32_t features);

@@ -21,7 +21,7 @@ std::array<const TextureSlot*, SURFACE_MAPS> maps_of(const Material& m) {
           &m.specular_color_map};
 }
 
-// What lighting needs, an unlit surface does not.
+// An unlit surface does not read the maps that lighting needs.
 bool reads_map(const Material& m, int map) {
   if (m.unlit) return map == SURFACE_BASE_COLOR;
   if (map >= SURFACE_SPECULAR) return has_specular(m);

@@ -94,8 +94,8 @@ struct Material {
 // Reflectance of the dielectric part at normal incidence, without its strength, its maps and the limit of 1.
 glm::vec3 dielectric_f0(const Material& material);
 
-// Whether the dielectric part reflects otherwise than glTF's default, 0.04 and 1 at grazing incidence. Never
-// of an unlit material, and of one that is all metal.
+// Whether the dielectric part has another reflectance than glTF's default, 0.04 and 1 at grazing incidence.
+// An unlit material has none, nor has one that is all metal.
 bool has_specular(const Material& material);
 
 struct Instance {

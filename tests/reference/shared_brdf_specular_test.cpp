@@ -28,7 +28,7 @@ TEST(SharedBrdf, AmbientLightOfAnyReflectanceIsTheReferences) {
   }
 }
 
-// Where another surface of the scene has a reflectance of its own, those of the default have the bits that
+// If another surface of the scene has a reflectance of its own, those of the default have the bits that
 // they have without: bits of p, not of another program.
 TEST(SharedBrdf, TheDefaultReflectanceChangesNoBit) {
   std::mt19937 random(9);

@@ -155,7 +155,7 @@ TEST(GltfMaterial, specular_reflectance_is_read_with_its_maps) {
   EXPECT_TRUE(load().bitmaps.empty()) << "without reflection its maps are not decoded";
 }
 
-// What does not differ from glTF's default is none: it compiles nothing.
+// A reflectance like glTF's default is none of its own: it compiles nothing.
 TEST(GltfMaterial, specular_reflectance_like_the_default_is_none) {
   const auto specular_of = [](json material) { return has_specular(load_material(material)); };
   const json ior = {{"KHR_materials_ior", {{"ior", 1.5}}}}, ior_2 = {{"KHR_materials_ior", {{"ior", 2}}}};

@@ -112,7 +112,7 @@ struct GBuffer {
   DepthImage depth_image;
   ShadedImage image;  // contains base lighting, for light passes to add to
   size_t bytes() const { return layout->bytes(images); }  // a pixel
-  // Of an image by its number.
+  // The place of an image by its number.
   int attachment(size_t i) const {
     const int place = int(std::find(images.begin(), images.end(), i) - images.begin());
     return place < 2 || base_lighting != BaseLighting::in_image ? place : place + 1;
