@@ -16,8 +16,8 @@
 #define MATERIAL_CLEARCOAT_MAP 16777216u
 #define MATERIAL_CLEARCOAT_ROUGHNESS_MAP 33554432u
 #define MATERIAL_CLEARCOAT_NORMAL_MAP 67108864u
-// Bits of uv_flags, shifted by the slot: base colour 0, metallic-roughness 1, normal 2, occlusion 3, emissive 4,
-// coat 5, its roughness 6, its normal 7, specular 8, its colour 9.
+// Bits of uv_flags, shifted by the slot: base colour 0, metallic-roughness 1, normal 2, occlusion 3, emissive
+// 4, coat 5, its roughness 6, its normal 7, specular 8, its colour 9.
 #define MATERIAL_UV1_FIRST 1u
 #define MATERIAL_UV_TRANSFORM_FIRST 65536u
 #define MATERIAL_MAPS 10

@@ -44,6 +44,7 @@ TEST_F(AmbientOption, GivesEveryTechniqueAndTheOracleTheSameLight) {
   };
   const nlohmann::json lit = compare("0.5");
   ASSERT_EQ(lit["rows"].size(), techniques().size());
+  EXPECT_EQ(lit["ambient"], nlohmann::json({0.5, 0.5, 0.5}));
   for (const nlohmann::json& row : lit["rows"])
     EXPECT_LT(row["error"]["oracle"]["max_rel"].get<double>(), 1e-6) << row["technique"];
   // 0.5 * (0.46 + 0.04) is 0.25; the tone map subtracts 0.04, and the sRGB curve gives 126.6 of 255.

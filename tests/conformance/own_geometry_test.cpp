@@ -199,8 +199,8 @@ int add_floats(GltfBuilder& made, const Floats& values, const char* type, size_t
   return made.accessor(made.view(bytes_of(values)), type, f32, count);
 }
 
-// EXT_mesh_gpu_instancing: each instance covers a quarter, inside the node's own transform. The mesh itself is
-// not drawn.
+// EXT_mesh_gpu_instancing: each instance covers a quarter, inside the node's own transform. The mesh itself
+// is not drawn.
 TEST(OwnGeometry, InstancesOfANodesMesh) {
   GltfBuilder made = white_plate();
   const int scale = add_floats(made, {0.5f, 0.5f, 1, 0.5f, 0.5f, 1, 0.5f, 0.5f, 1}, "VEC3", 3);
@@ -251,7 +251,7 @@ TEST(OwnGeometry, AnInstanceOfNegativeScale) {
   EXPECT_TRUE(shown(made).is_background({-0.5, 0.5, 0})) << "the back";
 }
 
-// 100 x 100 instances, each smaller than a pixel by half: the 64 x 64 pixels' centres that an instance covers.
+// 100 x 100 instances that cover a quarter of their cells: an instance shows at the pixels' centres in it.
 TEST(OwnGeometry, TenThousandInstances) {
   GltfBuilder made = white_plate();
   Floats places, scale;
