@@ -3,7 +3,7 @@
 //   DEPTH_BOUNDS: nothing outside an interval of depth
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
 //     so that sums are exact and count the invocations
-//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
+//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 #include "shared/brdf.h"
 #include "shaders/lights/punctual.glsl"
@@ -48,6 +48,10 @@ void main() {
   if (!s.lit) discard;
   vec3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
+#ifdef SPECULAR
+  Specular specular = specular_of_pixel(pixel);
+  p = with_specular(p, s.metallic, specular.f0, specular.f90);
+#endif
 #ifdef SKIN
   vec4 skin = material_models.of[s.model].subsurface;
   p = with_skin(p, skin.rgb, skin.a);

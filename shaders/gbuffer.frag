@@ -2,7 +2,7 @@
 // add.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
 //   BASE_LIGHTING: there is an image to write
-//   COATS: there is an image of coats
+//   COATS, SPECULAR_IMAGE: there is an image of coats; of specular reflectance
 #include "shaders/common/surface.glsl"
 #include "shaders/common/gbuffer.glsl"
 
@@ -24,11 +24,19 @@ vec3 light_of(Surface s) {
 }
 #endif
 
-#ifdef COATS
 #ifdef BASE_LIGHTING
-layout(location = 3) out vec4 coat;
+#define NEXT 3
 #else
-layout(location = 2) out vec4 coat;
+#define NEXT 2
+#endif
+#ifdef COATS
+layout(location = NEXT) out vec4 coat;
+#endif
+#ifdef SPECULAR_IMAGE
+#ifdef COATS
+layout(location = NEXT + 1) out vec4 specular;
+#else
+layout(location = NEXT) out vec4 specular;
 #endif
 #endif
 
@@ -51,6 +59,13 @@ void main() {
   coat = coat_texel(Coat(s.coat_normal, s.coat_roughness, s.coat), s.normal);
 #else
   coat = vec4(0.0);
+#endif
+#endif
+#ifdef SPECULAR_IMAGE
+#ifdef SPECULAR
+  specular = specular_texel(Specular(s.f0, s.f90));
+#else
+  specular = specular_texel(default_specular);
 #endif
 #endif
 #ifdef BASE_LIGHTING

@@ -9,11 +9,19 @@ layout(location = 2) out vec4 emissive_occlusion;  // occlusion -1: unlit
 layout(location = 3) out vec4 coat_normal_roughness;
 layout(location = 4) out vec4 coat_factor;  // red; 0: none
 #endif
-#ifdef MODELS  // some material in view has a model other than Lambert's
 #ifdef COATS
-layout(location = 5) out vec4 model;  // red: its number
+#define NEXT 5
 #else
-layout(location = 3) out vec4 model;
+#define NEXT 3
+#endif
+#ifdef MODELS  // some material in view has a model other than Lambert's
+layout(location = NEXT) out vec4 model;  // red: its number
+#endif
+#ifdef SPECULAR_IMAGE  // some material in view has a specular reflectance of its own
+#ifdef MODELS
+layout(location = NEXT + 1) out vec4 specular;  // f0, f90 of the dielectric part
+#else
+layout(location = NEXT) out vec4 specular;
 #endif
 #endif
 
@@ -27,6 +35,13 @@ void main() {
   model = vec4(material.model, vec3(0.0));
 #else
   model = vec4(0.0);
+#endif
+#endif
+#ifdef SPECULAR_IMAGE
+#ifdef SPECULAR
+  specular = vec4(s.f0, s.f90);
+#else
+  specular = vec4(vec3(0.04), 1.0);
 #endif
 #endif
 #ifdef COATS

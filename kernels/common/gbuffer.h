@@ -1,6 +1,7 @@
 // The surface of LANES pixels, read from the geometry buffer and written to it (src/passes/common/gbuffer.h).
 //
 // -DCLEARCOAT    with a third image, of coats
+// -DSPECULAR     with another image, of the dielectric's specular reflectance
 // -DSKIN, -DMINNAERT  some surface has that model: its number is in the second image
 // -DBUFFER_BITS  8, 16 or 32: bits a channel (default 32)
 #pragma once
@@ -106,25 +107,41 @@ static inline ShadingPoint modelled_point(ShadingPoint p, Real3 to_viewer, real 
 }
 #endif
 
+static inline real metallic_of_texels(Texels first, Texels second) {
+#if BUFFER_BITS != 32
+  return OF_ONE(first.w);
+#elif defined(MODELS)
+  return second.w - 1.0f - 2.0f * number_of_texel(second);
+#else
+  return second.w - 1.0f;
+#endif
+}
+
 static inline ShadingPoint point_of_texels(Real3 position, Real3 to_viewer, Texels first, Texels second) {
 #if BUFFER_BITS == 32
   const Real3 normal = real3(first.x, first.y, first.z);
   const real roughness = first.w;
-#ifdef MODELS
-  const real metallic = second.w - 1.0f - 2.0f * number_of_texel(second);
-#else
-  const real metallic = second.w - 1.0f;
-#endif
 #else
   const Real3 normal = normal_of_octahedral(OF_NORMAL(first.x), OF_NORMAL(first.y));
-  const real roughness = OF_ONE(first.z), metallic = OF_ONE(first.w);
+  const real roughness = OF_ONE(first.z);
 #endif
   Real3 color = real3(OF_ONE(second.x), OF_ONE(second.y), OF_ONE(second.z));
 #if BUFFER_BITS == 8
   color = real3(color.x * color.x, color.y * color.y, color.z * color.z);
 #endif
-  return shading_point(position, to_viewer, normal, color, metallic, roughness);
+  return shading_point(position, to_viewer, normal, color, metallic_of_texels(first, second), roughness);
 }
+
+#ifdef SPECULAR
+// As specular_of_texel of shaders/common/gbuffer.glsl.
+static inline ShadingPoint specular_point(ShadingPoint p, Texels first, Texels second, Texels specular) {
+  Real3 f0 = real3(OF_ONE(specular.x), OF_ONE(specular.y), OF_ONE(specular.z));
+#if BUFFER_BITS != 32
+  f0 = real3(f0.x * f0.x, f0.y * f0.y, f0.z * f0.z);
+#endif
+  return with_specular(p, metallic_of_texels(first, second), f0, OF_ONE(specular.w));
+}
+#endif
 
 #ifdef CLEARCOAT
 // As coat_of_texel of shaders/common/gbuffer.glsl.
@@ -142,8 +159,8 @@ static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
 }
 #endif
 
-// --- Writing: as gbuffer_texels and coat_texel of shaders/common/gbuffer.glsl; channels as they are
-// stored, integers not yet converted.
+// --- Writing: as gbuffer_texels, specular_texel and coat_texel of shaders/common/gbuffer.glsl; channels as
+// they are stored, integers not yet converted.
 #if BUFFER_BITS == 32
 #define STORED_ONE 1.0f
 #define STORED_NORMAL(x) (x)
@@ -191,6 +208,14 @@ static inline void texels_of_surface(Texels* first, Texels* second, Real3 normal
                     unlit ? REAL(0.0f) : number > REAL(0.0f) ? number : REAL(STORED_ONE)};
 #endif
   *first = covered_texels(a, covered), *second = covered_texels(b, covered);
+}
+
+static inline Texels texels_of_specular(Real3 f0, real f90, mask_t covered) {
+#if BUFFER_BITS != 32
+  f0 = real3(sqrt(f0.x), sqrt(f0.y), sqrt(f0.z));
+#endif
+  const Texels t = {f0.x * STORED_ONE, f0.y * STORED_ONE, f0.z * STORED_ONE, f90 * STORED_ONE};
+  return covered_texels(t, covered);
 }
 
 // base: the normal of the surface itself.

@@ -2,8 +2,8 @@
 // material at a time. Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading"
 // (JCGT 2013).
 //
-// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSKIN, -DMINNAERT
-//           some surface of the scene has these; without, their code is not there
+// -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSPECULAR, -DSKIN,
+// -DMINNAERT  some surface of the scene has these; without, their code is not there
 #pragma once
 
 #include "kernels/common/surface_attributes.h"
@@ -124,6 +124,10 @@ typedef struct Surface {
 #if defined(SKIN) || defined(MINNAERT)
   real model;  // its number
 #endif
+#ifdef SPECULAR
+  Real3 f0;  // of the dielectric part
+  real f90;
+#endif
 #ifdef NORMAL_MAP
   Real3 mapped;  // in tangent space, scaled
   mask_t has_map;
@@ -155,6 +159,10 @@ static inline Footprint packed_footprint(const Attributes* a, global const Surfa
 typedef struct MapTexels {
   Real3 base_color, normal, emissive;
   real alpha, roughness, metallic, occlusion;
+#ifdef SPECULAR
+  real specular;
+  Real3 specular_color;
+#endif
 #ifdef CLEARCOAT
   real coat, coat_roughness;
   Real3 coat_normal;
@@ -167,12 +175,18 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
                                     global const SurfaceMaterial* m) {
   const real one = 1.0f;
   MapTexels t = {real3(one, one, one), real3(one, one, one), real3(one, one, one), one, one, one, one};
+#ifdef SPECULAR
+  t.specular = one, t.specular_color = real3(one, one, one);
+#endif
 #ifdef CLEARCOAT
   t.coat = one, t.coat_roughness = one, t.coat_normal = real3(one, one, one);
 #endif
   uint maps = m->flags & ((1u << SURFACE_MAPS) - 1u);
 #ifndef CLEARCOAT
-  maps &= (1u << SURFACE_COAT) - 1u;
+  maps &= ~(1u << SURFACE_COAT | 1u << SURFACE_COAT_ROUGHNESS | 1u << SURFACE_COAT_NORMAL);
+#endif
+#ifndef SPECULAR
+  maps &= ~(1u << SURFACE_SPECULAR | 1u << SURFACE_SPECULAR_COLOR);
 #endif
   if (m->flags & SURFACE_PACKED) {
     const Texels8 p = filtered_8(s->texels_8, m->maps, packed_footprint(a, m));
@@ -191,6 +205,10 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
     if (i == SURFACE_NORMAL) t.normal = color;
     if (i == SURFACE_OCCLUSION) t.occlusion = p.c[0];
     if (i == SURFACE_EMISSIVE) t.emissive = color;
+#ifdef SPECULAR
+    if (i == SURFACE_SPECULAR) t.specular = p.c[3];
+    if (i == SURFACE_SPECULAR_COLOR) t.specular_color = color;
+#endif
 #ifdef CLEARCOAT
     if (i == SURFACE_COAT) t.coat = p.c[0];
     if (i == SURFACE_COAT_ROUGHNESS) t.coat_roughness = p.c[1];
@@ -226,6 +244,17 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   KEEP3(surface->mapped, mapped_normal(t.normal, REAL(m->normal_scale)));
   KEEP(surface->has_map, (mask_t)(m->flags & 1u << SURFACE_NORMAL ? -1 : 0));
 #endif
+#endif
+#ifdef SPECULAR
+  Real3 f0 = real3(REAL(m->f0[0]), REAL(m->f0[1]), REAL(m->f0[2]));
+  real f90 = m->specular;
+#ifdef TEXTURED
+  f0 = real3(f0.x * t.specular_color.x, f0.y * t.specular_color.y, f0.z * t.specular_color.z);
+  f90 *= t.specular;
+#endif
+  KEEP3(surface->f0, real3(min_real(f0.x, REAL(1.0f)) * f90, min_real(f0.y, REAL(1.0f)) * f90,
+                           min_real(f0.z, REAL(1.0f)) * f90));
+  KEEP(surface->f90, f90);
 #endif
 #ifdef CLEARCOAT
   real coat = m->coat, coat_roughness = m->coat_roughness;

@@ -8,7 +8,7 @@
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only
 //                the rest comes from the volume
 // -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
-// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR, -DSKIN, -DMINNAERT
 //                as kernels/common/shade_pixels.h says
 #pragma once
 
@@ -251,6 +251,9 @@ static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s,
   const Real3 to_viewer = direction_to_viewer(position);
   ShadingPoint p =
       shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
+#ifdef SPECULAR
+  p = with_specular(p, s->metallic, s->f0, s->f90);
+#endif
 #ifdef SKIN
   p = with_skin(p, s->subsurface, s->roll_off);
 #endif

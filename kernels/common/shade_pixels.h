@@ -8,6 +8,7 @@
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 // -DLAMBERT   there is none: shared/brdf_lambert.h
 // -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
+// -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf_microfacet.h
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
 #pragma once
 

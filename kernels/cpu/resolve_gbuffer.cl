@@ -5,7 +5,8 @@
 // triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
 // RESOLVE_ARGUMENTS  kernels/common/resolve_light.h; of the lights only directional ones are read
 // background  of pixels without a surface
-// first, second, coats  out: the geometry buffer (kernels/common/gbuffer.h); coats null: none is wanted
+// first, second, coats  out: the geometry buffer (kernels/common/gbuffer.h); coats and
+//             specular null: none is wanted
 // image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds
 // it
 //
@@ -46,7 +47,7 @@ static inline void store_texels(global channel_t* to, Texels t, uint x, uint y, 
 
 kernel void resolve_gbuffer(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
                             float4 background, global channel_t* first, global channel_t* second,
-                            global channel_t* coats, global float* image) {
+                            global channel_t* coats, global channel_t* specular, global float* image) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   const ResolveLights lights = RESOLVE_LIGHTS;
@@ -68,6 +69,9 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
         const Texels coat = texels_of_coat(coat_normal(&a, &s), n, s.coat, s.coat_roughness, covered);
         store_texels(coats, coat, x, y, width, height);
       }
+#endif
+#ifdef SPECULAR
+      if (specular) store_texels(specular, texels_of_specular(s.f0, s.f90, covered), x, y, width, height);
 #endif
       if (!image) continue;
       const real depth = block_depths(&walk, depths, x, y);

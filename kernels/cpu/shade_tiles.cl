@@ -2,8 +2,8 @@
 // tile, 16 pixels at once. The light pass of Lauritzen, "Deferred Rendering for Current and Future
 // Rendering Pipelines" (SIGGRAPH 2010).
 //
-// first, second, coats  geometry buffer (coats: with -DCLEARCOAT alone), and depth: row 0 at the
-//                       bottom (kernels/common/gbuffer.h)
+// first, second, coats, specular  geometry buffer (coats: with -DCLEARCOAT alone; specular: with -DSPECULAR
+//                       alone), and depth: row 0 at the bottom (kernels/common/gbuffer.h)
 // positions, colors, cones  of lights (shared/punctual_light.h)
 // models  of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
 // cells, indices  light grid (shared/light_grid.h)
@@ -13,8 +13,8 @@
 //                 without these lights, which are added
 // background      of pixels without a surface; without -DBASE_LIGHTING alone
 // -DTILE          pixels a side, a multiple of 8 (default 16)
-// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSKIN, -DMINNAERT,
-// -DORTHOGRAPHIC  as the headers say
+// -DBUFFER_BITS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR, -DSKIN,
+// -DMINNAERT, -DORTHOGRAPHIC  as the headers say
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16
@@ -64,7 +64,8 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
 }
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
-                        global const channel_t* coats, global const MaterialModelRecord* models,
+                        global const channel_t* coats, global const channel_t* specular,
+                        global const MaterialModelRecord* models,
                         global const float* depth, global const float4* positions,
                         global const float4* colors, global const float4* cones, global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
@@ -93,6 +94,9 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
       const Real3 to_viewer = direction_to_viewer(position);
       ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef SPECULAR
+      p = specular_point(p, normal, color, load_texels(specular + 4 * at, specular + 4 * at2));
+#endif
 #ifdef MODELS
       p = modelled_point(p, to_viewer, number_of_texel(color), models);
 #endif

@@ -18,12 +18,12 @@ static inline void store_texel(global channel_t* to, Texels t, size_t at) {
 
 kernel void resolve_gbuffer(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
                             float4 background, global channel_t* first, global channel_t* second,
-                            global channel_t* coats, global float* image) {
+                            global channel_t* coats, global channel_t* specular, global float* image) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const size_t at = (size_t)y * view->width + x;
   const uint triangle = triangles[at];
-  Texels normal = {0}, color = {0}, coat = {0};
+  Texels normal = {0}, color = {0}, coat = {0}, reflectance = {0};
   float4 shown = background;
   if (triangle != SURFACE_NONE) {
     const ResolveScene scene = RESOLVE_SCENE;
@@ -38,6 +38,9 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
 #ifdef CLEARCOAT
     coat = texels_of_coat(coat_normal(&a, &s), n, s.coat, s.coat_roughness, 1);
 #endif
+#ifdef SPECULAR
+    reflectance = texels_of_specular(s.f0, s.f90, 1);
+#endif
     if (image) {
       const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, view);
       const Real3 base = base_light(&p, &s, &lights, view);
@@ -47,5 +50,6 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   store_texel(first, normal, at);
   store_texel(second, color, at);
   if (coats) store_texel(coats, coat, at);
+  if (specular) store_texel(specular, reflectance, at);
   if (image) ((global float4*)image)[at] = shown;
 }

@@ -5,7 +5,8 @@
 #include "shared/light_grid.h"
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
-                        global const channel_t* coats, global const MaterialModelRecord* models,
+                        global const channel_t* coats, global const channel_t* specular,
+                        global const MaterialModelRecord* models,
                         global const float* depth, global const float4* positions,
                         global const float4* colors, global const float4* cones, global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
@@ -23,6 +24,9 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const Real3 to_viewer = direction_to_viewer(position);
     ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef SPECULAR
+    p = specular_point(p, normal, color, load_texel(specular + 4 * at));
+#endif
 #ifdef MODELS
     p = modelled_point(p, to_viewer, number_of_texel(color), models);
 #endif

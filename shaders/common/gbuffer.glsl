@@ -11,6 +11,9 @@
 //   With coats in view, a third image:
 //   CLEARCOAT      coat    octahedral normal (2), perceptual roughness, factor; in 32 bits a factor below
 //                          0: its normal is that of the first image
+//   SPECULAR       with a surface of the scene that has a specular reflectance of its own, another image:
+//                  of the dielectric part f0 (3), in 8 and 16 bits as square roots, of which 0.04 is a stored
+//                  integer; f90
 // In 32 bits the normal is stored directly: the two roundings of an octahedral one are visible in lobes of
 // polished surfaces.
 
@@ -39,6 +42,13 @@ struct LitSurface {
   int model;  // of shaders/common/read_gbuffer.glsl; 0: Lambert
 };
 
+// Reflectance of the dielectric part.
+struct Specular {
+  vec3 f0;
+  float f90;
+};
+const Specular default_specular = Specular(vec3(0.04), 1.0);
+
 struct Coat {
   vec3 normal;  // view space, unit
   float roughness, factor;
@@ -51,6 +61,14 @@ vec2 octahedral(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;
 }
+
+#ifdef NORMAL_STEPS
+vec4 specular_texel(Specular s) { return vec4(sqrt(s.f0), s.f90); }
+Specular specular_of_texel(vec4 t) { return Specular(t.rgb * t.rgb, t.a); }
+#else
+vec4 specular_texel(Specular s) { return vec4(s.f0, s.f90); }
+Specular specular_of_texel(vec4 t) { return Specular(t.rgb, t.a); }
+#endif
 
 // base: the normal of the surface itself.
 #ifndef NORMAL_STEPS

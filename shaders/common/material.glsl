@@ -3,7 +3,7 @@
 // (EVERYTHING_ON) tests each material's flags and gives the same bits.
 //   TEXTURED, UV1, UV_TRANSFORM, VERTEX_COLOR, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
 //   OCCLUSION_MAP, EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP,
-//   CLEARCOAT_NORMAL_MAP, SKIN, MINNAERT
+//   CLEARCOAT_NORMAL_MAP, SKIN, MINNAERT, SPECULAR, SPECULAR_MAP, SPECULAR_COLOR_MAP
 
 #include "shared/material_params.h"
 
@@ -46,16 +46,22 @@ layout(binding = 6) uniform sampler2D clearcoat_roughness_map;
 #ifdef CLEARCOAT_NORMAL_MAP
 layout(binding = 7) uniform sampler2D clearcoat_normal_map;
 #endif
+#ifdef SPECULAR_MAP
+layout(binding = 16) uniform sampler2D specular_map;
+#endif
+#ifdef SPECULAR_COLOR_MAP
+layout(binding = 17) uniform sampler2D specular_color_map;
+#endif
 
 #ifdef TEXTURED
-// slot: index of the material's texture, 0 to 7.
+// slot: index of the material's texture (shared/material_params.h).
 vec2 uv_of(uint slot) {
   vec2 uv = fragment_uv0;
 #ifdef UV1
-  if ((material.flags & (MATERIAL_UV1_FIRST << slot)) != 0u) uv = fragment_uv1;
+  if ((material.uv_flags & (MATERIAL_UV1_FIRST << slot)) != 0u) uv = fragment_uv1;
 #endif
 #ifdef UV_TRANSFORM
-  if ((material.flags & (MATERIAL_UV_TRANSFORM_FIRST << slot)) != 0u) {
+  if ((material.uv_flags & (MATERIAL_UV_TRANSFORM_FIRST << slot)) != 0u) {
     vec4 linear = material.uv_linear[slot];
     uv = vec2(dot(linear.xz, uv), dot(linear.yw, uv)) + material.uv_offset[slot].xy;
   }

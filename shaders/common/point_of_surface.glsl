@@ -4,6 +4,9 @@ ShadingPoint point_of_surface(Surface s) {
   vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
   vec3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
+#ifdef SPECULAR
+  p = with_specular(p, s.metallic, s.f0, s.f90);
+#endif
 #ifdef SKIN
   p = with_skin(p, s.subsurface, s.roll_off);
 #endif

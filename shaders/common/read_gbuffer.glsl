@@ -13,6 +13,10 @@ layout(binding = 2) uniform sampler2D depth_image;
 layout(binding = 3) uniform sampler2D gbuffer_coat;
 #endif
 
+#ifdef SPECULAR
+layout(binding = 4) uniform sampler2D gbuffer_specular;
+#endif
+
 LitSurface surface_of_pixel(ivec2 pixel) {
   return lit_surface(GBufferTexels(texelFetch(gbuffer_normal_roughness_metallic, pixel, 0),
                                    texelFetch(gbuffer_base_color_lit, pixel, 0)));
@@ -21,6 +25,10 @@ LitSurface surface_of_pixel(ivec2 pixel) {
 #ifdef CLEARCOAT
 // base: the normal of surface_of_pixel.
 Coat coat_of_pixel(ivec2 pixel, vec3 base) { return coat_of_texel(texelFetch(gbuffer_coat, pixel, 0), base); }
+#endif
+
+#ifdef SPECULAR
+Specular specular_of_pixel(ivec2 pixel) { return specular_of_texel(texelFetch(gbuffer_specular, pixel, 0)); }
 #endif
 
 #ifdef MODELS

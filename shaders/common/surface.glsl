@@ -24,6 +24,10 @@ struct Surface {
 #ifdef MINNAERT
   float minnaert_k;  // 1: Lambert
 #endif
+#ifdef SPECULAR
+  vec3 f0;  // of the dielectric part, at normal incidence; f90 at grazing incidence
+  float f90;
+#endif
 #ifdef CLEARCOAT
   vec3 coat_normal;  // as normal
   float coat, coat_roughness;
@@ -77,6 +81,21 @@ void add_coat(inout Surface s) {
 }
 #endif
 
+#ifdef SPECULAR
+// KHR_materials_specular, KHR_materials_ior.
+void add_specular(inout Surface s) {
+  vec3 f0 = material.specular.rgb;
+  s.f90 = material.specular.a;
+#ifdef SPECULAR_MAP
+  if (has(MATERIAL_SPECULAR_MAP)) s.f90 *= texture(specular_map, uv_of(8u)).a;
+#endif
+#ifdef SPECULAR_COLOR_MAP
+  if (has(MATERIAL_SPECULAR_COLOR_MAP)) f0 *= texture(specular_color_map, uv_of(9u)).rgb;
+#endif
+  s.f0 = min(f0, 1.0) * s.f90;
+}
+#endif
+
 Surface surface_here() {
   Surface s;
   vec4 color = material_base_color();
@@ -112,6 +131,9 @@ Surface surface_here() {
 #endif
 #ifdef MINNAERT
   s.minnaert_k = material.minnaert_k;
+#endif
+#ifdef SPECULAR
+  add_specular(s);
 #endif
 #ifdef CLEARCOAT
   add_coat(s);

@@ -74,6 +74,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                             {"light_radius", s.light_radius},
                             {"seed", s.seed},
                             {"views", o.views}};
+  if (!s.ambient.empty()) request["ambient"] = s.ambient;
   for (const ChosenPoint& point : points) {
     request["points"].push_back({point.contestant.technique->name,
                                  settings_of(*point.contestant.technique, point.contestant.settings),

@@ -71,7 +71,8 @@ Subject load_frame(const SceneChoice& o) {
                                                 {"--camera", !o.camera.empty()},
                                                 {"--lights", o.lights >= 0},
                                                 {"--lights-file", !o.lights_file.empty()},
-                                                {"--light-radius", !o.light_radius.empty()}};
+                                                {"--light-radius", !o.light_radius.empty()},
+                                                {"--ambient", !o.ambient.empty()}};
   for (const auto& [option, is_given] : given) {
     if (is_given) throw input_error("{}: {} is a captured frame, which has its own", option, o.scene);
   }

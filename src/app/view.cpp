@@ -28,6 +28,7 @@ std::string scene_words(const ViewOptions& o) {
   if (s.lights >= 0) words += fmt::format(" --lights {}", s.lights);
   if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
   if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
+  if (!s.ambient.empty()) words += " --ambient " + shell_word(s.ambient);
   if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!o.device.empty()) words += " --device " + shell_word(o.device);

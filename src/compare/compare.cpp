@@ -180,6 +180,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
                       const std::vector<Contestant>& contestants, const CompareOptions& options) {
   CompareReport report;
   report.scene = scene.name;
+  report.ambient = scene.ambient;
   report.width = view.width, report.height = view.height;
   report.cl_device = renderer.cl->info().name;
   report.gl_device = renderer.gl ? renderer.gl->renderer : "none";

@@ -63,6 +63,8 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
     surface.subsurface_color = model.subsurface_color, surface.roll_off = model.roll_off,
     surface.minnaert_k = model.minnaert_k;
   }
+  if (!s.specular.pixels.empty())
+    surface.f0 = s.specular.pixels[pixel], surface.f90 = s.specular.pixels[pixel].w;
   if (s.coat_factor.pixels.empty() || s.coat_factor.pixels[pixel].r == 0) return surface;
   surface.coat = s.coat_factor.pixels[pixel].r;
   surface.coat_roughness = s.coat_normal_roughness.pixels[pixel].w;

@@ -17,9 +17,8 @@ void clear(RenderView& v, const GBuffer& gbuffer) {
   const float nothing[4] = {0, 0, 0, 0};
   if (gbuffer.base_lighting == BaseLighting::in_image)
     glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
-  for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, i, nothing);
-  if (gbuffer.coats)
-    glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.coats_attachment(), nothing);
+  for (const size_t i : gbuffer.images)
+    glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.attachment(i), nothing);
 }
 
 void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfaces) {
@@ -31,7 +30,8 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
   LightSource source = base_lighting(v);
   if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
   if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
-  if (gbuffer.coats) source.defines.emplace_back("COATS");
+  if (gbuffer.textures[gbuffer_coat]) source.defines.emplace_back("COATS");
+  if (gbuffer.textures[gbuffer_specular]) source.defines.emplace_back("SPECULAR_IMAGE");
   source.bind(v);
   draw_list(v, surfaces, DrawStreams::all,
             v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));

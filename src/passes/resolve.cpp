@@ -109,6 +109,7 @@ class Resolving : public PassState {
                                       {feature_vertex_color, " -DVERTEX_COLOR"},
                                       {feature_normal_map | feature_clearcoat_normal_map, " -DNORMAL_MAP"},
                                       {feature_clearcoat, " -DCLEARCOAT"},
+                                      {feature_specular, " -DSPECULAR"},
                                       {feature_skin, " -DSKIN"},
                                       {feature_minnaert, " -DMINNAERT"}}) {
       if (features & bit) defines += define;
@@ -192,7 +193,7 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
       [&](const auto&... shared) {
         launch(*v.renderer.cl, "resolve_gbuffer", kernel, r.items(v), r.group(), visible.image.triangle,
                visible.image.depth, shared..., background(v), g.surfaces[0]->cl_buffer(),
-               g.surfaces[1]->cl_buffer(), g.coats ? g.surfaces[2]->cl_buffer() : cl::Buffer(),
+               g.surfaces[1]->cl_buffer(), g.in_cl(gbuffer_coat), g.in_cl(gbuffer_specular),
                image ? g.image->cl_buffer() : cl::Buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));

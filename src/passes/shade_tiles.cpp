@@ -50,8 +50,9 @@ class TileShading : public PassState {
 
  private:
   std::string defines_of_view(RenderView& v) const {
-    std::string defines =
-        light_defines(v, lanes, v.plan.settings.brdf) + (v.plan.clearcoat ? " -DCLEARCOAT" : "");
+    std::string defines = light_defines(v, lanes, v.plan.settings.brdf);
+    if (v.plan.clearcoat) defines += " -DCLEARCOAT";
+    if (v.plan.specular) defines += " -DSPECULAR";
     for (const char* define : model_defines(v.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
@@ -72,15 +73,15 @@ GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
   const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
   std::vector<SharedBuffer::Written> copies;
-  for (size_t i = 0; i < in_cl.images(); ++i)
+  for (const size_t i : in_cl.images)
     copies.push_back({in_cl.surfaces[i], pixels * gbuffer.layout->images[i].bytes});
   if (base_lighting) copies.push_back({in_cl.image, pixels * 16});
   std::vector<SharedBuffer*> buffers;
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
-  for (size_t i = 0; i < in_cl.images(); ++i) {
-    copy_attachment(v, gbuffer, i < 2 ? int(i) : gbuffer.coats_attachment(), gbuffer.textures[i],
-                    gbuffer.layout->images[i].type, *in_cl.surfaces[i]);
+  for (const size_t i : in_cl.images) {
+    copy_attachment(v, gbuffer, gbuffer.attachment(i), gbuffer.textures[i], gbuffer.layout->images[i].type,
+                    *in_cl.surfaces[i]);
   }
   if (base_lighting)
     copy_attachment(v, gbuffer, 2, v.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
@@ -112,7 +113,7 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(),
-         gbuffer.surfaces[1]->cl_buffer(), gbuffer.coats ? gbuffer.surfaces[2]->cl_buffer() : cl::Buffer(),
+         gbuffer.surfaces[1]->cl_buffer(), gbuffer.in_cl(gbuffer_coat), gbuffer.in_cl(gbuffer_specular),
          s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(),
          s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
          v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(),

@@ -33,6 +33,9 @@ constexpr FeatureName feature_names[] = {
     {feature_clearcoat_normal_map, "CLEARCOAT_NORMAL_MAP", "clearcoat normal maps"},
     {feature_skin, "SKIN", "skin"},
     {feature_minnaert, "MINNAERT", "Minnaert"},
+    {feature_specular, "SPECULAR", "specular reflectance"},
+    {feature_specular_map, "SPECULAR_MAP", "specular maps"},
+    {feature_specular_color_map, "SPECULAR_COLOR_MAP", "specular colour maps"},
 };
 
 std::string instance_witness(const Scene& scene, int instance) {
@@ -75,6 +78,8 @@ void plan_models(const Scene& scene, FramePlan& plan) {
     if (m.unlit || m.alpha_mode == AlphaMode::blend) continue;
     plan.skin = plan.skin || m.model.skin();
     plan.minnaert = plan.minnaert || m.model.minnaert();
+    plan.specular =
+        plan.specular || (has_specular(m) && features_read(feature_specular, plan.settings.brdf) != 0);
   }
 }
 
@@ -199,6 +204,7 @@ void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;
   plan.skin = plan.minnaert = true;
+  plan.specular = plan.features & feature_specular;
   for (int i : plan.opaque) plan.features_of_instance[i] = plan.features;
   for (int i : plan.blended) plan.features_of_instance[i] = plan.features;
 }
@@ -214,9 +220,10 @@ std::vector<std::string> defines_of(uint32_t features) {
 }
 
 uint32_t features_read(uint32_t features, Brdf brdf) {
-  constexpr uint32_t coat = feature_clearcoat | feature_clearcoat_map | feature_clearcoat_roughness_map |
-                            feature_clearcoat_normal_map;
-  return brdf == Brdf::lambert ? features & ~coat : features;
+  constexpr uint32_t of_lobes = feature_clearcoat | feature_clearcoat_map | feature_clearcoat_roughness_map |
+                                feature_clearcoat_normal_map | feature_specular | feature_specular_map |
+                                feature_specular_color_map;
+  return brdf == Brdf::lambert ? features & ~of_lobes : features;
 }
 
 uint32_t material_features(const Scene& scene, const Mesh& mesh) {
@@ -238,6 +245,11 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   use(m.emissive_map, feature_emissive_map);
   if (m.model.skin()) features |= feature_skin;
   if (m.model.minnaert()) features |= feature_minnaert;
+  if (has_specular(m)) {
+    features |= feature_specular;
+    use(m.specular_map, feature_specular_map);
+    use(m.specular_color_map, feature_specular_color_map);
+  }
   if (m.clearcoat == 0) return features;
   features |= feature_clearcoat;
   use(m.clearcoat_map, feature_clearcoat_map);

@@ -32,10 +32,13 @@ enum MaterialFeature : uint32_t {
   feature_clearcoat_normal_map = 16384,
   feature_skin = 32768,
   feature_minnaert = 65536,
-  feature_all = 131071,
+  feature_specular = 131072,
+  feature_specular_map = 262144,
+  feature_specular_color_map = 524288,
+  feature_all = 1048575,
 };
 
-// Of the features those that shading with this BRDF reads: Lambert has no coat.
+// The features that shading with this BRDF reads: Lambert has no coat and no specular reflectance.
 uint32_t features_read(uint32_t features, Brdf brdf);
 
 std::vector<std::string> defines_of(uint32_t features);
@@ -90,9 +93,9 @@ struct FramePlan {
   bool base_lighting = false;  // an opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
   bool clearcoat = false;  // an opaque surface has a coat
-  // An opaque surface of the scene, in view or not, is skin or Minnaert's: what light passes over all
-  // surfaces are built for, so that a camera that turns builds nothing.
-  bool skin = false, minnaert = false;
+  // An opaque surface of the scene, in view or not, is skin or Minnaert's, or has a specular reflectance of
+  // its own: what light passes over all surfaces are built for, so that a camera that turns builds nothing.
+  bool skin = false, minnaert = false, specular = false;
   bool stencil = false;  // 8 bits beside depth
   bool reversed_triangles = false;
   int index_bits = 16;

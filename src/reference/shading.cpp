@@ -15,13 +15,15 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double dielectric_f0 = 0.04;  // for an index of refraction of 1.5
+constexpr double coat_f0 = 0.04;
 
 // Schlick 1994.
 template <typename Reflectance>
-Reflectance fresnel(const Reflectance& f0, double v_dot_h) {
-  return f0 + (1.0 - f0) * std::pow(1 - std::abs(v_dot_h), 5);
+Reflectance fresnel(const Reflectance& f0, double v_dot_h, double f90 = 1) {
+  return f0 + (f90 - f0) * std::pow(1 - std::abs(v_dot_h), 5);
 }
+
+double largest(const dvec3& v) { return std::max({v.r, v.g, v.b}); }
 
 // V.N^(1 - k), floored: docs/material_models.md#energy.
 double minnaert_of_viewer(const Surface& s, const dvec3& to_eye) {
@@ -55,11 +57,13 @@ dvec3 diffuse_ambient(const Surface& s, const dvec3& to_eye) {
   return s.base_color * (2 / (s.minnaert_k + 1) * minnaert_of_viewer(s, to_eye));
 }
 
-// Reflection of constant radiance from all sides: this program's own simplification, without Fresnel.
+// Reflection of constant radiance from all sides: this program's own simplification, without Fresnel. Diffuse
+// light is whole with the default reflectance, and in proportion to what is left of it with another.
 dvec3 ambient_reflectance(const Surface& s, const dvec3& to_eye, Brdf lobe) {
   const dvec3 diffuse = diffuse_ambient(s, to_eye), subsurface = s.subsurface_color * s.roll_off;
   if (lobe == Brdf::lambert) return diffuse + subsurface;
-  return diffuse * (1 - s.metallic) + subsurface + glm::mix(dvec3(dielectric_f0), s.base_color, s.metallic);
+  return diffuse * ((1 - s.metallic) * (1 - largest(s.f0)) / (1 - 0.04)) + subsurface +
+         glm::mix(s.f0, s.base_color, s.metallic);
 }
 
 // GGX (Walter et al. 2007) with |N x H|^2 in place of 1 - (N.H)^2, which cancels at small roughness.
@@ -100,7 +104,7 @@ bool are_opposite(const dvec3& a, const dvec3& b) { return glm::dot(a + b, a + b
 // The coat's share of the result: KHR_materials_clearcoat, fresnel_coat.
 double coat_share(const Surface& surface, const dvec3& to_eye, Brdf lobe) {
   if (surface.coat == 0 || lobe == Brdf::lambert) return 0;
-  return surface.coat * fresnel(dielectric_f0, std::max(glm::dot(surface.coat_normal, to_eye), 1e-4));
+  return surface.coat * fresnel(coat_f0, std::max(glm::dot(surface.coat_normal, to_eye), 1e-4));
 }
 
 dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3& to_eye,
@@ -125,7 +129,8 @@ dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, B
   // The form of the specification: a mix of two materials.
   const double v_dot_h = glm::dot(to_eye, glm::normalize(to_eye + to_light));
   const dvec3 diffuse = diffuse_of(surface, to_eye, to_light);
-  const dvec3 dielectric = glm::mix(diffuse, dvec3(specular), fresnel(dielectric_f0, v_dot_h));
+  const dvec3 reflected_part = fresnel(surface.f0, v_dot_h, surface.f90);
+  const dvec3 dielectric = diffuse * (1 - largest(reflected_part)) + specular * reflected_part;
   const dvec3 metal = fresnel(surface.base_color, v_dot_h) * specular;
   return glm::mix(dielectric, metal, surface.metallic);
 }

@@ -18,6 +18,10 @@ struct Surface {
   double metallic = 0, roughness = 1;  // perceptual roughness; floored at 0.045
   double occlusion = 1;
   bool unlit = false;                   // base_color is the result
+  // Reflectance of the dielectric part at normal and grazing incidence (KHR_materials_specular,
+  // KHR_materials_ior).
+  glm::dvec3 f0{0.04};  // for an index of refraction of 1.5
+  double f90 = 1;
   double coat = 0, coat_roughness = 0;  // factor, 0: no coat; perceptual roughness, floored likewise
   glm::dvec3 coat_normal{0, 0, 1};      // as normal
   glm::dvec3 subsurface_color{0};       // of skin (scene/material_model.h)

@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-// By texture unit.
+// By slot.
 struct MaterialMap {
   uint32_t feature, flag;
   TextureSlot Material::*slot;
@@ -30,7 +30,13 @@ constexpr MaterialMap material_maps[MATERIAL_MAPS] = {
     {feature_clearcoat_map, MATERIAL_CLEARCOAT_MAP, &Material::clearcoat_map},
     {feature_clearcoat_roughness_map, MATERIAL_CLEARCOAT_ROUGHNESS_MAP, &Material::clearcoat_roughness_map},
     {feature_clearcoat_normal_map, MATERIAL_CLEARCOAT_NORMAL_MAP, &Material::clearcoat_normal_map},
+    {feature_specular_map, MATERIAL_SPECULAR_MAP, &Material::specular_map},
+    {feature_specular_color_map, MATERIAL_SPECULAR_COLOR_MAP, &Material::specular_color_map},
 };
+
+// Units 8 to 15 are those of lights. OpenGL 4.5 guarantees 80 units, of which a shader may use 16: one more
+// than that only if a material has all ten maps and the scene all kinds of lights. Drivers have 32.
+GLuint unit_of(int slot) { return GLuint(slot < 8 ? slot : slot + 8); }
 
 MaterialParams material_params(const Material& m, int model) {
   MaterialParams p{};
@@ -43,6 +49,8 @@ MaterialParams material_params(const Material& m, int model) {
   p.clearcoat_normal_scale = m.clearcoat_normal_scale;
   std::memcpy(p.subsurface, &m.model.subsurface_color, sizeof m.model.subsurface_color);
   p.subsurface[3] = m.model.roll_off, p.minnaert_k = m.model.minnaert_k, p.model = float(model);
+  const glm::vec4 specular(dielectric_f0(m), m.specular);
+  std::memcpy(p.specular, &specular, sizeof p.specular);
   if (m.clearcoat > 0) p.flags |= MATERIAL_CLEARCOAT;
   if (m.alpha_mode == AlphaMode::mask) p.flags |= MATERIAL_MASK;
   if (m.unlit) p.flags |= MATERIAL_UNLIT;
@@ -50,8 +58,8 @@ MaterialParams material_params(const Material& m, int model) {
     const TextureSlot& slot = m.*material_maps[i].slot;
     if (slot.texture < 0) continue;
     p.flags |= material_maps[i].flag;
-    if (slot.uv_set == 1) p.flags |= MATERIAL_UV1_FIRST << i;
-    if (slot.transformed()) p.flags |= MATERIAL_UV_TRANSFORM_FIRST << i;
+    if (slot.uv_set == 1) p.uv_flags |= MATERIAL_UV1_FIRST << i;
+    if (slot.transformed()) p.uv_flags |= MATERIAL_UV_TRANSFORM_FIRST << i;
     const glm::mat3x2& uv = slot.uv_from_vertex;
     const float linear[4] = {uv[0].x, uv[0].y, uv[1].x, uv[1].y}, offset[4] = {uv[2].x, uv[2].y, 0, 0};
     std::memcpy(p.uv_linear[i], linear, sizeof linear);
@@ -292,8 +300,8 @@ void GlScene::bind_material(int material, uint32_t features) const {
   for (int s = 0; s < MATERIAL_MAPS; ++s) {
     const int texture = slots_[material].texture[s];
     if (!(features & material_maps[s].feature) || texture < 0 || !textures_[texture]) continue;
-    glBindTextureUnit(s, textures_[texture].name());
-    glBindSampler(s, samplers_[texture].name());
+    glBindTextureUnit(unit_of(s), textures_[texture].name());
+    glBindSampler(unit_of(s), samplers_[texture].name());
   }
 }
 

@@ -17,7 +17,15 @@ constexpr int packable = 3;  // base colour, metallic-roughness, normal
 std::array<const TextureSlot*, SURFACE_MAPS> maps_of(const Material& m) {
   return {&m.base_color_map,          &m.metallic_roughness_map, &m.normal_map,
           &m.occlusion_map,           &m.emissive_map,           &m.clearcoat_map,
-          &m.clearcoat_roughness_map, &m.clearcoat_normal_map};
+          &m.clearcoat_roughness_map, &m.clearcoat_normal_map,   &m.specular_map,
+          &m.specular_color_map};
+}
+
+// An unlit surface does not read the maps that lighting needs.
+bool reads_map(const Material& m, int map) {
+  if (m.unlit) return map == SURFACE_BASE_COLOR;
+  if (map >= SURFACE_SPECULAR) return has_specular(m);
+  return map < SURFACE_COAT || m.clearcoat > 0;
 }
 
 bool has_mips(const Texture& texture) {
@@ -50,13 +58,11 @@ class TexelWriter {
 
   void add_textures(const Material& m, SurfaceMaterial& record) {
     const auto maps = maps_of(m);
-    // What lighting needs, an unlit surface does not.
-    const int count = m.unlit ? 1 : m.clearcoat > 0 ? SURFACE_MAPS : SURFACE_COAT;
     // A packed texel has no alpha, which blending takes from the base colour.
     const bool packed =
         !m.unlit && m.alpha_mode != AlphaMode::blend && layout_ != TexelLayout::separate && can_pack(m);
-    for (int i = 0; i < count; ++i) {
-      if (maps[i]->texture < 0) continue;
+    for (int i = 0; i < SURFACE_MAPS; ++i) {
+      if (maps[i]->texture < 0 || !reads_map(m, i)) continue;
       record.flags |= 1u << i;
       if (!packed || i >= packable) record.maps[i] = map(*maps[i], chain_of(maps[i]->texture));
     }
@@ -202,6 +208,9 @@ SurfaceMaterial factors_of(const Material& m, int model) {
   record.alpha_cutoff = m.alpha_cutoff;
   record.coat = m.clearcoat, record.coat_roughness = m.clearcoat_roughness;
   record.coat_normal_scale = m.clearcoat_normal_scale;
+  const glm::vec3 f0 = dielectric_f0(m);
+  std::memcpy(record.f0, &f0, sizeof record.f0);
+  record.specular = m.specular;
   std::memcpy(record.subsurface, &m.model.subsurface_color, sizeof record.subsurface);
   record.roll_off = m.model.roll_off, record.minnaert_k = m.model.minnaert_k, record.model = float(model);
   if (m.unlit) record.flags |= SURFACE_UNLIT;

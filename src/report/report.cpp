@@ -24,7 +24,7 @@ std::string view_stem(const CompareReport& report) {
 CompareReport without_images(const CompareReport& report) {
   CompareReport rest;
   rest.scene = report.scene;
-  rest.width = report.width, rest.height = report.height;
+  rest.width = report.width, rest.height = report.height, rest.ambient = report.ambient;
   rest.cl_device = report.cl_device, rest.gl_device = report.gl_device, rest.commit = report.commit;
   rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
   rest.rows = report.rows;

@@ -200,6 +200,7 @@ json to_json(const CompareReport& report) {
   }
   json out = {{"scene", report.scene},
               {"size", {report.width, report.height}},
+              {"ambient", {report.ambient.r, report.ambient.g, report.ambient.b}},
               {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
               {"commit", report.commit},
               {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},

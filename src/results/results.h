@@ -126,6 +126,7 @@ struct ReferenceErrors {
 struct CompareReport {
   std::string scene;
   int width = 0, height = 0;
+  glm::vec3 ambient{0};  // of the scene
   std::string cl_device, gl_device, commit;
   std::string reference;  // the technique that the images are compared with: "forward", or with the setting
                           // that makes it one, "visibility:lights=all"

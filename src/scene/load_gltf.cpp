@@ -27,14 +27,13 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   Scene scene;
   scene.name = path.stem().string();
   scene.materials = gltf::read_materials(doc, nodes);
+  if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);
   gltf::add_meshes(doc, nodes, scene, rig);
   scene.lights = gltf::read_lights(doc, nodes);
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);
-  if (!has_channels(rig)) return scene;
-  rig.nodes = gltf::rig_nodes(doc, nodes);
-  scene.rig = std::make_shared<const Rig>(std::move(rig));
+  if (has_channels(rig)) scene.rig = std::make_shared<const Rig>(std::move(rig));
   return scene;
 }
 

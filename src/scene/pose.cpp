@@ -10,15 +10,6 @@
 namespace lightgrid {
 namespace {
 
-bool all_finite(const glm::dmat4& m) {
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      if (!std::isfinite(m[column][row])) return false;
-    }
-  }
-  return true;
-}
-
 std::vector<glm::dmat4> world_matrices(const Rig& rig, const std::vector<NodeTransform>* moved) {
   std::vector<glm::dmat4> world;
   world.reserve(rig.nodes.size());
@@ -52,7 +43,7 @@ void apply_channel(const AnimationChannel& channel, double seconds, std::vector<
 
 void check_finite(const Rig& rig, const Pose& pose, double seconds) {
   for (size_t i = 0; i < rig.nodes.size(); ++i) {
-    if (!all_finite(pose.world_from_node[i])) {
+    if (!is_finite(pose.world_from_node[i])) {
       throw input_error("{}: {}: its world matrix at {} s is not finite", rig.file, rig.nodes[i].label,
                         seconds);
     }
@@ -89,6 +80,15 @@ Pose animated_pose(const Rig& rig, double seconds, int animation) {
 glm::dmat4 parent_from_node(const NodeTransform& transform) {
   const glm::dmat4 moved = glm::translate(glm::dmat4(1), transform.translation);
   return glm::scale(moved * glm::mat4_cast(transform.rotation), transform.scale);
+}
+
+bool is_finite(const glm::dmat4& m) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!std::isfinite(m[column][row])) return false;
+    }
+  }
+  return true;
 }
 
 bool is_flat(const glm::dmat4& world_from_node) { return glm::determinant(glm::dmat3(world_from_node)) == 0; }

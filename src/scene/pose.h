@@ -22,6 +22,8 @@ Pose animated_pose(const Rig& rig, double seconds, int animation);
 
 glm::dmat4 parent_from_node(const NodeTransform& transform);
 
+bool is_finite(const glm::dmat4& m);
+
 // True if the matrix maps volumes to zero; normals do not exist then.
 bool is_flat(const glm::dmat4& world_from_node);
 

@@ -4,6 +4,17 @@
 
 namespace lightgrid {
 
+glm::vec3 dielectric_f0(const Material& m) {
+  const double ratio = (double(m.ior) - 1) / (double(m.ior) + 1);
+  return glm::dvec3(m.specular_color) * (ratio * ratio);
+}
+
+bool has_specular(const Material& m) {
+  if (m.unlit || (m.metallic == 1 && m.metallic_roughness_map.texture < 0)) return false;
+  return m.specular != 1 || dielectric_f0(m) != dielectric_f0({}) || m.specular_map.texture >= 0 ||
+         m.specular_color_map.texture >= 0;
+}
+
 bool intensity_overflows(const Light& light) {
   const glm::dvec3 intensity = glm::dvec3(light.color) * double(light.intensity);
   const double largest = std::max({intensity.r, intensity.g, intensity.b});

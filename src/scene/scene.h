@@ -81,12 +81,23 @@ struct Material {
   // KHR_materials_clearcoat. A factor of 0: no coat, whatever its maps hold.
   float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;
   TextureSlot clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map;
+  // KHR_materials_ior, KHR_materials_specular: the dielectric part's reflectance. Specular: the map's alpha.
+  float ior = 1.5f, specular = 1;  // ior 0: total reflection
+  glm::vec3 specular_color{1};
+  TextureSlot specular_map, specular_color_map;
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;  // KHR_materials_unlit
   MaterialModel model;  // of the diffuse part; an unlit material has none
 };
+
+// Reflectance of the dielectric part at normal incidence, without its strength, its maps and the limit of 1.
+glm::vec3 dielectric_f0(const Material& material);
+
+// Whether the dielectric part has another reflectance than glTF's default, 0.04 and 1 at grazing incidence.
+// An unlit material has none, nor has one that is all metal.
+bool has_specular(const Material& material);
 
 struct Instance {
   std::string name;  // the node's

@@ -57,6 +57,14 @@ void load_lights(Scene& scene, const SceneChoice& choice) {
   scene.lights.resize(choice.lights);
 }
 
+float parse_ambient(const std::string& text) {
+  float radiance = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), radiance);
+  if (failure != std::errc() || end != text.data() + text.size() || !(radiance >= 0) || std::isinf(radiance))
+    throw input_error("ambient {}: not a finite radiance of 0 or more", text);
+  return radiance;
+}
+
 }  // namespace
 
 std::optional<double> chosen_time(const SceneChoice& choice) {
@@ -110,6 +118,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;
   }
+  if (!choice.ambient.empty()) scene.ambient = glm::vec3(parse_ambient(choice.ambient));
   return view;
 }
 
@@ -138,6 +147,7 @@ std::vector<View> chosen_path(const Scene& scene, const View& start, const Scene
 ChosenScene load_chosen_scene(const SceneChoice& choice) {
   parse_size(choice.size);  // reports faults in these before the scene is loaded
   check_light_radius(choice);
+  if (!choice.ambient.empty()) parse_ambient(choice.ambient);
   ChosenScene chosen{load_scene(choice.scene), {}};
   chosen.view = choose_view(chosen.scene, choice);
   return chosen;

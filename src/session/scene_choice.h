@@ -24,6 +24,7 @@ struct SceneChoice {
   int lights = -1;  // -1: the scene's own
   std::string lights_file;
   std::string light_radius;
+  std::string ambient;  // radiance from all sides; empty: the scene's own
   uint64_t seed = 1;
   std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;
@@ -38,7 +39,7 @@ ImageSize parse_size(const std::string& text);
 Scene load_scene(const std::string& name);
 // Seconds into the animations of the file; empty: at rest.
 std::optional<double> chosen_time(const SceneChoice& choice);
-// The view of a loaded scene; replaces its lights by those of the choice.
+// The view of a loaded scene; replaces its lights and ambient light by those of the choice.
 View choose_view(Scene& scene, const SceneChoice& choice);
 // The scene's motion along a path, 30 frames a second from the chosen time; empty if nothing moves. The scene
 // outlives it.

@@ -3,6 +3,7 @@
 // Fresnel.
 //   BLINN: Blinn-Phong in place of GGX.
 //   CLEARCOAT: under a coat where with_coat adds one.
+//   SPECULAR: with the reflectance that with_specular gives the dielectric.
 //   SKIN, MINNAERT: shared/material_models.h.
 #pragma once
 
@@ -43,6 +44,25 @@ SHARED_FUNCTION ShadingPoint shading_point(Real3 position, Real3 to_viewer, Real
   return p;
 }
 
+#ifdef SPECULAR
+// KHR_materials_specular and KHR_materials_ior: the point with a dielectric part of reflectance f0, at most
+// f90 each, at normal and f90 at grazing incidence; before with_coat. 0.04 and 1 change no bit. Diffuse light
+// is what the largest channel of F = f0 + (f90 - f0) g leaves: 1 - F = (1 - f90) + (f90 - f0) (1 - g).
+SHARED_FUNCTION ShadingPoint with_specular(ShadingPoint p, real metallic, Real3 f0, real f90) {
+  ShadingPoint s = p;
+  real dielectric = 1.0f - metallic;
+  s.f0 = real3(p.f0.x + (f0.x - DIELECTRIC_F0) * dielectric, p.f0.y + (f0.y - DIELECTRIC_F0) * dielectric,
+               p.f0.z + (f0.z - DIELECTRIC_F0) * dielectric);
+  s.f90 = mad_real(f90 - 1.0f, dielectric, 1.0f);
+  real facing = f90 - max_real(f0.x, max_real(f0.y, f0.z));
+  // In this form 1 of the default, and not below 0, where f0 is stored with a rounding of its own.
+  s.diffuse_facing =
+      max_real(mad_real(facing - (1.0f - DIELECTRIC_F0), 1.0f / (1.0f - DIELECTRIC_F0), 1.0f), REAL(0.0f));
+  s.diffuse_always = (1.0f - f90) * (1.0f / (1.0f - DIELECTRIC_F0));
+  return s;
+}
+#endif
+
 #ifdef CLEARCOAT
 // The point under a coat of this factor (0: none) and perceptual roughness: KHR_materials_clearcoat, with
 // f0 = 0.04 and Fresnel's term of the viewer, the same for all lights. coat_normal is a unit vector.
@@ -59,7 +79,13 @@ SHARED_FUNCTION ShadingPoint with_coat(ShadingPoint p, Real3 coat_normal, real c
 
 // Reflection of constant radiance from all sides; what is left of light that the surface emits. Macros, so
 // that they take part in what the caller declares precise.
-#define LOBES_REFLECTANCE(p) add3(DIFFUSE_INTEGRAL(p, SHADING_PI / (1.0f - DIELECTRIC_F0)), (p).f0)
+#define WHOLE_DIFFUSE_INTEGRAL(p) DIFFUSE_INTEGRAL(p, SHADING_PI / (1.0f - DIELECTRIC_F0))
+#ifdef SPECULAR
+#define LOBES_REFLECTANCE(p) \
+  add3(scale3(WHOLE_DIFFUSE_INTEGRAL(p), (p).diffuse_facing + (p).diffuse_always), (p).f0)
+#else
+#define LOBES_REFLECTANCE(p) add3(WHOLE_DIFFUSE_INTEGRAL(p), (p).f0)
+#endif
 #ifdef SKIN
 #define BASE_REFLECTANCE(p) add3(LOBES_REFLECTANCE(p), SUBSURFACE_REFLECTANCE(p))
 #else
@@ -102,9 +128,17 @@ SHARED_FUNCTION Real3 reflected(ShadingPoint p, Real3 to_light) {
   real facing = n_dot_l * (1.0f - grazing5);
   real rim = n_dot_l * grazing5 * specular;
   Real3 diffuse = DIFFUSE_AT(p, n_dot_l);
-  Real3 base = real3(mad_real(mad_real(p.f0.x, specular, diffuse.x), facing, rim),
-                     mad_real(mad_real(p.f0.y, specular, diffuse.y), facing, rim),
-                     mad_real(mad_real(p.f0.z, specular, diffuse.z), facing, rim));
+#ifdef SPECULAR
+  Real3 always = scale3(diffuse, p.diffuse_always * n_dot_l);
+  diffuse = scale3(diffuse, p.diffuse_facing);
+  rim = rim * p.f90;
+  Real3 rest = real3(always.x + rim, always.y + rim, always.z + rim);
+#else
+  Real3 rest = real3(rim, rim, rim);
+#endif
+  Real3 base = real3(mad_real(mad_real(p.f0.x, specular, diffuse.x), facing, rest.x),
+                     mad_real(mad_real(p.f0.y, specular, diffuse.y), facing, rest.y),
+                     mad_real(mad_real(p.f0.z, specular, diffuse.z), facing, rest.z));
 #ifdef SKIN
   base = add3(base, subsurface_of(p, to_light));
 #endif

@@ -157,6 +157,10 @@ SHARED_FUNCTION real highlight_of(LightTerms t, real alpha_squared, LightBufferP
 SHARED_FUNCTION Real3 light_of_terms(ShadingPoint p, LightTerms sums, LightBufferParams of) {
   LightTerms t = finite_terms(sums);
   Real3 diffuse = diffuse_of_terms(p, t, of);
+#ifdef SPECULAR
+  // The sums hold 1 - g, also for the part that no reflection takes away.
+  diffuse = scale3(diffuse, p.diffuse_facing + p.diffuse_always);
+#endif
 #ifdef LAMBERT
   return diffuse;
 #else
@@ -169,6 +173,9 @@ SHARED_FUNCTION Real3 light_of_terms(ShadingPoint p, LightTerms sums, LightBuffe
   real share = grazing * grazing * grazing * grazing * grazing;
 #endif
   real rim = highlight * share, facing = highlight * (1.0f - share);
+#ifdef SPECULAR
+  rim = rim * p.f90;
+#endif
   Real3 base = real3(diffuse.x + p.f0.x * facing + rim, diffuse.y + p.f0.y * facing + rim,
                      diffuse.z + p.f0.z * facing + rim);
 #ifdef CLEARCOAT

@@ -11,14 +11,16 @@
 #define MATERIAL_MASK 32u
 #define MATERIAL_UNLIT 64u
 #define MATERIAL_CLEARCOAT 128u
-// Shifted by the slot: base colour 0, metallic-roughness 1, normal 2, occlusion 3, emissive 4, coat 5, its
-// roughness 6, its normal 7.
-#define MATERIAL_UV1_FIRST 256u
-#define MATERIAL_UV_TRANSFORM_FIRST 65536u
+#define MATERIAL_SPECULAR_MAP 256u
+#define MATERIAL_SPECULAR_COLOR_MAP 512u
 #define MATERIAL_CLEARCOAT_MAP 16777216u
 #define MATERIAL_CLEARCOAT_ROUGHNESS_MAP 33554432u
 #define MATERIAL_CLEARCOAT_NORMAL_MAP 67108864u
-#define MATERIAL_MAPS 8
+// Bits of uv_flags, shifted by the slot: base colour 0, metallic-roughness 1, normal 2, occlusion 3, emissive
+// 4, coat 5, its roughness 6, its normal 7, specular 8, its colour 9.
+#define MATERIAL_UV1_FIRST 1u
+#define MATERIAL_UV_TRANSFORM_FIRST 65536u
+#define MATERIAL_MAPS 10
 
 #ifdef LIGHTGRID_GLSL
 layout(std140, binding = 1) uniform MaterialParamsBlock {
@@ -31,6 +33,8 @@ layout(std140, binding = 1) uniform MaterialParamsBlock {
   float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
   float minnaert_k;  // 1: Lambert
   float model;       // its number (scene/material_model.h)
+  uint uv_flags;
+  vec4 specular;                  // the dielectric's reflectance at normal incidence; its strength
   vec4 uv_linear[MATERIAL_MAPS];  // column by column: u axis, v axis
   vec4 uv_offset[MATERIAL_MAPS];
 } material;
@@ -45,10 +49,11 @@ struct MaterialParams {
   uint flags;
   float clearcoat, clearcoat_roughness, clearcoat_normal_scale;
   float minnaert_k, model;
-  float padding[1];  // a vec4 starts at a multiple of 16 bytes
+  uint uv_flags;
+  float specular[4];  // at a multiple of 16 bytes, as a vec4
   float uv_linear[MATERIAL_MAPS][4];
   float uv_offset[MATERIAL_MAPS][4];
 };
-static_assert(sizeof(MaterialParams) == 352);
+static_assert(sizeof(MaterialParams) == 432);
 }  // namespace lightgrid
 #endif

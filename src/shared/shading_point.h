@@ -2,6 +2,7 @@
 // (specification, appendix B) seen from one side. View space.
 //   LAMBERT: a diffuse surface, without what only specular lobes read.
 //   CLEARCOAT: a second lobe may lie over the first (KHR_materials_clearcoat).
+//   SPECULAR: the dielectric's reflectance may be another than 0.04 (KHR_materials_specular, _ior).
 //   SKIN, MINNAERT: a diffuse part other than Lambert's may be there (shared/material_models.h).
 #pragma once
 
@@ -35,8 +36,14 @@ SHARED_STRUCT(ShadingPoint) {
 #endif
 #ifndef LAMBERT
   Real3 to_viewer;
-  Real3 f0;  // mix(0.04, base colour, metallic)
+  Real3 f0;  // mix(0.04, base colour, metallic); with SPECULAR mix(the dielectric's, base colour, metallic)
   Lobe lobe;
+#ifdef SPECULAR
+  real f90;  // reflectance at grazing incidence
+  // Factors of `diffuse`, which holds 1 - 0.04: of its part that Fresnel's term takes away towards grazing
+  // incidence, and of its part that no reflection takes away.
+  real diffuse_facing, diffuse_always;
+#endif
 #ifdef CLEARCOAT
   Real3 coat_normal;
   Lobe coat_lobe;

@@ -15,12 +15,14 @@
 #define SURFACE_COAT 5
 #define SURFACE_COAT_ROUGHNESS 6
 #define SURFACE_COAT_NORMAL 7
-#define SURFACE_MAPS 8
+#define SURFACE_SPECULAR 8
+#define SURFACE_SPECULAR_COLOR 9
+#define SURFACE_MAPS 10
 
 // SurfaceMaterial::flags. A map that is there has the bit 1 << its number.
-#define SURFACE_PACKED 256u  // maps 0 to 2 are one chain of 16-byte texels, which maps[0] describes
-#define SURFACE_UNLIT 512u
-#define SURFACE_DOUBLE_SIDED 1024u
+#define SURFACE_PACKED 65536u  // maps 0 to 2 are one chain of 16-byte texels, which maps[0] describes
+#define SURFACE_UNLIT 131072u
+#define SURFACE_DOUBLE_SIDED 262144u
 
 // SurfaceMap::flags.
 #define MAP_CLAMP_U 1u
@@ -71,7 +73,7 @@ typedef struct SurfaceMaterial {
   float coat, coat_roughness, coat_normal_scale;  // KHR_materials_clearcoat
   float subsurface[3], roll_off, minnaert_k;      // scene/material_model.h
   float model;                                    // its number
-  uint spare[1];
+  float f0[3], specular;                          // the dielectric's reflectance; its strength
   SurfaceMap maps[SURFACE_MAPS];
 } SurfaceMaterial;
 

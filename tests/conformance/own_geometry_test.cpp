@@ -190,5 +190,94 @@ TEST(OwnGeometry, NegativeScales) {
   EXPECT_EQ(scaled({-1, 1, -1}).at(lower_right), lit);
 }
 
+json instanced_by(const json& attributes) {
+  return {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}};
+}
+
+// The index of an instance attribute of floats.
+int add_floats(GltfBuilder& made, const Floats& values, const char* type, size_t count) {
+  return made.accessor(made.view(bytes_of(values)), type, f32, count);
+}
+
+// EXT_mesh_gpu_instancing: each instance covers a quarter, inside the node's own transform. The mesh itself
+// is not drawn.
+TEST(OwnGeometry, InstancesOfANodesMesh) {
+  GltfBuilder made = white_plate();
+  const int scale = add_floats(made, {0.5f, 0.5f, 1, 0.5f, 0.5f, 1, 0.5f, 0.5f, 1}, "VEC3", 3);
+  const int places = add_floats(made, {-0.5f, 0.5f, 0, 0.5f, -0.5f, 0, 0.5f, 0.5f, 0}, "VEC3", 3);
+  made.node()["extensions"] = instanced_by({{"TRANSLATION", places}, {"SCALE", scale}});
+  expect_quarters(shown(made), {white, white, black, white});
+  made.node()["scale"] = {-1, -1, 1};
+  expect_quarters(shown(made), {white, black, white, white});
+  made.node()["scale"] = {0.5, 0.5, 1};  // half as wide: a quarter's middle is an edge of it
+  made.node()["translation"] = {0.5, -0.5, 0};
+  EXPECT_EQ(shown(made).at({0.25, -0.25, 0}), glm::vec3(1));
+  EXPECT_EQ(shown(made).at({0.25, -0.75, 0}), glm::vec3(0));
+  EXPECT_EQ(shown(made).at({-0.25, 0.25, 0}), glm::vec3(0));
+}
+
+// One instance: a quarter turn about z moves the plate from the right half to the upper half. Short and byte
+// quaternions, normalised, and floats that are not of length 1.
+TEST(OwnGeometry, ARotatedInstance) {
+  GltfBuilder made = white_plate();
+  made.attribute("POSITION", Floats{0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0}, "VEC3", f32, 4);
+  const auto turned_by = [&](int rotation) {
+    made.node()["extensions"] = instanced_by({{"ROTATION", rotation}});
+    return shown(made);
+  };
+  expect_quarters(shown(made), {black, white, black, white});
+  const int floats = add_floats(made, {0, 0, 3, 3}, "VEC4", 1);
+  expect_quarters(turned_by(floats), {white, white, black, black});
+  const int shorts = made.accessor(made.view(bytes_of(std::vector<int16_t>{0, 0, 23170, 23170})), "VEC4", i16,
+                                   1, true);
+  expect_quarters(turned_by(shorts), {white, white, black, black});
+  const int bytes =
+      made.accessor(made.view(bytes_of(std::vector<int8_t>{0, 0, -90, 90})), "VEC4", i8, 1, true);
+  expect_quarters(turned_by(bytes), {black, black, white, white});
+}
+
+// A mirrored instance shows its front, as a mirrored node does.
+TEST(OwnGeometry, AnInstanceOfNegativeScale) {
+  GltfBuilder made = lit_plate({0.5f, 0.5f, 0.5f});
+  add_light(made, {{"type", "directional"}, {"intensity", 2}});
+  made.attribute("POSITION", Floats{-1, -1, 0, 0, -1, 0, 0, 1, 0, -1, 1, 0}, "VEC3", f32, 4);
+  const glm::vec3 lit = shown(made).at({-0.5, 0.5, 0});
+  EXPECT_GT(lit.r, 0.1f);
+  made.node()["extensions"] = instanced_by({{"SCALE", add_floats(made, {-1, 1, 1}, "VEC3", 1)}});
+  const Picture mirrored = shown(made);
+  EXPECT_EQ(mirrored.at({0.5, 0.5, 0}), lit);
+  EXPECT_TRUE(mirrored.is_background({-0.5, 0.5, 0}));
+  made.node()["extensions"] = instanced_by({{"SCALE", add_floats(made, {1, 1, -1}, "VEC3", 1)}});
+  EXPECT_TRUE(shown(made).is_background({-0.5, 0.5, 0})) << "the back";
+}
+
+// 100 x 100 instances that cover a quarter of their cells: an instance shows at the pixels' centres in it.
+TEST(OwnGeometry, TenThousandInstances) {
+  GltfBuilder made = white_plate();
+  Floats places, scale;
+  const auto center = [](int i) { return (i + 0.5) / 50 - 1; };
+  for (int i = 0; i < 10000; ++i) {
+    places.insert(places.end(), {float(center(i % 100)), float(center(i / 100)), 0});
+    scale.insert(scale.end(), {0.005f, 0.005f, 1});
+  }
+  made.node()["extensions"] = instanced_by({{"TRANSLATION", add_floats(made, places, "VEC3", 10000)},
+                                            {"SCALE", add_floats(made, scale, "VEC3", 10000)}});
+  const Picture picture = shown(made);
+  const auto covered = [&](double at) {
+    const double in_cell = (at + 1) * 50 - std::floor((at + 1) * 50);
+    return std::abs(in_cell - 0.5) * 0.02 < 0.005;
+  };
+  size_t drawn = 0;
+  for (int row = 0; row < own_size; ++row) {
+    for (int column = 0; column < own_size; ++column) {
+      const glm::dvec3 at = pixel_center(column, row);
+      const bool expected = covered(at.x) && covered(at.y);
+      drawn += expected;
+      EXPECT_EQ(picture.image.at(column, row).r, expected ? 1.0f : 0.0f) << column << " " << row;
+    }
+  }
+  EXPECT_GT(drawn, 500u);
+}
+
 }  // namespace
 }  // namespace lightgrid

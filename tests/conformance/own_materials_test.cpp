@@ -36,6 +36,98 @@ TEST(OwnMaterials, DielectricAndMetalAndHalfOfEach) {
   }
 }
 
+// KHR_materials_specular and KHR_materials_ior on the plate under the sun, seen along its normal.
+GltfBuilder reflecting(GltfBuilder made, const json& ior, const json& specular = json::object()) {
+  if (!ior.is_null()) material_of(made)["extensions"]["KHR_materials_ior"]["ior"] = ior;
+  material_of(made)["extensions"]["KHR_materials_specular"] = specular;
+  return made;
+}
+
+// (1 - max F) base + F / (4 alpha^2): F = f0 where N = V = L = H.
+glm::dvec3 dielectric_of(const glm::dvec3& base, double roughness, const glm::dvec3& f0) {
+  return (1 - std::max({f0.r, f0.g, f0.b})) * base + f0 / (4 * std::pow(roughness, 4));
+}
+
+TEST(OwnMaterials, IndexOfRefraction) {
+  const glm::dvec3 base(0.2, 0.4, 0.8);
+  for (const double ior : {1.0, 1.33, 1.5, 2.42, 0.0}) {
+    SCOPED_TRACE(ior);
+    const double f0 = std::pow((ior - 1) / (ior + 1), 2);  // 0, 0.0201, 0.04, 0.1724, 1
+    for (const double roughness : {1.0, 0.5}) {
+      const GltfBuilder made = reflecting(under_the_sun(lit_plate(base, 0, float(roughness))), ior);
+      expect_radiance(shown(made).at({0, 0, 0}), dielectric_of(base, roughness, glm::dvec3(f0)));
+    }
+  }
+}
+
+TEST(OwnMaterials, SpecularFactorAndColour) {
+  const glm::dvec3 base(0.2, 0.4, 0.8), color(1, 0.5, 0.125);
+  const auto at = [&](const json& ior, const json& specular) {
+    return shown(reflecting(under_the_sun(lit_plate(base, 0, 0.5f)), ior, specular)).at({0, 0, 0});
+  };
+  const json colored = {color.r, color.g, color.b};
+  expect_radiance(at(nullptr, {{"specularFactor", 0}}), base);
+  expect_radiance(at(nullptr, {{"specularFactor", 0.5}}), dielectric_of(base, 0.5, glm::dvec3(0.02)));
+  expect_radiance(at(nullptr, {{"specularColorFactor", colored}}), dielectric_of(base, 0.5, 0.04 * color));
+  // 1 at most, before the factor: ior 3 has 0.25, times 8 is 2, 1 and 0.25.
+  expect_radiance(at(3, {{"specularFactor", 0.5}, {"specularColorFactor", {8, 4, 1}}}),
+                  dielectric_of(base, 0.5, {0.5, 0.5, 0.125}));
+}
+
+// The plate turned until eye and sun both are 80 degrees from its normal, on opposite sides: H = N, V.H = cos
+// 80, and with alpha = 1 D V = 1 / (4 pi cos 80). Its largest F is F0 + (F90 - F0) (1 - cos 80)^5.
+TEST(OwnMaterials, GrazingReflectanceIsTheSpecularFactor) {
+  const glm::dvec3 base(0.2, 0.4, 0.8);
+  const double cosine = std::cos(glm::radians(80.0)), half = glm::radians(80.0) / 2;
+  const double g = std::pow(1 - cosine, 5);
+  for (const auto& [ior, specular] :
+       {std::pair(1.5, 1.0), {1.5, 0.5}, {1.0, 1.0}, {2.42, 0.25}, {1.5, 0.0}}) {
+    SCOPED_TRACE(specular);
+    GltfBuilder made = reflecting(lit_plate(base), ior, {{"specularFactor", specular}});
+    made.node()["rotation"] = {0, std::sin(half), 0, std::cos(half)};
+    json& sun = add_light(made, {{"type", "directional"}, {"intensity", glm::pi<double>()}});
+    // The light's way is -z of its node: turned by 160 degrees, as the eye's is by 0.
+    sun["rotation"] = {0, std::sin(2 * half), 0, std::cos(2 * half)};
+    const double f0 = std::pow((ior - 1) / (ior + 1), 2), f = specular * (f0 + (1 - f0) * g);
+    expect_radiance(shown(made).at({0, 0, 0}), cosine * (1 - f) * base + glm::dvec3(f / 4));
+  }
+}
+
+// The factor from alpha; the colour from red, green and blue, which are sRGB. Each with its own UV.
+TEST(OwnMaterials, SpecularTextures) {
+  const glm::dvec3 base(0.2, 0.4, 0.8), grey = glm::dvec3(std::pow((127 / 255.0 + 0.055) / 1.055, 2.4));
+  GltfBuilder made = reflecting(under_the_sun(lit_plate(base, 0, 0.5f)), 2, {{"specularFactor", 0.5}});
+  json& specular = material_of(made)["extensions"]["KHR_materials_specular"];
+  specular["specularTexture"] = {{"index", add_texels(made, 2, 1, 4, {9, 9, 9, 51, 9, 9, 9, 255})}};
+  const double f0 = 1 / 9.0;
+  const Picture strengths = shown(made);
+  expect_radiance(strengths.at({-0.5, 0, 0}), dielectric_of(base, 0.5, glm::dvec3(0.1 * f0)));
+  expect_radiance(strengths.at({0.5, 0, 0}), dielectric_of(base, 0.5, glm::dvec3(0.5 * f0)));
+  specular["specularColorTexture"] = {{"index", add_texels(made, 1, 2, 4, {255, 0, 0, 0, 127, 127, 127, 0})},
+                                      {"extensions", {{"KHR_texture_transform", {{"offset", {0, 0.5}}}}}}};
+  const Picture both = shown(made);
+  const auto at = [&](double strength, const glm::dvec3& color) {
+    return dielectric_of(base, 0.5, strength * f0 * color);
+  };
+  expect_quarters(both, {at(0.1, grey), at(0.5, grey), at(0.1, red), at(0.5, red)});
+}
+
+TEST(OwnMaterials, MetalsHaveNoReflectanceOfTheirOwn) {
+  const glm::dvec3 base(0.2, 0.4, 0.8);
+  const json specular = {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0, 0}}};
+  const glm::dvec3 coated = dielectric_of(base, 0.5, {0.5 / 9, 0, 0});
+  for (const float metallic : {1.0f, 0.5f}) {
+    const GltfBuilder made = reflecting(under_the_sun(lit_plate(base, metallic, 0.5f)), 2, specular);
+    expect_radiance(shown(made).at({0, 0, 0}), glm::mix(coated, metal(base, 0.5), double(metallic)));
+  }
+  GltfBuilder made = reflecting(under_the_sun(lit_plate(base, 1, 0.5f)), 2, specular);
+  const int texture = add_texels(made, 2, 1, 3, {7, 255, 0, 99, 255, 255});
+  material_of(made)["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", texture}};
+  const Picture picture = shown(made);
+  expect_radiance(picture.at({-0.5, 0, 0}), coated);
+  expect_radiance(picture.at({0.5, 0, 0}), metal(base, 0.5));
+}
+
 // Green is roughness and blue metalness, times the factors.
 TEST(OwnMaterials, MetallicRoughnessTexture) {
   const glm::dvec3 base(0.2, 0.4, 0.8);

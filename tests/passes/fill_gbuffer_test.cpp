@@ -152,7 +152,7 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
        {std::tuple(8, 1.01f / 255, 0.51f / 255), std::tuple(16, 0.51f / 65535, 0.51f / 65535),
         std::tuple(32, 1e-6f, 1e-6f)}) {
     const Surfaces surfaces = surfaces_of(s.scene, wide_view(127, 73), bits);
-    int lit = 0, unlit = 0, coated = 0;
+    int lit = 0, unlit = 0, coated = 0, reflective = 0;
     for (size_t i = 0; i < surfaces.drawn.normal_roughness.pixels.size(); ++i) {
       const glm::vec4 drawn = surfaces.drawn.base_color_metallic.pixels[i],
                       kept = surfaces.kept.base_color_metallic.pixels[i];
@@ -170,6 +170,12 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
                   bound);
         ++coated;
       }
+      const glm::vec4 reflectance = surfaces.drawn.specular.pixels[i],
+                      kept_reflectance = surfaces.kept.specular.pixels[i];
+      for (int c = 0; c < 3; ++c)
+        ASSERT_LE(std::abs(kept_reflectance[c] - reflectance[c]), bits == 32 ? bound : 2 * bound);
+      ASSERT_LE(std::abs(kept_reflectance.a - reflectance.a), bound);
+      reflective += glm::vec3(reflectance) != glm::vec3(0.04f) && reflectance.a > 0;
       // Background is not reached by lights: as if unlit.
       const bool nothing = glm::vec3(surfaces.drawn.normal_roughness.pixels[i]) == glm::vec3(0);
       const bool is_unlit = surfaces.drawn.emissive_occlusion.pixels[i].a < 0;
@@ -179,6 +185,7 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
     EXPECT_GT(lit, 100);
     EXPECT_GT(unlit, 100);
     EXPECT_GT(coated, 100);
+    EXPECT_GT(reflective, 100);
   }
 }
 
@@ -193,15 +200,18 @@ TEST(FillGbuffer, IsTheSameAfterADepthPrepass) {
 }
 
 TEST(FillGbuffer, TakesTheBytesThatItsTableSays) {
-  SmallScene coated = small_scene();
+  SmallScene coated = small_scene(), specular = small_scene();
   effect("clearcoat").add(coated);
+  effect("specular").add(specular);
   const Scene scene = small_scene().scene;
   for (const auto& [bits, bytes] : {std::pair(8, 8), std::pair(16, 16), std::pair(32, 32)}) {
     EXPECT_EQ(surfaces_of(scene, wide_view(17, 9), bits).gbuffer_bytes, size_t(17 * 9 * bytes));
     for (const GBufferLayout& layout : gbuffer_layouts) {
       if (layout.bits == bits) {
-        EXPECT_EQ(layout.bytes(false), size_t(bytes));
+        EXPECT_EQ(layout.bytes({0, 1}), size_t(bytes));
         EXPECT_EQ(surfaces_of(coated.scene, wide_view(17, 9), bits).gbuffer_bytes,
+                  size_t(17 * 9 * bytes * 3 / 2));
+        EXPECT_EQ(surfaces_of(specular.scene, wide_view(17, 9), bits).gbuffer_bytes,
                   size_t(17 * 9 * bytes * 3 / 2));
       }
     }

@@ -17,7 +17,7 @@ namespace {
 constexpr TechniqueNeeds gbuffer_needs{.light_grid = true, .lists = true, .z_bins = true, .opengl = false};
 
 struct Filled {
-  std::vector<uint8_t> bytes[2];
+  std::vector<uint8_t> bytes[gbuffer_most_images];
   Image image;
   std::vector<float> depth;
   std::vector<int> opaque;  // instances in drawing order
@@ -37,7 +37,7 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   const GBufferInCl g = resolve_gbuffer(v, visible, BaseLighting::in_image);
   EXPECT_EQ(g.layout->bits, settings.buffer_bits);
   Filled f;
-  for (size_t i = 0; i < 2; ++i) {
+  for (const size_t i : g.images) {
     f.bytes[i].resize(v.pixels() * g.layout->images[i].bytes);
     read_buffer(*v.renderer.cl, "reading surfaces", g.surfaces[i]->cl_buffer(), f.bytes[i].data(),
                 f.bytes[i].size());
@@ -84,7 +84,7 @@ TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
   double_surfaces::Surfaces oracle(scene, odd_view(), f.opaque);
   std::vector<uint32_t> pixels;
   std::vector<Surface> surfaces(f.depth.size());
-  size_t unlit = 0, background = 0, modelled = 0;
+  size_t unlit = 0, background = 0, modelled = 0, reflective = 0;
   double normal = 0, material = 0, base = 0;
   for (uint32_t i = 0; i < f.depth.size(); ++i) {
     const glm::dvec4 a = f.texel<float>(0, i), b = f.texel<float>(1, i);
@@ -104,12 +104,17 @@ TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
     normal = std::max(normal, largest_of(glm::dvec3(a) - s.normal));
     material = std::max({material, std::abs(a.w - s.roughness), std::abs(metallic_of(b.w) - s.metallic)});
     EXPECT_EQ(number_of(b.w), s.roll_off > 0 ? 1 : 0);  // the wall's
+    const glm::dvec4 reflectance = f.texel<float>(gbuffer_specular, i);
+    material =
+        std::max({material, largest_of(glm::dvec3(reflectance) - s.f0), std::abs(reflectance.w - s.f90)});
+    reflective += s.f90 > 0 && s.f90 != 1;
     modelled += number_of(b.w) > 0;
   }
   EXPECT_GT(pixels.size(), f.depth.size() / 4);
   EXPECT_GT(unlit, 100u);
   EXPECT_GT(background, 100u);
   EXPECT_GT(modelled, 100u);
+  EXPECT_GT(reflective, 100u);
   std::vector<ViewLight> directional = lights_in_view(scene, odd_view());
   std::erase_if(directional, [](const ViewLight& light) { return light.type != LightType::directional; });
   ASSERT_EQ(directional.size(), 1u);
@@ -131,7 +136,8 @@ TEST(ResolveGbuffer, HasTheSameBytesInBothShapes) {
   for (const int bits : {32, 16, 8}) {
     const Filled lanes = filled(scene, odd_view(), {.buffer_bits = bits, .kernel_shape = KernelShape::lanes});
     const Filled group = filled(scene, odd_view(), {.buffer_bits = bits, .kernel_shape = KernelShape::group});
-    for (int i = 0; i < 2; ++i) EXPECT_TRUE(lanes.bytes[i] == group.bytes[i]) << bits << ' ' << i;
+    for (size_t i = 0; i < gbuffer_most_images; ++i)
+      EXPECT_TRUE(lanes.bytes[i] == group.bytes[i]) << bits << ' ' << i;
     EXPECT_TRUE(compare_images(lanes.image, group.image).bit_identical) << bits;
   }
 }
@@ -156,7 +162,12 @@ void expect_rounded(const Scene& scene, int bits, double steps, double one, doub
     largest = std::max(largest, glm::degrees(std::atan2(glm::length(glm::cross(n, glm::dvec3(a))),
                                                         glm::dot(n, glm::dvec3(a)))));
     ASSERT_NEAR(p.z / one, a.w, half) << i;
-    ASSERT_NEAR(p.w / one, metallic_of(b.w), half) << i;
+    const glm::dvec4 reflectance = exact.texel<float>(gbuffer_specular, i),
+                     kept = rounded.texel<Channel>(gbuffer_specular, i);
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(kept[c] / one, std::sqrt(reflectance[c]), half) << i;
+    ASSERT_NEAR(kept.w / one, reflectance.w, half) << i;
+    // In 32 bits a metalness beside number n is rounded itself.
+    ASSERT_NEAR(p.w / one, metallic_of(b.w), half + 0x1p-23 * (number_of(b.w) + 1)) << i;
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(q[c] / one, bits == 8 ? std::sqrt(b[c]) : b[c], half) << i;
   }
   EXPECT_LE(largest, angle_deg);

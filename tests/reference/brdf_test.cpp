@@ -50,6 +50,23 @@ TEST(Brdf, PartialMetalIsTheMixOfADielectricAndAMetal) {
               white * (0.5 + 0.5 * (0.04 + 0.96 * f)) + 0.5 * 0.96 * (1 - f) / pi, 1e-12 * white);
 }
 
+TEST(Brdf, SpecularReflectanceByHand) {
+  // From straight above, as RoughDielectricFromStraightAbove: (1 - max F0) base / pi + F0 / (4 pi).
+  const Surface colored{.base_color = {1, 0.5, 0}, .f0 = {0.4, 0.2, 0.1}, .f90 = 0.5};
+  expect_near(brdf(colored, {0, 0, 1}, {0, 0, 1}) * pi, {0.6 + 0.1, 0.3 + 0.05, 0.025}, 1e-15);
+  // Lobe and g = (1 - V.H)^5 of a grazing light from those of a white metal: F = F0 + (F90 - F0) g; a white
+  // base keeps 1 - max F. Metal has F90 = 1.
+  const dvec3 to_eye = glm::normalize(dvec3(1, 0, 1e-3)), to_light = glm::normalize(dvec3(-1, 0, 1e-3));
+  const double white = brdf({.metallic = 1}, to_eye, to_light).x, g = std::pow(1 - to_eye.z, 5);
+  const dvec3 f = dvec3(0.4, 0.2, 0.1) * (1 - g) + 0.5 * g;
+  expect_near(brdf({.f0 = {0.4, 0.2, 0.1}, .f90 = 0.5}, to_eye, to_light), (1 - f.r) / pi + f * white,
+              1e-12 * white);
+  Surface metal = colored;
+  metal.metallic = 1;
+  EXPECT_EQ(brdf(metal, to_eye, to_light),
+            brdf({.base_color = {1, 0.5, 0}, .metallic = 1}, to_eye, to_light));
+}
+
 TEST(Brdf, BlinnPhongByHand) {
   // Roughness 0.5: alpha 1/4, n = 2 * 16 - 2 = 30. From straight above: 32 / (8 pi) = 4 / pi, as GGX.
   const Surface gold{.base_color = {1, 0.5, 0}, .metallic = 1, .roughness = 0.5};

@@ -1,5 +1,6 @@
 // The shading code of shaders and kernels, compiled as C++, against the reference in double. Included once
-// with BLINN, once with LAMBERT, once with CLEARCOAT, once with SKIN and MINNAERT, and once without any.
+// with BLINN, once with LAMBERT, once with CLEARCOAT, once with SPECULAR, once with SKIN and MINNAERT, and
+// once without any.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -38,6 +39,10 @@ static double largest_error(Brdf lobe, double least_roughness) {
     surface.coat_normal = random_direction(random);
     if (glm::dot(surface.coat_normal, -position) < 0) surface.coat_normal = -surface.coat_normal;
 #endif
+#ifdef SPECULAR
+    surface.f90 = i % 8 == 0 ? 0 : i % 8 == 1 ? 1 : float(uniform(random));
+    for (int c = 0; c < 3; ++c) surface.f0[c] = float(surface.f90 * uniform(random));
+#endif
 #ifdef MINNAERT
     surface.subsurface_color = {uniform(random), uniform(random), uniform(random)};
     surface.roll_off = i % 8 == 0 ? 0 : float(uniform(random));
@@ -57,6 +62,9 @@ static double largest_error(Brdf lobe, double least_roughness) {
         i % 2 ? glm::vec4(light.direction * scale, -light.cos_outer * scale) : glm::vec4(0, 0, 0, 1)};
     ShadingPoint p = shading_point(position, glm::normalize(-position), surface.normal, surface.base_color,
                                    real(surface.metallic), real(surface.roughness));
+#ifdef SPECULAR
+    p = with_specular(p, real(surface.metallic), surface.f0, real(surface.f90));
+#endif
 #ifdef MINNAERT
     p = with_skin(p, surface.subsurface_color, real(surface.roll_off));
     p = with_minnaert(p, glm::normalize(-position), real(surface.minnaert_k));

@@ -129,6 +129,51 @@ TEST(GltfMaterial, a_clear_coat_is_read_with_its_maps) {
   EXPECT_TRUE(none.bitmaps.empty()) << "without a coat its maps are not decoded";
 }
 
+TEST(GltfMaterial, specular_reflectance_is_read_with_its_maps) {
+  const json transform = {{"KHR_texture_transform", {{"scale", {2, 3}}, {"texCoord", 1}}}};
+  json specular = {{"specularFactor", 0.5},
+                   {"specularColorFactor", {0.25, 0.5, 4}},
+                   {"specularTexture", {{"index", 0}, {"extensions", transform}}},
+                   {"specularColorTexture", {{"index", 0}}}};
+  const auto load = [&] {
+    return with_material(
+               {{"extensions", {{"KHR_materials_specular", specular}, {"KHR_materials_ior", {{"ior", 2}}}}}})
+        .load();
+  };
+  const Scene scene = load();
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(material.ior, 2);
+  EXPECT_EQ(material.specular, 0.5f);
+  EXPECT_EQ(material.specular_color, glm::vec3(0.25f, 0.5f, 4));
+  EXPECT_EQ(dielectric_f0(material), glm::vec3(glm::dvec3(0.25, 0.5, 4) / 9.0));
+  EXPECT_EQ(material.specular_map.uv_set, 1);
+  EXPECT_EQ(material.specular_map.uv_from_vertex[0].x, 2);
+  EXPECT_FALSE(material.specular_color_map.transformed());
+  EXPECT_FALSE(scene.textures[material.specular_map.texture].srgb);
+  EXPECT_TRUE(scene.textures[material.specular_color_map.texture].srgb);
+  specular["specularFactor"] = 0;
+  EXPECT_TRUE(load().bitmaps.empty()) << "without reflection its maps are not decoded";
+}
+
+// A reflectance like glTF's default is none of its own: it compiles nothing.
+TEST(GltfMaterial, specular_reflectance_like_the_default_is_none) {
+  const auto specular_of = [](json material) { return has_specular(load_material(material)); };
+  const json ior = {{"KHR_materials_ior", {{"ior", 1.5}}}}, ior_2 = {{"KHR_materials_ior", {{"ior", 2}}}};
+  EXPECT_EQ(dielectric_f0({}), glm::vec3(0.04f));
+  const json dielectric = {{"metallicFactor", 0}};
+  EXPECT_FALSE(specular_of({{"pbrMetallicRoughness", dielectric}}));
+  EXPECT_FALSE(specular_of({{"pbrMetallicRoughness", dielectric}, {"extensions", ior}}));
+  EXPECT_FALSE(specular_of(
+      {{"pbrMetallicRoughness", dielectric}, {"extensions", {{"KHR_materials_specular", json::object()}}}}));
+  EXPECT_TRUE(specular_of({{"pbrMetallicRoughness", dielectric}, {"extensions", ior_2}}));
+  EXPECT_FALSE(specular_of({{"extensions", ior_2}})) << "all metal";
+  EXPECT_TRUE(specular_of(
+      {{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}, {"extensions", ior_2}}));
+  json unlit = ior_2;
+  unlit["KHR_materials_unlit"] = json::object();
+  EXPECT_FALSE(specular_of({{"pbrMetallicRoughness", dielectric}, {"extensions", unlit}}));
+}
+
 TEST(GltfMaterial, a_model_is_read_from_the_extras) {
   const auto model_of = [](const json& model) {
     return load_material({{"extras", {{"lightgrid", model}, {"other", 1}}}}).model;
@@ -181,6 +226,21 @@ TEST(GltfMaterial, impossible_values_are_refused_by_name) {
        "material 0: clearcoatTexture: texture is 2, but there are 2"},
       {{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", 3}}}}}},
        "material 0: clearcoatNormalTexture: is no texture with an index"},
+      {{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}},
+       "material 0: ior is 0.5; it is 0, or 1 or more"},
+      {{{"extensions", {{"KHR_materials_ior", {{"ior", -1}}}}}}, "material 0: ior is -1; it is 0"},
+      {{{"extensions", {{"KHR_materials_ior", {{"ior", "glass"}}}}}},
+       "material 0: ior is not a finite number"},
+      {{{"extensions", {{"KHR_materials_specular", {{"specularFactor", 1.5}}}}}},
+       "material 0: specularFactor is 1.5, outside 0 to 1"},
+      {{{"extensions", {{"KHR_materials_specular", {{"specularColorFactor", {1, 1}}}}}}},
+       "material 0: specularColorFactor is not three numbers"},
+      {{{"extensions", {{"KHR_materials_specular", {{"specularColorFactor", {1, "red", 1}}}}}}},
+       "material 0: specularColorFactor is not three numbers"},
+      {{{"extensions", {{"KHR_materials_specular", {{"specularColorFactor", {1, -1, 1}}}}}}},
+       "material 0: specularColorFactor is -1"},
+      {{{"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", 2}}}}}}}},
+       "material 0: specularTexture: texture is 2, but there are 2"},
       {{{"normalTexture", {{"index", 2}}}}, "material 0: normalTexture: texture is 2, but there are 2"},
       {{{"normalTexture", {{"scale", 1}}}}, "'index' property is missing"},
   };

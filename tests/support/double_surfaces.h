@@ -175,6 +175,12 @@ class Surfaces {
       return back ? -n : n;
     };
     s.normal = bent(m.normal_map, m.normal_scale);
+    const double slower = m.ior, root = (slower - 1) / (slower + 1);
+    dvec3 color_of_f0 = m.specular_color;
+    s.f90 = m.specular;
+    if (m.specular_map.texture >= 0) s.f90 *= sampled(m.specular_map, hit, at).a;
+    if (m.specular_color_map.texture >= 0) color_of_f0 *= dvec3(sampled(m.specular_color_map, hit, at));
+    s.f0 = glm::min(color_of_f0 * root * root, dvec3(1)) * s.f90;
     s.subsurface_color = m.model.subsurface_color, s.roll_off = m.model.roll_off,
     s.minnaert_k = m.model.minnaert_k;
     if (m.clearcoat == 0) return s;

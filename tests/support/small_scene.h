@@ -143,6 +143,18 @@ inline const std::vector<Effect>& effects() {
          MaterialModel& model = s.scene.materials[s.wall_material].model;
          model = {.subsurface_color = {0.9f, 0.3f, 0.2f}, .roll_off = 0.4f, .minnaert_k = 0.6f};
        }},
+      {"specular", "specular reflectance", "SPECULAR", on_wall,
+       [](SmallScene& s) {
+         Material& m = s.scene.materials[s.wall_material];
+         m.ior = 2.42f, m.specular = 0.75f, m.specular_color = {1, 0.8f, 0.2f}, m.metallic = 0.2f;
+       }},
+      {"specular_maps", "specular colour maps", "SPECULAR_COLOR_MAP", on_wall,
+       [=](SmallScene& s) {
+         map(&Material::specular_map, false)(s);
+         map(&Material::specular_color_map, true)(s);
+         Material& m = s.scene.materials[s.wall_material];
+         m.ior = 1.9f, m.specular_color = {3, 1, 1};
+       }},
       {"unlit", "unlit materials", "UNLIT", on_ball,
        [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},
       {"spot", "spot cones", "", "light 6 \"torch\"",

@@ -42,6 +42,12 @@ inline Scene lit_wall(int lamps, bool white, glm::vec3 color, float metallic, do
 
 inline double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
+// KHR_materials_specular, KHR_materials_ior.
+inline glm::dvec3 f0_by_hand(const Material& m) {
+  const double root = (double(m.ior) - 1) / (double(m.ior) + 1);
+  return glm::min(glm::dvec3(m.specular_color) * root * root, glm::dvec3(1)) * double(m.specular);
+}
+
 // What the model reflects of the diffuse sums, which are the same for all channels: the article's appendix,
 // with the luminance in units of `scale` for the cosine.
 inline glm::dvec3 diffuse_by_hand(const Material& m, double n_dot_v, double luminance, double scale) {
@@ -50,7 +56,9 @@ inline glm::dvec3 diffuse_by_hand(const Material& m, double n_dot_v, double lumi
   const double minnaert = std::pow(cosine, k - 1) * std::pow(std::max(n_dot_v, 1.0 / 16), 1 - k);
   const double rolled = smooth_step((cosine + roll_off) / (1 + roll_off)) - smooth_step(cosine);
   const glm::dvec3 skin = glm::dvec3(m.model.subsurface_color) * std::min(rolled / cosine, 1.0);
-  return (glm::dvec3(m.base_color) * ((1 - double(m.metallic)) * 0.96 * minnaert) + skin) / pi;
+  const glm::dvec3 f0 = f0_by_hand(m);
+  const double refracted = 1 - std::max({f0.r, f0.g, f0.b});
+  return (glm::dvec3(m.base_color) * ((1 - double(m.metallic)) * refracted * minnaert) + skin) / pi;
 }
 
 // Equations 8.5.2 to 8.5.7 of the article with Schlick's Fresnel, as docs/techniques/light_prepass.md has
@@ -98,9 +106,10 @@ inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, 
       break;
   }
   highlight *= (exponent + 2) / (8 * pi);
-  const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), color, double(m.metallic));
+  const glm::dvec3 f0 = glm::mix(f0_by_hand(m), color, double(m.metallic));
+  const double f90 = glm::mix(double(m.specular), 1.0, double(m.metallic));
   const glm::dvec3 reflected = diffuse_by_hand(m, glm::dot(normal, viewer), luminance, scale);
-  return reflected * diffuse + highlight * (f0 * (1 - share) + share);
+  return reflected * diffuse + highlight * (f0 * (1 - share) + f90 * share);
 }
 
 inline double error_by_hand(const Scene& scene, const View& view, const Image& image,

@@ -52,6 +52,25 @@ TEST(LightPrepass, IsItsEquationsForAnyNumberOfLights) {
   }
 }
 
+// Specular reflectance: of the sums' (1 - g), also the diffuse light that no reflection takes away.
+TEST(LightPrepass, GivesMaterialsTheirSpecularReflectance) {
+  const View view = small_view(63, 37);
+  Scene scene = lit_wall(3, false, {0.8f, 0.7f, 0.6f}, 0.25f, 200);
+  Material& m = scene.materials[0];
+  m.ior = 2.42f, m.specular = 0.5f, m.specular_color = {2, 7, 1};
+  for (size_t i = 0; i < std::size(variants); ++i) {
+    const Image image = render(scene, view, "light_prepass", volumes(variants[i]));
+    EXPECT_LT(error_by_hand(scene, view, image, variants[i]), 2e-5) << variant_names[i];
+  }
+  // Whole reflectance and one white light: exact, as of other materials.
+  scene = lit_wall(1, true, {0.8f, 0.7f, 0.6f}, 0.25f, 200);
+  scene.materials[0].ior = 2.42f;
+  EXPECT_LT(compare_images(render(scene, view, "light_prepass", volumes(PrepassSpecular::fifth_term)),
+                           render(scene, view, "forward", {.brdf = Brdf::blinn}))
+                .max_rel,
+            1e-5);
+}
+
 // Skin and Minnaert take the luminance of the sums for the cosine. Where no light arrives nothing glows.
 TEST(LightPrepass, GivesModelsTheLuminanceOfTheSums) {
   const View view = small_view(63, 37);

@@ -109,7 +109,7 @@ TEST(RasterInOpenCl, BufferBitsTradeAccuracyForBytes) {
   const size_t pixels = 71 * 37 + RenderView::spare_pixels;
   const Image visibility = render(scene, view, "visibility");
   double before = 0;
-  for (const auto& [bits, bytes] : {std::pair<int, size_t>(32, 48), {16, 24}, {8, 12}}) {
+  for (const auto& [bits, bytes] : {std::pair<int, size_t>(32, 64), {16, 32}, {8, 16}}) {
     const Drawn d = drawn("deferred_tiled", scene, view, {.buffer_bits = bits, .raster = RasterApi::opencl});
     EXPECT_EQ(d.result.memory_gbuffer, pixels * bytes) << bits;
     const double apart = compare_images(d.image, visibility).max_rel;

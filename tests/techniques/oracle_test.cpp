@@ -231,6 +231,96 @@ TEST(ModelShading, InFloatIsTheOraclesWithinItsRounding) {
   EXPECT_GT(compare_images(run.image(), render(bare, view, "forward")).max_rel, 0.1) << "the models are seen";
 }
 
+// KHR_materials_ior and KHR_materials_specular: no, little, usual, much and total reflection; weakened,
+// coloured, half metal, of a map, and under a coat.
+Scene balls_of_all_reflectances() {
+  Scene scene;
+  scene.ambient = glm::vec3(0.05f);
+  Mesh ball;
+  shapes::add_sphere(ball, {0, 0, 0}, 1, 16);
+  const float iors[] = {1.5f, 1, 1.33f, 2.42f, 0, 1.5f, 3, 2.42f, 1.5f, 1.33f};
+  for (int i = 0; i < 10; ++i) {
+    const int material =
+        add_material(scene, "ball", {0.7f, 0.6f, 0.5f}, i == 7 ? 0.5f : 0, i % 2 ? 0.5f : 0.25f);
+    Material& m = scene.materials[size_t(material)];
+    m.ior = iors[i];
+    if (i == 5) m.specular = 0;
+    if (i == 6) m.specular = 0.6f, m.specular_color = {8, 2, 0.5f};
+    if (i == 7) m.specular_color = {1, 0.5f, 0};
+    if (i == 8) m.specular_map.texture = m.specular_color_map.texture = add_speckles(scene, false);
+    if (i == 9) m.clearcoat = 0.7f, m.clearcoat_roughness = 0.3f;
+    add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
+                 placed({2.1 * (i % 5) - 4.2, i < 5 ? 1.1 : -1.1, -7 - 0.2 * i}));
+  }
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec3 at{random.uniform(-5, 5), random.uniform(-4, 4), random.uniform(-9, -2)};
+    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1,
+              random.uniform(3, 7));
+  }
+  return scene;
+}
+
+TEST(SpecularShading, EveryTechniqueIsAsExactAsForward) {
+  expect_each_exact(balls_of_all_reflectances(), view_at(1, 192, 108));
+}
+
+TEST(SpecularShading, InFloatIsTheOraclesWithinItsRounding) {
+  const Scene scene = balls_of_all_reflectances();
+  const View view = view_at(1, 192, 108);
+  for (const Brdf brdf : {Brdf::ggx, Brdf::blinn}) {
+    TechniqueRun run(test_devices(), scene, view, {.brdf = brdf}, find_technique("forward"));
+    run.run_frame();
+    EXPECT_EQ(count_nan_pixels(run.image()), 0u);
+    const ReferenceErrors errors =
+        measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+    EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
+    EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
+    Scene bare = scene;
+    for (Material& m : bare.materials)
+      m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
+    EXPECT_GT(compare_images(run.image(), render(bare, view, "forward", {.brdf = brdf})).max_rel, 0.1)
+        << "the reflectances are seen";
+  }
+}
+
+TEST(SpecularShading, LambertHasNone) {
+  const Scene scene = balls_of_all_reflectances();
+  Scene bare = scene;
+  for (Material& m : bare.materials)
+    m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
+  const View view = view_at(1, 95, 53);
+  for (const char* technique : {"forward", "deferred_tiled", "visibility"})
+    EXPECT_TRUE(identical(render(scene, view, technique, {.brdf = Brdf::lambert}),
+                          render(bare, view, technique, {.brdf = Brdf::lambert})))
+        << technique;
+}
+
+// A ball beside the wall has another reflectance, and the wall's pixels, far from it, the bits of a scene
+// without.
+TEST(SpecularShading, ChangesNoBitOfASurfaceOfTheDefaultReflectance) {
+  SmallScene s = small_scene();
+  s.scene.materials[s.ball_material].metallic = 0.5f;
+  s.scene.materials[s.wall_material].metallic = 0.3f;
+  SmallScene other = s;
+  other.scene.materials[s.ball_material].ior = 2.42f;
+  const View view = small_view(64, 36);
+  for (const char* technique : {"forward", "deferred", "deferred_tiled", "forward_plus_compute",
+                                "light_prepass", "visibility", "voxel_lights"}) {
+    const Image plain = render(s.scene, view, technique), changed = render(other.scene, view, technique);
+    size_t ball = 0;
+    for (int y = 0; y < 36; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        if (x < 24)
+          EXPECT_EQ(plain.at(x, y), changed.at(x, y)) << technique << ' ' << x << ' ' << y;
+        else
+          ball += plain.at(x, y) != changed.at(x, y);
+      }
+    }
+    EXPECT_GT(ball, 50u) << technique;
+  }
+}
+
 // What GGX does not reach: the models without a lobe. In OpenGL alone; gallery has the kernels.
 TEST(ModelShading, WithLambertIsTheOraclesInTheShadersOfForwardAndDeferred) {
   const Scene scene = balls_of_all_models();

@@ -105,6 +105,8 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"clearcoat_maps", mapped_material + vertex_array + material_map + material_map},
       {"skin", program},
       {"minnaert", program},
+      {"specular", program},
+      {"specular_maps", mapped_material + material_map},
       {"vertex_color", program + vertex_array},
       {"uv1", mapped_material + vertex_array},
       {"uv_transform", mapped_material},

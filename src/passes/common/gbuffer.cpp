@@ -31,15 +31,22 @@ void require_numbers(const RenderView& v) {
       v.scene.name, models, MOST_MODELS);
 }
 
+std::vector<size_t> images_of(const FramePlan& plan) {
+  std::vector<size_t> images = {0, 1};
+  if (plan.clearcoat) images.push_back(gbuffer_coat);
+  if (plan.specular) images.push_back(gbuffer_specular);
+  return images;
+}
+
 }  // namespace
 
 GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use) {
   require_numbers(v);
-  constexpr const char* names[] = {"gbuffer 0", "gbuffer 1", "gbuffer 2"};
-  GBufferInCl g{
-      .base_lighting = base_lighting, .layout = &gbuffer_layout(v.plan.settings), .coats = v.plan.clearcoat};
-  for (size_t i = 0; i < g.images(); ++i)
-    g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
+  constexpr const char* names[gbuffer_most_images] = {"gbuffer 0", "gbuffer 1", "gbuffer 2", "gbuffer 3"};
+  GBufferInCl g{.base_lighting = base_lighting,
+                .layout = &gbuffer_layout(v.plan.settings),
+                .images = images_of(v.plan)};
+  for (const size_t i : g.images) g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
   g.image = &v.shared_pixels("image", 16);
   return g;
 }
@@ -51,8 +58,8 @@ GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
   if (!g.models.empty()) g.model_records = v.gpu.in_gl().model_records();
   g.base_lighting = base_lighting;
   g.layout = &gbuffer_layout(v.plan.settings);
-  g.coats = v.plan.clearcoat;
-  for (size_t i = 0; i < g.images(); ++i) {
+  g.images = images_of(v.plan);
+  for (const size_t i : g.images) {
     g.textures[i] =
         v.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
   }
@@ -60,7 +67,8 @@ GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
   const GLuint image = v.targets.texture("color", GL_RGBA32F);
   std::vector<GLuint> drawn = {g.textures[0], g.textures[1]};
   if (base_lighting == BaseLighting::in_image) drawn.push_back(image);
-  if (g.coats) drawn.push_back(g.textures[2]);
+  for (const size_t i : g.images)
+    if (i >= gbuffer_coat) drawn.push_back(g.textures[i]);
   g.framebuffer = v.targets.framebuffer(drawn, g.depth);
   g.depth_image = {v.depth_framebuffer()};
   g.image = {v.color_framebuffer()};
@@ -70,7 +78,8 @@ GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
 std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
   std::vector<std::string> defines;
   if (gbuffer.layout->define) defines.emplace_back(gbuffer.layout->define);
-  if (gbuffer.coats) defines.emplace_back("CLEARCOAT");
+  if (gbuffer.textures[gbuffer_coat]) defines.emplace_back("CLEARCOAT");
+  if (gbuffer.textures[gbuffer_specular]) defines.emplace_back("SPECULAR");
   defines.insert(defines.end(), gbuffer.models.begin(), gbuffer.models.end());
   return defines;
 }
@@ -79,7 +88,8 @@ void bind_gbuffer(const GBuffer& gbuffer) {
   glBindTextureUnit(0, gbuffer.textures[0]);
   glBindTextureUnit(1, gbuffer.textures[1]);
   glBindTextureUnit(2, gbuffer.depth);
-  if (gbuffer.coats) glBindTextureUnit(3, gbuffer.textures[2]);
+  for (const size_t i : gbuffer.images)
+    if (i >= gbuffer_coat) glBindTextureUnit(GLuint(i) + 1, gbuffer.textures[i]);
   if (gbuffer.model_records) glBindBufferBase(GL_UNIFORM_BUFFER, 5, gbuffer.model_records);
 }
 

@@ -2,7 +2,9 @@
 // it follows from depth (shaders/common/position.glsl).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "passes/common/frame.h"
 
@@ -29,16 +31,23 @@ struct GBufferImage {
 // With FramePlan::clearcoat a third image:
 //   [2]  of the coat: octahedral normal u, v in view space; perceptual roughness; factor, 0 where there is
 //        none. In 32 bits a negative factor: the normal is that of [0], stored without loss
+// With FramePlan::specular another one:
+//   [3]  of the dielectric part: reflectance at normal incidence red, green, blue, as their square roots in 8
+//        and 16 bits; at grazing incidence
 // Of a model only the number is stored: its parameters are exact at any number of bits.
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
+inline constexpr size_t gbuffer_coat = 2, gbuffer_specular = 3, gbuffer_most_images = 4;
+
 struct GBufferLayout {
   int bits;
   const char* define;  // of shaders; null for 32 bits
-  std::array<GBufferImage, 3> images;
+  std::array<GBufferImage, gbuffer_most_images> images;
   // A pixel.
-  size_t bytes(bool coats) const {
-    return images[0].bytes + images[1].bytes + (coats ? images[2].bytes : 0);
+  size_t bytes(const std::vector<size_t>& which) const {
+    size_t sum = 0;
+    for (const size_t i : which) sum += images[i].bytes;
+    return sum;
   }
 };
 
@@ -47,17 +56,20 @@ inline constexpr GBufferLayout gbuffer_layouts[] = {
      "GBUFFER_8",
      {{{"gbuffer_normal_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4},
        {"gbuffer_color_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4},
-       {"gbuffer_coat_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4}}}},
+       {"gbuffer_coat_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4},
+       {"gbuffer_specular_8", GL_RGBA8, GL_UNSIGNED_BYTE, 4}}}},
     {16,
      "GBUFFER_16",
      {{{"gbuffer_normal_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8},
        {"gbuffer_color_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8},
-       {"gbuffer_coat_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8}}}},
+       {"gbuffer_coat_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8},
+       {"gbuffer_specular_16", GL_RGBA16, GL_UNSIGNED_SHORT, 8}}}},
     {32,
      nullptr,
      {{{"gbuffer_normal_32", GL_RGBA32F, GL_FLOAT, 16},
        {"gbuffer_color_32", GL_RGBA32F, GL_FLOAT, 16},
-       {"gbuffer_coat_32", GL_RGBA32F, GL_FLOAT, 16}}}},
+       {"gbuffer_coat_32", GL_RGBA32F, GL_FLOAT, 16},
+       {"gbuffer_specular_32", GL_RGBA32F, GL_FLOAT, 16}}}},
 };
 
 // Where base lighting (ambient, emissive, directional, unlit color) is added. in_image: by the geometry pass;
@@ -70,11 +82,11 @@ enum class BaseLighting { in_image, in_light_pass };
 struct GBufferInCl {
   BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
-  bool coats = false;                       // there is a third image
-  std::array<SharedBuffer*, 3> surfaces{};  // the third null without
-  SharedBuffer* image = nullptr;            // for light passes to add to, or to write
-  size_t images() const { return coats ? 3 : 2; }
-  size_t bytes() const { return layout->bytes(coats); }  // a pixel, without `image`
+  std::vector<size_t> images;                                 // numbers of those that there are
+  std::array<SharedBuffer*, gbuffer_most_images> surfaces{};  // by number; null without
+  SharedBuffer* image = nullptr;                              // for light passes to add to, or to write
+  size_t bytes() const { return layout->bytes(images); }      // a pixel, without `image`
+  cl::Buffer in_cl(size_t i) const { return surfaces[i] ? surfaces[i]->cl_buffer() : cl::Buffer(); }
 };
 
 // That of buffer-bits.
@@ -90,18 +102,21 @@ GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUs
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
   const GBufferLayout* layout = nullptr;
-  bool coats = false;               // there is a third image
+  std::vector<size_t> images;       // numbers of those that there are
   std::vector<const char*> models;  // defines; empty: Lambert's alone
   GLuint model_records = 0;         // MaterialModelRecord each; 0 without
-  // The first two images, for base lighting the image, then that of coats; over depth.
+  // The first two images, for base lighting the image, then the others; over depth.
   GLuint framebuffer = 0;
-  std::array<GLuint, 3> textures{};
+  std::array<GLuint, gbuffer_most_images> textures{};  // by number; 0 without
   GLuint depth = 0;
   DepthImage depth_image;
   ShadedImage image;  // contains base lighting, for light passes to add to
-  size_t images() const { return coats ? 3 : 2; }
-  size_t bytes() const { return layout->bytes(coats); }  // a pixel
-  int coats_attachment() const { return base_lighting == BaseLighting::in_image ? 3 : 2; }
+  size_t bytes() const { return layout->bytes(images); }  // a pixel
+  // The place of an image by its number.
+  int attachment(size_t i) const {
+    const int place = int(std::find(images.begin(), images.end(), i) - images.begin());
+    return place < 2 || base_lighting != BaseLighting::in_image ? place : place + 1;
+  }
 };
 
 // The view's geometry buffer in the layout of buffer-bits, drawn or not.

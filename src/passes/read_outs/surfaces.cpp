@@ -13,11 +13,16 @@ Image read_image(int attachment, int width, int height) {
   return image;
 }
 
-// Images over the frame's depth, cleared and bound: three, two of coats, one of models.
+// The images that some surfaces need.
+struct MoreImages {
+  bool coats, models, specular;
+};
+
+// Images over the frame's depth, cleared and bound: three, two of coats, one of models, one of reflectance.
 struct SurfaceTargets {
-  SurfaceTargets(RenderView& v, bool coats, bool models) : width(v.view.width), height(v.view.height) {
+  SurfaceTargets(RenderView& v, MoreImages more) : width(v.view.width), height(v.view.height) {
     std::vector<GLuint> names;
-    for (int i = 0; i < 3 + (coats ? 2 : 0) + (models ? 1 : 0); ++i) {
+    for (int i = 0; i < 3 + 2 * more.coats + more.models + more.specular; ++i) {
       textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
       names.push_back(textures.back().name());
     }
@@ -47,28 +52,32 @@ struct SurfaceTargets {
 
 // read: the image of a number, in the order of SurfaceTargets.
 template <typename Read>
-SurfaceImages images_of(bool coats, bool models, const Read& read) {
+SurfaceImages surface_images_of(MoreImages more, const Read& read) {
   SurfaceImages s{.normal_roughness = read(0), .base_color_metallic = read(1), .emissive_occlusion = read(2)};
-  if (coats) s.coat_normal_roughness = read(3), s.coat_factor = read(4);
-  if (models) s.model = read(coats ? 5 : 3);
+  size_t next = 3;
+  if (more.coats) s.coat_normal_roughness = read(next), s.coat_factor = read(next + 1), next += 2;
+  if (more.models) s.model = read(next++);
+  if (more.specular) s.specular = read(next);
   return s;
 }
 
 }  // namespace
 
 SurfaceImages read_surfaces(RenderView& v) {
-  const bool coats = v.plan.features & feature_clearcoat;
-  const bool models = v.plan.features & (feature_skin | feature_minnaert);
-  SurfaceTargets targets(v, coats, models);
+  const MoreImages more{.coats = (v.plan.features & feature_clearcoat) != 0,
+                        .models = (v.plan.features & (feature_skin | feature_minnaert)) != 0,
+                        .specular = (v.plan.features & feature_specular) != 0};
+  SurfaceTargets targets(v, more);
   glEnable(GL_DEPTH_TEST);
   std::vector<std::string> defines;
-  if (coats) defines.emplace_back("COATS");
-  if (models) defines.emplace_back("MODELS");
+  if (more.coats) defines.emplace_back("COATS");
+  if (more.models) defines.emplace_back("MODELS");
+  if (more.specular) defines.emplace_back("SPECULAR_IMAGE");
   ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", defines});
   glDepthFunc(GL_EQUAL);
   draw_list(v, v.opaque, DrawStreams::all, programs);
   const auto read = [&](size_t i) { return v.plan.blended.empty() ? targets.take(i) : targets.read(i); };
-  SurfaceImages surfaces = images_of(coats, models, read);
+  SurfaceImages surfaces = surface_images_of(more, read);
   surfaces.models = material_models(v.scene);
   // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
@@ -84,14 +93,15 @@ SurfaceImages read_surfaces(RenderView& v) {
 }
 
 SurfaceImages read_gbuffer_surfaces(RenderView& v) {
-  const bool models = v.plan.skin || v.plan.minnaert;
-  SurfaceTargets targets(v, v.plan.clearcoat, models);
+  const MoreImages more{
+      .coats = v.plan.clearcoat, .models = v.plan.skin || v.plan.minnaert, .specular = v.plan.specular};
+  SurfaceTargets targets(v, more);
   const GBuffer gbuffer = gbuffer_of(v);
   v.bind_lights();
   bind_gbuffer(gbuffer);
   glDisable(GL_DEPTH_TEST);
   draw_screen(v.program("shaders/screen.vert", "shaders/gbuffer_surfaces.frag", gbuffer_defines(gbuffer)));
-  SurfaceImages surfaces = images_of(v.plan.clearcoat, models, [&](size_t i) { return targets.read(i); });
+  SurfaceImages surfaces = surface_images_of(more, [&](size_t i) { return targets.read(i); });
   surfaces.models = material_models(v.scene);
   return surfaces;
 }

@@ -13,6 +13,7 @@ struct SurfaceImages {
   Image coat_normal_roughness, coat_factor;  // as above; red. Empty if no material in view has a coat
   Image model;  // red: the number. Empty if no material in view has a model but Lambert's
   std::vector<MaterialModel> models;  // by number
+  Image specular;  // f0, f90 of the dielectric part. Empty if no material in view has another than 0.04, 1
   std::vector<bool> blended;          // pixels covered by a blended surface
 };
 

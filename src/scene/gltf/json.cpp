@@ -12,10 +12,12 @@ using nlohmann::json;
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
-constexpr const char* supported_extensions[] = {
-    "EXT_meshopt_compression", "EXT_texture_webp",    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",     "KHR_materials_unlit", "KHR_materials_emissive_strength",
-    "KHR_materials_clearcoat", "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+                                                "EXT_texture_webp",        "KHR_draco_mesh_compression",
+                                                "KHR_lights_punctual",     "KHR_materials_clearcoat",
+                                                "KHR_materials_ior",       "KHR_materials_specular",
+                                                "KHR_materials_unlit",     "KHR_materials_emissive_strength",
+                                                "KHR_mesh_quantization",   "KHR_texture_transform"};
 
 constexpr const char* collections[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
                                        "images",    "materials",  "meshes",      "nodes",   "samplers",

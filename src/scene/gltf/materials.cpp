@@ -108,6 +108,34 @@ void read_clearcoat(Document& doc, const tinygltf::Value& in, const std::string&
     out.clearcoat_map = out.clearcoat_roughness_map = out.clearcoat_normal_map = {};  // not decoded
 }
 
+// KHR_materials_ior.
+float read_ior(const Document& doc, const tinygltf::Value& in, const std::string& place) {
+  const double ior = number_or(doc, in, "ior", 1.5, place);
+  if (ior != 0 && !(ior >= 1)) throw doc.error("{}: ior is {}; it is 0, or 1 or more", place, ior);
+  return finite(doc, ior, place, "ior");
+}
+
+// KHR_materials_specular.
+void read_specular(Document& doc, const tinygltf::Value& in, const std::string& place, Material& out) {
+  out.specular = in_unit(doc, number_or(doc, in, "specularFactor", 1, place), place, "specularFactor");
+  if (in.Has("specularColorFactor")) {
+    const tinygltf::Value& color = in.Get("specularColorFactor");
+    if (!color.IsArray() || color.ArrayLen() != 3)
+      throw doc.error("{}: specularColorFactor is not three numbers", place);
+    for (int i = 0; i < 3; ++i) {
+      if (!color.Get(i).IsNumber()) throw doc.error("{}: specularColorFactor is not three numbers", place);
+      out.specular_color[i] =
+          not_negative(doc, color.Get(i).GetNumberAsDouble(), place, "specularColorFactor");
+    }
+  }
+  const auto slot = [&](const char* key) {
+    return read_slot(doc, read_extension_texture(doc, in, key, place), place + ": " + key);
+  };
+  out.specular_map = slot("specularTexture");
+  out.specular_color_map = slot("specularColorTexture");
+  if (out.specular == 0) out.specular_map = out.specular_color_map = {};  // not decoded
+}
+
 // Of NVIDIA's lambSkin where the file names none.
 constexpr glm::vec3 default_subsurface_color(1, 0.2f, 0.2f);
 constexpr double default_roll_off = 0.2;
@@ -170,6 +198,10 @@ Material read_material(Document& doc, const tinygltf::Material& in, const std::s
   out.unlit = find_extension(in.extensions, "KHR_materials_unlit") != nullptr;
   if (const auto* clearcoat = find_extension(in.extensions, "KHR_materials_clearcoat"))
     read_clearcoat(doc, *clearcoat, place, out);
+  if (const auto* ior = find_extension(in.extensions, "KHR_materials_ior"))
+    out.ior = read_ior(doc, *ior, place);
+  if (const auto* specular = find_extension(in.extensions, "KHR_materials_specular"))
+    read_specular(doc, *specular, place, out);
   return out;
 }
 

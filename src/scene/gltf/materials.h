@@ -32,6 +32,8 @@ inline constexpr SlotUse material_slots[] = {{&Material::base_color_map, true},
                                              {&Material::emissive_map, true},
                                              {&Material::clearcoat_map, false},
                                              {&Material::clearcoat_roughness_map, false},
-                                             {&Material::clearcoat_normal_map, false}};
+                                             {&Material::clearcoat_normal_map, false},
+                                             {&Material::specular_map, false},
+                                             {&Material::specular_color_map, true}};
 
 }  // namespace lightgrid::gltf

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/deform.h"
+#include "scene/gltf/instancing.h"
 #include "scene/gltf/morph.h"
 #include "scene/gltf/skin.h"
 #include "scene/pose.h"
@@ -26,20 +27,10 @@ class MeshReader {
     const tinygltf::Mesh& mesh = checked(doc_, doc_.model.meshes, node.mesh, place, "mesh");
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
     const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1};
-    for (const Drawn& drawn : meshes_of(use)) {
-      // A mesh flattened to a plane, line or point has no usable normals.
-      if (!drawn.in_world && !placed.moves && is_flat(placed.world_from_node)) {
-        doc_.warn("flattened", "{}: is scaled to no volume and left out", place);
-        continue;
-      }
-      if (scene_.instances.size() >= doc_.limits.max_instances)
-        throw doc_.error("{}: more than {} instances", place, doc_.limits.max_instances);
-      scene_.instances.push_back(
-          {.name = node.name,
-           .mesh = drawn.mesh,
-           .world_from_object = drawn.in_world ? glm::dmat4(1) : world_of_instance(placed.world_from_node),
-           .node = drawn.in_world || !placed.moves ? -1 : index});
-    }
+    const std::vector<Drawn>& meshes = meshes_of(use);
+    if (const auto copies = read_instances(doc_, placed.node)) return add_copies(index, meshes, *copies);
+    for (const Drawn& drawn : meshes)
+      add_instance(drawn, node.name, place, placed.world_from_node, placed.moves ? index : -1);
   }
 
  private:
@@ -55,6 +46,40 @@ class MeshReader {
     int weights_node;             // a place in nodes_, where the weights are animated; else -1
     auto operator<=>(const Use&) const = default;
   };
+
+  // `node`: of the rig, which moves the instance, or -1.
+  void add_instance(const Drawn& drawn, const std::string& name, const std::string& place,
+                    const glm::dmat4& world_from_node, int node) {
+    // A mesh flattened to a plane, line or point has no usable normals.
+    if (!drawn.in_world && node < 0 && is_flat(world_from_node)) {
+      doc_.warn("flattened", "{}: is scaled to no volume and left out", place);
+      return;
+    }
+    if (scene_.instances.size() >= doc_.limits.max_instances)
+      throw doc_.error("{}: more than {} instances", place, doc_.limits.max_instances);
+    scene_.instances.push_back(
+        {.name = name,
+         .mesh = drawn.mesh,
+         .world_from_object = drawn.in_world ? glm::dmat4(1) : world_of_instance(world_from_node),
+         .node = drawn.in_world ? -1 : node});
+  }
+
+  // The copies of a node that moves are children of it in the rig.
+  void add_copies(int index, const std::vector<Drawn>& meshes, const std::vector<NodeTransform>& copies) {
+    const PlacedNode& placed = nodes_[index];
+    const std::string& name = doc_.model.nodes[placed.node].name;
+    for (size_t i = 0; i < copies.size(); ++i) {
+      const std::string place = fmt::format("{} instance {}", node_label(doc_, placed.node), i);
+      const glm::dmat4 world = placed.world_from_node * parent_from_node(copies[i]);
+      if (!is_finite(world)) throw doc_.error("{}: its world matrix is not finite", place);
+      int node = -1;
+      if (placed.moves) {
+        node = static_cast<int>(rig_.nodes.size());
+        rig_.nodes.push_back({.label = place, .parent = index, .rest = copies[i], .matrix = {}});
+      }
+      for (const Drawn& drawn : meshes) add_instance(drawn, name, place, world, node);
+    }
+  }
 
   const std::vector<Drawn>& meshes_of(const Use& use) {
     const auto [known, is_new] = drawn_.try_emplace(use);

@@ -14,13 +14,6 @@ void check_length(const Document& doc, const std::vector<double>& values, size_t
     throw doc.error("{}: {} has {} numbers instead of {}", place, what, values.size(), length);
 }
 
-bool is_finite(const glm::dmat4& m) {
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
-      if (!std::isfinite(m[column][row])) return false;
-  return true;
-}
-
 glm::dmat4 affine_matrix(const Document& doc, const std::vector<double>& values, const std::string& place) {
   glm::dmat4 out;
   for (int i = 0; i < 16; ++i) out[i / 4][i % 4] = values[i];

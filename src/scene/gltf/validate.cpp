@@ -64,6 +64,12 @@ void check_nodes(const tinygltf::Model& model, Checker& check) {
     check.optional(node.skin, model.skins.size(), "skin");
     check.optional(node.camera, model.cameras.size(), "camera");
     for (int child : node.children) check.required(child, model.nodes.size(), "child");
+    const tinygltf::Value* instanced = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
+    if (!instanced || !instanced->Has("attributes") || !instanced->Get("attributes").IsObject()) continue;
+    for (const std::string& name : instanced->Get("attributes").Keys()) {
+      const tinygltf::Value& index = instanced->Get("attributes").Get(name);
+      check.required(index.IsNumber() ? index.GetNumberAsInt() : -1, model.accessors.size(), name.c_str());
+    }
   }
   for (size_t i = 0; i < model.scenes.size(); ++i) {
     check.set_place("scene", i);
