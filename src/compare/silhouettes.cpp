@@ -41,14 +41,13 @@ std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
   }
   std::vector<SceneTriangle> triangles;
   for (const uint32_t number : numbers) {
-    SceneTriangle& triangle = triangles.emplace_back();
-    if (number >= count) continue;
+    if (number >= count) {
+      triangles.emplace_back();
+      continue;
+    }
     const size_t place = size_t(std::ranges::upper_bound(first, number) - first.begin()) - 1;
-    triangle.instance = instances[place];
-    const std::vector<uint32_t>& indices = v.scene.meshes[v.scene.instances[triangle.instance].mesh].indices;
-    std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(number - first[place])), 3,
-                triangle.vertices.begin());
-    std::ranges::sort(triangle.vertices);
+    const std::vector<uint32_t>& indices = v.scene.meshes[v.scene.instances[instances[place]].mesh].indices;
+    triangles.push_back(scene_triangle(instances[place], &indices[3 * size_t(number - first[place])]));
   }
   return triangles;
 }

@@ -33,11 +33,12 @@ std::vector<SceneTriangle> in_double(const Scene& scene, const View& view,
   const double_surfaces::Surfaces surfaces(scene, view, instances);
   std::vector<SceneTriangle> triangles;
   for (const double_surfaces::Hit& hit : surfaces.hits()) {
-    SceneTriangle& triangle = triangles.emplace_back(SceneTriangle{.instance = hit.instance});
-    if (hit.instance < 0) continue;
+    if (hit.instance < 0) {
+      triangles.emplace_back();
+      continue;
+    }
     const std::vector<uint32_t>& indices = scene.meshes[scene.instances[hit.instance].mesh].indices;
-    for (int k = 0; k < 3; ++k) triangle.vertices[k] = indices[3 * hit.triangle + k];
-    std::ranges::sort(triangle.vertices);
+    triangles.push_back(scene_triangle(hit.instance, &indices[3 * hit.triangle]));
   }
   return triangles;
 }

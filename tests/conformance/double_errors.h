@@ -1,5 +1,5 @@
-// visibility against surfaces in double (support/double_surfaces.h), which have their own rasteriser,
-// attributes and texture filter; and forward against the same.
+// visibility against surfaces in double (support/double_surfaces.h, reference/scene_surfaces.h), which have
+// their own rasteriser, attributes and texture filter; and forward against the same.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,18 +19,16 @@ struct DoubleErrors {
   size_t elsewhere = 0, forward_elsewhere = 0;  // show another triangle than in double
   double largest = 0, mean = 0;  // of the compared pixels' largest channel, relative to the brightest
   double forward_largest = 0, forward_mean = 0;
+  double sum = 0, forward_sum = 0, sum_in_double = 0;  // of all channels of the compared pixels
   // As `mean`, where the surfaces lie at visibility's own depth, which is that of a plane through corners
   // that are rounded to 1/256 pixel (docs/raster.md).
   double own_depth_mean = 0;
 };
 
 inline SceneTriangle triangle_of(const Scene& scene, const double_surfaces::Hit& hit) {
-  SceneTriangle triangle{.instance = hit.instance};
-  if (hit.instance < 0) return triangle;
+  if (hit.instance < 0) return {};
   const std::vector<uint32_t>& indices = scene.meshes[scene.instances[hit.instance].mesh].indices;
-  std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(hit.triangle)), 3, triangle.vertices.begin());
-  std::ranges::sort(triangle.vertices);
-  return triangle;
+  return scene_triangle(hit.instance, &indices[3 * size_t(hit.triangle)]);
 }
 
 // At the pixels where all three show the same triangle. The scene has no blended surface in view.
@@ -83,6 +81,10 @@ inline DoubleErrors errors_against_double(const Scene& scene, const View& view,
     if (!(of_visibility <= e.largest)) e.largest = of_visibility;  // NaN too
     e.forward_largest = std::max(e.forward_largest, of_forward);
     e.mean += of_visibility / double(pixels.size()), e.forward_mean += of_forward / double(pixels.size());
+    for (int c = 0; c < 3; ++c) {
+      e.sum += visibility.image().pixels[pixels[i]][c], e.forward_sum += forward.image().pixels[pixels[i]][c];
+      e.sum_in_double += radiance[i][c];
+    }
     e.own_depth_mean += apart(visibility.image(), at_own_depth) / double(pixels.size());
   }
   return e;

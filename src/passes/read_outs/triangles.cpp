@@ -58,16 +58,20 @@ class TriangleTarget {
 
 }  // namespace
 
+SceneTriangle scene_triangle(int instance, const uint32_t* vertices) {
+  SceneTriangle triangle{instance, {vertices[0], vertices[1], vertices[2]}};
+  std::ranges::rotate(triangle.vertices, std::ranges::min_element(triangle.vertices));
+  return triangle;
+}
+
 ShownTriangles read_triangles(RenderView& v) {
   TriangleTarget target(v);
   const std::vector<uint32_t> indices = v.gpu.in_gl().read_indices();
   ShownTriangles shown;
   for (const glm::uvec2& found : target.drawn(v.opaque, GL_EQUAL)) {
-    SceneTriangle& triangle = shown.opaque.emplace_back();
-    if (found.x == TriangleTarget::none) continue;
-    triangle.instance = int(found.x);
-    std::copy_n(indices.begin() + std::ptrdiff_t(3 * size_t(found.y)), 3, triangle.vertices.begin());
-    std::ranges::sort(triangle.vertices);
+    const bool none = found.x == TriangleTarget::none;
+    shown.opaque.push_back(none ? SceneTriangle{}
+                                : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
   }
   shown.blended.assign(v.pixels(), false);
   if (v.blended.empty()) return shown;

@@ -12,9 +12,12 @@ namespace lightgrid {
 // A triangle by what it connects, so that two drawings of a mesh in different orders can be compared.
 struct SceneTriangle {
   int instance = -1;                   // of the scene; -1: nothing
-  std::array<uint32_t, 3> vertices{};  // of its mesh, ascending
+  std::array<uint32_t, 3> vertices{};  // of its mesh, turned so that the least is first
   auto operator<=>(const SceneTriangle&) const = default;
 };
+
+// From three entries of a mesh's indices.
+SceneTriangle scene_triangle(int instance, const uint32_t* vertices);
 
 struct ShownTriangles {
   std::vector<SceneTriangle> opaque;  // a pixel each, row 0 at the bottom
