@@ -12,8 +12,10 @@
 #include "compare/moving.h"
 #include "compare/oracle_sample.h"
 #include "compare/silhouettes.h"
+#include "compare/surfaces_in_double.h"
 #include "gl/state.h"
 #include "passes/shade_objects.h"
+#include "reference/position.h"
 #include "results/flip.h"
 #include "results/metrics.h"
 
@@ -83,11 +85,23 @@ RunResult refused_row(const ContestantRun& entry, const RunResult& reference) {
   return row;
 }
 
+// The triangles that the reference shows, and where some row shows another one.
+struct ReferenceTriangles {
+  ShownTriangles shown;
+  std::vector<bool> contested = std::vector<bool>(shown.opaque.size());
+};
+
+ReferenceTriangles triangles_of(ReferenceRun& reference) {
+  RenderView& v = reference.run->view();
+  if (!reference.run->frame().triangles) return {read_triangles(v)};
+  return {{own_triangles(*reference.run), std::vector<bool>(v.pixels())}};
+}
+
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more.
 void set_row(CompareReport& report, size_t place, TechniqueRun& run, ReferenceRun& reference,
              const std::vector<float>& depth, const std::optional<FlipExposures>& exposures,
-             const std::optional<ShownTriangles>& shown) {
+             ReferenceTriangles& triangles) {
   const bool is_reference = &run == reference.run;
   if (!is_reference) run.run_frame(true);
   RunResult row = run.result();
@@ -98,8 +112,14 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, ReferenceRu
     row.error = compare_images(run.image(), reference.image());
     if (exposures) row.error->flip_mean = mean_of(hdr_flip_map(run.image(), reference.image(), *exposures));
   }
-  if (shown && run.frame().triangles)
-    row.error->silhouettes = silhouette_error(run.image(), own_triangles(run), reference.image(), *shown);
+  if (run.frame().triangles) {
+    const std::vector<SceneTriangle> own = own_triangles(run);
+    for (size_t i = 0; i < own.size(); ++i) {
+      if (own[i] != triangles.shown.opaque[i]) triangles.contested[i] = true;
+    }
+    if (!reference.run->frame().triangles && !reference.sampled())
+      row.error->silhouettes = silhouette_error(run.image(), own, reference.image(), triangles.shown);
+  }
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
@@ -113,10 +133,25 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, ReferenceRu
   if (!run.frame().depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
 }
 
-// Compares each image and the reference's with the oracle: at a sample of pixels, and where the images differ
-// most, so that no large difference is missed.
-void measure_against_oracle(CompareReport& report, const ReferenceRun& reference,
-                            const std::vector<float>& depth, size_t samples) {
+// Each image and the reference's against surfaces in double, at those of `pixels` where all rows show one
+// triangle.
+void measure_surfaces(CompareReport& report, const ReferenceRun& reference,
+                      const ReferenceTriangles& triangles, std::vector<uint32_t> pixels) {
+  std::erase_if(pixels, [&](uint32_t pixel) { return triangles.contested[pixel]; });
+  const SurfacesInDouble in_double =
+      surfaces_in_double(reference.run->view(), triangles.shown.opaque, pixels);
+  const double brightest = brightest_channel(reference.image());
+  report.reference_surfaces = surfaces_error(reference.image(), in_double, brightest);
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (report.rows[i].error)
+      report.rows[i].error->surfaces = surfaces_error(image_of(report, i), in_double, brightest);
+  }
+}
+
+// Compares each image and the reference's with the oracle: at a sample of pixels, which it returns, and where
+// the images differ most, so that no large difference is missed.
+std::vector<uint32_t> measure_against_oracle(CompareReport& report, const ReferenceRun& reference,
+                                             const std::vector<float>& depth, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
   const SurfaceOracle oracle(reference.run->view(), depth);
   std::vector<uint32_t> among = oracle.pixels();
@@ -125,9 +160,10 @@ void measure_against_oracle(CompareReport& report, const ReferenceRun& reference
     std::erase_if(among,
                   [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
-  std::vector<uint32_t> pixels =
+  const std::vector<uint32_t> sample =
       sample_pixels(among, affordable_samples(samples, reference.run->view().scene.lights.size()));
-  report.reference_errors = measure_reference_errors(oracle, reference.image(), pixels);
+  report.reference_errors = measure_reference_errors(oracle, reference.image(), sample);
+  std::vector<uint32_t> pixels = sample;
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (!report.rows[i].error) continue;
     const std::vector<uint32_t> worst =
@@ -141,6 +177,7 @@ void measure_against_oracle(CompareReport& report, const ReferenceRun& reference
     if (report.rows[i].error)
       report.rows[i].error->oracle = oracle_error(image_of(report, i), reference.image(), pixels, radiance);
   }
+  return sample;
 }
 
 void run_path(CompareReport& report, GpuScene& gpu, std::vector<ContestantRun>& entries,
@@ -217,9 +254,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
   const std::vector<float> depth = read_depth(*reference.run);
   std::optional<FlipExposures> exposures;
   if (options.flip && !reference.sampled()) exposures = flip_exposures(reference.image());
-  std::optional<ShownTriangles> shown;
-  if (renderer.gl && any_has_own_surfaces(entries) && !reference.sampled())
-    shown = read_triangles(reference.run->view());
+  ReferenceTriangles triangles = triangles_of(reference);
   report.rows.resize(entries.size()), report.images.resize(entries.size()),
       report.listed.resize(entries.size());
   const std::vector<size_t> order = order_of_rows(entries, reference.run);
@@ -230,7 +265,8 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
     // A refusal here keeps the run: it may be the reference.
     if (entry.run)
       attempt(
-          entry, [&] { set_row(report, order[i], *entry.run, reference, depth, exposures, shown); }, false);
+          entry, [&] { set_row(report, order[i], *entry.run, reference, depth, exposures, triangles); },
+          false);
     if (entry.refusal) report.rows[order[i]] = refused_row(entry, reference.run->result());
     if (entry.run && entry.run.get() != reference.run)
       options.path.empty() ? entry.run.reset() : entry.run->release();
@@ -238,8 +274,15 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
     return_freed_memory(renderer);
   }
   if (options.progress) options.progress(0.9, "oracle: shading");
-  // The oracle shades surfaces that OpenGL draws.
-  if (renderer.gl) measure_against_oracle(report, reference, depth, options.shaded_samples);
+  // The oracle shades surfaces that OpenGL draws. Without it, what blended surfaces cover is not known.
+  if (renderer.gl) {
+    measure_surfaces(report, reference, triangles,
+                     measure_against_oracle(report, reference, depth, options.shaded_samples));
+  } else if (reference.run->view().plan.blended.empty()) {
+    measure_surfaces(report, reference, triangles,
+                     sample_pixels(covered_pixels(depth),
+                                   affordable_samples(options.shaded_samples, scene.lights.size())));
+  }
   run_path(report, gpu, entries, reference, options);
   if (options.progress) options.progress(1, "");
   return report;

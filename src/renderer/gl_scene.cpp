@@ -1,15 +1,13 @@
 #include "renderer/gl_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
 
-#include "base/image.h"
 #include "plan/frame_plan.h"
 #include "renderer/clusters.h"
 #include "renderer/model_records.h"
 #include "renderer/shown_meshes.h"
+#include "renderer/texel_chain.h"
 #include "scene/rig.h"
 
 namespace lightgrid {
@@ -90,17 +88,9 @@ GLint min_filter_of(Filter filter) {
   return GL_LINEAR;
 }
 
-// Steps of 2^-16 are finer than those of the sRGB curve, 3e-4 at black.
-std::vector<uint16_t> linear_from_srgb_16(const std::vector<uint8_t>& rgba) {
-  static const auto table = [] {
-    std::array<uint16_t, 256> values;
-    for (int i = 0; i < 256; ++i) values[i] = uint16_t(std::lround(linear_from_srgb(i / 255.0f) * 65535.0f));
-    return values;
-  }();
-  std::vector<uint16_t> linear(rgba.size());
-  for (size_t i = 0; i < rgba.size(); ++i) linear[i] = i % 4 == 3 ? uint16_t(rgba[i] * 257) : table[rgba[i]];
-  return linear;
-}
+// llvmpipe takes half of a piecewise linear logarithm as level of detail: 0 to 0.043 too small, in the mean
+// over all levels (1.5 - 1 / ln 2) / 2. Samplers add the mean, at no cost (docs/conventions.md#textures).
+constexpr float llvmpipe_level_bias = 0.028652f;
 
 // The corners of a triangle keep their order: in another order its depths would round differently.
 void append_reversed_triangles(std::vector<uint32_t>& indices) {
@@ -272,21 +262,28 @@ void GlScene::upload_texture(int index) {
   const bool mips = texture.min_filter != Filter::nearest && texture.min_filter != Filter::linear;
   int levels = 1;
   while (mips && (std::max(bitmap.width, bitmap.height) >> levels) > 0) ++levels;
-  const bool decoded = texture.srgb && renderer_.gl->software;
-  const GLenum format = decoded ? GL_RGBA16 : texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  // A software rasteriser filters 8 bits in fixed point, whose steps a normal map's scale multiplies, and 16
+  // bits in float (docs/conventions.md#textures).
+  const bool wide = renderer_.gl->software;
+  const GLenum format = wide ? GL_RGBA16 : texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
   textures_[index] = make_texture_2d(format, bitmap.width, bitmap.height, levels);
   const GLuint name = textures_[index].name();
-  if (decoded) {
-    const std::vector<uint16_t> linear = linear_from_srgb_16(bitmap.rgba);
-    glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_SHORT,
-                        linear.data());
+  if (wide) {
+    TexelImage image = linear_texels(bitmap, texture.srgb);
+    for (int level = 0; level < levels; ++level) {
+      if (level > 0) image = next_level(image);
+      glTextureSubImage2D(name, level, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_SHORT,
+                          image.values.data());
+    }
   } else {
     glTextureSubImage2D(name, 0, 0, 0, bitmap.width, bitmap.height, GL_RGBA, GL_UNSIGNED_BYTE,
                         bitmap.rgba.data());
+    if (levels > 1) glGenerateTextureMipmap(name);
   }
-  if (levels > 1) glGenerateTextureMipmap(name);
-  texture_bytes_ += size_t(bitmap.width) * bitmap.height * (decoded ? 8 : 4) * (levels > 1 ? 4 : 3) / 3;
+  texture_bytes_ += size_t(bitmap.width) * bitmap.height * (wide ? 8 : 4) * (levels > 1 ? 4 : 3) / 3;
   samplers_[index] = make_sampler();
+  if (renderer_.gl->renderer.find("llvmpipe") != std::string::npos)
+    glSamplerParameterf(samplers_[index].name(), GL_TEXTURE_LOD_BIAS, llvmpipe_level_bias);
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MIN_FILTER, min_filter_of(texture.min_filter));

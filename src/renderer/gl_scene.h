@@ -30,8 +30,8 @@ struct GlMesh {
 class GlScene {
  public:
   // Both outlive it, and the renderer has OpenGL. Meshes that no instance shows are left out, and so are
-  // their textures. A software OpenGL gets colour textures as linear 16 bits, because it would decode sRGB at
-  // every texel of every sample.
+  // their textures. A software OpenGL gets textures as linear 16 bits, because it would decode sRGB at every
+  // texel of every sample, and filters 8 bits in fixed point.
   GlScene(const Renderer& renderer, const Scene& scene);
 
   // After the scene changed: uploads the vertices of meshes that deformed, and nothing else. Views read

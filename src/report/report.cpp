@@ -28,6 +28,7 @@ CompareReport without_images(const CompareReport& report) {
   rest.cl_device = report.cl_device, rest.gl_device = report.gl_device, rest.commit = report.commit;
   rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
   rest.rows = report.rows;
+  rest.reference_surfaces = report.reference_surfaces;
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
   return rest;

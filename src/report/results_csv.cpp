@@ -17,8 +17,10 @@ Fields heading() {
                   "settings",   "row",     "refused", "min_ms", "median_ms", "max_ms", "runs",    "memory",
                   "light_grid", "gbuffer", "listed",  "lit",    "lost",      "wrong"};
   for (const ErrorMeasure& measure : error_measures()) names.emplace_back(measure.key);
-  names.insert(names.end(), {"bit_identical", "nan_pixels", "overflow", "oracle_max_rel", "oracle_rmse_rel",
-                             "oracle_of_reference_max_rel", "reference_pixels"});
+  names.insert(names.end(),
+               {"bit_identical", "nan_pixels", "overflow", "oracle_max_rel", "oracle_rmse_rel",
+                "oracle_of_reference_max_rel", "reference_pixels", "surfaces_pixels", "surfaces_sum_rel",
+                "surfaces_max_rel", "surfaces_rmse_rel", "surfaces_p99_rel"});
   return names;
 }
 
@@ -38,6 +40,15 @@ void add_oracle(Fields& fields, const std::optional<ImageError>& error) {
   const bool there = error && error->oracle;
   const OracleError o = there ? *error->oracle : OracleError{};
   for (const double value : {o.max_rel, o.rmse_rel, o.of_reference_max_rel}) {
+    fields.push_back(number(there && std::isfinite(value), value));
+  }
+}
+
+void add_surfaces(Fields& fields, const std::optional<ImageError>& error) {
+  const bool there = error && error->surfaces;
+  const SurfacesError s = there ? *error->surfaces : SurfacesError{};
+  fields.push_back(number(there, s.pixels));
+  for (const double value : {s.sum_rel, s.max_rel, s.rmse_rel, s.p99_rel}) {
     fields.push_back(number(there && std::isfinite(value), value));
   }
 }
@@ -75,6 +86,7 @@ Fields fields_of(const CompareReport& report, const RunResult& row, const std::s
   fields.push_back(number(ran, row.overflow));
   add_oracle(fields, row.error);
   fields.push_back(number(true, report.reference_pixels));
+  add_surfaces(fields, row.error);
   return fields;
 }
 

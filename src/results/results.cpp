@@ -37,6 +37,15 @@ json value_of(const std::string& setting) {
   return setting;
 }
 
+json to_json(const std::optional<SurfacesError>& error) {
+  if (!error) return {};
+  return {{"pixels", error->pixels},
+          {"sum_rel", finite_or_null(error->sum_rel)},
+          {"max_rel", finite_or_null(error->max_rel)},
+          {"rmse_rel", finite_or_null(error->rmse_rel)},
+          {"p99_rel", finite_or_null(error->p99_rel)}};
+}
+
 json to_json(const ImageError& error) {
   json oracle;
   if (error.oracle) {
@@ -58,7 +67,8 @@ json to_json(const ImageError& error) {
                  {"bit_identical", error.bit_identical},
                  {"oracle", oracle},
                  {"silhouettes", silhouettes},
-                 {"inside", inside}};
+                 {"inside", inside},
+                 {"surfaces", to_json(error.surfaces)}};
   for (const ErrorMeasure& measure : error_measures())
     values[measure.key] = finite_or_null(error.*measure.value);
   return values;
@@ -203,7 +213,10 @@ json to_json(const CompareReport& report) {
               {"ambient", {report.ambient.r, report.ambient.g, report.ambient.b}},
               {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
               {"commit", report.commit},
-              {"reference", {{"technique", report.reference}, {"pixels", report.reference_pixels}}},
+              {"reference",
+               {{"technique", report.reference},
+                {"pixels", report.reference_pixels},
+                {"surfaces", to_json(report.reference_surfaces)}}},
               {"reference_errors", reference_errors},
               {"rows", rows}};
   if (const auto& memory = report.path_memory) {

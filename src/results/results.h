@@ -49,6 +49,14 @@ struct SilhouetteError {
   double max_rel = 0, rmse_rel = 0, p99_rel = 0;
 };
 
+// An image against light and surfaces both in double, textures included (reference/scene_surfaces.h), at a
+// sample of pixels. Relative to the brightest channel of the reference's image, but for the sums.
+struct SurfacesError {
+  uint64_t pixels = 0;
+  double sum_rel = 0;  // the image's sum of all channels over that in double, less 1
+  double max_rel = 0, rmse_rel = 0, p99_rel = 0;
+};
+
 // Linear light, over all pixels and the three colour channels; if the reference is a sample, over its pixels.
 struct ImageError {
   double max_abs = 0;
@@ -60,6 +68,7 @@ struct ImageError {
   std::optional<OracleError> oracle;  // absent if not requested
   // Absent where OpenGL draws the surfaces, and where the reference is a sample.
   std::optional<SilhouetteError> silhouettes;
+  std::optional<SurfacesError> surfaces;  // absent if not requested
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest
@@ -131,6 +140,7 @@ struct CompareReport {
   std::string reference;  // the technique that the images are compared with: "forward", or with the setting
                           // that makes it one, "visibility:lights=all"
   uint64_t reference_pixels = 0;  // number of pixels compared: all, or a sample if all would take too long
+  std::optional<SurfacesError> reference_surfaces;  // of the reference's image, at the rows' pixels
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear; read with image_of
   Image reference_image;                      // set only if no row is the reference

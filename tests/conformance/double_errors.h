@@ -1,5 +1,5 @@
-// visibility against surfaces in double (support/double_surfaces.h), which have their own rasteriser,
-// attributes and texture filter; and forward against the same.
+// visibility against surfaces in double (support/double_surfaces.h, reference/scene_surfaces.h), which have
+// their own rasteriser, attributes and texture filter; and forward against the same.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@ struct DoubleErrors {
   size_t elsewhere = 0, forward_elsewhere = 0;  // show another triangle than in double
   double largest = 0, mean = 0;  // of the compared pixels' largest channel, relative to the brightest
   double forward_largest = 0, forward_mean = 0;
+  double sum = 0, forward_sum = 0, sum_in_double = 0;  // of all channels of the compared pixels
   // As `mean`, where the surfaces lie at visibility's own depth, which is that of a plane through corners
   // that are rounded to 1/256 pixel (docs/raster.md).
   double own_depth_mean = 0;
@@ -80,6 +81,10 @@ inline DoubleErrors errors_against_double(const Scene& scene, const View& view,
     if (!(of_visibility <= e.largest)) e.largest = of_visibility;  // NaN too
     e.forward_largest = std::max(e.forward_largest, of_forward);
     e.mean += of_visibility / double(pixels.size()), e.forward_mean += of_forward / double(pixels.size());
+    for (int c = 0; c < 3; ++c) {
+      e.sum += visibility.image().pixels[pixels[i]][c], e.forward_sum += forward.image().pixels[pixels[i]][c];
+      e.sum_in_double += radiance[i][c];
+    }
     e.own_depth_mean += apart(visibility.image(), at_own_depth) / double(pixels.size());
   }
   return e;

@@ -26,6 +26,9 @@ TEST(ResultsCsv, HoldALineARowAndView) {
   EXPECT_EQ(std::stod(table[4].at("oracle_max_rel")), views[0].report.rows[4].error->oracle->max_rel);
   EXPECT_EQ(std::stod(table[4].at("oracle_of_reference_max_rel")), 4e-7);
   EXPECT_EQ(table[4].at("reference_pixels"), "153");
+  EXPECT_EQ(table[4].at("surfaces_pixels"), "150");
+  EXPECT_EQ(std::stod(table[4].at("surfaces_sum_rel")), -2e-3);
+  EXPECT_EQ(std::stod(table[4].at("surfaces_rmse_rel")), 3e-4);
   EXPECT_EQ(table[13].at("scene"), "hall");
 }
 
@@ -36,7 +39,8 @@ TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
   EXPECT_EQ(row.at("technique"), "light_prepass");
   EXPECT_EQ(row.at("refused"), "blending rounds <0.5 of a step> here");
   for (const char* field :
-       {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels", "oracle_max_rel"}) {
+       {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels", "oracle_max_rel",
+        "surfaces_pixels", "surfaces_rmse_rel"}) {
     EXPECT_EQ(row.at(field), "") << field;
   }
 }

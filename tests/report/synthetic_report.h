@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/metrics.h"
 #include "report/report.h"
+#include "results/metrics.h"
 
 namespace lightgrid {
 
@@ -92,6 +92,7 @@ inline CompareReport synthetic_report(int width, int height, int light_count = 6
     row.pairs = PairCounts{total(listed), total(lit), lost, 0};
     row.error = compare_images(image, exact);
     row.error->oracle = OracleError{row.error->max_rel + 3e-7, 4e-8, 4e-7};
+    row.error->surfaces = SurfacesError{150, -2e-3, row.error->max_rel + 1e-3, 3e-4, 2e-3};
     row.nan_pixels = count_nan_pixels(image);
     row.skipped = {{"shadows", "no light casts one"}, {"transparency", "no blended surface is in view"}};
     report.rows.push_back(row);
@@ -130,6 +131,7 @@ inline CompareReport synthetic_report(int width, int height, int light_count = 6
   report.rows.back().refused = "blending rounds <0.5 of a step> here";
   report.images.emplace_back(), report.listed.emplace_back();
   report.lit = lit;
+  report.reference_surfaces = report.rows[0].error->surfaces;
   report.reference_errors =
       ReferenceErrors{{0.012, 0.003, 0.0004, 0.002, {}, false}, {3e-6, 8e-7, 2e-8, 4e-7, {}, false}, 42};
   return report;

@@ -37,19 +37,17 @@ RunResult small_result() {
   result.memory_light_grid = 2;
   result.memory_gbuffer = 1;
   result.pairs = PairCounts{9, 8, 7, 6};
-  result.error = ImageError{0.5,
-                            0.25,
-                            0.125,
-                            0.0625,
-                            {},
-                            false,
-                            OracleError{0.75, 0.375, 0.875},
-                            SilhouetteError{.silhouettes = 1,
-                                            .blended = 2,
-                                            .inside = 5,
-                                            .max_rel = 0.25,
-                                            .rmse_rel = 0.125,
-                                            .p99_rel = 0.0625}};
+  result.error = ImageError{
+      0.5,
+      0.25,
+      0.125,
+      0.0625,
+      {},
+      false,
+      OracleError{0.75, 0.375, 0.875},
+      SilhouetteError{
+          .silhouettes = 1, .blended = 2, .inside = 5, .max_rel = 0.25, .rmse_rel = 0.125, .p99_rel = 0.0625},
+      SurfacesError{.pixels = 4, .sum_rel = -0.5, .max_rel = 0.75, .rmse_rel = 0.25, .p99_rel = 0.375}};
   result.nan_pixels = 11;
   result.inf_pixels = 13;
   result.overflow = 12;
@@ -71,7 +69,8 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
     "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false,
               "oracle": {"max_rel": 0.75, "rmse_rel": 0.375, "of_reference_max_rel": 0.875},
               "silhouettes": {"pixels": 1, "share": 0.125},
-              "inside": {"pixels": 5, "max_rel": 0.25, "rmse_rel": 0.125, "p99_rel": 0.0625}},
+              "inside": {"pixels": 5, "max_rel": 0.25, "rmse_rel": 0.125, "p99_rel": 0.0625},
+              "surfaces": {"pixels": 4, "sum_rel": -0.5, "max_rel": 0.75, "rmse_rel": 0.25, "p99_rel": 0.375}},
     "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
   EXPECT_EQ(to_json(small_result()), expected);
 }
@@ -101,7 +100,10 @@ TEST(Results, OfAReportHoldTheDocumentedKeys) {
   EXPECT_EQ(keys_of(value), (std::set<std::string>{"scene", "size", "devices", "commit", "reference",
                                                    "reference_errors", "rows"}));
   EXPECT_EQ(value["size"], json::parse("[17, 9]"));
-  EXPECT_EQ(value["reference"], json::parse(R"({"technique": "forward", "pixels": 153})"));
+  EXPECT_EQ(keys_of(value["reference"]), (std::set<std::string>{"technique", "pixels", "surfaces"}));
+  EXPECT_EQ(value["reference"]["technique"], "forward");
+  EXPECT_EQ(value["reference"]["pixels"], 153);
+  EXPECT_EQ(value["reference"]["surfaces"], value["rows"][0]["error"]["surfaces"]);
   EXPECT_EQ(keys_of(value["devices"]), (std::set<std::string>{"cl", "gl"}));
   EXPECT_EQ(keys_of(value["reference_errors"]),
             (std::set<std::string>{"model", "precision", "pixels_left_out"}));
@@ -118,6 +120,10 @@ TEST(Results, WithoutAnOracleHaveNoReferenceErrors) {
   result.error->silhouettes.reset();
   EXPECT_TRUE(to_json(result)["error"]["silhouettes"].is_null());
   EXPECT_TRUE(to_json(result)["error"]["inside"].is_null());
+  result.error->surfaces.reset();
+  EXPECT_TRUE(to_json(result)["error"]["surfaces"].is_null());
+  report.reference_surfaces.reset();
+  EXPECT_TRUE(to_json(report)["reference"]["surfaces"].is_null());
 }
 
 TEST(Results, AreTextEvenWhereANameIsNotUtf8) {

@@ -85,7 +85,7 @@ inline ImageDistance distance_of(const Image& image, const Image& reference) {
 }
 
 // What another rasteriser and another texture filter may change: silhouettes, and little elsewhere.
-// llvmpipe's levels of detail are up to 0.09 of an octave off.
+// llvmpipe's levels of detail are up to 0.03 of an octave off.
 inline void expect_near(const Image& image, const Image& forward) {
   const ImageDistance distance = distance_of(image, forward);
   EXPECT_LT(distance.median, 1e-3);

@@ -61,9 +61,9 @@ ShownTriangles read_triangles(RenderView& v) {
   const std::vector<uint32_t> indices = v.gpu.in_gl().read_indices();
   ShownTriangles shown;
   for (const glm::uvec2& found : target.drawn(v.opaque, GL_EQUAL)) {
-    shown.opaque.push_back(found.x == TriangleTarget::none
-                               ? SceneTriangle{}
-                               : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
+    const bool none = found.x == TriangleTarget::none;
+    shown.opaque.push_back(none ? SceneTriangle{}
+                                : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
   }
   shown.blended.assign(v.pixels(), false);
   if (v.blended.empty()) return shown;

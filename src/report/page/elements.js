@@ -56,6 +56,13 @@ function oracleInWords(oracle, reference) {
   return `; off the oracle by ${errorNumber(oracle.max_rel)} of the brightest channel, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
 }
 
+// Against light and surfaces both in double.
+function surfacesInWords({ sum_rel, rmse_rel }) {
+  if (sum_rel === null || rmse_rel === null) return "not finite";
+  const sum = `${errorNumber(100 * Math.abs(sum_rel))} % ${sum_rel < 0 ? "darker" : "brighter"}`;
+  return `RMSE ${errorNumber(rmse_rel)} of the brightest channel, in sum ${sum_rel === 0 ? "equal" : sum}`;
+}
+
 // Of a technique with a rasteriser of its own: what differs beside its silhouettes.
 function silhouettesInWords({silhouettes, inside}) {
   if (!silhouettes || inside.max_rel === null) return '';

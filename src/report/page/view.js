@@ -44,6 +44,7 @@ const columnsOf = (view) => [
   ...(view.results.rows.some((row) => typeof row.error?.flip_mean === "number")
     ? [{ title: "FLIP, mean", value: (row) => row.error?.flip_mean ?? null, text: errorNumber }] : []),
   { title: "Off the oracle", value: (row) => row.error?.oracle?.max_rel ?? null, text: errorNumber },
+  { title: "Off double surfaces", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
   { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
   { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },
   { title: "Light grid", value: (row) => row.memory_bytes.light_grid, text: byteNumber },
@@ -68,6 +69,13 @@ function showErrors(view) {
           (row) => `${nameOf(view, row)}: ${errorInWords(row.error)}${silhouettesInWords(row.error)}${
               oracleInWords(row.error.oracle, technique)}.`),
       ...(measured.length === 0 ? [unknown + '.'] : []));
+  const judged = ranRows(view).filter((row) => row.error?.surfaces?.pixels > 0);
+  if (judged.length > 0) {
+    const { surfaces } = view.results.reference;
+    add("Surfaces", `Each picture against light and surfaces both in double, textures included, at ${wholeNumber(surfaces.pixels)} pixels:`,
+        ...(referenceOf(view) ? [] : [`${technique}: ${surfacesInWords(surfaces)}.`]),
+        ...judged.map((row) => `${nameOf(view, row)}: ${surfacesInWords(row.error.surfaces)}.`));
+  }
   if (shared?.pixels_left_out > 0) {
     add("Left out", `${wholeNumber(shared.pixels_left_out)} pixels that blended surfaces cover: the oracle does not shade those.`);
   }
