@@ -11,6 +11,7 @@ namespace lightgrid {
 namespace {
 
 constexpr size_t most_indices = 0xffffffffu - 64;
+constexpr size_t most_triangles = 0x7fffffffu;  // kernels compare their numbers as signed ones
 constexpr double least_cosine = 0.1;  // of a cone: wider ones face away from next to nothing
 
 using Corners = std::array<glm::dvec3, 3>;
@@ -160,8 +161,8 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances, cons
     const RasterInstance& instance = instances[i];
     const RasterMeshPlace& mesh = meshes.places[instance.mesh];
     triangles += mesh.triangles;
-    if (std::max(triangles, all.clip_vertices + mesh.vertices) > most_indices) {
-      throw machine_error("rasterizer: instances have 2^32 triangles or vertices or more");
+    if (triangles > most_triangles || all.clip_vertices + mesh.vertices > most_indices) {
+      throw machine_error("rasterizer: instances have 2^31 triangles or 2^32 vertices or more");
     }
     RasterInstanceRecord record{};
     record.first_triangle = uint32_t(triangles - mesh.triangles), record.triangle_count = mesh.triangles;

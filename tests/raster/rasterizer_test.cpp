@@ -89,7 +89,7 @@ class RasterizerShapes : public testing::TestWithParam<KernelShape> {
   RasterOptions options() const { return {.shape = GetParam()}; }
 };
 
-TEST_P(RasterizerShapes, OfEqualDepthsTheLowestNumberIsShown) {
+TEST_P(RasterizerShapes, OfEqualDepthsTheHighestNumberIsShown) {
   // The same triangles over and over, in clusters of different distance, so that a later one is drawn first.
   RandomNumbers random(4);
   RasterScene scene;
@@ -110,7 +110,9 @@ TEST_P(RasterizerShapes, OfEqualDepthsTheLowestNumberIsShown) {
   const Drawn alone = drawn(scene, options());
   EXPECT_GT(alone.covered(), 3000u);
   scene.instances = {{.mesh = 0}, {.mesh = 1}, {.mesh = 0}};
-  EXPECT_TRUE(drawn(scene, options()).same_image(alone));
+  Drawn last = alone;
+  for (uint32_t& triangle : last.triangles) triangle += triangle == no_triangle ? 0 : 81;
+  EXPECT_TRUE(drawn(scene, options()).same_image(last));
 }
 
 TEST_P(RasterizerShapes, RoomThatIsShortGrowsAndNothingIsLost) {
