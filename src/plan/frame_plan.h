@@ -33,6 +33,9 @@ enum MaterialFeature : uint32_t {
   feature_skin = 32768,
   feature_minnaert = 65536,
   feature_all = 131071,
+  // Base colour and alpha depend on these.
+  features_of_base_color =
+      feature_textured | feature_uv1 | feature_uv_transform | feature_vertex_color | feature_base_color_map,
 };
 
 // Of the features those that shading with this BRDF reads: Lambert has no coat.
