@@ -69,8 +69,9 @@ void main() {
   }
 #endif
 #ifdef BLEND
-  if (s.alpha == 0.0) discard;  // invisible; infinite radiance times 0 would be NaN
-  radiance = vec4(color * s.alpha, s.alpha);
+  if (s.alpha == 0.0) discard;  // invisible
+  float coverage = min(s.alpha, 1.0);
+  radiance = vec4(min(color, LARGEST_BLENDED) * coverage, coverage);
 #elif defined(ADDED)
   radiance = vec4(color, 1.0);
 #elif defined(FIRST_OF_DRAWS)

@@ -1,5 +1,5 @@
 // The image as work-items of the group shape write to it in any order: the greatest depth wins, of equal ones
-// the lowest triangle number. With -DATOMICS=64 in one pass, on keys of depth and number; with -DATOMICS=32
+// the highest triangle number. With -DATOMICS=64 in one pass, on keys of depth and number; with -DATOMICS=32
 // in two, first (-DPASS=1) all depths, then (-DPASS=2) the numbers of those that are as near.
 #pragma once
 
@@ -23,16 +23,16 @@
 #include "kernels/common/raster_masks.h"
 
 typedef struct Image {
-  // A pixel: its depth's bits << 32 | ~number, or 0 where nothing is. Depths of one sign are ordered as their
+  // A pixel: its depth's bits << 32 | number, or 0 where nothing is. Depths of one sign are ordered as their
   // bits.
   global volatile ulong* keys;
-  global volatile uint* triangles;
+  global volatile int* triangles;  // RASTER_NONE, where nothing is, is below every number
   global volatile uint* depths;
   uint width;
   MaskSource masks;
 } Image;
 
-static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(depth) << 32 | ~triangle; }
+static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(depth) << 32 | triangle; }
 
 // Whether put_pixel would change the pixel. It is tested before the mask, whose lookup costs more.
 static inline bool would_change(const Image* image, size_t at, float depth, uint triangle) {
@@ -42,7 +42,7 @@ static inline bool would_change(const Image* image, size_t at, float depth, uint
 #elif PASS == 1
   return drawn & (image->depths[at] < as_uint(depth));
 #else
-  return drawn && image->depths[at] == as_uint(depth) && image->triangles[at] > triangle;
+  return drawn && image->depths[at] == as_uint(depth) && image->triangles[at] < (int)triangle;
 #endif
 }
 
@@ -52,7 +52,7 @@ static inline void put_pixel(const Image* image, size_t at, float depth, uint tr
 #elif PASS == 1
   atomic_max(image->depths + at, as_uint(depth));
 #else
-  atomic_min(image->triangles + at, triangle);
+  atomic_max(image->triangles + at, (int)triangle);
 #endif
 }
 

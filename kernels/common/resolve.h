@@ -66,6 +66,11 @@ static inline void keep_place(TexturePlace* to, TexturePlace p, mask_t here) {
   KEEP(to->u_up, p.u_up), KEEP(to->v_up, p.v_up);
 }
 
+#ifdef VERTEX_COLOR
+// Pixels' centres may lie outside of the triangle (MOST_OUTSIDE).
+static inline real from_0_to_1(real x) { return lane_min(lane_max(x, REAL(0.0f)), REAL(1.0f)); }
+#endif
+
 // Into the lanes that are `here` the attributes of a triangle. (x, y): the block's first pixel.
 static inline void add_triangle(Attributes* a, const ResolveScene* s, uint triangle, mask_t here, float x,
                                 float y, real dx, real dy) {
@@ -102,10 +107,10 @@ static inline void add_triangle(Attributes* a, const ResolveScene* s, uint trian
   KEEP(a->handedness, ATTRIBUTE(c, w, s3) * mirror);
 #endif
 #ifdef VERTEX_COLOR
-  KEEP(a->red, ATTRIBUTE(c, w, sc));
-  KEEP(a->green, ATTRIBUTE(c, w, sd));
-  KEEP(a->blue, ATTRIBUTE(c, w, se));
-  KEEP(a->alpha, ATTRIBUTE(c, w, sf));
+  KEEP(a->red, from_0_to_1(ATTRIBUTE(c, w, sc)));
+  KEEP(a->green, from_0_to_1(ATTRIBUTE(c, w, sd)));
+  KEEP(a->blue, from_0_to_1(ATTRIBUTE(c, w, se)));
+  KEEP(a->alpha, from_0_to_1(ATTRIBUTE(c, w, sf)));
 #endif
 }
 
@@ -291,6 +296,11 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   KEEP(surface->unlit, (mask_t)(m->flags & SURFACE_UNLIT ? -1 : 0));
 }
 
+// Of a vector's square: whether it can be made a unit vector. False for NaN.
+static inline mask_t has_direction(real length_squared) {
+  return (length_squared >= REAL(FLT_MIN)) & (length_squared <= REAL(FLT_MAX));
+}
+
 // As bent_normal of shaders/common/surface.glsl, in the lanes that have a map.
 #ifdef NORMAL_MAP
 static inline Real3 bent_normal(const Attributes* a, Real3 n, Real3 mapped, mask_t has_map) {
@@ -300,16 +310,25 @@ static inline Real3 bent_normal(const Attributes* a, Real3 n, Real3 mapped, mask
   t = scale3(t, inverse_sqrt_real(max_real(length_squared, REAL(1e-12f))));
   const Real3 b = scale3(cross3(n, t), a->handedness);
   const Real3 bent = add3(add3(scale3(t, mapped.x), scale3(b, mapped.y)), scale3(n, mapped.z));
-  const real inverse = inverse_sqrt_real(dot3(bent, bent));
-  const mask_t here =
-      has_map & (length_squared > REAL(1e-12f));  // without a tangent the geometric normal stands
-  KEEP3(n, scale3(bent, inverse));
+  const real bent_squared = dot3(bent, bent);
+  // Without a tangent, and where the texel is no direction, the geometric normal stands.
+  const mask_t here = has_map & (length_squared > REAL(1e-12f)) & has_direction(bent_squared);
+  KEEP3(n, scale3(bent, inverse_sqrt_real(bent_squared)));
   return n;
 }
 #endif
 
+// Of the front side, unit. Where corners' normals cancel it is the view's axis.
+static inline Real3 geometric_normal(const Attributes* a) {
+  const real length_squared = dot3(a->normal, a->normal);
+  const mask_t here = has_direction(length_squared);
+  Real3 n = real3(REAL(0.0f), REAL(0.0f), REAL(1.0f));
+  KEEP3(n, scale3(a->normal, inverse_sqrt_real(length_squared)));
+  return n;
+}
+
 static inline Real3 shading_normal(const Attributes* a, const Surface* s) {
-  Real3 n = scale3(a->normal, inverse_sqrt_real(dot3(a->normal, a->normal)));
+  Real3 n = geometric_normal(a);
 #ifdef NORMAL_MAP
   n = bent_normal(a, n, s->mapped, s->has_map);
 #endif
@@ -328,7 +347,7 @@ static inline real number_of(const Surface* s) {
 #ifdef CLEARCOAT
 // KHR_materials_clearcoat: the base's normal map does not bend the coat.
 static inline Real3 coat_normal(const Attributes* a, const Surface* s) {
-  Real3 n = scale3(a->normal, inverse_sqrt_real(dot3(a->normal, a->normal)));
+  Real3 n = geometric_normal(a);
 #ifdef NORMAL_MAP
   n = bent_normal(a, n, s->coat_mapped, s->has_coat_map);
 #endif

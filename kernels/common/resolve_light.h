@@ -244,6 +244,12 @@ static inline Real3 base_light(const ShadingPoint* p, const Surface* s, const Re
                s->unlit ? s->base_color.z : own.z);
 }
 
+// A blended surface of this alpha over what is behind it, which may be infinite.
+static inline float4 blended(float4 over, float alpha, float4 under) {
+  const float4 most = LARGEST_BLENDED, behind = alpha < 1.0f ? under * (1.0f - alpha) : (float4)(0.0f);
+  return (over > most ? most : over) * alpha + behind;
+}
+
 // x, y: pixel centres. covered: lanes with a surface.
 static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s, real x, real y, real depth,
                                           mask_t covered, constant ViewParams* view) {

@@ -33,6 +33,12 @@ static inline ScreenTriangle screen_triangle(float4 a, float4 b, float4 c, float
   return t;
 }
 
+// Coverage is that of corners snapped to 1/256 pixel, so that a covered centre may lie outside of the
+// triangle itself. Of a triangle less than a few hundredths of a pixel wide it may lie far outside, where
+// attributes mean nothing, or where the weights are 0 / 0. No weight is allowed to be further from 0 to 1
+// than this.
+#define MOST_OUTSIDE 0.25f
+
 // Weights of the first two corners at LANES pixels; what is left of 1 is the third's. `sum` is positive where
 // the corners turn counter-clockwise.
 typedef struct Weights {
@@ -43,8 +49,11 @@ static inline Weights weights_at(const ScreenTriangle* t, real dx, real dy) {
   Weights w;
   w.sum = fma(dx, REAL(t->right.w), fma(dy, REAL(t->up.w), REAL(t->here.w)));
   w.inverse_sum = 1.0f / w.sum;
-  w.first = fma(dx, REAL(t->right.x), fma(dy, REAL(t->up.x), REAL(t->here.x))) * w.inverse_sum;
-  w.second = fma(dx, REAL(t->right.y), fma(dy, REAL(t->up.y), REAL(t->here.y))) * w.inverse_sum;
+  const real first = fma(dx, REAL(t->right.x), fma(dy, REAL(t->up.x), REAL(t->here.x))) * w.inverse_sum;
+  const real second = fma(dx, REAL(t->right.y), fma(dy, REAL(t->up.y), REAL(t->here.y))) * w.inverse_sum;
+  const real least = -MOST_OUTSIDE, most = 1.0f + MOST_OUTSIDE;
+  w.first = lane_min(lane_max(first, least), most);
+  w.second = lane_min(lane_max(second, least), most - w.first);
   return w;
 }
 

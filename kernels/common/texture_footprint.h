@@ -53,15 +53,18 @@ static inline real rough_log2(real x) {
   return exponent + fma(t * (1.0f - t), bend, t);
 }
 
+// Past it, floats are further apart than texels are; the shaders have the same limit.
+#define MOST_UV 1e9f
+
 // A coordinate folded into one copy of the texture: 0 to 1. Clamped ones are left to texel_of.
-static inline real folded(real x, uint clamped, uint mirrored) {
+static inline real folded(real any, uint clamped, uint mirrored) {
+  const real x = fabs(any) < REAL(MOST_UV) ? any : REAL(0.0f);
   if (clamped) return x;
   if (!mirrored) return x - lane_floor(x);
   return 1.0f - fabs(fma(REAL(-2.0f), lane_floor(x * 0.5f), x) - 1.0f);
 }
 
-// The first of the two texels along an axis, and the place between them. What is not finite finds a texel
-// too.
+// The first of the two texels along an axis, and the place between them.
 static inline whole texel_of(real coordinate, whole size, uint repeated, mask_t nearest, real* between) {
   const real sizes = TO_REAL(size);
   real x = fma(coordinate, sizes, nearest ? REAL(0.0f) : REAL(-0.5f));

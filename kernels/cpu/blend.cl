@@ -24,8 +24,8 @@ static inline void blend_block(global float* image, Real3 color, real alpha, mas
     const uint i = lowest_bit(bits);
     const size_t at = (size_t)(y + i / 4) * width + x + i % 4;
     const float a = LANE(alpha, i);
-    const float4 over = (float4)(LANE(color.x, i) * a, LANE(color.y, i) * a, LANE(color.z, i) * a, a);
-    vstore4(over + vload4(at, image) * (1.0f - a), at, image);
+    const float4 over = (float4)(LANE(color.x, i), LANE(color.y, i), LANE(color.z, i), 1.0f);
+    vstore4(blended(over, a, vload4(at, image)), at, image);
   }
 }
 
@@ -54,7 +54,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
         Surface s = {0};
         add_triangle(&a, &scene, r.triangle, shown, (float)x, (float)y, BLOCK_DX, BLOCK_DY);
         add_material(&s, &a, &scene, scene.surfaces[r.instance].material, shown);
-        shown &= s.alpha != REAL(0.0f);  // shows nothing; infinite radiance times 0 would be NaN
+        shown &= s.alpha != REAL(0.0f);  // shows nothing
         if (!any_lane(shown)) continue;
         take_list(&lights, light_indices, cells, y / TILE * view->tiles_x + x / TILE, view);
         const Real3 color = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,

@@ -5,7 +5,7 @@
 //
 // records, tile_begin, lists, counters  as cpu/raster_setup.cl and cpu/raster_fill.cl write them
 // MASK_ARGUMENTS  kernels/common/raster_masks.h
-// triangles  uint a pixel: the nearest triangle, of several equally near ones the lowest number; RASTER_NONE
+// triangles  uint a pixel: the nearest triangle, of several equally near ones the highest number; RASTER_NONE
 // depths     float a pixel, reversed: 0 where no triangle is
 #define LANES 16
 #include "kernels/common/fetch.h"
@@ -91,7 +91,8 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
   const float16 before = tile->depth[at];
   int16 shown = (sides >= 0) & (depth >= before);
   if (mask_bits(shown) == 0) return;
-  shown &= (depth > before) | ((uint16)(r->triangle) < tile->triangle[at]);
+  // Signed: RASTER_NONE is below every number.
+  shown &= (depth > before) | ((int16)((int)r->triangle) > as_int16(tile->triangle[at]));
 #ifdef ALPHA_MASKS
   if (r->alpha_material >= 0 && mask_bits(shown) != 0) {
     shown &= shown_by_mask(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,

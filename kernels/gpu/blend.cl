@@ -28,11 +28,10 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     Surface s = {0};
     add_triangle(&a, &scene, r.triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)dx, (float)dy);
     add_material(&s, &a, &scene, (uint)a.material, 1);
-    if (s.alpha == 0.0f) continue;  // shows nothing; infinite radiance times 0 would be NaN
+    if (s.alpha == 0.0f) continue;  // shows nothing
     const Real3 color =
         radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depth, 1, &lights, bin_edges, view);
-    under =
-        (float4)(color.x * s.alpha, color.y * s.alpha, color.z * s.alpha, s.alpha) + under * (1.0f - s.alpha);
+    under = blended((float4)(color.x, color.y, color.z, 1.0f), s.alpha, under);
   }
   ((global float4*)image)[at] = under;
 }

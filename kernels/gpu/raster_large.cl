@@ -42,7 +42,7 @@ kernel __attribute__((reqd_work_group_size(BLOCKS * BLOCKS, 1, 1))) void raster_
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;
   }
-  const Image image = {keys, triangles, depths, p->width, MASK_SOURCE(p)};
+  const Image image = {keys, (global volatile int*)triangles, depths, p->width, MASK_SOURCE(p)};
   const uint item = get_local_id(0);
   for (uint i = get_group_id(0), turn = 0; i < counters[RASTER_ENTRIES]; i += get_num_groups(0), turn ^= 1) {
     const uint2 entry = entries[i];

@@ -125,7 +125,7 @@ kernel __attribute__((reqd_work_group_size(RASTER_CLUSTER, 1, 1))) void raster_s
   local float inverse_widths[RASTER_CLUSTER];
   local volatile uint sums;
   const uint in_view = counters[RASTER_VISIBLE], item = get_local_id(0);
-  const Image image = {keys, triangles, depths, p->width, MASK_SOURCE(p)};
+  const Image image = {keys, (global volatile int*)triangles, depths, p->width, MASK_SOURCE(p)};
   const LargeList large = {records, entries, counters};
   const SmallList small = {kept, firsts, inverse_widths, &sums};
   uint made = 0;

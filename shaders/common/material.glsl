@@ -54,6 +54,9 @@ layout(binding = 17) uniform sampler2D specular_color_map;
 #endif
 
 #ifdef TEXTURED
+// Past it, floats are further apart than texels are; and so that squares of derivatives do not overflow.
+#define MOST_UV 1e9
+
 // slot: index of the material's texture (shared/material_params.h).
 vec2 uv_of(uint slot) {
   vec2 uv = fragment_uv0;
@@ -66,7 +69,7 @@ vec2 uv_of(uint slot) {
     uv = vec2(dot(linear.xz, uv), dot(linear.yw, uv)) + material.uv_offset[slot].xy;
   }
 #endif
-  return uv;
+  return mix(vec2(0.0), uv, lessThan(abs(uv), vec2(MOST_UV)));
 }
 #endif
 
@@ -81,7 +84,7 @@ vec4 material_base_color() {
   if (fragment_color.a > -0.5)  // -1 marks a mesh without colours: interpolated ones are not always exactly
                                 // one
 #endif
-    color *= fragment_color;
+    color *= mix(vec4(0.0), min(fragment_color, 1.0), greaterThan(fragment_color, vec4(0.0)));
 #endif
   return color;
 }

@@ -37,6 +37,16 @@ struct Surface {
 // Back faces are visible only with double-sided materials.
 float side_seen() { return gl_FrontFacing ? 1.0 : -1.0; }
 
+// A triangle may be thinner than the steps that the rasteriser snaps to. Attributes are then interpolated far
+// outside of it, and normals may cancel or overflow.
+vec3 unit_or(vec3 v, vec3 otherwise) {
+  float length_squared = dot(v, v);
+  return length_squared >= 1.2e-38 && length_squared <= 3.4e38 ? normalize(v) : otherwise;
+}
+
+// Of the front side, unit.
+vec3 geometric_normal() { return unit_or(normal_view, vec3(0.0, 0.0, 1.0)); }
+
 #ifdef TANGENTS
 // n, unit, bent by a texel of a normal map.
 vec3 bent_normal(vec3 n, vec3 texel, float scale) {
@@ -46,13 +56,13 @@ vec3 bent_normal(vec3 n, vec3 texel, float scale) {
   float length_squared = dot(t, t);
   t *= inversesqrt(max(length_squared, 1e-12));
   vec3 b = cross(n, t) * tangent_view.w;
-  // Without a tangent the geometric normal is used.
-  return length_squared > 1e-12 ? normalize(mapped.x * t + mapped.y * b + mapped.z * n) : n;
+  // Without a tangent the geometric normal is used, and where the texel is no direction.
+  return length_squared > 1e-12 ? unit_or(mapped.x * t + mapped.y * b + mapped.z * n, n) : n;
 }
 #endif
 
 vec3 shading_normal() {
-  vec3 n = normalize(normal_view);
+  vec3 n = geometric_normal();
 #ifdef NORMAL_MAP
   if (has(MATERIAL_NORMAL_MAP)) n = bent_normal(n, texture(normal_map, uv_of(2u)).xyz, material.normal_scale);
 #endif
@@ -62,7 +72,7 @@ vec3 shading_normal() {
 #ifdef CLEARCOAT
 // KHR_materials_clearcoat: the base's normal map does not bend the coat.
 void add_coat(inout Surface s) {
-  vec3 n = normalize(normal_view);
+  vec3 n = geometric_normal();
   s.coat = has(MATERIAL_CLEARCOAT) ? material.clearcoat : 0.0;
   s.coat_roughness = material.clearcoat_roughness;
 #ifdef CLEARCOAT_MAP

@@ -7,9 +7,7 @@ namespace lightgrid {
 
 // Alpha masks read more than positions.
 static uint32_t features_of_depth(uint32_t features) {
-  constexpr uint32_t read_by_masks = feature_textured | feature_uv1 | feature_uv_transform |
-                                     feature_vertex_color | feature_base_color_map | feature_mask;
-  return features & feature_mask ? features & read_by_masks : 0;
+  return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
 DepthImage depth_prepass(RenderView& v) {

@@ -36,6 +36,9 @@ enum MaterialFeature : uint32_t {
   feature_specular_map = 262144,
   feature_specular_color_map = 524288,
   feature_all = 1048575,
+  // Base colour and alpha depend on these.
+  features_of_base_color =
+      feature_textured | feature_uv1 | feature_uv_transform | feature_vertex_color | feature_base_color_map,
 };
 
 // The features that shading with this BRDF reads: Lambert has no coat and no specular reflectance.

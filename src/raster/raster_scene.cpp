@@ -11,6 +11,7 @@ namespace lightgrid {
 namespace {
 
 constexpr size_t most_indices = 0xffffffffu - 64;
+constexpr size_t most_triangles = 0x7fffffffu;  // kernels compare their numbers as signed ones
 constexpr double least_cosine = 0.1;  // of a cone: wider ones face away from next to nothing
 
 using Corners = std::array<glm::dvec3, 3>;
@@ -131,8 +132,8 @@ void check_instance_numbers(std::span<const RasterInstance> instances, const Ras
     triangles += mesh.triangles, vertices += clip_room(mesh);
   }
   // Clusters are no more than triangles.
-  if (std::max(triangles, vertices) > most_indices)
-    throw machine_error("rasterizer: instances have 2^32 triangles or vertices or more");
+  if (triangles > most_triangles || vertices > most_indices)
+    throw machine_error("rasterizer: instances have 2^31 triangles or 2^32 vertices or more");
 }
 
 }  // namespace

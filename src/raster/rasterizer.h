@@ -26,8 +26,8 @@
 //   2^-21 (|zx dx| + |zy dy| + z) of the exact one: dx, dy are the pixel's distance from the first vertex, zx
 //   and zy the gradients, z the greatest depth of the vertices. A depth below 2^-126, as at or past the far
 //   plane, is not drawn.
-// - The greatest depth wins (depth is reversed). Of equal ones the lowest triangle number wins, which is the
-//   one drawn first, as with OpenGL's GL_GREATER.
+// - The greatest depth wins (depth is reversed). Of equal ones the highest triangle number wins, which is the
+//   one drawn last, as with OpenGL's GL_GEQUAL.
 // - A triangle with a corner that is not finite in clip space is left out and counted.
 // - Clusters of triangles that all face away are left out early. OpenGL draws such a triangle where it is so
 //   thin on the screen that snapping turns it towards the eye; so does RasterOptions::cluster_cones = false.
@@ -148,8 +148,8 @@ class Rasterizer {
   // none.
   void set_meshes(std::span<const RasterMesh> meshes);
   // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. Throws
-  // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^32 - 64
-  // triangles or vertices or more, before it takes memory for them.
+  // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^31 triangles
+  // or 2^32 - 64 vertices or more, before it takes memory for them.
   void set_instances(std::span<const RasterInstance> instances);
   // As RasterInstance::drawn, from now on. Throws input: there is no such instance.
   void set_drawn(size_t instance, bool drawn);

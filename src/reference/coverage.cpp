@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace lightgrid {
@@ -114,6 +115,8 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
   const int64_t twice_area = twice_area_of(p[0], p[1], p[2]);
   const bool front = triangle.mirrored ? twice_area < 0 : twice_area > 0;
   if (twice_area == 0 || (!front && !triangle.two_sided)) return;
+  const auto corners = std::bit_cast<std::array<uint32_t, 12>>(triangle.clip);
+  const uint32_t alike = first_of_corners_.try_emplace(corners, count_).first->second;
 
   const long double z[3] = {depth_of(clip[0]), depth_of(clip[1]), depth_of(clip[2])};
   const auto [least, most] = std::minmax({z[0], z[1], z[2]});
@@ -140,6 +143,7 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
           std::abs(gradient_x * (sample.x - p[0].x)) + std::abs(gradient_y * (sample.y - p[0].y));
       CoveredPixel covered;
       covered.triangle = count_;
+      covered.alike = alike;
       covered.depth = double(weighted / twice_area);
       covered.bound =
           double(std::min(8 * half_ulp_at_one * (slope + size), (most - least) + 4 * half_ulp_at_one * size));
@@ -164,6 +168,10 @@ std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle
   }
   if (triangle == 0xffffffffu) return depth == 0 ? "" : fmt::format("no triangle, but depth {}", depth);
   if (!shown) return fmt::format("triangle {} does not cover the pixel", triangle);
+  for (const CoveredPixel& c : covered) {
+    if (c.alike == shown->alike && c.alike != 0xffffffffu && c.triangle > triangle)
+      return fmt::format("triangle {} has the corners of triangle {} and comes later", c.triangle, triangle);
+  }
   if (std::abs(depth - shown->depth) > shown->bound) {
     return fmt::format("triangle {} has depth {}, {} off {} where {} is allowed", triangle, depth,
                        std::abs(depth - shown->depth), shown->depth, shown->bound);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ struct CoveredPixel {
   uint32_t triangle = 0;
   double depth = 0;  // exact to 2^-60 or so
   double bound = 0;  // how far from it a float depth as docs/raster.md has it may lie
+  // The first triangle whose corners have the same bits in the same order, so that both have the same float
+  // depth. 0xffffffff: unknown.
+  uint32_t alike = 0xffffffffu;
 };
 
 // 1/256 pixel from the image's lower left corner.
@@ -67,10 +71,12 @@ class CoverageOracle {
   SnappedPoint sample_;
   uint32_t count_ = 0, invalid_ = 0;
   std::vector<std::vector<CoveredPixel>> pixels_;
+  std::map<std::array<uint32_t, 12>, uint32_t> first_of_corners_;
 };
 
 // What is wrong with a pixel that shows `triangle` (0xffffffff: none) at `depth`, in words; empty: nothing.
-// It may show what is nearest, or may be nearest as far as the bounds of the depths say.
+// It may show what is nearest, or may be nearest as far as the bounds of the depths say; of triangles with
+// the same corners the last.
 std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle, float depth);
 
 }  // namespace lightgrid

@@ -14,6 +14,9 @@ namespace lightgrid {
 
 #define SHADING_PI 3.14159265358979f
 #define DIELECTRIC_F0 0.04f  // reflectance at normal incidence for an index of refraction of 1.5
+// A blended surface's own radiance is at most this, half the largest float, and so is what lies behind an
+// alpha of 1: infinity times 1 - alpha would be NaN there.
+#define LARGEST_BLENDED 1.7014117e38f
 #define ROUGHNESS_FLOOR 0.045f  // below it, float cannot represent the shape of GGX's peak
 
 // A specular lobe seen from one side.

@@ -50,7 +50,7 @@ enum class Fault {
   edges_of_none,
   edges_in_float,
   no_near_cut,  // corners behind the eye are projected as they are
-  last_of_equal_depths,
+  first_of_equal_depths,
   mirrors_ignored,   // front faces are counter-clockwise whatever the instance's matrix
   capacity_of_4096,  // triangles
   invalid_is_zero,   // NaN and infinite positions become 0

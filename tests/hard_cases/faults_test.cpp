@@ -102,7 +102,7 @@ std::vector<Caught> faults() {
       {"edges_of_none", Fault::edges_of_none, {"raster/on_pixel_centres", "raster/fan_of_slivers"}},
       {"edges_in_float", Fault::edges_in_float, {"raster/huge_and_tiny"}},
       {"no_near_cut", Fault::no_near_cut, {"raster/behind_the_eye", "raster/at_w_zero"}},
-      {"last_of_equal_depths", Fault::last_of_equal_depths, {"raster/equal_depths"}},
+      {"first_of_equal_depths", Fault::first_of_equal_depths, {"raster/equal_depths"}},
       {"mirrors_ignored", Fault::mirrors_ignored, {"raster/mirrored_and_two_sided"}},
       {"capacity_of_4096", Fault::capacity_of_4096, {"raster/more_than_expected"}},
       {"invalid_is_zero", Fault::invalid_is_zero, {"raster/not_finite"}},

@@ -106,7 +106,7 @@ class NaiveRasterizer {
   }
 
   void put(size_t pixel, float depth) {
-    const bool equal_wins = fault_ == Fault::last_of_equal_depths && image_.triangles[pixel] != no_triangle;
+    const bool equal_wins = fault_ != Fault::first_of_equal_depths && image_.triangles[pixel] != no_triangle;
     if (!(depth > image_.depths[pixel]) && !(equal_wins && depth == image_.depths[pixel])) return;
     image_.depths[pixel] = depth;
     image_.triangles[pixel] = number_;

@@ -128,6 +128,10 @@ TEST(Coverage, WhatIsWrongWithAPixelIsSaid) {
   EXPECT_NE(wrong_at(covered, 4, 0.5f), "") << "does not cover it";
   EXPECT_NE(wrong_at(covered, 5, 0.50001f), "") << "another depth";
   EXPECT_NE(wrong_at(covered, 0xffffffffu, 0), "") << "a hole";
+  const std::vector<CoveredPixel> alike = {{3, 0.5, 1e-6, 3}, {5, 0.5, 1e-6, 5}, {7, 0.5, 1e-6, 3}};
+  EXPECT_NE(wrong_at(alike, 3, 0.5f), "") << "7 has the same corners and comes later";
+  EXPECT_EQ(wrong_at(alike, 5, 0.5f), "") << "another triangle, whose float depth may differ";
+  EXPECT_EQ(wrong_at(alike, 7, 0.5f), "");
   EXPECT_EQ(wrong_at({}, 0xffffffffu, 0), "");
   EXPECT_NE(wrong_at({}, 0xffffffffu, 0.1f), "");
   EXPECT_NE(wrong_at({}, 5, 0.5f), "");

@@ -41,6 +41,40 @@ TEST(Overflow, IsInfiniteNeverNanInEachKindOfTechnique) {
   EXPECT_TRUE(identical(render(scene, view, "forward_plus"), forward));
 }
 
+// Alpha is exactly 1 there, so that nothing behind a pane may show, however bright, nor as infinity times 0.
+TEST(Overflow, BehindABlendedSurfaceOfAlpha1DoesNotCount) {
+  Scene scene = blinding_scene();
+  const int pane = add_material(scene, "opaque pane", {0.5f, 0.4f, 0.3f}, 0, 0.5f);
+  scene.materials[pane].alpha_mode = AlphaMode::blend;
+  scene.materials[pane].unlit = true;
+  scene.materials[pane].double_sided = true;
+  // The bright spots, under one pane, two panes, and a pane and glass.
+  for (const float z : {-3.7f, -3.6f}) {
+    const Mesh mesh = wall_mesh({z == -3.7f ? -0.5f : 0.3f, 0, z}, 1.1f, pane, "pane");
+    add_instance(scene, "pane", add_mesh(scene, mesh));
+  }
+  const View view = small_view(63, 37);
+  Scene dark = scene;
+  dark.lights.clear();
+  for (const Technique* technique : techniques()) {
+    for (const RasterApi raster : {RasterApi::opengl, RasterApi::opencl}) {
+      SCOPED_TRACE(fmt::format("{} {}", technique->name, int(raster)));
+      const Settings settings{.raster = raster};
+      const Image image = render(scene, view, technique->name, settings);
+      EXPECT_EQ(count_nan_pixels(image), 0u);
+      const Image without = render(dark, view, technique->name, settings);
+      size_t panes = 0;
+      for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec4 shown = without.pixels[i];
+        if (shown != glm::vec4(0.5f, 0.4f, 0.3f, 1)) continue;
+        ++panes;
+        EXPECT_EQ(image.pixels[i], shown);
+      }
+      EXPECT_GT(panes, 80u);
+    }
+  }
+}
+
 TEST(Overflow, ALightWithoutARangeFromBeyondTheSquareOfFloatAddsNothing) {
   SmallScene s = small_scene();
   const View view = small_view(127, 73);
