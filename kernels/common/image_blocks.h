@@ -17,10 +17,10 @@ static inline uint16 load_block(global const uint* values, uint x, uint y, uint 
   return vload16(0, block);
 }
 
-// Four pixels. Past the caches where they are one aligned store: the image is larger than the caches, and of
-// what they hold, texels are needed again.
+// Four pixels. Past the caches where they are a whole cache line: the image is larger than the caches, and of
+// what they hold, texels are needed again. An ordinary store would also read the line first.
 static inline void store_row(float16 row, global float* to) {
-#ifdef AVX512
+#ifdef __clang__
   if (((size_t)to & 63u) == 0) {
     __builtin_nontemporal_store(row, (global float16*)to);
     return;

@@ -153,11 +153,14 @@ typedef struct Surface {
 #define PLACE_IN(map) (a->uv0)
 #endif
 
-static inline Footprint packed_footprint(const Attributes* a, global const SurfaceMaterial* m) {
+// In the packed maps; if it is not known, into `own`.
+static inline const Footprint* packed_footprint(const Attributes* a, global const SurfaceMaterial* m,
+                                                Footprint* own) {
 #ifdef FETCH_AHEAD
-  if (a->footprint_material == m) return a->footprint;
+  if (a->footprint_material == m) return &a->footprint;
 #endif
-  return footprint_of(m->maps, PLACE_IN(m->maps));
+  *own = footprint_of(m->maps, PLACE_IN(m->maps));
+  return own;
 }
 
 // Channels of a material's maps; 1 where it has no map.
@@ -194,7 +197,8 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
   maps &= ~(1u << SURFACE_SPECULAR | 1u << SURFACE_SPECULAR_COLOR);
 #endif
   if (m->flags & SURFACE_PACKED) {
-    const Texels8 p = filtered_8(s->texels_8, m->maps, packed_footprint(a, m));
+    Footprint own;
+    const Texels8 p = filtered_8(s->texels_8, m->maps, packed_footprint(a, m, &own));
     t.base_color = real3(p.c[0], p.c[1], p.c[2]), t.normal = real3(p.c[3], p.c[4], p.c[5]);
     t.roughness = p.c[6], t.metallic = p.c[7];
     maps &= ~(1u << SURFACE_BASE_COLOR | 1u << SURFACE_METALLIC_ROUGHNESS | 1u << SURFACE_NORMAL);

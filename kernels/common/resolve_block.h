@@ -83,17 +83,18 @@ static inline void fetch_texels(Attributes* a, const ResolveScene* s, mask_t cov
     left &= ~mask_bits(material == (int16)(one));
     global const SurfaceMaterial* m = s->materials + one;
     if (!(m->flags & SURFACE_PACKED)) continue;
-    const Footprint f = packed_footprint(a, m);
-    if (!a->footprint_material) a->footprint_material = m, a->footprint = f;
+    Footprint own, *f = &own;
+    if (!a->footprint_material) a->footprint_material = m, f = &a->footprint;
+    *f = footprint_of(m->maps, PLACE_IN(m->maps));
     global const packed_t* chain = (global const packed_t*)s->texels_8 + 8 * (size_t)m->maps->base;
 #define FETCH_ROWS_OF(level, i)                  \
   FETCH(chain + 8 * INDEX_LANE(level.first, i)), \
       FETCH(chain + 8 * (INDEX_LANE(level.first, i) + INDEX_LANE(level.pitch, i)))
 #pragma unroll
-    for (uint i = 0; i < 16; ++i) FETCH_ROWS_OF(f.fine, i);
-    if (!any_lane(f.mix > REAL(0.0f))) continue;
+    for (uint i = 0; i < 16; ++i) FETCH_ROWS_OF(f->fine, i);
+    if (!any_lane(f->mix > REAL(0.0f))) continue;
 #pragma unroll
-    for (uint i = 0; i < 16; i += 2) FETCH_ROWS_OF(f.coarse, i);
+    for (uint i = 0; i < 16; i += 2) FETCH_ROWS_OF(f->coarse, i);
   }
 #endif
 }
@@ -110,8 +111,11 @@ typedef struct BlockWalk {
   uint x0, x_end, y0, y_end, width, height;
   uint16 triangle;  // of the block that it is at
 #ifdef FETCH_AHEAD
-  Attributes here, next;
+  Attributes attributes[2];  // of that block and the next one, in turn, so that none are copied
+  uint turn;                 // which are that block's
   mask_t next_covered;
+#else
+  Attributes attributes;
 #endif
 } BlockWalk;
 
@@ -123,11 +127,12 @@ static inline void look_ahead(BlockWalk* w, uint x, uint y) {
   }
   const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
   const Attributes none = {0};
-  w->next = none;
+  Attributes* const next = w->attributes + (w->turn ^ 1u);
+  *next = none;
   w->next_covered = triangle != (uint16)(SURFACE_NONE);
   if (!any_lane(w->next_covered)) return;
-  add_triangles(&w->next, w->scene, triangle, w->next_covered, x, y);
-  fetch_texels(&w->next, w->scene, w->next_covered);
+  add_triangles(next, w->scene, triangle, w->next_covered, x, y);
+  fetch_texels(next, w->scene, w->next_covered);
 }
 #endif
 
@@ -147,7 +152,7 @@ static inline BlockWalk walk_tile(const ResolveScene* scene, global const uint* 
 static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
   if (x == w->x0) fetch_next_tile(w->triangles, x, y, w->width, w->height);
 #ifdef FETCH_AHEAD
-  w->here = w->next;
+  w->turn ^= 1u;
   const mask_t covered = w->next_covered;
   const bool row_goes_on = x + 4 < w->x_end;
   if (row_goes_on || y + 4 < w->y_end) look_ahead(w, row_goes_on ? x + 4 : w->x0, row_goes_on ? y : y + 4);
@@ -159,13 +164,14 @@ static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
 }
 
 // Of the pixels of the block at (x, y), which the walk is at.
-static inline Attributes block_attributes(const BlockWalk* w, mask_t covered, uint x, uint y) {
+static inline const Attributes* block_attributes(BlockWalk* w, mask_t covered, uint x, uint y) {
 #ifdef FETCH_AHEAD
-  return w->here;
+  return w->attributes + w->turn;
 #else
-  Attributes a = {0};
-  add_triangles(&a, w->scene, w->triangle, covered, x, y);
-  return a;
+  const Attributes none = {0};
+  w->attributes = none;
+  add_triangles(&w->attributes, w->scene, w->triangle, covered, x, y);
+  return &w->attributes;
 #endif
 }
 

@@ -143,7 +143,9 @@ static inline Texels4 filtered_4(global const ushort* texels, global const Surfa
   return t;
 }
 
-static inline Texels8 filtered_8(global const ushort* texels, global const SurfaceMap* map, Footprint f) {
+static inline Texels8 filtered_8(global const ushort* texels, global const SurfaceMap* map,
+                                 const Footprint* footprint) {
+  const Footprint f = *footprint;
   global const packed_t* chain = (global const packed_t*)texels + 8 * (size_t)map->base;
   float8 sums[LANES];
   SUM_TEXELS(sums, float8, add_texels_8, chain, f)

@@ -55,10 +55,10 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   for (uint y = walk.y0; y < walk.y_end; y += 4) {
     for (uint x = walk.x0; x < walk.x_end; x += 4) {
       const mask_t covered = walk_to(&walk, x, y);
-      const Attributes a = block_attributes(&walk, covered, x, y);
+      const Attributes* a = block_attributes(&walk, covered, x, y);
       Surface s = {0};
-      add_materials(&s, &a, &scene, covered);
-      const Real3 n = shading_normal(&a, &s);
+      add_materials(&s, a, &scene, covered);
+      const Real3 n = shading_normal(a, &s);
       Texels normal, color;
       texels_of_surface(&normal, &color, n, s.base_color, s.metallic, s.roughness, number_of(&s), s.unlit,
                         covered);
@@ -66,7 +66,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
       store_texels(second, color, x, y, width, height);
 #ifdef CLEARCOAT
       if (coats) {
-        const Texels coat = texels_of_coat(coat_normal(&a, &s), n, s.coat, s.coat_roughness, covered);
+        const Texels coat = texels_of_coat(coat_normal(a, &s), n, s.coat, s.coat_roughness, covered);
         store_texels(coats, coat, x, y, width, height);
       }
 #endif
@@ -75,8 +75,8 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
 #endif
       if (!image) continue;
       const real depth = block_depths(&walk, depths, x, y);
-      const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
-                                            depth, covered, view);
+      const ShadingPoint p =
+          resolved_point(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth, covered, view);
       const Real3 shown = base_light(&p, &s, &lights, view);
       store_block(image,
                   real3(covered ? shown.x : REAL(background.x), covered ? shown.y : REAL(background.y),

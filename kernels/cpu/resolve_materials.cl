@@ -51,12 +51,12 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
       const mask_t covered = walk_to(&walk, x, y);
       Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
       if (any_lane(covered)) {
-        const Attributes a = block_attributes(&walk, covered, x, y);
+        const Attributes* a = block_attributes(&walk, covered, x, y);
         Surface s = {0};
-        add_materials(&s, &a, &scene, covered);
+        add_materials(&s, a, &scene, covered);
         const real depth = block_depths(&walk, depths, x, y);
         const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
-        const Real3 shown = radiance_of_sums(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
+        const Real3 shown = radiance_of_sums(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
                                              depth, covered, sums, of, &lights, view);
         color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
       }

@@ -32,10 +32,10 @@ kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS, glo
   for (uint y = walk.y0; y < walk.y_end; y += 4) {
     for (uint x = walk.x0; x < walk.x_end; x += 4) {
       const mask_t covered = walk_to(&walk, x, y);
-      const Attributes a = block_attributes(&walk, covered, x, y);
+      const Attributes* a = block_attributes(&walk, covered, x, y);
       Surface s = {0};
-      add_materials(&s, &a, &scene, covered);
-      const Real3 n = shading_normal(&a, &s);
+      add_materials(&s, a, &scene, covered);
+      const Real3 n = shading_normal(a, &s);
       const real none = 0.0f;
       store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
                     y, width, height);
