@@ -30,8 +30,8 @@ static inline void append_uints(global uint* to, whole v, uint bits) {
 #elif defined(AVX2)
 typedef int unaligned_ints_8 __attribute__((ext_vector_type(8), aligned(4)));
 
-// For each mask of 8 lanes the numbers of the lanes that it keeps, a byte each, the lowest first. A table costs
-// less than pdep and pext on every CPU, and a tenth on those that run them as microcode (Zen 1 and 2).
+// For each mask of 8 lanes the numbers of the lanes that it keeps, a byte each, the lowest first. pdep and pext
+// would do without a table, but Zen 1 and 2 run them as microcode.
 #define KEPT_0(above) above, (above) << 8
 #define KEPT_1(above) KEPT_0(above), KEPT_0((above) << 8 | 1)
 #define KEPT_2(above) KEPT_1(above), KEPT_1((above) << 8 | 2)
@@ -105,7 +105,7 @@ static inline void append_reals(global float* to, real v, uint bits) {
 }
 
 // The bits of a & b, and those of the first n lanes.
-#if defined(AVX512) || defined(AVX2)  // AVX2: one by one, since LLVM would make bytes of a and b before it joins them
+#if defined(AVX512) || defined(AVX2)  // one by one: from a and b joined LLVM makes bytes with AVX2
 #define bits_of_both(a, b) (mask_bits(a) & mask_bits(b))
 #else
 #define bits_of_both(a, b) mask_bits((a) & (b))

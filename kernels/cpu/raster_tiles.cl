@@ -200,9 +200,10 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
 }
 
 // Inlined into the loop over tiles it is 3 to 5 % slower.
-static __attribute__((noinline)) void draw_tile(uint number, global const RasterRecord* records, global const uint* tile_begin,
-                             global const uint* lists, MaskSource masks, global uint* triangles,
-                             global float* depths, constant RasterParams* p) {
+static __attribute__((noinline)) void draw_tile(uint number, global const RasterRecord* records,
+                                                global const uint* tile_begin, global const uint* lists,
+                                                MaskSource masks, global uint* triangles,
+                                                global float* depths, constant RasterParams* p) {
   const int pixel_x = (int)(number % p->tiles_x) * RASTER_TILE,
             pixel_y = (int)(number / p->tiles_x) * RASTER_TILE;
   const Place place = {pixel_x, pixel_y, masks};
