@@ -27,7 +27,7 @@ class WorldGridOfView : public PassState {
     in_cl.put(*v.renderer.cl, "uploading the view", std::vector<WorldViewParams>{params});
   }
 
-  std::shared_ptr<WorldGrid> grid;
+  std::shared_ptr<SharedWorldGrid> grid;
   std::vector<CullLight> lights;  // of the last build, for their memory
   WorldViewParams params{};
   UploadedBuffer in_cl;
@@ -46,7 +46,7 @@ glm::vec3 pixel_position(const RenderView& v, float x, float y, float depth) {
 }
 
 // Whether the lists are right now, since few lights moved since they were.
-bool update_world_grid(RenderView& v, WorldGrid& grid) {
+bool update_world_grid(RenderView& v, SharedWorldGrid& grid) {
   if (!grid.serves(v.view, grid.lights_version())) return false;
   const auto changed = v.gpu.lights_changed_since(grid.lights_version());
   if (!changed) return false;
@@ -69,7 +69,7 @@ bool update_world_grid(RenderView& v, WorldGrid& grid) {
 
 WorldGridInCl build_world_grid(RenderView& v) {
   WorldGridOfView& state = v.state<WorldGridOfView>();
-  WorldGrid& grid = *state.grid;
+  SharedWorldGrid& grid = *state.grid;
   const bool right = grid.serves(v.view, v.gpu.lights_version());
   // A build has a time where passes are timed.
   if (v.timer.enabled || (!right && !update_world_grid(v, grid))) {
@@ -82,10 +82,10 @@ WorldGridInCl build_world_grid(RenderView& v) {
   return {&grid, state.in_cl.buffer()};
 }
 
-const WorldGrid& built_world_grid(RenderView& v) { return *v.state<WorldGridOfView>().grid; }
+const SharedWorldGrid& built_world_grid(RenderView& v) { return *v.state<WorldGridOfView>().grid; }
 
 LightSource from_world_grid(RenderView& v) {
-  WorldGrid& grid = *build_world_grid(v).grid;
+  SharedWorldGrid& grid = *build_world_grid(v).grid;
   {
     auto pass = v.timer.pass("grid_to_gl", "gl");
     grid.hand_to_gl();
@@ -97,10 +97,10 @@ LightSource from_world_grid(RenderView& v) {
   LightSource source = every_light(v);
   source.defines.emplace_back("LIGHTS_WORLD");
   if (!grid.layout().everywhere.empty()) source.defines.emplace_back("WORLD_EVERYWHERE");
-  source.textures = {{12, grid.cell_texture()},
-                     {13, grid.index_texture()},
-                     {14, grid.bucket_texture()},
-                     {15, grid.key_texture()}};
+  source.textures = {{12, grid.texture(WorldArray::cells)},
+                     {13, grid.texture(WorldArray::indices)},
+                     {14, grid.texture(WorldArray::buckets)},
+                     {15, grid.texture(WorldArray::keys)}};
   source.blocks = {{4, grid.block()}, {5, state.in_gl.name()}};
   source.bytes = grid.list_bytes();
   return source;

@@ -9,7 +9,7 @@ namespace lightgrid {
 
 // The lists as kernels read them, with the view's rows.
 struct WorldGridInCl {
-  WorldGrid* grid;
+  SharedWorldGrid* grid;
   cl::Buffer view;  // WorldViewParams
 };
 
@@ -22,7 +22,7 @@ WorldGridInCl build_world_grid(RenderView& v);
 LightSource from_world_grid(RenderView& v);
 
 // The lists that the view's last frame read.
-const WorldGrid& built_world_grid(RenderView& v);
+const SharedWorldGrid& built_world_grid(RenderView& v);
 
 // The lists that the last frame read at each pixel of these depths (width * height, row 0 at the bottom).
 ListedLights listed_of_world_grid(RenderView& v, const std::vector<float>& depth);

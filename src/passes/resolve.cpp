@@ -147,7 +147,7 @@ void with_lights(const GridInCl& in, const Arguments& arguments, const Launch& l
                std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(),
                                                     in.voxels->directions->cl_buffer(), in.voxels->lookup)));
   } else if (in.world) {
-    WorldGrid& grid = *in.world->grid;
+    SharedWorldGrid& grid = *in.world->grid;
     std::apply(launch, std::tuple_cat(arguments, std::tuple(grid.buckets(), grid.keys(), grid.params(),
                                                             in.world->view)));
   } else {

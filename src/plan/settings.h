@@ -49,10 +49,6 @@ enum class VolumeMeshes {
 enum class VoxelSpace { world, view };
 enum class VoxelSize { s16x16x4, s32x32x8, s64x64x16, s128x128x16, s128x128x32, s128x128x64, s256x256x64 };
 
-// How world_grid cuts the world into cells (docs/techniques/world_grid.md): columns over its ground, cubes of
-// one size, or cubes of sizes that suit each light.
-enum class WorldGridShape { columns, cubes, hashed };
-
 struct Settings {
   Brdf brdf = Brdf::ggx;
   LightRanges ranges;

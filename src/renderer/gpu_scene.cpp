@@ -27,12 +27,12 @@ std::optional<std::vector<int>> GpuScene::lights_changed_since(int version) cons
   return changed;
 }
 
-std::shared_ptr<WorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldGridKey& key) {
+std::shared_ptr<SharedWorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldGridKey& key) {
   std::erase_if(world_grids_, [](const auto& held) { return held.second.expired(); });
   for (const auto& [held_key, held] : world_grids_) {
     if (held_key == key) return held.lock();
   }
-  auto made = std::make_shared<WorldGrid>(renderer, key.shape, key.cell, key.index_bits, key.for_gl);
+  auto made = std::make_shared<SharedWorldGrid>(renderer, key.shape, key.cell, key.index_bits, key.for_gl);
   world_grids_.emplace_back(key, made);
   return made;
 }

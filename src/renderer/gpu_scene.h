@@ -31,7 +31,7 @@ class GpuScene {
   void free_in_cl() { in_cl_.clear(); }
 
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
-  std::shared_ptr<WorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
+  std::shared_ptr<SharedWorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
 
   // Count the updates that moved vertices, instances and lights, for whoever holds positions of its own.
   int shape_version() const { return shape_version_; }
@@ -46,7 +46,7 @@ class GpuScene {
   const Scene& scene_;
   std::unique_ptr<GlScene> in_gl_;
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
-  std::vector<std::pair<WorldGridKey, std::weak_ptr<WorldGrid>>> world_grids_;
+  std::vector<std::pair<WorldGridKey, std::weak_ptr<SharedWorldGrid>>> world_grids_;
   int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
   std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any
 };

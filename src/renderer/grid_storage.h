@@ -12,7 +12,13 @@ namespace lightgrid {
 struct SharedTexture {
   std::optional<SharedBuffer> buffer;
   GlTexture texture;
+  // Of at least `bytes`; growing loses the contents. for_gl: with a texture of this format.
+  cl::Buffer& at_least(Renderer& renderer, size_t bytes, GLenum format, bool for_gl);
+  size_t bytes() const { return buffer ? buffer->size() : 0; }
 };
+
+// Most bytes that a buffer texture of this format may have. The OpenGL context is current.
+size_t most_texture_bytes(GLenum format);
 
 class SharedGridStorage : public GridStorage {
  public:
@@ -26,6 +32,7 @@ class SharedGridStorage : public GridStorage {
   SharedTexture cells_, indices_, masks_, z_bins_;
 
  private:
+  cl::Buffer& grown(SharedTexture& shared, size_t bytes, GLenum format);
   Renderer& renderer_;
   int index_bits_;
 };

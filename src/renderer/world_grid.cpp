@@ -1,280 +1,87 @@
-// Building: each block's lights, then each block's lists. A CPU counts the lights in blocks if there are few;
-// otherwise pairs of blocks and lights in the order of the lights are sorted stably by block. Each step
-// counts in chunks, adds the counts up and writes, so that nothing is dropped and no place depends on the
-// order of threads.
 #include "renderer/world_grid.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "base/error.h"
-#include "cl/transfer.h"
-#include "renderer/world_grid_run.h"
+#include "renderer/grid_storage.h"
 
 namespace lightgrid {
-namespace {
 
-constexpr size_t members_past_end = 4 * (world_batch - 1);  // bytes that world_lists may read
+class SharedWorldGridStorage : public WorldGridStorage {
+ public:
+  SharedWorldGridStorage(Renderer& renderer, int index_bits, bool for_gl)
+      : WorldGridStorage(*renderer.cl), renderer_(renderer), index_bits_(index_bits), for_gl_(for_gl) {}
 
-}  // namespace
-
-WorldGrid::WorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<double> cell, int index_bits,
-                     bool for_gl)
-    : renderer_(renderer),
-      shape_(shape),
-      cell_(cell),
-      index_bits_(index_bits),
-      for_gl_(for_gl && renderer.gl) {}
-
-bool WorldGrid::serves(const View& view, int lights_version) {
-  if (lights_version_ < 0) return false;
-  const WorldReach needed = reach_of(view, layout_.middle);
-  asked_ = larger(asked_, needed);
-  return lights_version_ == lights_version && layout_.reach.holds(needed);
-}
-
-size_t WorldGrid::most_texture_bytes(GLenum format) const {
-  if (!for_gl_) return std::numeric_limits<size_t>::max();
-  GLint texels = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  return size_t(texels) * (format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2);
-}
-
-cl::Buffer& WorldGrid::grown(Shared& shared, size_t bytes, GLenum format) {
-  if (!shared.buffer || shared.buffer->size() < bytes) {
-    if (const size_t most = most_texture_bytes(format); bytes > most) {
+  cl::Buffer& at_least(WorldArray array, size_t bytes) override {
+    if (const size_t most = most_bytes(array); bytes > most) {
       throw machine_error(
           "world grid: {} bytes are more than the {} that a buffer texture may have in this OpenGL; use "
-          "larger "
-          "cells (world-cell), smaller ranges or fewer lights",
+          "larger cells (world-cell), smaller ranges or fewer lights",
           bytes, most);
     }
-    shared.texture = GlTexture();
-    shared.buffer.reset();  // freed first, so that both need not fit at once
-    shared.buffer.emplace(*renderer_.cl, for_gl_ ? renderer_.bridge : BridgeKind::none,
-                          std::max<size_t>(bytes, 64));
-    if (for_gl_) shared.texture = make_buffer_texture(format, shared.buffer->gl_buffer());
+    return shared(array).at_least(renderer_, std::max<size_t>(bytes, 64), format_of(array), for_gl_);
   }
-  return shared.buffer->cl_buffer();
-}
-
-// Some chunks for each thread on a CPU, and thousands of them elsewhere. At least 1, also of nothing.
-size_t WorldGrid::chunk_of(size_t count, size_t least) const {
-  const bool cpu = renderer_.cl->info().cpu;
-  const size_t items = cpu ? 32 : 8192;
-  return std::max({(count + items - 1) / items, cpu ? least : least / 16, size_t(1)});
-}
-
-// Of totals_. Returns the sum of all, if it is read.
-uint64_t WorldGrid::scan(size_t count, bool read) {
-  cl::Kernel kernel = renderer_.kernels->kernel("world_grid/world_scan", "");
-  const size_t group = renderer_.cl->info().cpu ? 1 : 256;
-  launch(*renderer_.cl, "world_scan", kernel, cl::NDRange(group), cl::NDRange(group), totals_.get(),
-         cl_uint(count), total_.at_least(*renderer_.cl, 8));
-  uint64_t total = 0;
-  if (read) read_buffer(*renderer_.cl, "reading the world grid's size", total_.get(), &total, sizeof total);
-  return total;
-}
-
-// For kernels that count at most `most`: a sum at which they stop, once there is no room for it; null: there
-// is.
-cl::Buffer WorldGrid::counted(uint64_t most, uint64_t room) {
-  if (most <= room) return {};
-  fill_buffer(*renderer_.cl, "clearing a count", counted_sum_.at_least(*renderer_.cl, 4), 0, 4);
-  return counted_sum_.get();
-}
-
-size_t WorldGrid::bucket_count() const {
-  const WorldGridParams& p = layout_.params;
-  return p.bucket_bits > 0 ? size_t(1) << p.bucket_bits
-                           : size_t(p.blocks_x) * p.blocks_y * std::max(p.cells_z >> p.shift_z, 1u);
-}
-
-// In place of sort_pairs and find_blocks.
-void WorldGrid::count_blocks() {
-  ClDevice& device = *renderer_.cl;
-  check_world_count(device, "pairs of blocks and lights", layout_.pairs, 8);
-  pair_count_ = size_t(layout_.pairs);
-  count_world_blocks(layout_, block_lights_);
-  blocks_ = block_lights_.keys.size();
-  sizes_[0] = block_lights_.buckets.size() * 4, sizes_[1] = blocks_ * 8;
-  constexpr const char* what = "uploading blocks of lights";
-  const auto put = [&](const cl::Buffer& to, const auto& from) {
-    enqueue_write(device, what, to, from.data(), from.size() * sizeof from[0]);
-  };
-  put(grown(buckets_, sizes_[0], GL_R32UI), block_lights_.buckets);
-  put(grown(keys_, sizes_[1], GL_RG32UI), block_lights_.keys);
-  put(block_first_.at_least(device, (blocks_ + 1) * 4), block_lights_.first);
-  write_buffer(device, what, members_.at_least(device, pair_count_ * 4 + members_past_end),
-               block_lights_.members.data(), block_lights_.members.size() * 4);
-}
-
-// From lights to pairs_[0], sorted by bucket.
-void WorldGrid::sort_pairs() {
-  ClDevice& device = *renderer_.cl;
-  check_world_count(device, "pairs of blocks and lights", layout_.pairs, 16);
-  pair_count_ = size_t(layout_.pairs);
-  if (pair_count_ == 0) return;
-  for (GrowingBuffer& buffer : pairs_) buffer.at_least(device, pair_count_ * 16);
-  const size_t lights = layout_.lights.size(), lights_chunk = chunk_of(lights, 64);
-  run("blocks", (lights + lights_chunk - 1) / lights_chunk, lights_.buffer(),
-      layout_.levels.empty() ? cl::Buffer() : levels_.buffer(), first_pairs_.buffer(), pairs_[0].get(),
-      cl_uint(lights), cl_uint(lights_chunk), params());
-  const size_t chunk = chunk_of(pair_count_, 2048), chunks = (pair_count_ + chunk - 1) / chunk;
-  const int most_bits = device.info().cpu ? 11 : 8;
-  const int passes = (layout_.bucket_bits + most_bits - 1) / most_bits,
-            bits = (layout_.bucket_bits + passes - 1) / passes;
-  const cl_uint digits = 1u << bits;
-  totals_.at_least(device, digits * chunks * 4);
-  for (int pass = 0; pass < passes; ++pass) {
-    const auto step = [&](cl_uint write) {
-      run("sort", chunks, pairs_[0].get(), pairs_[1].get(), totals_.get(), cl_uint(pair_count_),
-          cl_uint(chunk), cl_uint(chunks), cl_uint(pass * bits), digits, write);
-    };
-    step(0);
-    scan(digits * chunks, false);
-    step(1);
-    std::swap(pairs_[0], pairs_[1]);
+  cl::Buffer& buffer(WorldArray array) override { return shared(array).buffer->cl_buffer(); }
+  size_t bytes(WorldArray array) const override { return arrays_[size_t(array)].bytes(); }
+  size_t most_bytes(WorldArray array) const override {
+    return for_gl_ ? most_texture_bytes(format_of(array)) : WorldGridStorage::most_bytes(array);
   }
-  if (layout_.params.bucket_bits > 0) {
-    run("split", chunks, pairs_[0].get(), pairs_[1].get(), cl_uint(pair_count_), cl_uint(chunk));
+  void swap_lists() override {
+    std::swap(shared(WorldArray::cells), shared(WorldArray::old_cells));
+    std::swap(shared(WorldArray::indices), shared(WorldArray::old_indices));
   }
-}
 
-// From sorted pairs to blocks, and the buckets that lead to them.
-void WorldGrid::find_blocks() {
-  ClDevice& device = *renderer_.cl;
-  const size_t buckets = bucket_count();
-  sizes_[0] = (buckets + 1) * 4;
-  grown(buckets_, sizes_[0], GL_R32UI);
-  blocks_ = 0;
-  if (pair_count_ == 0) {
-    fill_buffer(device, "clearing the world grid", this->buckets(), 0, sizes_[0]);
-    grown(keys_, 0, GL_RG32UI);
-    sizes_[1] = 0;
-    return;
+  SharedTexture& shared(WorldArray array) { return arrays_[size_t(array)]; }
+
+ private:
+  GLenum format_of(WorldArray array) const {
+    if (array == WorldArray::buckets) return GL_R32UI;
+    const bool index = array == WorldArray::indices || array == WorldArray::old_indices;
+    return !index ? GL_RG32UI : index_bits_ == 16 ? GL_R16UI : GL_R32UI;
   }
-  const size_t chunk = chunk_of(pair_count_, 1024), chunks = (pair_count_ + chunk - 1) / chunk;
-  const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& keys,
-                        const cl::Buffer& members) {
-    run("entries", chunks, pairs_[0].get(), totals_.get(), first, keys, members, this->buckets(),
-        cl_uint(buckets), cl_uint(pair_count_), cl_uint(chunk), write);
-  };
-  totals_.at_least(device, chunks * 4);
-  step(0, {}, {}, {});
-  blocks_ = size_t(scan(chunks, true));
-  sizes_[1] = blocks_ * 8;
-  step(1, block_first_.at_least(device, (blocks_ + 1) * 4), grown(keys_, sizes_[1], GL_RG32UI),
-       members_.at_least(device, pair_count_ * 4 + members_past_end));
-}
 
-// Of hashed grids with several levels: full_members_.
-void WorldGrid::inherit() {
-  ClDevice& device = *renderer_.cl;
-  const size_t chunk = chunk_of(blocks_, 16), chunks = (blocks_ + chunk - 1) / chunk;
-  totals_.at_least(device, chunks * 4);
-  const uint64_t room = most_world_count(device, 8);
-  const cl::Buffer stop = counted(uint64_t(blocks_) * layout_.lights.size(), room);
-  const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& members) {
-    run("inherit", chunks, lights_.buffer(), block_first_.get(), members_.get(), keys(), buckets(),
-        totals_.get(), first, members, stop, cl_uint(room / 64), cl_uint(blocks_), cl_uint(chunk), write,
-        params());
-  };
-  step(0, {}, {});
-  const uint64_t members = scan(chunks, true);
-  check_world_count(device, "pairs of blocks and lights or more", members, 8);
-  step(1, full_first_.at_least(device, (blocks_ + 1) * 4),
-       full_members_.at_least(device, size_t(members) * 4 + members_past_end));
-  listed_count_ = size_t(members);
-}
+  Renderer& renderer_;
+  const int index_bits_;
+  const bool for_gl_;
+  std::array<SharedTexture, 6> arrays_;
+};
 
-void WorldGrid::write_lists() {
-  ClDevice& device = *renderer_.cl;
-  listed_count_ = pair_count_;
-  const bool inherited = blocks_ > 0 && std::popcount(layout_.params.levels) > 1;
-  if (inherited) inherit();
-  sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
-  check_world_count(device, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
-  grown(cells_, sizes_[2], GL_RG32UI);
-  const size_t chunk = chunk_of(blocks_, 4), chunks = (blocks_ + chunk - 1) / chunk;
-  const uint64_t room = most_world_count(device, size_t(index_bits_) / 8);
-  const cl::Buffer stop = counted(uint64_t(listed_count_) * WORLD_BLOCK_CELLS, room);
-  const auto step = [&](cl_uint write, const cl::Buffer& indices) {
-    if (blocks_ == 0) return;
-    run("lists", chunks, lights_.buffer(), layout_.cones.empty() ? cl::Buffer() : cones_.buffer(),
-        (inherited ? full_first_ : block_first_).get(), (inherited ? full_members_ : members_).get(), keys(),
-        masks_.get(), totals_.get(), cells(), indices, stop, cl_uint(room / 64), cl_uint(blocks_),
-        cl_uint(chunk), write, cl_uint(entries_), params());
-  };
-  // Each block's begin at its number plus that of whole batches before it.
-  const size_t batches = blocks_ + listed_count_ / world_batch;
-  check_world_count(device, "batches of lights", batches, WORLD_BLOCK_CELLS * 2);
-  masks_.at_least(device, batches * WORLD_BLOCK_CELLS * 2);
-  totals_.at_least(device, std::max<size_t>(chunks, 1) * 4);
-  step(0, {});
-  const uint64_t entries = blocks_ > 0 ? scan(chunks, true) : 0;
-  size_indices(entries);
-  step(1, indices());
-}
-
-void WorldGrid::size_indices(uint64_t entries) {
-  const size_t index_bytes = size_t(index_bits_) / 8, everywhere = layout_.everywhere.size();
-  check_world_count(*renderer_.cl, "list entries or more", entries + everywhere, index_bytes);
-  entries_ = size_t(entries);
-  sizes_[3] = (entries_ + everywhere) * index_bytes;
-  const GLenum format = index_bits_ == 16 ? GL_R16UI : GL_R32UI;
-  const bool too_small = !indices_.buffer || indices_.buffer->size() < sizes_[3];
-  // More than needed, for lights that move, where that fits.
-  const size_t most = std::min(most_texture_bytes(format), renderer_.cl->info().max_allocation_bytes);
-  const size_t roomy = sizes_[3] + sizes_[3] / 4;
-  grown(indices_, too_small && builds_ > 0 && roomy <= most ? roomy : sizes_[3], format);
-}
-
-void WorldGrid::finish_lists(int lights_version) {
-  ClDevice& device = *renderer_.cl;
-  constexpr const char* what = "uploading lights of every list";
-  const size_t everywhere = layout_.everywhere.size();
-  if (index_bits_ == 16) {
-    const std::vector<uint16_t> narrow(layout_.everywhere.begin(), layout_.everywhere.end());
-    write_buffer(device, what, indices(), narrow.data(), everywhere * 2, entries_ * 2);
+WorldEye world_eye(const View& view) {
+  WorldEye eye{.position = view.eye};
+  const glm::dmat4& clip = view.clip_from_view;
+  const int column = view.orthographic ? 3 : 2;  // of what moves the image's middle
+  const double width = (1 + std::abs(clip[column][0])) / std::abs(clip[0][0]);
+  const double height = (1 + std::abs(clip[column][1])) / std::abs(clip[1][1]);
+  if (view.orthographic) {
+    eye.seen_m = width + height + std::abs(view.near_m) + std::abs(view.far_m);
   } else {
-    write_buffer(device, what, indices(), layout_.everywhere.data(), everywhere * 4, entries_ * 4);
+    eye.spread = std::max(1.0, (width + height) / 4);
   }
-  layout_.params.everywhere_first = uint(entries_);
-  // Waits for all commands before it.
-  params_.put(device, "uploading the world grid", std::vector<WorldGridParams>{layout_.params});
-  list_bytes_ = sizes_[0] + sizes_[1] + sizes_[2] + sizes_[3];
-  lights_version_ = lights_version, in_gl_ = false;
+  return eye;
 }
 
-void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds, const View& view,
-                      int lights_version) {
-  // Two views that share the lists, one far away and one wide, would else need a build after the other's.
-  const WorldReach at_least = lights_version_ == lights_version ? layout_.reach : asked_;
-  if (lights_version_ != lights_version) asked_ = {};
-  lights_version_ = -1;
-  ClDevice& device = *renderer_.cl;
-  const WaitOnFailure wait(device);
-  lay_out_world(lights, bounds, shape_, cell_, view, layout_, at_least);
-  constexpr const char* what = "uploading lights";
-  params_.put(device, what, std::vector<WorldGridParams>{layout_.params});
-  // Copied while the host counts blocks.
-  lights_.enqueue(device, what, layout_.lights);
-  cones_.enqueue(device, what, layout_.cones);
-  levels_.enqueue(device, what, layout_.levels);
-  pair_count_ = 0, moves_ = 0;
-  block_pairs_.clear();
-  counted_ = device.info().cpu && has_few_blocks(layout_);
-  if (counted_) {
-    count_blocks();
-  } else {
-    first_pairs_.enqueue(device, what, layout_.first_pairs);
-    if (!lights.empty()) sort_pairs();
-    find_blocks();
-  }
-  write_lists();
-  finish_lists(lights_version);
-  ++builds_;
+WorldViewParams world_view_params(const WorldLayout& layout, const View& view) {
+  return world_view_params(layout, view.eye, glm::transpose(glm::dmat3(view.view_from_world)));
 }
+
+SharedWorldGrid::SharedWorldGrid(Renderer& renderer, WorldGridShape shape, std::optional<double> cell,
+                                 int index_bits, bool for_gl)
+    : SharedWorldGrid(renderer, new SharedWorldGridStorage(renderer, index_bits, for_gl && renderer.gl),
+                      shape, cell, index_bits) {}
+
+SharedWorldGrid::SharedWorldGrid(Renderer& renderer, SharedWorldGridStorage* storage, WorldGridShape shape,
+                                 std::optional<double> cell, int index_bits)
+    : WorldGrid(*renderer.cl, *renderer.kernels, std::unique_ptr<WorldGridStorage>(storage), shape, cell,
+                index_bits),
+      shared_(storage) {}
+
+void SharedWorldGrid::hand_to_gl() {
+  if (in_gl_ == builds() + updates()) return;
+  for (size_t i = 0; i < sizes().size(); ++i) {
+    if (sizes()[i] > 0) shared_->shared(WorldArray(i)).buffer->hand_to_gl(sizes()[i]);
+  }
+  block_ = make_buffer(sizeof layout().params, &layout().params);
+  in_gl_ = builds() + updates();
+}
+
+GLuint SharedWorldGrid::texture(WorldArray array) const { return shared_->shared(array).texture.name(); }
 
 }  // namespace lightgrid

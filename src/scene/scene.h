@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include "base/world_box.h"
 #include "scene/material_model.h"
 
 namespace lightgrid {
@@ -158,10 +159,6 @@ struct Scene {
 };
 
 // The box around all instances, in world space; empty for a scene without geometry.
-struct WorldBox {
-  glm::dvec3 min, max;
-  bool empty() const { return !(min.x <= max.x); }
-};
 WorldBox world_box(const Scene& scene);
 
 }  // namespace lightgrid

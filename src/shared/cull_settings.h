@@ -59,6 +59,10 @@ constexpr bool rows_are_in_order() {
   return true;
 }
 static_assert(rows_are_in_order());
+// How world_grid cuts the world into cells (docs/techniques/world_grid.md): columns over its ground, cubes of
+// one size, or cubes of sizes that suit each light.
+enum class WorldGridShape { columns, cubes, hashed };
+
 }  // namespace lightgrid
 #else
 #define CULL_SPHERE 0       // the sphere around the cell's box

@@ -11,7 +11,7 @@
 
 namespace lightgrid {
 
-static void note_lists(Frame& frame, const WorldGrid& grid) {
+static void note_lists(Frame& frame, const SharedWorldGrid& grid) {
   frame.world_grid_bytes = grid.list_bytes();
   frame.world_cell = grid.layout().cell;
 }

@@ -65,7 +65,7 @@ class DeviceEngine : public CullEngine {
   std::optional<WorldLists> world_lists(const WorldListsOf& of, std::span<const CullLight> lights,
                                         const WorldBox& bounds, const View& view) override {
     auto& grid = world_grids_[of];
-    if (!grid) grid = std::make_unique<WorldGrid>(*renderer(), of.shape, of.cell, of.index_bits);
+    if (!grid) grid = std::make_unique<SharedWorldGrid>(*renderer(), of.shape, of.cell, of.index_bits);
     // Other lights each time, so that nothing is made for an earlier case's view.
     grid->build(lights, bounds, view, ++world_lights_);
     return WorldLists{grid->layout(), grid->read()};
@@ -142,7 +142,7 @@ class DeviceEngine : public CullEngine {
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
   std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Rasterizer>> rasterizers_;
   std::unique_ptr<Renderer> renderer_;  // without OpenGL
-  std::map<WorldListsOf, std::unique_ptr<WorldGrid>> world_grids_;
+  std::map<WorldListsOf, std::unique_ptr<SharedWorldGrid>> world_grids_;
   int world_lights_ = 0;  // lists built so far
 };
 

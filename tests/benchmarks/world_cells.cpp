@@ -19,9 +19,9 @@
 #include "compare/oracle.h"
 #include "compare/run_technique.h"
 #include "renderer/culler_input.h"
-#include "renderer/world_cell.h"
 #include "scene/builtin.h"
 #include "scene/light_rigs.h"
+#include "world_grid/world_cell.h"
 
 using namespace lightgrid;
 
@@ -59,7 +59,7 @@ void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape
   for (int i = 0; i < frames; ++i) run.run_frame();
   const double frame = (processor_ms() - before) / frames;
   const FramePlan& plan = run.view().plan;
-  const std::shared_ptr<WorldGrid> grid =
+  const std::shared_ptr<SharedWorldGrid> grid =
       gpu.world_grid(renderer, {shape, cell, plan.index_bits, plan.settings.ranges});
   const WorldBox bounds = world_box(gpu.scene());
   const double start = processor_ms();
@@ -106,8 +106,8 @@ void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
   const Scene& scene = gpu.scene();
   const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
   const WorldBox bounds = world_box(scene);
-  WorldGrid grid(renderer, shape, cell, plan.index_bits);
-  WorldGrid of_cl(renderer, shape, cell, plan.index_bits, false);  // without memory that OpenGL shares
+  SharedWorldGrid grid(renderer, shape, cell, plan.index_bits);
+  SharedWorldGrid of_cl(renderer, shape, cell, plan.index_bits, false);  // without memory that OpenGL shares
   std::vector<CullLight> lights;
   WorldLayout layout;
   const auto build = [&] {
@@ -116,17 +116,17 @@ void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
   };
   const Elapsed of_lights = elapsed_of(runs, [&] { cull_lights_of(scene, plan.local, {}, lights); });
   // In memory of OpenCL first: that build compiles kernels, the second one of the same grid does not.
-  const auto build_of = [&](WorldGrid& made) {
+  const auto build_of = [&](SharedWorldGrid& made) {
     made.build(lights, bounds, view, 0);
     renderer.cl->queue().finish();
   };
   build_of(of_cl);
-  WorldGrid again(renderer, shape, cell, plan.index_bits, false);
+  SharedWorldGrid again(renderer, shape, cell, plan.index_bits, false);
   const double first_of_cl = elapsed_of(1, [&] { build_of(again); }).least();
   const double first = elapsed_of(1, build).least();
   const Elapsed whole = elapsed_of(runs, build);
   const Elapsed laid_out =
-      elapsed_of(runs, [&] { lay_out_world(lights, bounds, shape, cell, view, layout); });
+      elapsed_of(runs, [&] { lay_out_world(lights, bounds, shape, cell, world_eye(view), layout); });
   WorldBlockLights blocks;
   const bool counted = has_few_blocks(layout);
   const Elapsed counting = elapsed_of(counted ? runs : 0, [&] { count_world_blocks(layout, blocks); });
@@ -164,7 +164,7 @@ void measure_moves(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
   const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
   const WorldBox bounds = world_box(scene);
   std::vector<CullLight> lights = cull_lights_of(scene, plan.local);
-  WorldGrid updated(renderer, shape, cell, plan.index_bits, false),
+  SharedWorldGrid updated(renderer, shape, cell, plan.index_bits, false),
       built(renderer, shape, cell, plan.index_bits, false);
   for (const size_t each : {1000u, 100u, 20u}) {
     std::vector<uint32_t> moved;

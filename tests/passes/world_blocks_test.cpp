@@ -1,5 +1,5 @@
 // The lights of each block by counting, against each light's blocks one after the other.
-#include "renderer/world_blocks.h"
+#include "world_grid/world_blocks.h"
 
 #include <gtest/gtest.h>
 

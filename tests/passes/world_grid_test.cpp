@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "passes/world_lists.h"
-#include "renderer/world_cell.h"
+#include "world_grid/world_cell.h"
 
 namespace lightgrid {
 namespace {
@@ -15,7 +15,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 Lists lists_of(const std::vector<CullLight>& lights, const View& view, WorldGridShape shape, double cell = 1,
                int index_bits = 16, const WorldBox& bounds = {glm::dvec3(endless), glm::dvec3(-endless)}) {
-  WorldGrid grid(test_devices(), shape, cell, index_bits);
+  SharedWorldGrid grid(test_devices(), shape, cell, index_bits);
   grid.build(lights, bounds, view, 0);
   EXPECT_TRUE(grid.serves(view, 0));
   EXPECT_FALSE(grid.serves(view, 1)) << "lights have moved";
@@ -119,7 +119,7 @@ TEST(WorldGridPastMemory, IsRefusedBeforeAllIsCounted) {
   const auto u = [&] { return double(random.uniform()); };
   std::vector<CullLight> lights;
   for (int i = 0; i < 60000; ++i) lights.push_back(ball({10 * u(), 10 * u(), 10 * u()}, i % 3 ? 0.01 : 15));
-  WorldGrid grid(test_devices(), WorldGridShape::hashed, 1, 32, false);
+  SharedWorldGrid grid(test_devices(), WorldGridShape::hashed, 1, 32, false);
   try {
     grid.build(lights, {glm::dvec3(0), glm::dvec3(10)}, view_from({5, 5, 5}, {0, 0, 0}), 0);
     FAIL() << "lists of " << grid.entries() << " entries";
@@ -156,7 +156,7 @@ TEST(WorldGrid, IsTheGridByHand) {
 TEST(WorldGrid, TakesTheMemoryThatItsPageSays) {
   const std::vector<CullLight> lights = {ball({-4, 0, 0}, 1), ball({0, 0, 0}, 1), ball({4, 0, 0}, 1)};
   for (const int bits : {16, 32}) {
-    WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, bits);
+    SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, bits);
     grid.build(lights, {glm::dvec3(endless), glm::dvec3(-endless)}, view_from({0, 0, 0}, {0, 0, -1}), 0);
     EXPECT_EQ(grid.list_bytes(), 4u * 4 + 3 * (8 + 512) + 96 * size_t(bits) / 8);
     EXPECT_GE(grid.memory_bytes(), grid.list_bytes() + 3 * 16);
@@ -172,7 +172,7 @@ TEST(WorldGrid, HashedMemoryDoesNotGrowWithTheWorld) {
       const auto across = [&] { return size_m * (double(random.uniform()) - 0.5); };
       lights.push_back(ball({across(), across(), across()}, 1));
     }
-    WorldGrid grid(test_devices(), shape, 1, 16);
+    SharedWorldGrid grid(test_devices(), shape, 1, 16);
     grid.build(lights, {glm::dvec3(-size_m / 2), glm::dvec3(size_m / 2)}, view_from({0, 0, 0}, {0, 0, -1}),
                0);
     return double(grid.list_bytes());
@@ -191,7 +191,7 @@ TEST(WorldGrid, HasTheSameBytesEachTime) {
         ball(any_direction(random) * (50 * double(random.uniform())), 0.3 + 3 * double(random.uniform())));
   const View view = view_from({1, 2, 3}, {0, 0, 0});
   for (const WorldGridShape shape : {WorldGridShape::cubes, WorldGridShape::hashed}) {
-    WorldGrid grid(test_devices(), shape, 1, 16);
+    SharedWorldGrid grid(test_devices(), shape, 1, 16);
     const WorldBox bounds{glm::dvec3(-60), glm::dvec3(60)};
     grid.build(many, bounds, view, 0);
     const HostWorldGrid first = grid.read();
@@ -206,7 +206,7 @@ TEST(WorldGrid, HasTheSameBytesEachTime) {
 // The eye past what the slack of the lists is for: they serve that view no longer, and those built for it do.
 TEST(WorldGrid, ServesViewsWithinItsReach) {
   const std::vector<CullLight> lights(50, ball({0, 0, 0}, 1));
-  WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
+  SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
   const View near = view_from({0, 0, 3}, {0, 0, 0}), far = view_from({0, 0, 1e5}, {0, 0, 0});
   grid.build(lights, {glm::dvec3(-1), glm::dvec3(1)}, near, 0);
   EXPECT_TRUE(grid.serves(near, 0));
@@ -229,7 +229,7 @@ TEST(WorldGrid, ServesAFarAndAWideViewInTurn) {
   fisheye.fov_y_rad = 3.0;
   const View wide = make_view(fisheye, 64, 48);
   for (const bool far_first : {true, false}) {
-    WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
+    SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
     const View &first = far_first ? far : wide, &second = far_first ? wide : far;
     grid.build(lights, bounds, first, 0);
     EXPECT_FALSE(grid.serves(second, 0));
@@ -250,7 +250,7 @@ TEST(WorldGrid, ForgetsViewsThatAskNoMore) {
   const std::vector<CullLight> lights(50, ball({0, 0, 0}, 1));
   const WorldBox bounds{glm::dvec3(-1), glm::dvec3(1)};
   const View near = view_from({0, 0, 3}, {0, 0, 0}), far = view_from({0, 0, 1e5}, {0, 0, 0});
-  WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
+  SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16);
   grid.build(lights, bounds, near, 0);
   const float slack = grid.layout().lights[0].w;
   grid.build(lights, bounds, far, 1);
@@ -311,8 +311,8 @@ TEST(WorldGrid, ChoosesItsCells) {
     EXPECT_GT(chosen, last) << count;
     last = chosen;
     WorldLayout of_auto, of_chosen;
-    lay_out_world(lights, bounds, WorldGridShape::cubes, std::nullopt, view, of_auto);
-    lay_out_world(lights, bounds, WorldGridShape::cubes, chosen, view, of_chosen);
+    lay_out_world(lights, bounds, WorldGridShape::cubes, std::nullopt, world_eye(view), of_auto);
+    lay_out_world(lights, bounds, WorldGridShape::cubes, chosen, world_eye(view), of_chosen);
     EXPECT_EQ(of_auto.cell, chosen);
     EXPECT_EQ(of_auto.cell_m, of_chosen.cell_m);
   }

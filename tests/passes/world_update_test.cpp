@@ -63,7 +63,8 @@ TEST_P(WorldUpdates, AreTheListsOfABuild) {
   const auto& [shape, cell, index_bits, count] = GetParam();
   std::vector<CullLight> lights = lights_to_move(count, 5);
   const View view = view_from({3, 2, 9}, {0, 0, 0});
-  WorldGrid grid(test_devices(), shape, cell, index_bits), anew(test_devices(), shape, cell, index_bits);
+  SharedWorldGrid grid(test_devices(), shape, cell, index_bits),
+      anew(test_devices(), shape, cell, index_bits);
   grid.build(lights, moving_bounds, view, 0);
   Random random(7);
   uint64_t contacts = 0, lost = 0, changed = 0;
@@ -113,7 +114,7 @@ TEST(WorldUpdate, IsRefusedWhereABuildIsDue) {
     for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
     return numbers;
   }();
-  WorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16),
+  SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16),
       hashed(test_devices(), WorldGridShape::hashed, 1, 16);
   EXPECT_FALSE(grid.update(few, those(lights, few), 1)) << "not built";
   grid.build(lights, moving_bounds, view, 0), hashed.build(lights, moving_bounds, view, 0);

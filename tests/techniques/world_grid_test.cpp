@@ -38,7 +38,7 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     run.run_frame();
     EXPECT_TRUE(identical(run.image(), render(scene, view, "forward")));
   };
-  const std::shared_ptr<WorldGrid> grid =
+  const std::shared_ptr<SharedWorldGrid> grid =
       gpu.world_grid(test_devices(), {WorldGridShape::cubes, std::nullopt, 16, Settings().ranges});
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);

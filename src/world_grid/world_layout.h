@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "base/world_box.h"
 #include "culling/light_culler.h"
-#include "plan/settings.h"
-#include "scene/camera.h"
+#include "shared/cull_settings.h"
 #include "shared/world_grid.h"
 
 namespace lightgrid {
@@ -24,7 +24,15 @@ struct WorldReach {
   }
 };
 
-WorldReach reach_of(const View& view, const glm::dvec3& middle);
+// What the lists depend on of a view.
+struct WorldEye {
+  glm::dvec3 position{0};  // world, metres
+  double seen_m =
+      0;  // how far what is seen may be from it, in orthographic views; 0: in proportion to its depth
+  double spread = 1;  // as in WorldReach
+};
+
+WorldReach reach_of(const WorldEye& eye, const glm::dvec3& middle);
 WorldReach larger(const WorldReach& a, const WorldReach& b);  // holds both
 
 // The blocks of a 2d or 3d grid around a light's ball.
@@ -56,14 +64,15 @@ struct WorldLayout {
 };
 
 // Replaces `layout`, whose arrays keep their memory. world_cell: the setting; none: auto
-// (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. view: the one
+// (choose_world_cell). bounds: of the surfaces; cells cover where these and the lights are. eye: of the view
 // that is drawn; the layout's reach is larger, so that a moving camera rarely leaves it. at_least: a reach
 // that other views need.
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                   std::optional<double> world_cell, const View& view, WorldLayout& layout,
+                   std::optional<double> world_cell, const WorldEye& eye, WorldLayout& layout,
                    const WorldReach& at_least = {});
 
-// The rows of a view.
-WorldViewParams world_view_params(const WorldLayout& layout, const View& view);
+// The rows of a view, whose axes in the world are the columns of world_from_view.
+WorldViewParams world_view_params(const WorldLayout& layout, const glm::dvec3& eye,
+                                  const glm::dmat3& world_from_view);
 
 }  // namespace lightgrid

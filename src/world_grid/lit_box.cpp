@@ -1,4 +1,4 @@
-#include "renderer/lit_box.h"
+#include "world_grid/lit_box.h"
 
 namespace lightgrid {
 

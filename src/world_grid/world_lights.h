@@ -1,7 +1,7 @@
 // The lights of a world grid as its kernels read them: in cells, with slack. Host code alone, in double.
 #pragma once
 
-#include "renderer/world_layout.h"
+#include "world_grid/world_layout.h"
 
 namespace lightgrid {
 

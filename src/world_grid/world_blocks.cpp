@@ -1,9 +1,9 @@
 // Parts of the lights are counted in each block, then write their lights where those of the parts before end.
-#include "renderer/world_blocks.h"
+#include "world_grid/world_blocks.h"
 
 #include <thread>
 
-#include "renderer/lit_box.h"
+#include "world_grid/lit_box.h"
 
 namespace lightgrid {
 namespace {

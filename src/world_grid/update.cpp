@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cl/transfer.h"
-#include "renderer/world_grid_run.h"
+#include "world_grid/run.h"
 
 namespace lightgrid {
 namespace {
@@ -42,7 +42,7 @@ bool WorldGrid::update(std::span<const uint32_t> moved, std::span<const CullLigh
   }
   if (!may_update(moved, lights)) return false;
   lights_version_ = -1;
-  const WaitOnFailure wait(*renderer_.cl);
+  const WaitOnFailure wait(device_);
   if (block_pairs_.empty()) block_pairs_ = pairs_of_blocks(block_lights_);
   moved_.moved.assign(moved.begin(), moved.end());
   move_world_lights(lights, block_lights_.buckets, layout_, block_pairs_, moved_);
@@ -55,35 +55,34 @@ bool WorldGrid::update(std::span<const uint32_t> moved, std::span<const CullLigh
 }
 
 void WorldGrid::upload_moves() {
-  ClDevice& device = *renderer_.cl;
   constexpr const char* what = "uploading lights that moved";
   const auto put = [&](GrowingBuffer& to, const auto& from) {
     const size_t bytes = from.size() * sizeof from[0];
-    enqueue_write(device, what, to.at_least(device, std::max<size_t>(bytes, 16)), from.data(), bytes);
+    enqueue_write(device_, what, to.at_least(device_, std::max<size_t>(bytes, 16)), from.data(), bytes);
   };
   put(moved_lights_, moved_.moved), put(moved_balls_, moved_.balls), put(moved_cones_, moved_.cones);
   put(edits_, moved_.edits), put(edit_first_, moved_.edit_first), put(old_blocks_, moved_.old_blocks);
-  enqueue_write(device, what, grown(keys_, sizes_[1], GL_RG32UI), moved_.keys.data(), sizes_[1]);
-  write_buffer(device, what, buckets(), block_lights_.buckets.data(), sizes_[0]);
-  changes_.at_least(device, std::max<size_t>(moved_.edits.size(), 1) * 16);
+  enqueue_write(device_, what, storage_->at_least(WorldArray::keys, sizes_[1]), moved_.keys.data(),
+                sizes_[1]);
+  write_buffer(device_, what, buckets(), block_lights_.buckets.data(), sizes_[0]);
+  changes_.at_least(device_, std::max<size_t>(moved_.edits.size(), 1) * 16);
 }
 
 void WorldGrid::update_lists() {
-  ClDevice& device = *renderer_.cl;
   blocks_ = moved_.keys.size();
   sizes_[1] = blocks_ * 8, sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
-  check_world_count(device, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
+  check_world_count(device_, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   upload_moves();
-  std::swap(cells_, old_cells_), std::swap(indices_, old_indices_);
-  grown(cells_, sizes_[2], GL_RG32UI);
+  storage_->swap_lists();
+  storage_->at_least(WorldArray::cells, sizes_[2]);
   const size_t chunk = chunk_of(blocks_, 4), chunks = (blocks_ + chunk - 1) / chunk;
-  totals_.at_least(device, std::max<size_t>(chunks, 1) * 4);
+  totals_.at_least(device_, std::max<size_t>(chunks, 1) * 4);
   const auto step = [&](cl_uint write, const cl::Buffer& indices) {
     if (blocks_ == 0) return;
     run("update", chunks, moved_lights_.get(), moved_balls_.get(), moved_cones_.get(), edit_first_.get(),
-        edits_.get(), changes_.get(), keys(), old_blocks_.get(), old_cells_.buffer->cl_buffer(),
-        old_indices_.buffer->cl_buffer(), totals_.get(), cells(), indices, cl_uint(blocks_), cl_uint(chunk),
-        write, params());
+        edits_.get(), changes_.get(), keys(), old_blocks_.get(), storage_->buffer(WorldArray::old_cells),
+        storage_->buffer(WorldArray::old_indices), totals_.get(), cells(), indices, cl_uint(blocks_),
+        cl_uint(chunk), write, params());
   };
   step(0, {});
   size_indices(blocks_ > 0 ? scan(chunks, true) : 0);

@@ -1,8 +1,8 @@
-#include "renderer/world_lights.h"
+#include "world_grid/world_lights.h"
 
 #include <bit>
 
-#include "renderer/lit_box.h"
+#include "world_grid/lit_box.h"
 
 namespace lightgrid {
 namespace {

@@ -1,7 +1,7 @@
-#include "renderer/world_cell.h"
+#include "world_grid/world_cell.h"
 
-#include "renderer/lit_box.h"
 #include "shared/world_grid.h"
+#include "world_grid/lit_box.h"
 
 namespace lightgrid {
 namespace {

@@ -1,7 +1,7 @@
 // The lights of each block of a 2d or 3d world grid, by counting, on the host.
 #pragma once
 
-#include "renderer/world_layout.h"
+#include "world_grid/world_layout.h"
 
 namespace lightgrid {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/world_box.h"
 #include "culling/light_culler.h"
-#include "scene/scene.h"
 
 namespace lightgrid {
 

@@ -4,9 +4,9 @@
 
 #include <span>
 
+#include "base/world_box.h"
 #include "culling/light_culler.h"
-#include "plan/settings.h"
-#include "scene/scene.h"
+#include "shared/cull_settings.h"
 
 namespace lightgrid {
 

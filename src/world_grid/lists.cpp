@@ -1,7 +1,7 @@
-// The finished lists of a world grid: for OpenGL, for the host, and what they take.
+// The finished lists of a world grid for the host, and what they take.
 #include "base/error.h"
 #include "cl/transfer.h"
-#include "renderer/world_grid_run.h"
+#include "world_grid/run.h"
 
 namespace lightgrid {
 
@@ -38,20 +38,11 @@ std::span<const uint32_t> HostWorldGrid::everywhere() const {
   return std::span(indices).subspan(params.everywhere_first, params.everywhere_count);
 }
 
-void WorldGrid::hand_to_gl() {
-  if (in_gl_) return;
-  Shared* shared[] = {&buckets_, &keys_, &cells_, &indices_};
-  for (int i = 0; i < 4; ++i) {
-    if (sizes_[i] > 0) shared[i]->buffer->hand_to_gl(sizes_[i]);
-  }
-  block_ = make_buffer(sizeof layout_.params, &layout_.params);
-  in_gl_ = true;
-}
-
 size_t WorldGrid::memory_bytes() const {
   size_t bytes = 0;
-  for (const Shared* shared : {&buckets_, &keys_, &cells_, &indices_, &old_cells_, &old_indices_})
-    bytes += shared->buffer ? shared->buffer->size() : 0;
+  for (const WorldArray array : {WorldArray::buckets, WorldArray::keys, WorldArray::cells,
+                                 WorldArray::indices, WorldArray::old_cells, WorldArray::old_indices})
+    bytes += storage_->bytes(array);
   for (const UploadedBuffer* uploaded : {&params_, &lights_, &cones_, &levels_, &first_pairs_})
     bytes += uploaded->bytes();
   for (const GrowingBuffer* buffer :
@@ -64,20 +55,19 @@ size_t WorldGrid::memory_bytes() const {
 }
 
 HostWorldGrid WorldGrid::read() {
-  ClDevice& device = *renderer_.cl;
   HostWorldGrid host;
   host.params = layout_.params;
   constexpr const char* what = "reading the world grid";
   host.buckets.resize(sizes_[0] / 4), host.keys.resize(sizes_[1] / 8), host.cells.resize(sizes_[2] / 8);
-  read_buffer(device, what, buckets(), host.buckets.data(), sizes_[0]);
-  read_buffer(device, what, keys(), host.keys.data(), sizes_[1]);
-  read_buffer(device, what, cells(), host.cells.data(), sizes_[2]);
+  read_buffer(device_, what, buckets(), host.buckets.data(), sizes_[0]);
+  read_buffer(device_, what, keys(), host.keys.data(), sizes_[1]);
+  read_buffer(device_, what, cells(), host.cells.data(), sizes_[2]);
   if (index_bits_ == 32) {
     host.indices.resize(sizes_[3] / 4);
-    read_buffer(device, what, indices(), host.indices.data(), sizes_[3]);
+    read_buffer(device_, what, indices(), host.indices.data(), sizes_[3]);
   } else {
     std::vector<uint16_t> narrow(sizes_[3] / 2);
-    read_buffer(device, what, indices(), narrow.data(), sizes_[3]);
+    read_buffer(device_, what, indices(), narrow.data(), sizes_[3]);
     host.indices.assign(narrow.begin(), narrow.end());
   }
   return host;

@@ -1,4 +1,4 @@
-#include "renderer/world_moves.h"
+#include "world_grid/world_moves.h"
 
 namespace lightgrid {
 namespace {

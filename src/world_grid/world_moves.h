@@ -2,8 +2,8 @@
 // alone.
 #pragma once
 
-#include "renderer/world_blocks.h"
-#include "renderer/world_lights.h"
+#include "world_grid/world_blocks.h"
+#include "world_grid/world_lights.h"
 
 namespace lightgrid {
 

@@ -1,10 +1,10 @@
-#include "renderer/world_layout.h"
+#include "world_grid/world_layout.h"
 
 #include <bit>
 
-#include "renderer/lit_box.h"
-#include "renderer/world_cell.h"
-#include "renderer/world_lights.h"
+#include "world_grid/lit_box.h"
+#include "world_grid/world_cell.h"
+#include "world_grid/world_lights.h"
 
 namespace lightgrid {
 namespace {
@@ -68,24 +68,13 @@ WorldReach larger(const WorldReach& a, const WorldReach& b) {
   return {std::max(a.distance_m, b.distance_m), std::max(a.spread, b.spread)};
 }
 
-WorldReach reach_of(const View& view, const glm::dvec3& middle) {
-  const glm::dvec3 eye = glm::abs(view.eye - middle);
-  WorldReach reach{eye.x + eye.y + eye.z, 1};
-  const glm::dmat4& clip = view.clip_from_view;
-  if (view.orthographic) {
-    const double width = (1 + std::abs(clip[3][0])) / std::abs(clip[0][0]);
-    const double height = (1 + std::abs(clip[3][1])) / std::abs(clip[1][1]);
-    reach.distance_m += width + height + std::abs(view.near_m) + std::abs(view.far_m);
-  } else {
-    const double width = (1 + std::abs(clip[2][0])) / std::abs(clip[0][0]);
-    const double height = (1 + std::abs(clip[2][1])) / std::abs(clip[1][1]);
-    reach.spread = std::max(1.0, (width + height) / 4);
-  }
-  return reach;
+WorldReach reach_of(const WorldEye& eye, const glm::dvec3& middle) {
+  const glm::dvec3 away = glm::abs(eye.position - middle);
+  return {away.x + away.y + away.z + eye.seen_m, eye.spread};
 }
 
 void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape,
-                   std::optional<double> world_cell, const View& view, WorldLayout& layout,
+                   std::optional<double> world_cell, const WorldEye& eye, WorldLayout& layout,
                    const WorldReach& at_least) {
   const double cell = world_cell ? *world_cell : choose_world_cell(lights, bounds, shape);
   WorldGridParams& p = layout.params = {};
@@ -109,7 +98,7 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   } else {
     lay_cells(layout, extent);
   }
-  const WorldReach needed = reach_of(view, layout.middle);
+  const WorldReach needed = reach_of(eye, layout.middle);
   const double around = 2 * (extent.x + extent.y + extent.z) + layout.cell_m;
   const WorldReach needed_by_all = larger(needed, at_least);
   WorldReach& reach = layout.reach;
@@ -120,9 +109,9 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   add_world_lights(lights, layout);
 }
 
-WorldViewParams world_view_params(const WorldLayout& layout, const View& view) {
-  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
-  const glm::dvec3 offset = in_grid(view.eye - layout.middle, layout.columns) / layout.cell_m;
+WorldViewParams world_view_params(const WorldLayout& layout, const glm::dvec3& eye,
+                                  const glm::dmat3& world_from_view) {
+  const glm::dvec3 offset = in_grid(eye - layout.middle, layout.columns) / layout.cell_m;
   const glm::dvec3 x = in_grid(world_from_view[0], layout.columns) / layout.cell_m;
   const glm::dvec3 y = in_grid(world_from_view[1], layout.columns) / layout.cell_m;
   const glm::dvec3 z = in_grid(world_from_view[2], layout.columns) / layout.cell_m;
