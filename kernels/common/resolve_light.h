@@ -33,7 +33,7 @@
 #endif
 
 // What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
-// What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
+// What a triangle number leads to (raster/raster_view.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
 // directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
 // pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth

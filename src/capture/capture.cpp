@@ -17,7 +17,7 @@ SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& v
 CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes) {
   gpu_.update(changes);
   view_.look(view);
-  std::vector<float> depth(view_.pixels());
+  std::vector<float> depth(view_.grid().values());
   if (opengl_) {
     reset_gl_state();
     depth_prepass(view_);

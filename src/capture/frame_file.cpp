@@ -7,11 +7,11 @@
 #include <fstream>
 
 #include "base/write_file.h"
-#include "scene/lights_file.h"
-#include "shared/slices.h"
 #include "capture/frame_view.h"
 #include "results/json_file.h"
 #include "results/results.h"
+#include "scene/lights_file.h"
+#include "shared/slices.h"
 
 namespace lightgrid {
 namespace {
@@ -53,12 +53,12 @@ void check_folder(const fs::path& folder) {
 }
 
 std::vector<float> read_depth_file(const fs::path& path, const View& view) {
-  const uintmax_t expected = uintmax_t(view.width) * view.height * sizeof(float), found = size_of(path);
+  const uintmax_t expected = view.grid().values() * sizeof(float), found = size_of(path);
   if (found != expected) {
     throw input_error("{}: {} bytes are not the {} of {}x{} floats (size in view.json)", path.string(), found,
                       expected, view.width, view.height);
   }
-  return read_values<float>(path, size_t(view.width) * view.height);
+  return read_values<float>(path, view.grid().values());
 }
 
 size_t local_count(const CapturedFrame& frame) {

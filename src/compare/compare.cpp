@@ -94,7 +94,7 @@ struct ReferenceTriangles {
 ReferenceTriangles triangles_of(ReferenceRun& reference) {
   RenderView& v = reference.run->view();
   if (!reference.run->frame().triangles) return {read_triangles(v)};
-  return {{own_triangles(*reference.run), std::vector<bool>(v.pixels())}};
+  return {{own_triangles(*reference.run), std::vector<bool>(v.grid().values())}};
 }
 
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
@@ -106,7 +106,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, ReferenceRu
   if (!is_reference) run.run_frame(true);
   RunResult row = run.result();
   if (reference.sampled()) {
-    const std::vector<uint32_t> pixels = pixels_of(reference.blocks, report.width, report.height);
+    const std::vector<uint32_t> pixels = pixels_of(reference.blocks, {report.width, report.height});
     row.error = compare_images(at_pixels(run.image(), pixels), at_pixels(reference.image(), pixels));
   } else {
     row.error = compare_images(run.image(), reference.image());
@@ -156,7 +156,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Refere
   const SurfaceOracle oracle(reference.run->view(), depth);
   std::vector<uint32_t> among = oracle.pixels();
   if (reference.sampled()) {
-    const std::vector<uint32_t> sampled = pixels_of(reference.blocks, report.width, report.height);
+    const std::vector<uint32_t> sampled = pixels_of(reference.blocks, {report.width, report.height});
     std::erase_if(among,
                   [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
@@ -224,7 +224,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
   report.commit = commit_of_build();
   const EveryLight every_light = every_light_technique(renderer);
   report.reference = every_light.name();
-  report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
+  report.reference_pixels = view.grid().pixels();
 
   GpuScene gpu(renderer, scene);
   std::vector<ContestantRun> entries = make_entries(renderer, gpu, view, contestants, every_light);
@@ -242,7 +242,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
     options.progress(0.8, "reference: " + report.reference);
   if (reference.sampled()) {
     render_forward_at(reference.run->view(), reference.blocks, reference.sampled_image);
-    report.reference_pixels = pixels_of(reference.blocks, view.width, view.height).size();
+    report.reference_pixels = pixels_of(reference.blocks, view.grid()).size();
   } else if (!reference.run) {
     if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, every_light);
     reference.run = reference.own.get();

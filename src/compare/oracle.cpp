@@ -1,11 +1,11 @@
 #include "compare/oracle.h"
 
-#include "cl/transfer.h"
-#include "reference/position.h"
-#include "shared/light_grid.h"
-#include "results/metrics.h"
-#include "compare/oracle_sample.h"
 #include "capture/grid_lists.h"
+#include "cl/transfer.h"
+#include "compare/oracle_sample.h"
+#include "reference/position.h"
+#include "results/metrics.h"
+#include "shared/light_grid.h"
 
 namespace lightgrid {
 namespace {
@@ -99,7 +99,7 @@ std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<fl
 std::vector<float> read_depth(TechniqueRun& run) {
   RenderView& v = run.view();
   if (!run.frame().depth) return read_depth(v);
-  std::vector<float> depth(v.pixels());
+  std::vector<float> depth(v.grid().values());
   read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(),
               depth.size() * sizeof(float));
   return depth;

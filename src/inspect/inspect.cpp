@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "capture/frame_lists.h"
 #include "reference/attenuation.h"
 #include "reference/cone_cell.h"
 #include "reference/lit_set.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
-#include "capture/frame_lists.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {
@@ -159,8 +159,7 @@ std::vector<glm::dvec3> surfaces_of(const CapturedFrame& frame, const FrameGrid&
   for (int y = pixel.y0; y < pixel.y1; ++y) {
     for (int x = pixel.x0; x < pixel.x1; ++x) {
       if (!is_covered(frame, x, y) || cells.slice(x, y) != pixel.slice) continue;
-      surfaces.push_back(
-          position_from_depth(frame.view, x, y, frame.depth[size_t(y) * frame.view.width + x]));
+      surfaces.push_back(position_from_depth(frame.view, x, y, frame.depth[frame.view.grid().index(x, y)]));
     }
   }
   return surfaces;
@@ -171,7 +170,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
   const View& view = frame.view;
   PixelInspection pixel;
   pixel.x = x, pixel.y = y;
-  pixel.depth = frame.depth[size_t(y) * view.width + x];
+  pixel.depth = frame.depth[view.grid().index(x, y)];
   pixel.covered = is_covered(frame, x, y);
   pixel.distance_m = pixel.covered ? -position_from_depth(view, x, y, pixel.depth).z : endless;
   pixel.cell_x = x / grid.tile, pixel.cell_y = y / grid.tile;

@@ -186,7 +186,7 @@ VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
     SharedBuffer::hand_to_gl(written);
     const auto copy = [&](SharedBuffer& from, const GlTexture& to) {
       v.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
-                                         int(g.size_x), int(g.size_y), to.name(), int(g.size_z));
+                                         {int(g.size_x), int(g.size_y)}, to.name(), int(g.size_z));
     };
     copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
     s.texture_stale = false;

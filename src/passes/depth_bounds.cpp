@@ -4,12 +4,11 @@
 namespace lightgrid {
 
 DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth) {
-  const size_t bytes = v.pixels() * 4;
+  const size_t bytes = v.grid().values() * 4;
   auto pass = v.timer.pass("depth_to_cl", "gl");
   SharedBuffer& copy = v.shared_pixels("depth", 4);
   v.renderer.pixel_copies.to_buffer({depth.framebuffer, GL_DEPTH_ATTACHMENT, v.targets.depth()},
-                                    GL_DEPTH_COMPONENT, GL_FLOAT, v.view.width, v.view.height,
-                                    copy.gl_buffer());
+                                    GL_DEPTH_COMPONENT, GL_FLOAT, v.grid(), copy.gl_buffer());
   copy.hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return {copy.cl_buffer()};
@@ -18,7 +17,7 @@ DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth) {
 DepthBounds depth_bounds(RenderView& v, const DepthBuffer& depth) {
   if (v.plan.settings.depth_bounds == DepthBoundsMode::none) return v.culler().depth_bounds({});
   auto pass = v.timer.pass("depth_bounds", "cl");
-  pass.moves(v.pixels() * 4, size_t(v.params.tiles_x) * v.params.tiles_y * 8);
+  pass.moves(v.grid().values() * 4, size_t(v.params.tiles_x) * v.params.tiles_y * 8);
   return v.culler().depth_bounds({depth.values});
 }
 

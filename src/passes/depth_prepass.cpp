@@ -14,7 +14,7 @@ DepthImage depth_prepass(RenderView& v) {
   auto pass = v.timer.pass("depth_prepass", "gl");
   const GLuint framebuffer = v.depth_framebuffer();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, v.grid().width, v.grid().height);
   // Reversed depth: float's fine steps near 0 serve the far distances (Reed, "Depth Precision Visualized",
   // 2015).
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -27,7 +27,7 @@ DepthImage depth_prepass(RenderView& v) {
 
   draw_list(v, v.opaque, DrawStreams::positions_where_possible,
             v.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
-  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * 4);
+  pass.moves(v.gpu.in_gl().geometry_bytes(), v.grid().values() * 4);
   return {framebuffer};
 }
 

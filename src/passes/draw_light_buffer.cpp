@@ -24,7 +24,8 @@ LightBuffer draw_light_buffer(RenderView& v, const NormalImage& normals) {
   glBindTextureUnit(2, v.targets.depth());
   VolumeDraws(v, "shaders/light_buffer.frag", std::move(defines)).draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
-  pass.moves(v.pixels() * (4 + normals.layout->image.bytes + buffer.bytes()), v.pixels() * buffer.bytes());
+  pass.moves(v.grid().values() * (4 + normals.layout->image.bytes + buffer.bytes()),
+             v.grid().values() * buffer.bytes());
   return buffer;
 }
 

@@ -23,7 +23,7 @@ void clear(RenderView& v, const GBuffer& gbuffer) {
 
 void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfaces) {
   glBindFramebuffer(GL_FRAMEBUFFER, gbuffer.framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, v.grid().width, v.grid().height);
   clear(v, gbuffer);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
@@ -48,7 +48,7 @@ GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting) {
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
   draw_surfaces(v, gbuffer, v.opaque);
-  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * (4 + written_bytes(gbuffer)));
+  pass.moves(v.gpu.in_gl().geometry_bytes(), v.grid().values() * (4 + written_bytes(gbuffer)));
   return gbuffer;
 }
 
@@ -58,7 +58,8 @@ GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
   draw_surfaces(v, gbuffer, surfaces);
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4, v.pixels() * written_bytes(gbuffer));
+  pass.moves(v.gpu.in_gl().geometry_bytes() + v.grid().values() * 4,
+             v.grid().values() * written_bytes(gbuffer));
   return gbuffer;
 }
 

@@ -52,19 +52,18 @@ class LightSums : public PassState {
 };
 
 void sums_to_gl(RenderView& v, const PrepassImage& image, SharedBuffer& from, GLuint to) {
-  v.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, v.view.width, v.view.height,
-                                     to);
+  v.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, v.grid(), to);
 }
 
 }  // namespace
 
 NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals) {
   const PrepassImage& image = normals.layout->image;
-  const size_t bytes = v.pixels() * image.bytes;
+  const size_t bytes = v.grid().values() * image.bytes;
   const NormalsInCl in_cl = normals_in_cl_of(v, TargetUse::image);
   auto pass = v.timer.pass("normals_to_cl", "gl");
   v.renderer.pixel_copies.to_buffer({normals.framebuffer, GL_COLOR_ATTACHMENT0, normals.texture}, image.pixel,
-                                    image.type, v.view.width, v.view.height, in_cl.image->gl_buffer());
+                                    image.type, v.grid(), in_cl.image->gl_buffer());
   in_cl.image->hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return in_cl;
@@ -91,18 +90,19 @@ LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, con
          s.lights.bin_edges.buffer(), buffer.first->cl_buffer(),
          buffer.second ? buffer.second->cl_buffer() : cl::Buffer(),
          cl_float(v.plan.settings.prepass_shininess), cl_float(1 / stored_scale(v)), s.lights.view.buffer());
-  pass.moves(
-      v.pixels() * (4 + normals.layout->image.bytes) + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes,
-      v.pixels() * buffer.bytes());
+  pass.moves(v.grid().values() * (4 + normals.layout->image.bytes) + grid.cell_bytes + grid.index_bytes +
+                 grid.z_bin_bytes,
+             v.grid().values() * buffer.bytes());
   return buffer;
 }
 
 LightBuffer light_buffer_to_gl(RenderView& v, const LightBufferInCl& buffer) {
   const LightBuffer in_gl = light_buffer_of(v);
-  const size_t bytes = v.pixels() * buffer.bytes();
+  const size_t bytes = v.grid().values() * buffer.bytes();
   auto pass = v.timer.pass("light_buffer_to_gl", "gl");
-  std::vector<SharedBuffer::Written> written = {{buffer.first, v.pixels() * buffer.layout->first.bytes}};
-  if (buffer.second) written.push_back({buffer.second, v.pixels() * buffer.layout->second.bytes});
+  std::vector<SharedBuffer::Written> written = {
+      {buffer.first, v.grid().values() * buffer.layout->first.bytes}};
+  if (buffer.second) written.push_back({buffer.second, v.grid().values() * buffer.layout->second.bytes});
   SharedBuffer::hand_to_gl(written);
   sums_to_gl(v, buffer.layout->first, *buffer.first, in_gl.first);
   if (buffer.second) sums_to_gl(v, buffer.layout->second, *buffer.second, in_gl.second);

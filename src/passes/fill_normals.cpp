@@ -17,7 +17,7 @@ NormalImage fill_normals(RenderView& v) {
   auto pass = v.timer.pass("fill_normals", "gl");
   const NormalImage normals = normal_image_of(v);
   glBindFramebuffer(GL_FRAMEBUFFER, normals.framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, v.grid().width, v.grid().height);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
@@ -31,7 +31,7 @@ NormalImage fill_normals(RenderView& v) {
   draw_list(v, v.opaque, DrawStreams::all,
             v.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
                         features_of_normals}));
-  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * (4 + normals.layout->image.bytes));
+  pass.moves(v.gpu.in_gl().geometry_bytes(), v.grid().values() * (4 + normals.layout->image.bytes));
   return normals;
 }
 

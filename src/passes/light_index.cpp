@@ -250,7 +250,7 @@ void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolume
   const GlProgram& program =
       v.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, v.grid().width, v.grid().height);
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
   glUseProgram(program.name());
@@ -280,8 +280,8 @@ LightIndexImages light_index(RenderView& v) {
   }
   auto pass = v.timer.pass("light_index", "gl");
   draw_volumes(v, state, volumes, state.order, framebuffer);
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  pass.moves(pixels * 5 + volumes.memory_bytes(), pixels * (state.layout.pixel_bytes() + 1));
+  const size_t values = v.grid().values();
+  pass.moves(values * 5 + volumes.memory_bytes(), values * (state.layout.pixel_bytes() + 1));
 
   std::vector<std::string> defines = state.layout.defines();
   defines.emplace_back("LIGHTS_LIDR");
@@ -293,7 +293,7 @@ LightIndexImages light_index(RenderView& v) {
 ListedLights read_light_index(RenderView& v) {
   const LightIndexLayout& layout = v.state<LightIndexState>().layout;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, v.targets.framebuffer(index_images(v, layout), v.targets.depth()));
-  const std::vector<uint16_t> channels = read_channels(layout, v.view.width, v.view.height);
+  const std::vector<uint16_t> channels = read_channels(layout, v.grid());
   const size_t stride = layout.targets() * 4;
   ListedLights lists;
   lists.cell_of_pixel.resize(channels.size() / stride);

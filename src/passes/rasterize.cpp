@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cl/uploaded_buffer.h"
-#include "renderer/shown_meshes.h"
 #include "renderer/surface_instances.h"
 
 namespace lightgrid {
@@ -32,36 +31,30 @@ std::vector<int> kept_instances(const Scene& scene) {
   return kept;
 }
 
-// A rasteriser for some of a view's instances, which are drawn in this order.
+// Draws some of a view's instances, in this order.
 class InstanceRasterizer {
  public:
   InstanceRasterizer(RenderView& v, bool drawing_order)
-      : rasterizer(*v.renderer.cl, *v.renderer.kernels,
-                   {.shape = v.plan.settings.kernel_shape,
-                    .portable = v.plan.settings.portable,
-                    .drawing_order = drawing_order}) {
-    set_meshes(v);
-  }
+      : scene(v.gpu.in_raster(v.plan.settings.texels)),
+        raster(*scene, *v.renderer.kernels,
+               {.shape = v.plan.settings.kernel_shape,
+                .portable = v.plan.settings.portable,
+                .drawing_order = drawing_order}) {}
 
   // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
   void follow(RenderView& v, std::span<const int> listed, std::span<const int> drawn) {
-    if (shape_version_ != v.gpu.shape_version()) set_meshes(v);
-    if (instances_version_ != v.gpu.instances_version() || !std::ranges::equal(listed, known_)) {
+    v.gpu.in_raster(v.plan.settings.texels);  // brings `scene` up to date
+    if (shape_version_ != v.gpu.shape_version() || instances_version_ != v.gpu.instances_version() ||
+        !std::ranges::equal(listed, known_)) {
       set_instances(v, listed);
     }
-    bool masked = false;
     for (size_t i = 0; i < listed.size(); ++i) {
       const bool in_view = !drawn.empty() && drawn.front() == listed[i];
-      rasterizer.set_drawn(i, in_view);
+      raster.set_drawn(i, in_view);
       if (in_view) drawn = drawn.subspan(1);
-      masked |= masked_[i] && in_view;
     }
-    rasterizer.set_view(
-        {v.view.width, v.view.height, v.view.clip_from_view, v.view.view_from_world, v.view.eye});
-    const ClScene* scene = masked ? &v.gpu.in_cl(v.plan.settings.texels) : nullptr;
-    rasterizer.set_masks(scene ? RasterMasks{scene->vertices(), scene->materials(), scene->alphas()}
-                               : RasterMasks{});
+    raster.set_camera({v.grid(), v.view.clip_from_view, v.view.view_from_world, v.view.eye});
     listed_ = listed, uploaded_ = false;
   }
 
@@ -73,47 +66,29 @@ class InstanceRasterizer {
     uploaded_ = true;
   }
 
-  size_t memory_bytes() const { return rasterizer.memory_bytes() + surfaces.bytes(); }
-  size_t geometry_bytes() const { return geometry_bytes_; }  // positions and indices of the scene
+  size_t memory_bytes() const { return raster.memory_bytes() + surfaces.bytes(); }  // without the scene's
 
-  Rasterizer rasterizer;
+  const std::shared_ptr<RasterScene> scene;
+  RasterView raster;
   UploadedBuffer surfaces;
 
  private:
   void set_instances(RenderView& v, std::span<const int> listed) {
     std::vector<RasterInstance> instances;
-    masked_.clear();
     for (const int i : listed) {
       const Instance& instance = v.scene.instances[i];
       const Material& m = material_of(v.scene, i);
-      masked_.push_back(m.alpha_mode == AlphaMode::mask);
+      const bool masked = m.alpha_mode == AlphaMode::mask;
       instances.push_back({instance.mesh, instance.world_from_object, m.double_sided,
-                           masked_.back() ? v.scene.meshes[instance.mesh].material : -1});
+                           masked ? v.scene.meshes[instance.mesh].material : -1});
     }
-    rasterizer.set_instances(instances);
+    raster.set_instances(instances);
     known_.assign(listed.begin(), listed.end());
-    instances_version_ = v.gpu.instances_version();
+    shape_version_ = v.gpu.shape_version(), instances_version_ = v.gpu.instances_version();
   }
 
-  void set_meshes(RenderView& v) {
-    const std::vector<bool> shown = shown_meshes(v.scene);
-    std::vector<RasterMesh> meshes;
-    geometry_bytes_ = 0;
-    for (size_t i = 0; i < shown.size(); ++i) {
-      const Mesh& mesh = v.scene.meshes[i];
-      meshes.push_back(shown[i] ? RasterMesh{mesh.positions, mesh.indices}
-                                : RasterMesh{});  // as ClScene leaves them out
-      if (shown[i]) geometry_bytes_ += mesh.positions.size() * sizeof(glm::vec3) + mesh.indices.size() * 4;
-    }
-    rasterizer.set_meshes(meshes);
-    shape_version_ = v.gpu.shape_version();
-    instances_version_ = -1;
-  }
-
-  int shape_version_ = 0, instances_version_ = -1;  // -1: the rasteriser has no instances
-  size_t geometry_bytes_ = 0;
-  std::vector<int> known_;    // to the rasteriser
-  std::vector<bool> masked_;  // of those
+  int shape_version_ = -1, instances_version_ = -1;  // when the instances were set; -1: never
+  std::vector<int> known_;                           // the instances that were set
   std::vector<SurfaceInstance> records_;
   std::span<const int> listed_;
   bool uploaded_ = false;
@@ -126,7 +101,7 @@ struct OpaqueRasterizer : PassState {
     return true;
   }
   void upload(RenderView& v) override { of.upload_surfaces(v); }
-  size_t memory_bytes() const override { return of.memory_bytes(); }
+  size_t memory_bytes() const override { return of.memory_bytes() + of.scene->memory_bytes(); }
   std::span<const int> instances(const RenderView& v) const { return kept.empty() ? v.plan.opaque : kept; }
 
   InstanceRasterizer of;
@@ -151,9 +126,9 @@ VisibilityBuffer rasterize(RenderView& v) {
   auto pass = v.timer.pass("rasterize", "cl");
   OpaqueRasterizer& opaque = v.state<OpaqueRasterizer>();
   InstanceRasterizer& r = opaque.of;
-  const Visibility image = r.rasterizer.draw([&v] { v.upload_states(); });
-  pass.moves(r.geometry_bytes(), v.pixels() * 8);
-  return {image, r.rasterizer.buffers(), r.surfaces.buffer(), opaque.instances(v)};
+  const Visibility image = r.raster.draw([&v] { v.upload_states(); });
+  pass.moves(r.scene->geometry_bytes(), v.grid().values() * 8);
+  return {image, r.raster.buffers(), r.surfaces.buffer(), opaque.instances(v)};
 }
 
 BlendedTriangles list_blended(RenderView& v) {
@@ -161,9 +136,9 @@ BlendedTriangles list_blended(RenderView& v) {
   BlendedRasterizer& blended = v.state<BlendedRasterizer>();
   blended.upload(v);
   InstanceRasterizer& r = blended.of;
-  const RasterLists lists = r.rasterizer.list();
-  pass.moves(r.geometry_bytes(), r.rasterizer.counts().tile_entries * 4);
-  return {lists, r.rasterizer.buffers(), r.surfaces.buffer()};
+  const RasterLists lists = r.raster.list();
+  pass.moves(r.scene->geometry_bytes(), r.raster.counts().tile_entries * 4);
+  return {lists, r.raster.buffers(), r.surfaces.buffer()};
 }
 
 }  // namespace lightgrid

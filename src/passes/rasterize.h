@@ -4,11 +4,11 @@
 #include <span>
 
 #include "passes/common/frame.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 namespace lightgrid {
 
-// The nearest opaque or masked triangle at each pixel, and what its number leads to. The rasteriser's own
+// The nearest opaque or masked triangle at each pixel, and what its number leads to. The view's own
 // buffers: until the view's next rasterize().
 struct VisibilityBuffer {
   Visibility image;

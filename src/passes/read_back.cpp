@@ -6,7 +6,7 @@ namespace lightgrid {
 
 HostImage::HostImage(RenderView& v, const ShadedImage& shaded, Image& copy) : copy_(copy) {
   auto pass = v.timer.pass("read_back", shaded.in_cl ? "cl" : "gl");
-  if (copy.width != v.view.width || copy.height != v.view.height || copy.pixels.size() != v.pixels()) {
+  if (copy.width != v.view.width || copy.height != v.view.height || copy.pixels.size() != v.grid().pixels()) {
     copy = Image(v.view.width, v.view.height);
   }
   const char* what = "reading the image back";

@@ -25,8 +25,7 @@ cl::NDRange whole_groups(const View& view) {
 // The image, the lights and the kernels.
 class Resolving : public PassState {
  public:
-  explicit Resolving(RenderView& v)
-      : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
+  explicit Resolving(RenderView& v) : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
     upload(v);
   }
 
@@ -179,7 +178,7 @@ ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridIn
     launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle,
            visible.image.depth, shared..., background(v), r.image.cl_buffer());
   });
-  pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
+  pass.moves(v.grid().values() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.grid().pixels() * 16);
   return {0, &r.image};
 }
 
@@ -197,8 +196,8 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
                image ? g.image->cl_buffer() : cl::Buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));
-  pass.moves(v.pixels() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
-             v.pixels() * (g.bytes() + (image ? 16 : 0)));
+  pass.moves(v.grid().values() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
+             v.grid().values() * (g.bytes() + (image ? 16 : 0)));
   return g;
 }
 
@@ -214,7 +213,8 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
                shared..., normals.image->cl_buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));
-  pass.moves(v.pixels() * 4 + r.scene(v).memory_bytes(), v.pixels() * normals.layout->image.bytes);
+  pass.moves(v.grid().values() * 4 + r.scene(v).memory_bytes(),
+             v.grid().values() * normals.layout->image.bytes);
   return normals;
 }
 
@@ -233,7 +233,7 @@ ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, co
                r.image.cl_buffer());
       },
       r.arguments(v, visible.raster, visible.surfaces, {}));
-  pass.moves(v.pixels() * (8 + sums.bytes()) + r.scene(v).memory_bytes(), v.pixels() * 16);
+  pass.moves(v.grid().values() * (8 + sums.bytes()) + r.scene(v).memory_bytes(), v.grid().pixels() * 16);
   return {0, &r.image};
 }
 
@@ -249,7 +249,7 @@ void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthB
            blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
            shared..., r.image.cl_buffer());
   });
-  pass.moves(v.pixels() * 20 + grid_bytes(lights), v.pixels() * 16);
+  pass.moves(v.grid().values() * 20 + grid_bytes(lights), v.grid().pixels() * 16);
 }
 
 }  // namespace lightgrid

@@ -44,7 +44,7 @@ void blend(RenderView& v, const ShadedImage& image, const LightSource& lights, c
   defines.emplace_back("BLEND");
   draw(v.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines), true}));
   glDisable(GL_BLEND);
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 20, v.pixels() * 16);
+  pass.moves(v.gpu.in_gl().geometry_bytes() + v.grid().values() * 20, v.grid().values() * 16);
 }
 
 }  // namespace

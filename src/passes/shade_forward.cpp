@@ -13,7 +13,7 @@ ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSo
   lights.bind(v);
   draw_list(v, surfaces, DrawStreams::all,
             v.programs({"shaders/scene.vert", "shaders/forward.frag", lights.defines}));
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + lights.bytes, v.pixels() * 16);
+  pass.moves(v.gpu.in_gl().geometry_bytes() + v.grid().values() * 4 + lights.bytes, v.grid().values() * 16);
   return image;
 }
 

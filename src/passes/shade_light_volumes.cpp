@@ -61,14 +61,13 @@ void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
   bind_gbuffer(gbuffer);
   VolumeDraws(v, "shaders/deferred_light.frag", std::move(defines)).draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  pass.moves(pixels * (4 + 16 + gbuffer.bytes()), pixels * 16);
+  const size_t values = v.grid().values();
+  pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
 }
 
 ListedLights listed_of_light_volumes(RenderView& v) {
   ListedLights lists;
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
+  lists.count.resize(v.grid().pixels()), lists.cell_of_pixel.resize(v.grid().pixels());
   if (!v.plan.local_lights) return list_every_light(0);
   visit_pairs(v, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);

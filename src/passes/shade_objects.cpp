@@ -118,7 +118,7 @@ ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t l
     draw_object(v, programs, object, lights_a_draw, own_apart, drawer, pending);
   }
   glDisable(GL_BLEND);
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + source.bytes, v.pixels() * 16);
+  pass.moves(v.gpu.in_gl().geometry_bytes() + v.grid().values() * 4 + source.bytes, v.grid().values() * 16);
   return image;
 }
 

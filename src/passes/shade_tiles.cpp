@@ -64,18 +64,18 @@ class TileShading : public PassState {
 void copy_attachment(RenderView& v, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type,
                      SharedBuffer& to) {
   v.renderer.pixel_copies.to_buffer({gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture},
-                                    GL_RGBA, type, v.view.width, v.view.height, to.gl_buffer());
+                                    GL_RGBA, type, v.grid(), to.gl_buffer());
 }
 
 GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
-  const size_t pixels = v.pixels();
+  const size_t values = v.grid().values();
   const GBufferInCl in_cl = gbuffer_in_cl_of(v, gbuffer.base_lighting, TargetUse::image);
   const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = v.timer.pass("gbuffer_to_cl", "gl");
   std::vector<SharedBuffer::Written> copies;
   for (const size_t i : in_cl.images)
-    copies.push_back({in_cl.surfaces[i], pixels * gbuffer.layout->images[i].bytes});
-  if (base_lighting) copies.push_back({in_cl.image, pixels * 16});
+    copies.push_back({in_cl.surfaces[i], values * gbuffer.layout->images[i].bytes});
+  if (base_lighting) copies.push_back({in_cl.image, values * 16});
   std::vector<SharedBuffer*> buffers;
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
@@ -86,16 +86,16 @@ GBufferInCl gbuffer_to_cl(RenderView& v, const GBuffer& gbuffer) {
   if (base_lighting)
     copy_attachment(v, gbuffer, 2, v.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
   SharedBuffer::hand_to_cl(copies);
-  const size_t bytes = pixels * (gbuffer.bytes() + (base_lighting ? 16 : 0));
+  const size_t bytes = values * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;
 }
 
 void image_to_gl(RenderView& v, SharedBuffer& image) {
-  const size_t bytes = v.pixels() * 16;
+  const size_t bytes = v.grid().values() * 16;
   auto pass = v.timer.pass("image_to_gl", "gl");
   image.hand_to_gl(bytes);
-  v.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, v.view.width, v.view.height,
+  v.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, v.grid(),
                                      v.targets.texture("color", GL_RGBA32F));
   pass.moves(bytes, bytes);
 }
@@ -119,9 +119,10 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
          v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(),
          gbuffer.image->cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}},
          s.lights.view.buffer());
-  const size_t pixels = v.pixels();
+  const size_t values = v.grid().values();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
-  pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
+  pass.moves(values * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes,
+             v.grid().pixels() * 16);
 }
 
 }  // namespace

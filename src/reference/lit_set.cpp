@@ -110,7 +110,7 @@ std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm
 
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
                      const ListedLights& lists) {
-  assert(depth.size() == size_t(view.width) * view.height);
+  assert(depth.size() == view.grid().values());
   assert(lists.cell_of_pixel.empty() || lists.cell_of_pixel.size() == depth.size());
   const std::vector<uint32_t> none(depth.size(), 0);
   LitPairs out{none, none, none};

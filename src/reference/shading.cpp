@@ -167,7 +167,7 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
                                 const std::function<Surface(uint32_t pixel)>& surface_at,
                                 const std::vector<ViewLight>& lights, const ShadeSettings& settings,
                                 const std::vector<uint32_t>& pixels) {
-  assert(depth.size() == size_t(view.width) * view.height);
+  assert(depth.size() == view.grid().values());
   std::vector<dvec3> radiance(pixels.size());
   const auto position_of = [&](uint32_t p) {
     return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);

@@ -53,7 +53,7 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       plan(plan_frame(scene, view, with_tuned(settings, renderer.tuned), needs)),
       params(params_of(view, plan, scene.ambient)),
       timer(clock_of(renderer)),
-      targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
+      targets(pool ? pool : std::make_shared<TargetPool>(), view.grid(), plan.stencil),
       settings_(with_tuned(settings, renderer.tuned)),
       needs_(needs),
       opengl_(draws_with_opengl(needs, settings)),
@@ -66,7 +66,7 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
 void RenderView::look(const View& next) { look(next, PlannedInstances::in_view); }
 
 void RenderView::look(const View& next, PlannedInstances instances) {
-  const bool resized = next.width != view.width || next.height != view.height;
+  const bool resized = next.grid() != view.grid();
   const FramePlan before = std::move(plan);
   if (next.orthographic != view.orthographic) programs_.clear();
   view = next;
@@ -74,7 +74,7 @@ void RenderView::look(const View& next, PlannedInstances instances) {
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
-    targets = Targets(pool, view.width, view.height, plan.stencil);
+    targets = Targets(pool, view.grid(), plan.stencil);
     states_.clear();
   }
   follow_view();
@@ -183,8 +183,8 @@ GLuint RenderView::color_framebuffer() {
   return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
-SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use) {
-  return targets.buffer(*renderer.cl, renderer.bridge, name, (pixels() + spare_pixels) * pixel_bytes, use);
+SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {
+  return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().values() + spare_pixels) * bytes, use);
 }
 
 void RenderView::upload_states() {

@@ -82,15 +82,15 @@ struct RenderView {
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
   GLuint color_framebuffer();                 // linear RGBA, 32-bit float, over the depth image
   static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end
-  size_t pixels() const { return size_t(view.width) * size_t(view.height); }
+  const PixelGrid& grid() const { return targets.grid(); }
 
   // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
   // (shared/punctual_light.h).
   void bind_lights() const { lights.bind(); }
   ViewLightBuffers lights;
 
-  // Memory that OpenCL and OpenGL share, for `pixel_bytes` a pixel and spare ones, by name (Targets::buffer).
-  SharedBuffer& shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use = TargetUse::image);
+  // Memory that OpenCL and OpenGL share, for `bytes` a sample and spare ones, by name (Targets::buffer).
+  SharedBuffer& shared_pixels(const std::string& name, size_t bytes, TargetUse use = TargetUse::image);
 
   // The view's only T; T(RenderView&) creates it at first use.
   template <typename T>

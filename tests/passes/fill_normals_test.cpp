@@ -43,7 +43,7 @@ TEST(FillNormals, KeepsEveryDirectionWithinItsSteps) {
         std::tuple(NormalFormat::spheremap, 0.0036, 0.8), std::tuple(NormalFormat::xyz8, 0.4, 0.4)}) {
     RenderView v(test_devices(), gpu, view, {.normals = format}, {});
     const NormalImage normals = fill_normals(v);
-    std::vector<glm::vec4> stored(v.pixels());
+    std::vector<glm::vec4> stored(v.grid().values());
     glBindFramebuffer(GL_READ_FRAMEBUFFER, normals.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, view.width, view.height, GL_RGBA, GL_FLOAT, stored.data());

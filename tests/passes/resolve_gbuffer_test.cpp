@@ -38,12 +38,12 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   EXPECT_EQ(g.layout->bits, settings.buffer_bits);
   Filled f;
   for (const size_t i : g.images) {
-    f.bytes[i].resize(v.pixels() * g.layout->images[i].bytes);
+    f.bytes[i].resize(v.grid().values() * g.layout->images[i].bytes);
     read_buffer(*v.renderer.cl, "reading surfaces", g.surfaces[i]->cl_buffer(), f.bytes[i].data(),
                 f.bytes[i].size());
   }
   read_back(v, {0, g.image}, f.image);
-  f.depth.resize(v.pixels());
+  f.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading depth", visible.image.depth, f.depth.data(), f.depth.size() * 4);
   f.opaque = v.plan.opaque;
   return f;

@@ -52,8 +52,8 @@ Resolved resolved(const Scene& scene, const View& view, const Settings& settings
   if (v.plan.light_grid) grid = cull_lights(v, depth_bounds(v, visible.depth()));
   Resolved r;
   read_back(v, resolve(v, visible, grid ? GridInCl{&*grid, &v.opaque_grid()} : GridInCl{}), r.image);
-  std::vector<uint32_t> triangles(v.pixels());
-  r.depth.resize(v.pixels());
+  std::vector<uint32_t> triangles(v.grid().values());
+  r.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading triangles", visible.image.triangle, triangles.data(),
               triangles.size() * 4);
   read_buffer(*v.renderer.cl, "reading depth", visible.image.depth, r.depth.data(), r.depth.size() * 4);

@@ -96,7 +96,7 @@ LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer) {
       fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(v.scene, v.plan) : 1.0));
   source.textures = {{12, buffer.first}};
   if (buffer.second) source.textures.push_back({13, buffer.second});
-  source.bytes = v.pixels() * buffer.bytes();
+  source.bytes = v.grid().values() * buffer.bytes();
   return source;
 }
 

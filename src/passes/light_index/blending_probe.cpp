@@ -114,7 +114,7 @@ std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& lay
   }
   end_light_indices();
   glBindVertexArray(0);
-  return read_channels(layout, probe_size, probe_size);
+  return read_channels(layout, {probe_size, probe_size});
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void begin_adding_lights(RenderView& v, GLuint framebuffer) {
     glStencilMask(0xff);
     glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &nothing);
   }
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, v.grid().width, v.grid().height);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);

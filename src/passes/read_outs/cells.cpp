@@ -5,7 +5,7 @@
 namespace lightgrid {
 
 std::vector<uint32_t> indices_drawn(RenderView& v, const std::function<void()>& draw) {
-  const int width = v.view.width, height = v.view.height;
+  const int width = v.grid().width, height = v.grid().height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
   const GlFramebuffer framebuffer = make_framebuffer({target.name()}, v.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -15,7 +15,7 @@ std::vector<uint32_t> indices_drawn(RenderView& v, const std::function<void()>& 
   glDisable(GL_BLEND);
   v.bind_lights();
   draw();
-  std::vector<uint32_t> cells(size_t(width) * height);
+  std::vector<uint32_t> cells(v.grid().values());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, cells.data());
   return cells;
@@ -40,8 +40,9 @@ std::vector<uint32_t> shaded_cells(RenderView& v) {
 }
 
 std::vector<uint32_t> cells_at_depths(RenderView& v, const std::vector<float>& depths) {
-  const GlTexture texture = make_texture_2d(GL_R32F, v.view.width, v.view.height);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, v.view.width, v.view.height, GL_RED, GL_FLOAT, depths.data());
+  const GlTexture texture = make_texture_2d(GL_R32F, v.grid().width, v.grid().height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, v.grid().width, v.grid().height, GL_RED, GL_FLOAT,
+                      depths.data());
   std::vector<std::string> defines = slice_defines(v);
   defines.emplace_back("GIVEN_DEPTH");
   return indices_drawn(v, [&] {

@@ -10,14 +10,14 @@ class TriangleTarget {
  public:
   explicit TriangleTarget(RenderView& v)
       : v_(v),
-        texture_(make_texture_2d(GL_RG32UI, v.view.width, v.view.height)),
+        texture_(make_texture_2d(GL_RG32UI, v.grid().width, v.grid().height)),
         framebuffer_(make_framebuffer({texture_.name()}, v.targets.depth())),
         program_(v.programs({"shaders/scene.vert", "shaders/triangles.frag", {}}).of(0)),
         first_triangle_(glGetUniformLocation(program_.name, "first_triangle")) {}
 
   std::vector<glm::uvec2> drawn(const DrawList& list, GLenum depth_test) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    glViewport(0, 0, v_.view.width, v_.view.height);
+    glViewport(0, 0, v_.grid().width, v_.grid().height);
     const GLuint nothing[4] = {none, none, none, none};
     glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, nothing);
     glDepthMask(GL_FALSE);
@@ -25,9 +25,9 @@ class TriangleTarget {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth_test);
     for (const DrawItem& item : list) draw(item);
-    std::vector<glm::uvec2> found(v_.pixels());
+    std::vector<glm::uvec2> found(v_.grid().values());
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, v_.view.width, v_.view.height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
+    glReadPixels(0, 0, v_.grid().width, v_.grid().height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
     return found;
   }
 
@@ -65,7 +65,7 @@ ShownTriangles read_triangles(RenderView& v) {
     shown.opaque.push_back(none ? SceneTriangle{}
                                 : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
   }
-  shown.blended.assign(v.pixels(), false);
+  shown.blended.assign(v.grid().values(), false);
   if (v.blended.empty()) return shown;
   const std::vector<glm::uvec2> over = target.drawn(v.blended, GL_GEQUAL);
   for (size_t i = 0; i < over.size(); ++i) shown.blended[i] = over[i].x != TriangleTarget::none;

@@ -145,7 +145,7 @@ class VoxelLister {
 }  // namespace
 
 ListedLights list_voxels(RenderView& v, const ReadVoxels& read, const DepthBuffer& shaded_from) {
-  std::vector<float> depth(v.pixels());
+  std::vector<float> depth(v.grid().values());
   if (shaded_from.values()) {
     read_buffer(*v.renderer.cl, "reading depth", shaded_from.values, depth.data(),
                 depth.size() * sizeof(float));
