@@ -17,13 +17,13 @@ inline constexpr size_t counter_count = 8;
 // than a fill.
 inline constexpr uint invalid_tiles_counters[2] = {2, 6};
 
-// How many values depth bounds have a tile (kernels/common/depth_bounds.h).
+// How many values depth bounds have a tile (kernels/culling/depth_bounds.h).
 inline int planes_of(DepthBoundsMode mode) {
   if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
   return mode == DepthBoundsMode::mask32 ? 3 : 2;
 }
 
-// Index of a tile's value in plane `plane`: kernels/common/depth_bounds.h.
+// Index of a tile's value in plane `plane`: kernels/culling/depth_bounds.h.
 inline size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, uint ty) {
   const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
   return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);

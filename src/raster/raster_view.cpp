@@ -202,7 +202,7 @@ void RasterView::State::keep_sample(int sample) {
   const size_t pixels = camera->grid.pixels(), values = camera->grid.values();
   sample_triangles.at_least(device, values * sizeof(cl_uint));
   sample_depths.at_least(device, (values + Visibility::spare_pixels) * sizeof(cl_float));
-  if (!sample_kernel()) sample_kernel = programs.kernel("raster_sample", "");
+  if (!sample_kernel()) sample_kernel = programs.kernel("raster/raster_sample", "");
   launch(device, "raster_sample", sample_kernel,
          cl::NDRange((pixels + sample_group - 1) / sample_group * sample_group), cl::NDRange(sample_group),
          image_triangles.get(), image_depths.get(), cl_uint(pixels), cl_uint(sample),
