@@ -97,11 +97,12 @@ LightSource from_world_grid(RenderView& v) {
   LightSource source = every_light(v);
   source.defines.emplace_back("LIGHTS_WORLD");
   if (!grid.layout().everywhere.empty()) source.defines.emplace_back("WORLD_EVERYWHERE");
-  source.textures = {{12, grid.cell_texture()},
-                     {13, grid.index_texture()},
-                     {14, grid.bucket_texture()},
-                     {15, grid.key_texture()}};
-  source.blocks = {{4, grid.block()}, {5, state.in_gl.name()}};
+  source.textures = {{Sampler::world_cells, grid.cell_texture()},
+                     {Sampler::world_indices, grid.index_texture()},
+                     {Sampler::world_buckets, grid.bucket_texture()},
+                     {Sampler::world_keys, grid.key_texture()}};
+  source.blocks = {{UniformBlock::WorldGridBlock, grid.block()},
+                   {UniformBlock::WorldViewBlock, state.in_gl.name()}};
   source.bytes = grid.list_bytes();
   return source;
 }

@@ -20,8 +20,8 @@ LightBuffer draw_light_buffer(RenderView& v, const NormalImage& normals) {
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
   for (std::string& define : light_buffer_defines(v)) defines.push_back(std::move(define));
   begin_adding_lights(v, framebuffer);
-  glBindTextureUnit(0, normals.texture);
-  glBindTextureUnit(2, v.targets.depth());
+  bind_texture(Sampler::normals, normals.texture);
+  bind_texture(Sampler::depth_image, v.targets.depth());
   VolumeDraws(v, "shaders/light_buffer.frag", std::move(defines)).draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
   pass.moves(v.pixels() * (4 + normals.layout->image.bytes + buffer.bytes()), v.pixels() * buffer.bytes());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/bindings.h"
 #include "renderer/render_view.h"
 
 namespace lightgrid {

@@ -94,8 +94,8 @@ LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer) {
       v.plan.settings.prepass_specular == PrepassSpecular::bent || v.plan.skin || v.plan.minnaert;
   source.defines.push_back(
       fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(v.scene, v.plan) : 1.0));
-  source.textures = {{12, buffer.first}};
-  if (buffer.second) source.textures.push_back({13, buffer.second});
+  source.textures = {{Sampler::light_buffer, buffer.first}};
+  if (buffer.second) source.textures.push_back({Sampler::light_buffer_second, buffer.second});
   source.bytes = v.pixels() * buffer.bytes();
   return source;
 }

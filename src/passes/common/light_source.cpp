@@ -23,8 +23,8 @@ LightSource with_lights(const RenderView& v) {
 
 void LightSource::bind(const RenderView& v) const {
   v.bind_lights();
-  for (const Binding& binding : textures) glBindTextureUnit(binding.unit, binding.texture);
-  for (const Block& block : blocks) glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
+  for (const Binding& binding : textures) bind_texture(binding.sampler, binding.texture, binding.element);
+  for (const Block& block : blocks) bind_block(block.block, block.buffer);
 }
 
 LightSource base_lighting(const RenderView& v) {
@@ -43,8 +43,12 @@ LightSource from_grid(const RenderView& v, const GridTextures& grid) {
   source.defines.emplace_back(grid.masks ? "LIGHTS_MASKS" : "LIGHTS_GRID");
   if (v.plan.slices > 1) source.defines.emplace_back("SLICES");
   if (v.plan.z_bins > 1) source.defines.emplace_back("Z_BINS");
-  source.textures = {{12, grid.masks ? grid.masks : grid.cells}, {13, grid.indices}};
-  if (grid.z_bins) source.textures.push_back({14, grid.z_bins});
+  if (grid.masks) {
+    source.textures = {{Sampler::grid_masks, grid.masks}};
+  } else {
+    source.textures = {{Sampler::grid_cells, grid.cells}, {Sampler::grid_indices, grid.indices}};
+  }
+  if (grid.z_bins) source.textures.push_back({Sampler::light_z_bins, grid.z_bins});
   source.bytes = grid.bytes;
   return source;
 }
@@ -53,7 +57,7 @@ LightSource from_light_index(const RenderView& v, const LightIndexImages& index)
   LightSource source = with_lights(v);
   source.defines.insert(source.defines.end(), index.defines.begin(), index.defines.end());
   for (size_t i = 0; i < index.images.size(); ++i)
-    source.textures.push_back({GLuint(12 + i), index.images[i]});
+    source.textures.push_back({Sampler::light_index_images, index.images[i], i});
   source.bytes = index.bytes;
   return source;
 }
@@ -61,7 +65,7 @@ LightSource from_light_index(const RenderView& v, const LightIndexImages& index)
 LightSource from_objects(const RenderView& v, const ObjectLights& objects) {
   LightSource source = with_lights(v);
   source.defines.emplace_back("LIGHTS_OBJECT");
-  if (objects.texture()) source.textures.push_back({12, objects.texture()});
+  if (objects.texture()) source.textures.push_back({Sampler::object_lights, objects.texture()});
   source.bytes = objects.lights().size() * sizeof(uint32_t);
   return source;
 }
@@ -70,13 +74,14 @@ LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels, const 
   LightSource source = with_lights(v);
   source.defines.emplace_back("LIGHTS_VOXELS");
   if (voxels.log_depth) source.defines.emplace_back("VOXELS_LOG");
-  source.textures = {{14, voxels.irradiance}, {15, voxels.directions}};
+  source.textures = {{Sampler::voxel_irradiance, voxels.irradiance},
+                     {Sampler::voxel_directions, voxels.directions}};
   if (v.plan.light_grid) {
     source.defines.emplace_back("VOXEL_EXACT " + std::to_string(v.plan.settings.voxel_lights_exact));
-    source.textures.push_back({12, grid.cells});
-    source.textures.push_back({13, grid.indices});
+    source.textures.push_back({Sampler::grid_cells, grid.cells});
+    source.textures.push_back({Sampler::grid_indices, grid.indices});
   }
-  source.blocks = {{4, voxels.lookup}};
+  source.blocks = {{UniformBlock::VoxelLookupBlock, voxels.lookup}};
   source.bytes = voxels.bytes + grid.bytes;
   return source;
 }

@@ -11,11 +11,14 @@ struct VoxelTextures;
 struct LightSource {
   std::vector<std::string> defines;  // for shaders/forward.frag: which loop, and its input
   struct Binding {
-    GLuint unit, texture;
+    Sampler sampler;
+    GLuint texture;
+    size_t element = 0;  // of an array of samplers
   };
   std::vector<Binding> textures;
   struct Block {
-    GLuint binding, buffer;
+    UniformBlock block;
+    GLuint buffer;
   };
   std::vector<Block> blocks;  // uniform blocks besides the view's
   size_t bytes = 0;           // of the lists, for passes that count bytes read

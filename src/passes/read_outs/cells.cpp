@@ -46,7 +46,7 @@ std::vector<uint32_t> cells_at_depths(RenderView& v, const std::vector<float>& d
   defines.emplace_back("GIVEN_DEPTH");
   return indices_drawn(v, [&] {
     glDisable(GL_DEPTH_TEST);
-    glBindTextureUnit(0, texture.name());
+    bind_texture(Sampler::given_depth, texture.name());
     draw_screen(v.program("shaders/screen.vert", "shaders/cells.frag", defines));
   });
 }
