@@ -55,7 +55,7 @@ class VoxelBuffers : public PassState {
     std::string defines = defines_of(v);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      kernel_ = cl::Kernel();
+      kernel_ = {};
       filled.reset();
     }
     return true;
@@ -67,9 +67,9 @@ class VoxelBuffers : public PassState {
     return bytes + texture_bytes;
   }
 
-  cl::Kernel& kernel(RenderView& v) {
-    if (!kernel_())
-      kernel_ = v.renderer.kernels->kernel(lanes ? "cpu/build_voxels" : "gpu/build_voxels", defines_);
+  NamedKernel& kernel(RenderView& v) {
+    if (!kernel_)
+      kernel_ = NamedKernel(*v.renderer.kernels, lanes ? "cpu/build_voxels" : "gpu/build_voxels", defines_);
     return kernel_;
   }
 
@@ -101,7 +101,7 @@ class VoxelBuffers : public PassState {
   }
 
   std::string defines_;
-  cl::Kernel kernel_;
+  NamedKernel kernel_;
 };
 
 size_t volume_bytes(const RenderView& v) {
@@ -142,7 +142,7 @@ void place(RenderView& v, VoxelBuffers& s, const TileDistances& distances) {
 VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const DepthBuffer& depth) {
   VoxelBuffers& s = v.state<VoxelBuffers>();
   s.shaded_from = depth;
-  cl::Kernel& kernel = s.kernel(v);
+  NamedKernel& kernel = s.kernel(v);
   place(v, s, distances);
   const size_t bytes = volume_bytes(v);
   const BridgeKind bridge =
@@ -156,11 +156,16 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
   const cl::NDRange items(g.size_x / VOXEL_GROUP_X * VOXEL_GROUP_ITEMS, g.size_y / VOXEL_GROUP_Y, g.size_z);
-  launch(*v.renderer.cl, "build_voxels", kernel, s.lanes ? bricks : items,
-         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1), s.lights.boxes.buffer(),
-         s.lights.places.buffer(), s.lights.colors.buffer(),
-         v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(), s.slices.buffer(),
-         s.irradiance->cl_buffer(), s.directions->cl_buffer());
+  kernel.launch(*v.renderer.cl, "build_voxels", s.lanes ? bricks : items,
+                s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1),
+                {{"boxes", s.lights.boxes.buffer()},
+                 {"places", s.lights.places.buffer()},
+                 {"colors", s.lights.colors.buffer()},
+                 {"cones", v.plan.spots ? s.lights.cones.buffer() : cl::Buffer()},
+                 {"grid", s.grid.buffer()},
+                 {"slices", s.slices.buffer()},
+                 {"irradiance", s.irradiance->cl_buffer()},
+                 {"directions", s.directions->cl_buffer()}});
   s.filled = std::move(needed);
   s.texture_stale = true;
   pass.moves(s.lights.memory_bytes(), volume.bytes);

@@ -28,7 +28,7 @@ class LightSums : public PassState {
     std::string defines = defines_of_light_buffer(v, lanes);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      kernel_ = cl::Kernel();
+      kernel_ = {};
     }
     lights.upload(v);
     return true;
@@ -37,9 +37,9 @@ class LightSums : public PassState {
   size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
-  cl::Kernel& kernel(RenderView& v) {
-    if (!kernel_())
-      kernel_ = v.renderer.kernels->kernel(lanes ? "cpu/light_buffer" : "gpu/light_buffer", defines_);
+  NamedKernel& kernel(RenderView& v) {
+    if (!kernel_)
+      kernel_ = NamedKernel(*v.renderer.kernels, lanes ? "cpu/light_buffer" : "gpu/light_buffer", defines_);
     return kernel_;
   }
 
@@ -48,7 +48,7 @@ class LightSums : public PassState {
 
  private:
   std::string defines_;
-  cl::Kernel kernel_;
+  NamedKernel kernel_;
 };
 
 void sums_to_gl(RenderView& v, const PrepassImage& image, SharedBuffer& from, GLuint to) {
@@ -73,7 +73,7 @@ NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals) {
 LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, const DepthBuffer& depth,
                                   const LightGrid& grid, TargetUse use) {
   LightSums& s = v.state<LightSums>();
-  cl::Kernel& kernel = s.kernel(v);
+  NamedKernel& kernel = s.kernel(v);
   LightBufferInCl buffer{&light_buffer_layout(v.plan.settings), nullptr, nullptr};
   buffer.first = &v.shared_pixels("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(v.plan.settings))
@@ -84,13 +84,22 @@ LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, con
   const cl::NDRange items = s.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y)
                                     : cl::NDRange(whole(v.view.width), whole(v.view.height));
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
-  launch(*v.renderer.cl, "fill_light_buffer", kernel, items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), normals.image->cl_buffer(), depth.values,
-         s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(),
-         v.opaque_grid().cells(grid.cell_bytes), v.opaque_grid().indices(grid.index_bytes), light_bins,
-         s.lights.bin_edges.buffer(), buffer.first->cl_buffer(),
-         buffer.second ? buffer.second->cl_buffer() : cl::Buffer(),
-         cl_float(v.plan.settings.prepass_shininess), cl_float(1 / stored_scale(v)), s.lights.view.buffer());
+  kernel.launch(*v.renderer.cl, "fill_light_buffer", items,
+                s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+                {{"normals", normals.image->cl_buffer()},
+                 {"depth", depth.values},
+                 {"positions", s.lights.positions.buffer()},
+                 {"colors", s.lights.colors.buffer()},
+                 {"cones", s.lights.cones.buffer()},
+                 {"cells", v.opaque_grid().cells(grid.cell_bytes)},
+                 {"indices", v.opaque_grid().indices(grid.index_bytes)},
+                 {"light_bins", light_bins},
+                 {"bin_edges", s.lights.bin_edges.buffer()},
+                 {"first", buffer.first->cl_buffer()},
+                 {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
+                 {"exponent", cl_float(v.plan.settings.prepass_shininess)},
+                 {"inverse_scale", cl_float(1 / stored_scale(v))},
+                 {"view", s.lights.view.buffer()}});
   pass.moves(
       v.pixels() * (4 + normals.layout->image.bytes) + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes,
       v.pixels() * buffer.bytes());

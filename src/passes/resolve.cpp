@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
-
 #include "cl/launch.h"
 #include "passes/build_voxels.h"
 #include "passes/build_world_grid.h"
@@ -22,11 +20,31 @@ cl::NDRange whole_groups(const View& view) {
   return {whole(view.width, group_width), whole(view.height, group_height)};
 }
 
+// The lists of a source of lights, as RESOLVE_ARGUMENTS has them.
+ClArguments source_arguments(const GridInCl& in) {
+  cl::Buffer cells, indices, light_bins;
+  if (in.world) cells = in.world->grid->cells(), indices = in.world->grid->indices();
+  if (in.grid) {
+    cells = in.storage->cells(in.grid->cell_bytes), indices = in.storage->indices(in.grid->index_bytes);
+    if (in.grid->z_bin_bytes) light_bins = in.storage->z_bins(in.grid->z_bin_bytes);
+  }
+  const ClArguments lists = {{"cells", cells}, {"light_indices", indices}, {"light_bins", light_bins}};
+  if (in.voxels)
+    return lists + ClArguments{{"irradiance", in.voxels->irradiance->cl_buffer()},
+                               {"directions", in.voxels->directions->cl_buffer()},
+                               {"voxels", in.voxels->lookup}};
+  if (!in.world) return lists;
+  WorldGrid& grid = *in.world->grid;
+  return lists + ClArguments{{"world_buckets", grid.buckets()},
+                             {"world_keys", grid.keys()},
+                             {"world", grid.params()},
+                             {"world_view", in.world->view}};
+}
+
 // The image, the lights and the kernels.
 class Resolving : public PassState {
  public:
-  explicit Resolving(RenderView& v)
-      : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
+  explicit Resolving(RenderView& v) : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
     upload(v);
   }
 
@@ -46,11 +64,11 @@ class Resolving : public PassState {
   size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
 
   // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
-  cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
-    cl::Kernel& kernel = kernels_[stem + more_defines];
-    if (!kernel()) {
-      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem),
-                                          defines_ + more_defines + register_limit(v));
+  NamedKernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
+    NamedKernel& kernel = kernels_[stem + more_defines];
+    if (!kernel) {
+      kernel = NamedKernel(*v.renderer.kernels, (lanes ? "cpu/" : "gpu/") + std::string(stem),
+                           defines_ + more_defines + register_limit(v));
     }
     return kernel;
   }
@@ -68,19 +86,26 @@ class Resolving : public PassState {
   }
 
   // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
-  auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces, const GridInCl& in) {
+  ClArguments arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces,
+                        const GridInCl& in) {
     const ClScene& s = scene(v);
-    cl::Buffer cells, indices, light_bins;
-    if (in.world) cells = in.world->grid->cells(), indices = in.world->grid->indices();
-    if (in.grid) {
-      cells = in.storage->cells(in.grid->cell_bytes), indices = in.storage->indices(in.grid->index_bytes);
-      if (in.grid->z_bin_bytes) light_bins = in.storage->z_bins(in.grid->z_bin_bytes);
-    }
-    return std::tuple(raster.triangle_instance, raster.instances, raster.indices, raster.clip, surfaces,
-                      s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.positions.buffer(),
-                      lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), cells,
-                      indices, light_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
-                      lights.view.buffer());
+    return ClArguments{{"triangle_instance", raster.triangle_instance},
+                       {"instances", raster.instances},
+                       {"indices", raster.indices},
+                       {"clip", raster.clip},
+                       {"surfaces", surfaces},
+                       {"vertices", s.vertices()},
+                       {"materials", s.materials()},
+                       {"texels_4", s.texels_4()},
+                       {"texels_8", s.texels_8()},
+                       {"positions", lights.positions.buffer()},
+                       {"colors", lights.colors.buffer()},
+                       {"cones", lights.cones.buffer()},
+                       {"directional", lights.directional.buffer()}} +
+           source_arguments(in) +
+           ClArguments{{"bin_edges", lights.bin_edges.buffer()},
+                       {"slice_edges", lights.slice_edges.buffer()},
+                       {"view", lights.view.buffer()}};
   }
 
   // Of kernels over all pixels: a work-item takes a tile, or a pixel.
@@ -118,7 +143,7 @@ class Resolving : public PassState {
   }
 
   std::string defines_;
-  std::map<std::string, cl::Kernel> kernels_;  // by stem and what more defines it has
+  std::map<std::string, NamedKernel> kernels_;  // by stem and what more defines it has
   size_t scene_bytes_ = 0;
   bool uploaded_ = false;  // for this view
 };
@@ -134,25 +159,13 @@ std::string specular_define(const Settings& settings) {
   return define ? fmt::format(" -D{}", define) : "";
 }
 
+ClArguments visible_arguments(const VisibilityBuffer& visible) {
+  return {{"triangles", visible.image.triangle}, {"depths", visible.image.depth}};
+}
+
 cl_float4 background(const RenderView& v) {
   const glm::vec3& background = v.scene.background;
   return {{background.r, background.g, background.b, 1}};
-}
-
-// Calls `launch` with the arguments of a kernel that adds these lights.
-template <typename Arguments, typename Launch>
-void with_lights(const GridInCl& in, const Arguments& arguments, const Launch& launch) {
-  if (in.voxels) {
-    std::apply(launch,
-               std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(),
-                                                    in.voxels->directions->cl_buffer(), in.voxels->lookup)));
-  } else if (in.world) {
-    WorldGrid& grid = *in.world->grid;
-    std::apply(launch, std::tuple_cat(arguments, std::tuple(grid.buckets(), grid.keys(), grid.params(),
-                                                            in.world->view)));
-  } else {
-    std::apply(launch, arguments);
-  }
 }
 
 std::string light_kernel_defines(const RenderView& v, const GridInCl& in) {
@@ -173,12 +186,11 @@ size_t grid_bytes(const GridInCl& in) {
 
 ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
   Resolving& r = resolving(v);
-  cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
+  NamedKernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("resolve", "cl");
-  with_lights(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
-    launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle,
-           visible.image.depth, shared..., background(v), r.image.cl_buffer());
-  });
+  kernel.launch(*v.renderer.cl, "resolve", r.items(v), r.group(),
+                visible_arguments(visible) + r.arguments(v, visible.raster, visible.surfaces, lights) +
+                    ClArguments{{"background", background(v)}, {"image", r.image.cl_buffer()}});
   pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
 }
@@ -187,16 +199,16 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
   Resolving& r = resolving(v);
   const GBufferInCl g = gbuffer_in_cl_of(v, base_lighting, TargetUse::gbuffer);
   const bool image = base_lighting == BaseLighting::in_image;
-  cl::Kernel& kernel = r.kernel(v, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
+  NamedKernel& kernel = r.kernel(v, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
   auto pass = v.timer.pass("resolve_gbuffer", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*v.renderer.cl, "resolve_gbuffer", kernel, r.items(v), r.group(), visible.image.triangle,
-               visible.image.depth, shared..., background(v), g.surfaces[0]->cl_buffer(),
-               g.surfaces[1]->cl_buffer(), g.in_cl(gbuffer_coat), g.in_cl(gbuffer_specular),
-               image ? g.image->cl_buffer() : cl::Buffer());
-      },
-      r.arguments(v, visible.raster, visible.surfaces, {}));
+  kernel.launch(*v.renderer.cl, "resolve_gbuffer", r.items(v), r.group(),
+                visible_arguments(visible) + r.arguments(v, visible.raster, visible.surfaces, {}) +
+                    ClArguments{{"background", background(v)},
+                                {"first", g.surfaces[0]->cl_buffer()},
+                                {"second", g.surfaces[1]->cl_buffer()},
+                                {"coats", g.in_cl(gbuffer_coat)},
+                                {"specular", g.in_cl(gbuffer_specular)},
+                                {"image", image ? g.image->cl_buffer() : cl::Buffer()}});
   pass.moves(v.pixels() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
              v.pixels() * (g.bytes() + (image ? 16 : 0)));
   return g;
@@ -206,14 +218,12 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
   Resolving& r = resolving(v);
   const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
   const char* define = normals.layout->define;
-  cl::Kernel& kernel = r.kernel(v, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
+  NamedKernel& kernel = r.kernel(v, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
   auto pass = v.timer.pass("resolve_normals", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*v.renderer.cl, "resolve_normals", kernel, r.items(v), r.group(), visible.image.triangle,
-               shared..., normals.image->cl_buffer());
-      },
-      r.arguments(v, visible.raster, visible.surfaces, {}));
+  kernel.launch(*v.renderer.cl, "resolve_normals", r.items(v), r.group(),
+                ClArguments{{"triangles", visible.image.triangle}} +
+                    r.arguments(v, visible.raster, visible.surfaces, {}) +
+                    ClArguments{{"normals", normals.image->cl_buffer()}});
   pass.moves(v.pixels() * 4 + r.scene(v).memory_bytes(), v.pixels() * normals.layout->image.bytes);
   return normals;
 }
@@ -221,18 +231,18 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
 ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, const LightBufferInCl& sums) {
   Resolving& r = resolving(v);
   const Settings& s = v.plan.settings;
-  cl::Kernel& kernel =
+  NamedKernel& kernel =
       r.kernel(v, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
   auto pass = v.timer.pass("resolve_materials", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*v.renderer.cl, "resolve_materials", kernel, r.items(v), r.group(), visible.image.triangle,
-               visible.image.depth, shared..., background(v), sums.first->cl_buffer(),
-               sums.second ? sums.second->cl_buffer() : cl::Buffer(), cl_float(stored_scale(v)),
-               cl_float(s.prepass_shininess), cl_float(reference_light(v.scene, v.plan)),
-               r.image.cl_buffer());
-      },
-      r.arguments(v, visible.raster, visible.surfaces, {}));
+  kernel.launch(*v.renderer.cl, "resolve_materials", r.items(v), r.group(),
+                visible_arguments(visible) + r.arguments(v, visible.raster, visible.surfaces, {}) +
+                    ClArguments{{"background", background(v)},
+                                {"first", sums.first->cl_buffer()},
+                                {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
+                                {"scale", cl_float(stored_scale(v))},
+                                {"exponent", cl_float(s.prepass_shininess)},
+                                {"reference", cl_float(reference_light(v.scene, v.plan))},
+                                {"image", r.image.cl_buffer()}});
   pass.moves(v.pixels() * (8 + sums.bytes()) + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
 }
@@ -240,15 +250,18 @@ ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, co
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
                     const GridInCl& lights) {
   Resolving& r = resolving(v);
-  cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(v, lights));
+  NamedKernel& kernel = r.kernel(v, "blend", light_kernel_defines(v, lights));
   auto pass = v.timer.pass("blend_resolved", "cl");
-  with_lights(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
-    launch(*v.renderer.cl, "blend_resolved", kernel,
-           r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
-           r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
-           blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
-           shared..., r.image.cl_buffer());
-  });
+  kernel.launch(*v.renderer.cl, "blend_resolved",
+                r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
+                r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height),
+                ClArguments{{"records", blended.lists.records},
+                            {"tile_begin", blended.lists.tile_begin},
+                            {"lists", blended.lists.lists},
+                            {"tiles_x", cl_uint(blended.lists.tiles_x)},
+                            {"depths", depth.values}} +
+                    r.arguments(v, blended.raster, blended.surfaces, lights) +
+                    ClArguments{{"image", r.image.cl_buffer()}});
   pass.moves(v.pixels() * 20 + grid_bytes(lights), v.pixels() * 16);
 }
 

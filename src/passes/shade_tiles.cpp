@@ -26,7 +26,7 @@ class TileShading : public PassState {
     std::string defines = defines_of_view(v);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      for (cl::Kernel& kernel : kernels_) kernel = cl::Kernel();
+      for (NamedKernel& kernel : kernels_) kernel = {};
     }
     lights.upload(v);
     return true;
@@ -35,12 +35,12 @@ class TileShading : public PassState {
   size_t memory_bytes() const override { return lights.memory_bytes() + models.bytes(); }
 
   // Built at first use.
-  cl::Kernel& kernel(RenderView& v, const GBufferInCl& gbuffer) {
-    cl::Kernel& kernel = kernels_[holds_base_lighting(gbuffer)];
-    if (kernel()) return kernel;
+  NamedKernel& kernel(RenderView& v, const GBufferInCl& gbuffer) {
+    NamedKernel& kernel = kernels_[holds_base_lighting(gbuffer)];
+    if (kernel) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
                                             holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel = v.renderer.kernels->kernel(lanes ? "cpu/shade_tiles" : "gpu/shade_tiles", defines);
+    kernel = NamedKernel(*v.renderer.kernels, lanes ? "cpu/shade_tiles" : "gpu/shade_tiles", defines);
     return kernel;
   }
 
@@ -57,8 +57,8 @@ class TileShading : public PassState {
     return defines;
   }
 
-  std::string defines_;    // of the view and its plan
-  cl::Kernel kernels_[2];  // by holds_base_lighting
+  std::string defines_;     // of the view and its plan
+  NamedKernel kernels_[2];  // by holds_base_lighting
 };
 
 void copy_attachment(RenderView& v, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type,
@@ -111,14 +111,24 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   const glm::vec3 background =
       base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
-  launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(),
-         gbuffer.surfaces[1]->cl_buffer(), gbuffer.in_cl(gbuffer_coat), gbuffer.in_cl(gbuffer_specular),
-         s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(),
-         s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
-         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(),
-         gbuffer.image->cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}},
-         s.lights.view.buffer());
+  s.kernel(v, gbuffer)
+      .launch(*v.renderer.cl, "shade_tiles", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+              {{"first", gbuffer.surfaces[0]->cl_buffer()},
+               {"second", gbuffer.surfaces[1]->cl_buffer()},
+               {"coats", gbuffer.in_cl(gbuffer_coat)},
+               {"specular", gbuffer.in_cl(gbuffer_specular)},
+               {"models", s.models.buffer()},
+               {"depth", depth.values},
+               {"positions", s.lights.positions.buffer()},
+               {"colors", s.lights.colors.buffer()},
+               {"cones", s.lights.cones.buffer()},
+               {"cells", v.opaque_grid().cells(grid.cell_bytes)},
+               {"indices", v.opaque_grid().indices(grid.index_bytes)},
+               {"light_bins", light_bins},
+               {"bin_edges", s.lights.bin_edges.buffer()},
+               {"image", gbuffer.image->cl_buffer()},
+               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
+               {"view", s.lights.view.buffer()}});
   const size_t pixels = v.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);

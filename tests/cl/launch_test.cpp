@@ -67,5 +67,43 @@ TEST_F(Launch, ThatFailsSaysWhichLabelAndCode) {
   EXPECT_TRUE(device.profiler().collect().empty());
 }
 
+// kernels/world_scan.cl has the parameters values, count and total.
+struct NamedLaunch : Launch {
+  std::string refusal(const std::string& defines, const ClArguments& arguments) {
+    NamedKernel kernel(programs, "world_scan", defines);
+    try {
+      kernel.launch(device, "scan", cl::NDRange(1), cl::NDRange(1), arguments);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const cl_uint count = 3;
+  const ClArguments whole = {{"values", buffer}, {"count", count}, {"total", buffer}};
+};
+
+TEST_F(NamedLaunch, ArgumentsReachTheParametersOfTheirNames) {
+  cl::Buffer total(device.context(), CL_MEM_READ_WRITE, 8);
+  EXPECT_EQ(refusal("", {{"values", buffer}, {"count", count}, {"total", total}}), "");
+  cl_uint sum[2];
+  device.queue().enqueueReadBuffer(total, CL_TRUE, 0, sizeof sum, sum);
+  EXPECT_EQ(sum[0], 0u + 1 + 2);
+}
+
+TEST_F(NamedLaunch, ARenamedParameterIsNamed) {
+  EXPECT_EQ(refusal("-Dtotal=sum_of_all", whole), "kernels/world_scan.cl: no argument for its parameter \"sum_of_all\"");
+}
+
+TEST_F(NamedLaunch, AMissingAnUnknownOrAMisplacedArgumentIsNamed) {
+  EXPECT_EQ(refusal("", {{"values", buffer}, {"total", buffer}}),
+            "kernels/world_scan.cl: no argument for its parameter \"count\"");
+  EXPECT_EQ(refusal("", whole + ClArguments{{"scale", 1.0f}}),
+            "kernels/world_scan.cl has no parameter \"scale\"");
+  EXPECT_EQ(refusal("", whole + ClArguments{{"count", count}}),
+            "kernels/world_scan.cl takes 3 arguments, not 4");
+  EXPECT_EQ(refusal("", {{"total", buffer}, {"count", count}, {"values", buffer}}),
+            "kernels/world_scan.cl: its parameter 0 is \"values\", the argument is \"total\"");
+}
+
 }  // namespace
 }  // namespace lightgrid
