@@ -52,9 +52,9 @@ inline ClArguments operator+(ClArguments first, const ClArguments& more) {
   return first;
 }
 
-// A kernel whose launches name their arguments. Names that are not those of its parameters, in their order,
-// throw Error(machine) with the parameter's name, on every driver that tells names; another number of
-// arguments on all.
+// A kernel whose launches name their arguments. The first that is not its parameter's, in the kernel's order,
+// throws Error(machine) with both names, on every driver that tells them; another number of arguments, on
+// all.
 class NamedKernel {
  public:
   NamedKernel() = default;
@@ -66,8 +66,6 @@ class NamedKernel {
               const ClArguments& arguments);
 
  private:
-  void check(const ClArguments& arguments) const;
-
   std::string file_;
   cl::Kernel kernel_;
   size_t count_ = 0;                     // of parameters

@@ -39,7 +39,8 @@ class LightSums : public PassState {
   // Built at first use.
   NamedKernel& kernel(RenderView& v) {
     if (!kernel_)
-      kernel_ = NamedKernel(*v.renderer.kernels, lanes ? "cpu/light_buffer" : "gpu/light_buffer", defines_);
+      kernel_ = NamedKernel(*v.renderer.kernels,
+                            lanes ? "resolve/cpu/light_buffer" : "resolve/gpu/light_buffer", defines_);
     return kernel_;
   }
 

@@ -67,7 +67,7 @@ class Resolving : public PassState {
   NamedKernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
     NamedKernel& kernel = kernels_[stem + more_defines];
     if (!kernel) {
-      kernel = NamedKernel(*v.renderer.kernels, (lanes ? "cpu/" : "gpu/") + std::string(stem),
+      kernel = NamedKernel(*v.renderer.kernels, (lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
                            defines_ + more_defines + register_limit(v));
     }
     return kernel;
@@ -85,7 +85,7 @@ class Resolving : public PassState {
     return scene;
   }
 
-  // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
+  // RESOLVE_ARGUMENTS of kernels/resolve/resolve_light.h.
   ClArguments arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces,
                         const GridInCl& in) {
     const ClScene& s = scene(v);

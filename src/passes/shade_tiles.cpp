@@ -40,7 +40,8 @@ class TileShading : public PassState {
     if (kernel) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
                                             holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel = NamedKernel(*v.renderer.kernels, lanes ? "cpu/shade_tiles" : "gpu/shade_tiles", defines);
+    kernel = NamedKernel(*v.renderer.kernels, lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles",
+                         defines);
     return kernel;
   }
 
