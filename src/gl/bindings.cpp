@@ -1,6 +1,10 @@
 #include "gl/bindings.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include "base/error.h"
 
@@ -35,41 +39,20 @@ GLuint number_of(std::span<const Binding> list, const std::string& files, const 
   return found->number;
 }
 
+// Neither a number, a vector or a matrix, nor an image.
 bool is_sampler(GLenum type) {
-  constexpr GLenum types[] = {GL_SAMPLER_2D,
-                              GL_SAMPLER_2D_SHADOW,
-                              GL_SAMPLER_2D_ARRAY,
-                              GL_SAMPLER_2D_ARRAY_SHADOW,
-                              GL_SAMPLER_2D_MULTISAMPLE,
-                              GL_SAMPLER_3D,
-                              GL_SAMPLER_CUBE,
-                              GL_SAMPLER_CUBE_SHADOW,
-                              GL_SAMPLER_BUFFER,
-                              GL_INT_SAMPLER_2D,
-                              GL_INT_SAMPLER_3D,
-                              GL_INT_SAMPLER_BUFFER,
-                              GL_UNSIGNED_INT_SAMPLER_2D,
-                              GL_UNSIGNED_INT_SAMPLER_2D_ARRAY,
-                              GL_UNSIGNED_INT_SAMPLER_3D,
-                              GL_UNSIGNED_INT_SAMPLER_BUFFER};
-  return std::find(std::begin(types), std::end(types), type) != std::end(types);
+  const auto within = [&](GLenum first, GLenum last) { return type >= first && type <= last; };
+  return !within(0, GL_DOUBLE) && !within(GL_FLOAT_VEC2, GL_FLOAT_MAT4) &&
+         !within(GL_FLOAT_MAT2x3, GL_FLOAT_MAT4x3) && !within(GL_UNSIGNED_INT_VEC2, GL_UNSIGNED_INT_VEC4) &&
+         !within(GL_IMAGE_1D, GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY);
 }
 
 constexpr GLsizei longest_name = 128;
 
-std::vector<ActiveSampler> active_samplers(GLuint program) {
-  std::vector<ActiveSampler> samplers;
-  GLint count = 0;
-  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
-  for (GLuint i = 0; i < GLuint(count); ++i) {
-    char name[longest_name];
-    GLint elements = 0;
-    GLenum type = 0;
-    glGetActiveUniform(program, i, longest_name, nullptr, &elements, &type, name);
-    const std::string text(name);
-    if (is_sampler(type)) samplers.push_back({text.substr(0, text.find('[')), GLuint(elements)});
-  }
-  return samplers;
+GLint parameter(GLuint program, GLenum name) {
+  GLint value = 0;
+  glGetProgramiv(program, name, &value);
+  return value;
 }
 
 }  // namespace
@@ -78,45 +61,33 @@ void unbind_sampler_objects() {
   for (GLuint unit = 0; unit < units(); ++unit) glBindSampler(unit, 0);
 }
 
-std::vector<GLuint> units_of(const std::string& files, std::span<const ActiveSampler> samplers, GLuint most) {
-  std::vector<GLuint> first;
-  std::vector<std::string> users;  // by unit
-  GLuint used = 0;
-  for (const ActiveSampler& sampler : samplers) {
-    first.push_back(number_of(listed_samplers, files, "sampler", sampler.name));
-    users.resize(std::max<size_t>(users.size(), first.back() + sampler.count));
-    for (GLuint i = 0; i < sampler.count; ++i) {
-      std::string& user = users[first.back() + i];
-      if (!user.empty())
-        throw machine_error("OpenGL: {} reads \"{}\" and \"{}\", which share a texture unit in gl/bindings.h",
-                            files, user, sampler.name);
-      user = sampler.name;
-    }
-    used += sampler.count;
-  }
-  if (used > most)
-    throw machine_error("OpenGL: {} reads {} textures; a shader may read {} on this driver", files, used,
-                        most);
-  return first;
-}
-
 void assign_bindings(GLuint program, const std::string& files) {
+  char text[longest_name];
+  std::map<GLint, std::string> users;  // by unit
+  for (GLuint i = 0; i < GLuint(parameter(program, GL_ACTIVE_UNIFORMS)); ++i) {
+    GLint count = 0;
+    GLenum type = 0;
+    glGetActiveUniform(program, i, longest_name, nullptr, &count, &type, text);
+    if (!is_sampler(type)) continue;
+    const std::string name = std::string(text).substr(0, std::string_view(text).find('['));  // of an array
+    std::vector<GLint> taken(size_t(count), GLint(number_of(listed_samplers, files, "sampler", name)));
+    std::iota(taken.begin(), taken.end(), taken[0]);
+    for (const GLint unit : taken) {
+      const auto [user, added] = users.try_emplace(unit, name);
+      if (!added)
+        throw machine_error("OpenGL: {} reads \"{}\" and \"{}\", which share a texture unit in gl/bindings.h",
+                            files, user->second, name);
+    }
+    glProgramUniform1iv(program, glGetUniformLocation(program, name.c_str()), count, taken.data());
+  }
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &most);
-  const std::vector<ActiveSampler> samplers = active_samplers(program);
-  const std::vector<GLuint> first = units_of(files, samplers, GLuint(most));
-  for (size_t i = 0; i < samplers.size(); ++i) {
-    std::vector<GLint> units;
-    for (GLuint k = 0; k < samplers[i].count; ++k) units.push_back(GLint(first[i] + k));
-    glProgramUniform1iv(program, glGetUniformLocation(program, samplers[i].name.c_str()),
-                        GLsizei(units.size()), units.data());
-  }
-  GLint blocks = 0;
-  glGetProgramiv(program, GL_ACTIVE_UNIFORM_BLOCKS, &blocks);
-  for (GLuint i = 0; i < GLuint(blocks); ++i) {
-    char name[longest_name];
-    glGetActiveUniformBlockName(program, i, longest_name, nullptr, name);
-    glUniformBlockBinding(program, i, number_of(listed_blocks, files, "uniform block", name));
+  if (users.size() > size_t(most))
+    throw machine_error("OpenGL: {} reads {} textures; a shader may read {} on this driver", files,
+                        users.size(), most);
+  for (GLuint i = 0; i < GLuint(parameter(program, GL_ACTIVE_UNIFORM_BLOCKS)); ++i) {
+    glGetActiveUniformBlockName(program, i, longest_name, nullptr, text);
+    glUniformBlockBinding(program, i, number_of(listed_blocks, files, "uniform block", text));
   }
 }
 

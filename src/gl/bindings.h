@@ -2,9 +2,7 @@
 // them out by name, and GlProgram sets them when it links.
 #pragma once
 
-#include <span>
 #include <string>
-#include <vector>
 
 #include "gl/gl.h"
 
@@ -61,19 +59,9 @@ inline void bind_block(UniformBlock block, GLuint buffer) {
   glBindBufferBase(GL_UNIFORM_BUFFER, GLuint(block), buffer);
 }
 
-// A sampler, or an array of them, that a linked program reads.
-struct ActiveSampler {
-  std::string name;
-  GLuint count = 1;
-};
-
-// The first unit of each. Throws Error(machine) that names `files` and the sampler if the list does not have
-// it, if two of the program's samplers share a unit, or if they are more than `most`
-// (GL_MAX_TEXTURE_IMAGE_UNITS).
-std::vector<GLuint> units_of(const std::string& files, std::span<const ActiveSampler> samplers, GLuint most);
-
-// Gives the program's samplers and uniform blocks their numbers. Throws as units_of, and for an unlisted
-// block.
+// Gives the linked program's samplers and uniform blocks their numbers. Throws Error(machine) that names
+// `files` and the sampler or block if the lists do not have it, if it shares a unit with another one of the
+// program, or if the driver lets a shader read fewer textures.
 void assign_bindings(GLuint program, const std::string& files);
 
 }  // namespace lightgrid
