@@ -3,11 +3,8 @@
 #include <algorithm>
 
 #include "base/timer.h"
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
 #include "passes/read_back.h"
-#include "passes/shade_blended.h"
-#include "passes/shade_forward.h"
+#include "passes/surfaces.h"
 #include "scene/random.h"
 #include "compare/oracle.h"
 
@@ -62,12 +59,11 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width
 }
 
 void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Image& image) {
-  const DepthImage depth = depth_prepass(v);
-  const TileDistances distances = tile_distances(v, depth_bounds(v, depth));
+  const Surfaces surfaces = find_surfaces(v);
   const DepthOfBlocks masked(v, blocks);
   const LightSource lights = every_light(v);
-  const ShadedImage shaded = shade_forward(v, visible_surfaces(v, distances), lights);
-  shade_blended(v, shaded, lights);
+  const ShadedImage shaded = shade(v, surfaces, lights);
+  blend(v, surfaces, lights, shaded);
   read_back(v, shaded, image);
 }
 

@@ -89,6 +89,7 @@ class VoxelBuffers : public PassState {
   GlTexture irradiance_texture, directions_texture;
   GlBuffer lookup_block;
   bool texture_stale = true;  // the volume was filled since the textures were
+  bool lookup_stale = true;   // it was placed since the uniform block was written
   size_t texture_bytes = 0;
 
  private:
@@ -133,6 +134,7 @@ void place(RenderView& v, VoxelBuffers& s, const TileDistances& distances) {
   s.grid.put(device, what, std::vector<VoxelGrid>{grid});
   s.slices.put(device, what, s.placed.slices);
   s.lookup.put(device, what, std::vector<VoxelLookup>{s.placed.lookup});
+  s.lookup_stale = true;
   pass.moves(distances.intervals.size() * sizeof(DepthInterval),
              s.grid.bytes() + s.slices.bytes() + s.lookup.bytes());
 }
@@ -167,12 +169,13 @@ VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const De
   return volume;
 }
 
-VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
-  VoxelBuffers& s = v.state<VoxelBuffers>();
+// Two 3D textures, interpolated between samples, and a uniform block; once a frame.
+static void voxels_to_gl(RenderView& v, const VoxelVolume& volume, VoxelBuffers& s) {
+  if (!s.lookup_stale) return;
   auto pass = v.timer.pass("voxels_to_gl", "gl");
   const VoxelGrid& g = s.placed.grid;
-  const bool half = v.plan.settings.voxel_bits == 16, first = !s.irradiance_texture;
-  if (first) {
+  const bool half = v.plan.settings.voxel_bits == 16;
+  if (!s.irradiance_texture) {
     const glm::uvec3 size(g.size_x, g.size_y, g.size_z);
     const GLenum format = half ? GL_RGBA16F : GL_RGBA32F;
     s.irradiance_texture = make_volume(format, size), s.directions_texture = make_volume(format, size);
@@ -180,20 +183,47 @@ VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
     s.texture_bytes = volume.bytes;
   }
   glNamedBufferSubData(s.lookup_block.name(), 0, sizeof(VoxelLookup), &s.placed.lookup);
-  if (s.texture_stale) {
-    const SharedBuffer::Written written[] = {{volume.irradiance, volume.bytes / 2},
-                                             {volume.directions, volume.bytes / 2}};
-    SharedBuffer::hand_to_gl(written);
-    const auto copy = [&](SharedBuffer& from, const GlTexture& to) {
-      v.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
-                                         int(g.size_x), int(g.size_y), to.name(), int(g.size_z));
-    };
-    copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
-    s.texture_stale = false;
-    pass.moves(volume.bytes, volume.bytes);
-  }
-  return {s.irradiance_texture.name(), s.directions_texture.name(), s.lookup_block.name(), s.axes.log_depth,
-          volume.bytes};
+  s.lookup_stale = false;
+  if (!s.texture_stale) return;
+  const SharedBuffer::Written written[] = {{volume.irradiance, volume.bytes / 2},
+                                           {volume.directions, volume.bytes / 2}};
+  SharedBuffer::hand_to_gl(written);
+  const auto copy = [&](SharedBuffer& from, const GlTexture& to) {
+    v.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
+                                       int(g.size_x), int(g.size_y), to.name(), int(g.size_z));
+  };
+  copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
+  s.texture_stale = false;
+  pass.moves(volume.bytes, volume.bytes);
+}
+
+// The lights of any of the eight samples around each pixel of the last frame.
+static ListedLights listed_of_voxels(RenderView& v) {
+  const VoxelBuffers& s = v.state<VoxelBuffers>();
+  return list_voxels(v, {s.axes, s.placed, {}, {}}, s.shaded_from);
+}
+
+LightSource from_voxels(RenderView& v, const VoxelVolume& volume, const LightSource* grid) {
+  const std::string exact = std::to_string(v.plan.settings.voxel_lights_exact);
+  const auto in_gl = [&v, volume, exact, grid = grid ? std::optional(*grid) : std::nullopt] {
+    VoxelBuffers& s = v.state<VoxelBuffers>();
+    voxels_to_gl(v, volume, s);
+    GlLightLoop loop = light_loop(v);
+    loop.defines.emplace_back("LIGHTS_VOXELS");
+    if (s.axes.log_depth) loop.defines.emplace_back("VOXELS_LOG");
+    loop.textures = {{14, s.irradiance_texture.name()}, {15, s.directions_texture.name()}};
+    if (grid) {
+      loop.defines.emplace_back("VOXEL_EXACT " + exact);
+      for (const GlLightLoop::Binding& lists : grid->in_gl().textures) loop.textures.push_back(lists);
+    }
+    loop.blocks = {{4, s.lookup_block.name()}};
+    return loop;
+  };
+  ClLightLoop in_cl = grid ? *grid->in_cl : ClLightLoop();
+  in_cl.defines = " -DLIGHTS_VOXELS" + volume.kernel_defines + (grid ? " -DVOXEL_EXACT=" + exact : "");
+  in_cl.more = {volume.irradiance->cl_buffer(), volume.directions->cl_buffer(), volume.lookup};
+  return LightSource(in_gl, in_cl, volume.bytes + (grid ? grid->bytes : 0),
+                     [&v](auto&) { return listed_of_voxels(v); });
 }
 
 ReadVoxels read_voxels(RenderView& v) {
@@ -215,12 +245,6 @@ ReadVoxels read_voxels(RenderView& v) {
   };
   read.irradiance = values(*s.irradiance), read.directions = values(*s.directions);
   return read;
-}
-
-ListedLights listed_of_voxels(RenderView& v) {
-  if (!v.plan.local_lights) return list_every_light(0);
-  const VoxelBuffers& s = v.state<VoxelBuffers>();
-  return list_voxels(v, {s.axes, s.placed, {}, {}}, s.shaded_from);
 }
 
 }  // namespace lightgrid

@@ -65,51 +65,38 @@ bool update_world_grid(RenderView& v, WorldGrid& grid) {
   return true;
 }
 
-}  // namespace
-
-WorldGridInCl build_world_grid(RenderView& v) {
-  WorldGridOfView& state = v.state<WorldGridOfView>();
+GlLightLoop grid_to_gl(RenderView& v, WorldGridOfView& state) {
   WorldGrid& grid = *state.grid;
-  const bool right = grid.serves(v.view, v.gpu.lights_version());
-  // A build has a time where passes are timed.
-  if (v.timer.enabled || (!right && !update_world_grid(v, grid))) {
-    auto pass = v.timer.pass("build_world_grid", "cl");
-    cull_lights_of(v.scene, v.plan.local, v.plan.settings.ranges, state.lights);
-    grid.build(state.lights, world_box(v.scene), v.view, v.gpu.lights_version());
-    pass.moves(v.plan.local.size() * 16, grid.list_bytes());
-  }
-  state.put_view(v);
-  return {&grid, state.in_cl.buffer()};
-}
-
-const WorldGrid& built_world_grid(RenderView& v) { return *v.state<WorldGridOfView>().grid; }
-
-LightSource from_world_grid(RenderView& v) {
-  WorldGrid& grid = *build_world_grid(v).grid;
   {
     auto pass = v.timer.pass("grid_to_gl", "gl");
     grid.hand_to_gl();
     pass.moves(grid.list_bytes(), grid.list_bytes());
   }
-  WorldGridOfView& state = v.state<WorldGridOfView>();
   if (!state.in_gl) state.in_gl = make_buffer(sizeof state.params, nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferSubData(state.in_gl.name(), 0, sizeof state.params, &state.params);
-  LightSource source = every_light(v);
-  source.defines.emplace_back("LIGHTS_WORLD");
-  if (!grid.layout().everywhere.empty()) source.defines.emplace_back("WORLD_EVERYWHERE");
-  source.textures = {{12, grid.cell_texture()},
-                     {13, grid.index_texture()},
-                     {14, grid.bucket_texture()},
-                     {15, grid.key_texture()}};
-  source.blocks = {{4, grid.block()}, {5, state.in_gl.name()}};
-  source.bytes = grid.list_bytes();
-  return source;
+  GlLightLoop loop = light_loop(v);
+  loop.defines.emplace_back("LIGHTS_WORLD");
+  if (!grid.layout().everywhere.empty()) loop.defines.emplace_back("WORLD_EVERYWHERE");
+  loop.textures = {{12, grid.cell_texture()},
+                   {13, grid.index_texture()},
+                   {14, grid.bucket_texture()},
+                   {15, grid.key_texture()}};
+  loop.blocks = {{4, grid.block()}, {5, state.in_gl.name()}};
+  return loop;
+}
+
+ClLightLoop grid_in_cl(const WorldGridOfView& state) {
+  WorldGrid& grid = *state.grid;
+  return {.defines = " -DWORLD_GRID",
+          .cells = grid.cells(),
+          .indices = grid.indices(),
+          .more = {grid.buckets(), grid.keys(), grid.params(), state.in_cl.buffer()}};
 }
 
 // Rounds as C++ does. A device may round the position differently and then read a neighbouring cell's list,
 // which serves the position as well.
 ListedLights listed_of_world_grid(RenderView& v, const std::vector<float>& depth) {
-  WorldGridOfView& state = v.state<WorldGridOfView>();
+  const WorldGridOfView& state = v.state<WorldGridOfView>();
   const HostWorldGrid host = state.grid->read();
   ListedLights lists;
   std::map<uint64_t, uint32_t> cell_of_range;
@@ -132,5 +119,25 @@ ListedLights listed_of_world_grid(RenderView& v, const std::vector<float>& depth
   }
   return lists;
 }
+
+}  // namespace
+
+LightSource build_world_grid(RenderView& v) {
+  WorldGridOfView& state = v.state<WorldGridOfView>();
+  WorldGrid& grid = *state.grid;
+  const bool right = grid.serves(v.view, v.gpu.lights_version());
+  // A build has a time where passes are timed.
+  if (v.timer.enabled || (!right && !update_world_grid(v, grid))) {
+    auto pass = v.timer.pass("build_world_grid", "cl");
+    cull_lights_of(v.scene, v.plan.local, v.plan.settings.ranges, state.lights);
+    grid.build(state.lights, world_box(v.scene), v.view, v.gpu.lights_version());
+    pass.moves(v.plan.local.size() * 16, grid.list_bytes());
+  }
+  state.put_view(v);
+  return LightSource([&v, &state] { return grid_to_gl(v, state); }, grid_in_cl(state), grid.list_bytes(),
+                     [&v](auto& depth) { return listed_of_world_grid(v, depth); });
+}
+
+const WorldGrid& built_world_grid(RenderView& v) { return *v.state<WorldGridOfView>().grid; }
 
 }  // namespace lightgrid

@@ -22,11 +22,6 @@ DepthBounds depth_bounds(RenderView& v, const DepthBuffer& depth) {
   return v.culler().depth_bounds({depth.values});
 }
 
-DepthBounds depth_bounds(RenderView& v, const DepthImage& depth) {
-  const bool read = v.plan.settings.depth_bounds != DepthBoundsMode::none;
-  return depth_bounds(v, read ? depth_to_cl(v, depth) : DepthBuffer());
-}
-
 TileDistances tile_distances(RenderView& v, const DepthBounds& bounds) {
   TileDistances distances;
   if (v.plan.settings.depth_bounds == DepthBoundsMode::none) return distances;

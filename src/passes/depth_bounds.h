@@ -10,7 +10,6 @@ DepthBuffer depth_to_cl(RenderView& v, const DepthImage& depth);
 
 // An interval of distances a tile. With depth-bounds=none the buffer is not read.
 DepthBounds depth_bounds(RenderView& v, const DepthBuffer& depth);
-DepthBounds depth_bounds(RenderView& v, const DepthImage& depth);  // copies the image first, if it is read
 
 // The depth bounds on the host, for culling hidden surfaces. Empty with depth-bounds=none.
 TileDistances tile_distances(RenderView& v, const DepthBounds& bounds);

@@ -27,14 +27,14 @@ void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfac
   clear(v, gbuffer);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  LightSource source = base_lighting(v);
-  if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
-  if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
-  if (gbuffer.textures[gbuffer_coat]) source.defines.emplace_back("COATS");
-  if (gbuffer.textures[gbuffer_specular]) source.defines.emplace_back("SPECULAR_IMAGE");
-  source.bind(v);
+  GlLightLoop loop = base_lighting(v);
+  if (gbuffer.layout->define) loop.defines.emplace_back(gbuffer.layout->define);
+  if (gbuffer.base_lighting == BaseLighting::in_image) loop.defines.emplace_back("BASE_LIGHTING");
+  if (gbuffer.textures[gbuffer_coat]) loop.defines.emplace_back("COATS");
+  if (gbuffer.textures[gbuffer_specular]) loop.defines.emplace_back("SPECULAR_IMAGE");
+  loop.bind(v);
   draw_list(v, surfaces, DrawStreams::all,
-            v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));
+            v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", loop.defines}));
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals) {
 }
 
 LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, const DepthBuffer& depth,
-                                  const LightGrid& grid, TargetUse use) {
+                                  const LightSource& lights, TargetUse use) {
   LightSums& s = v.state<LightSums>();
   cl::Kernel& kernel = s.kernel(v);
   LightBufferInCl buffer{&light_buffer_layout(v.plan.settings), nullptr, nullptr};
@@ -83,17 +83,13 @@ LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, con
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y)
                                     : cl::NDRange(whole(v.view.width), whole(v.view.height));
-  const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "fill_light_buffer", kernel, items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), normals.image->cl_buffer(), depth.values,
-         s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(),
-         v.opaque_grid().cells(grid.cell_bytes), v.opaque_grid().indices(grid.index_bytes), light_bins,
-         s.lights.bin_edges.buffer(), buffer.first->cl_buffer(),
+         s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), lights.in_cl->cells,
+         lights.in_cl->indices, lights.in_cl->z_bins, s.lights.bin_edges.buffer(), buffer.first->cl_buffer(),
          buffer.second ? buffer.second->cl_buffer() : cl::Buffer(),
          cl_float(v.plan.settings.prepass_shininess), cl_float(1 / stored_scale(v)), s.lights.view.buffer());
-  pass.moves(
-      v.pixels() * (4 + normals.layout->image.bytes) + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes,
-      v.pixels() * buffer.bytes());
+  pass.moves(v.pixels() * (4 + normals.layout->image.bytes) + lights.bytes, v.pixels() * buffer.bytes());
   return buffer;
 }
 

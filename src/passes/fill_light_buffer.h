@@ -8,10 +8,10 @@ namespace lightgrid {
 // A copy of OpenGL's image.
 NormalsInCl normals_to_cl(RenderView& v, const NormalImage& normals);
 
-// The sums over the lights of each tile's list (in the view's storage of opaque surfaces), rounded once. use:
-// gbuffer where it is not copied to OpenGL afterwards.
+// The sums over the lights of the pixel's cell, rounded once. use: gbuffer where they are not copied to
+// OpenGL afterwards.
 LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, const DepthBuffer& depth,
-                                  const LightGrid& grid, TargetUse use);
+                                  const LightSource& lights, TargetUse use);
 
 // A copy for OpenGL.
 LightBuffer light_buffer_to_gl(RenderView& v, const LightBufferInCl& buffer);

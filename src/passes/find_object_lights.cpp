@@ -80,6 +80,16 @@ void ObjectLights::upload_lists() {
   }
 }
 
+LightSource from_objects(const RenderView& v, const ObjectLights& objects) {
+  const auto in_gl = [&v, &objects] {
+    GlLightLoop loop = light_loop(v);
+    loop.defines.emplace_back("LIGHTS_OBJECT");
+    if (objects.texture()) loop.textures.push_back({12, objects.texture()});
+    return loop;
+  };
+  return LightSource(in_gl, {}, objects.lights().size() * sizeof(uint32_t));
+}
+
 static void count_bytes(const RenderView& v, const ObjectLights& objects, PassTimer::Scope& pass) {
   pass.moves(v.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
              objects.lights().size() * sizeof(uint32_t));

@@ -2,7 +2,7 @@
 // grid.
 #pragma once
 
-#include "passes/common/frame.h"
+#include "passes/common/light_source.h"
 #include "passes/light_volumes/light_reach.h"
 
 namespace lightgrid {
@@ -45,6 +45,9 @@ class BlendedObjectLights : public ObjectLights {
  public:
   using ObjectLights::ObjectLights;
 };
+
+// The lights of the current object (uniform lights_of_draw).
+LightSource from_objects(const RenderView& v, const ObjectLights& objects);
 
 // The pass: object-light pairs of opaque or blended surfaces, found on the CPU.
 const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces);

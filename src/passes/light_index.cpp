@@ -265,29 +265,15 @@ void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolume
 
 bool may_repeat(const RenderView& v) { return v.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
 
-}  // namespace
-
-LightIndexImages light_index(RenderView& v) {
-  LightIndexState& state = v.state<LightIndexState>();
-  LightVolumes& volumes = v.state<LightVolumes>();
-  const std::vector<GLuint> images = index_images(v, state.layout);
-  const GLuint framebuffer = v.targets.framebuffer(images, v.targets.depth());
-  {
-    auto pass = v.timer.pass("light_volumes", "gl");
-    Order order = order_of(v, state, volumes.update(v, v.plan.settings.volume_mesh));
-    volumes.upload_volumes(order.volumes);
-    state.order = std::move(order);
-  }
-  auto pass = v.timer.pass("light_index", "gl");
-  draw_volumes(v, state, volumes, state.order, framebuffer);
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  pass.moves(pixels * 5 + volumes.memory_bytes(), pixels * (state.layout.pixel_bytes() + 1));
-
-  std::vector<std::string> defines = state.layout.defines();
-  defines.emplace_back("LIGHTS_LIDR");
-  if (v.plan.settings.lidr_unpack == LidrUnpack::floats) defines.emplace_back("LIDR_FLOAT");
-  if (may_repeat(v)) defines.emplace_back("LIDR_REPEATS");
-  return {images, std::move(defines), v.targets.bytes(TargetUse::light_index)};
+GlLightLoop index_loop(const RenderView& v, const LightIndexLayout& layout,
+                       const std::vector<GLuint>& images) {
+  GlLightLoop loop = light_loop(v);
+  for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
+  loop.defines.emplace_back("LIGHTS_LIDR");
+  if (v.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
+  if (may_repeat(v)) loop.defines.emplace_back("LIDR_REPEATS");
+  for (size_t i = 0; i < images.size(); ++i) loop.textures.push_back({GLuint(12 + i), images[i]});
+  return loop;
 }
 
 ListedLights read_light_index(RenderView& v) {
@@ -305,6 +291,27 @@ ListedLights read_light_index(RenderView& v) {
     lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
   }
   return lists;
+}
+
+}  // namespace
+
+LightSource light_index(RenderView& v) {
+  LightIndexState& state = v.state<LightIndexState>();
+  LightVolumes& volumes = v.state<LightVolumes>();
+  const std::vector<GLuint> images = index_images(v, state.layout);
+  const GLuint framebuffer = v.targets.framebuffer(images, v.targets.depth());
+  {
+    auto pass = v.timer.pass("light_volumes", "gl");
+    Order order = order_of(v, state, volumes.update(v, v.plan.settings.volume_mesh));
+    volumes.upload_volumes(order.volumes);
+    state.order = std::move(order);
+  }
+  auto pass = v.timer.pass("light_index", "gl");
+  draw_volumes(v, state, volumes, state.order, framebuffer);
+  const size_t pixels = size_t(v.view.width) * v.view.height;
+  pass.moves(pixels * 5 + volumes.memory_bytes(), pixels * (state.layout.pixel_bytes() + 1));
+  return LightSource([&v, &state, images] { return index_loop(v, state.layout, images); }, {},
+                     v.targets.bytes(TargetUse::light_index), [&v](auto&) { return read_light_index(v); });
 }
 
 }  // namespace lightgrid

@@ -6,8 +6,6 @@
 #include <tuple>
 
 #include "cl/launch.h"
-#include "passes/build_voxels.h"
-#include "passes/build_world_grid.h"
 #include "renderer/cl_lights.h"
 
 namespace lightgrid {
@@ -68,19 +66,14 @@ class Resolving : public PassState {
   }
 
   // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
-  auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces, const GridInCl& in) {
+  auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces,
+                 const ClLightLoop& loop = {}) {
     const ClScene& s = scene(v);
-    cl::Buffer cells, indices, light_bins;
-    if (in.world) cells = in.world->grid->cells(), indices = in.world->grid->indices();
-    if (in.grid) {
-      cells = in.storage->cells(in.grid->cell_bytes), indices = in.storage->indices(in.grid->index_bytes);
-      if (in.grid->z_bin_bytes) light_bins = in.storage->z_bins(in.grid->z_bin_bytes);
-    }
     return std::tuple(raster.triangle_instance, raster.instances, raster.indices, raster.clip, surfaces,
                       s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.positions.buffer(),
-                      lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), cells,
-                      indices, light_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
-                      lights.view.buffer());
+                      lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), loop.cells,
+                      loop.indices, loop.z_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
+                      lights.view.buffer(), loop.more);
   }
 
   // Of kernels over all pixels: a work-item takes a tile, or a pixel.
@@ -139,47 +132,19 @@ cl_float4 background(const RenderView& v) {
   return {{background.r, background.g, background.b, 1}};
 }
 
-// Calls `launch` with the arguments of a kernel that adds these lights.
-template <typename Arguments, typename Launch>
-void with_lights(const GridInCl& in, const Arguments& arguments, const Launch& launch) {
-  if (in.voxels) {
-    std::apply(launch,
-               std::tuple_cat(arguments, std::tuple(in.voxels->irradiance->cl_buffer(),
-                                                    in.voxels->directions->cl_buffer(), in.voxels->lookup)));
-  } else if (in.world) {
-    WorldGrid& grid = *in.world->grid;
-    std::apply(launch, std::tuple_cat(arguments, std::tuple(grid.buckets(), grid.keys(), grid.params(),
-                                                            in.world->view)));
-  } else {
-    std::apply(launch, arguments);
-  }
-}
-
-std::string light_kernel_defines(const RenderView& v, const GridInCl& in) {
-  if (in.world) return " -DWORLD_GRID";
-  if (!in.voxels) return "";
-  const std::string exact =
-      in.grid ? fmt::format(" -DVOXEL_EXACT={}", v.plan.settings.voxel_lights_exact) : "";
-  return " -DLIGHTS_VOXELS" + in.voxels->kernel_defines + exact;
-}
-
-size_t grid_bytes(const GridInCl& in) {
-  if (in.world) return in.world->grid->list_bytes();
-  return (in.voxels ? in.voxels->bytes : 0) +
-         (in.grid ? in.grid->cell_bytes + in.grid->index_bytes + in.grid->z_bin_bytes : 0);
-}
-
 }  // namespace
 
-ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const GridInCl& lights) {
+ShadedImage resolve(RenderView& v, const VisibilityBuffer& visible, const LightSource& lights) {
   Resolving& r = resolving(v);
-  cl::Kernel& kernel = r.kernel(v, "resolve", light_kernel_defines(v, lights));
+  cl::Kernel& kernel = r.kernel(v, "resolve", lights.in_cl->defines);
   auto pass = v.timer.pass("resolve", "cl");
-  with_lights(lights, r.arguments(v, visible.raster, visible.surfaces, lights), [&](const auto&... shared) {
-    launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle,
-           visible.image.depth, shared..., background(v), r.image.cl_buffer());
-  });
-  pass.moves(v.pixels() * 8 + grid_bytes(lights) + r.scene(v).memory_bytes(), v.pixels() * 16);
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "resolve", kernel, r.items(v), r.group(), visible.image.triangle,
+               visible.image.depth, shared..., background(v), r.image.cl_buffer());
+      },
+      r.arguments(v, visible.raster, visible.surfaces, *lights.in_cl));
+  pass.moves(v.pixels() * 8 + lights.bytes + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
 }
 
@@ -196,7 +161,7 @@ GBufferInCl resolve_gbuffer(RenderView& v, const VisibilityBuffer& visible, Base
                g.surfaces[1]->cl_buffer(), g.in_cl(gbuffer_coat), g.in_cl(gbuffer_specular),
                image ? g.image->cl_buffer() : cl::Buffer());
       },
-      r.arguments(v, visible.raster, visible.surfaces, {}));
+      r.arguments(v, visible.raster, visible.surfaces));
   pass.moves(v.pixels() * (image ? 8 : 4) + r.scene(v).memory_bytes(),
              v.pixels() * (g.bytes() + (image ? 16 : 0)));
   return g;
@@ -213,7 +178,7 @@ NormalsInCl resolve_normals(RenderView& v, const VisibilityBuffer& visible) {
         launch(*v.renderer.cl, "resolve_normals", kernel, r.items(v), r.group(), visible.image.triangle,
                shared..., normals.image->cl_buffer());
       },
-      r.arguments(v, visible.raster, visible.surfaces, {}));
+      r.arguments(v, visible.raster, visible.surfaces));
   pass.moves(v.pixels() * 4 + r.scene(v).memory_bytes(), v.pixels() * normals.layout->image.bytes);
   return normals;
 }
@@ -232,24 +197,26 @@ ShadedImage resolve_materials(RenderView& v, const VisibilityBuffer& visible, co
                cl_float(s.prepass_shininess), cl_float(reference_light(v.scene, v.plan)),
                r.image.cl_buffer());
       },
-      r.arguments(v, visible.raster, visible.surfaces, {}));
+      r.arguments(v, visible.raster, visible.surfaces));
   pass.moves(v.pixels() * (8 + sums.bytes()) + r.scene(v).memory_bytes(), v.pixels() * 16);
   return {0, &r.image};
 }
 
 void blend_resolved(RenderView& v, const BlendedTriangles& blended, const DepthBuffer& depth,
-                    const GridInCl& lights) {
+                    const LightSource& lights) {
   Resolving& r = resolving(v);
-  cl::Kernel& kernel = r.kernel(v, "blend", light_kernel_defines(v, lights));
+  cl::Kernel& kernel = r.kernel(v, "blend", lights.in_cl->defines);
   auto pass = v.timer.pass("blend_resolved", "cl");
-  with_lights(lights, r.arguments(v, blended.raster, blended.surfaces, lights), [&](const auto&... shared) {
-    launch(*v.renderer.cl, "blend_resolved", kernel,
-           r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
-           r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
-           blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
-           shared..., r.image.cl_buffer());
-  });
-  pass.moves(v.pixels() * 20 + grid_bytes(lights), v.pixels() * 16);
+  std::apply(
+      [&](const auto&... shared) {
+        launch(*v.renderer.cl, "blend_resolved", kernel,
+               r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(v.view),
+               r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
+               blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
+               shared..., r.image.cl_buffer());
+      },
+      r.arguments(v, blended.raster, blended.surfaces, *lights.in_cl));
+  pass.moves(v.pixels() * 20 + lights.bytes, v.pixels() * 16);
 }
 
 }  // namespace lightgrid

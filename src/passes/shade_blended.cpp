@@ -30,6 +30,7 @@ void limit_behind_opaque(RenderView& v) {
 template <typename Draw>
 void blend(RenderView& v, const ShadedImage& image, const LightSource& lights, const Draw& draw) {
   if (!v.plan.blend) return;
+  const GlLightLoop& loop = lights.in_gl();
   auto pass = v.timer.pass("shade_blended", "gl");
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
   glEnable(GL_DEPTH_TEST);
@@ -39,8 +40,8 @@ void blend(RenderView& v, const ShadedImage& image, const LightSource& lights, c
   limit_behind_opaque(v);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied by coverage
-  lights.bind(v);
-  std::vector<std::string> defines = lights.defines;
+  loop.bind(v);
+  std::vector<std::string> defines = loop.defines;
   defines.emplace_back("BLEND");
   draw(v.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines), true}));
   glDisable(GL_BLEND);

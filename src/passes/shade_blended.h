@@ -5,6 +5,8 @@
 
 namespace lightgrid {
 
+class ObjectLights;
+
 // Blends blended surfaces over the image, back to front.
 void shade_blended(RenderView& v, const ShadedImage& image, const LightSource& lights);
 

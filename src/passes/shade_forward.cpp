@@ -7,12 +7,13 @@
 namespace lightgrid {
 
 ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSource& lights) {
+  const GlLightLoop& loop = lights.in_gl();
   auto pass = v.timer.pass("shade_forward", "gl");
   const ShadedImage image = begin_shading(v);
   glDisable(GL_BLEND);
-  lights.bind(v);
+  loop.bind(v);
   draw_list(v, surfaces, DrawStreams::all,
-            v.programs({"shaders/scene.vert", "shaders/forward.frag", lights.defines}));
+            v.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
   pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + lights.bytes, v.pixels() * 16);
   return image;
 }

@@ -47,6 +47,19 @@ void visit_pairs(RenderView& v, const Visit& visit) {
   glDisable(GL_BLEND);
 }
 
+ListedLights read_pairs(RenderView& v) {
+  ListedLights lists;
+  const size_t pixels = size_t(v.view.width) * v.view.height;
+  lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
+  if (!v.plan.local_lights) return list_every_light(0);
+  visit_pairs(v, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
+  std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
+  place_lists(lists);
+  std::vector<uint64_t> next = lists.first;
+  visit_pairs(v, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
+  return lists;
+}
+
 }  // namespace
 
 void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
@@ -65,17 +78,8 @@ void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
   pass.moves(pixels * (4 + 16 + gbuffer.bytes()), pixels * 16);
 }
 
-ListedLights listed_of_light_volumes(RenderView& v) {
-  ListedLights lists;
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
-  if (!v.plan.local_lights) return list_every_light(0);
-  visit_pairs(v, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
-  std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
-  place_lists(lists);
-  std::vector<uint64_t> next = lists.first;
-  visit_pairs(v, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
-  return lists;
+HostLists listed_of_light_volumes(RenderView& v) {
+  return [&v](auto&) { return read_pairs(v); };
 }
 
 }  // namespace lightgrid

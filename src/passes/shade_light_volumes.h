@@ -2,7 +2,6 @@
 #pragma once
 
 #include "passes/common/gbuffer.h"
-#include "scene/listed_lights.h"
 
 namespace lightgrid {
 
@@ -10,8 +9,7 @@ namespace lightgrid {
 // by the setting volume-culling (docs/techniques/deferred.md).
 void shade_light_volumes(RenderView& v, const GBuffer& gbuffer);
 
-// The (pixel, light) pairs for which the last frame ran the light shader. For the oracle, not part of a
-// frame.
-ListedLights listed_of_light_volumes(RenderView& v);
+// The (pixel, light) pairs for which the last frame ran the light shader.
+HostLists listed_of_light_volumes(RenderView& v);
 
 }  // namespace lightgrid

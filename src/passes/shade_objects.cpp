@@ -26,15 +26,15 @@ struct ObjectPrograms {
   ScenePrograms& base_and_lights;  // with the first of the object's
   ScenePrograms& lights;           // with further ones alone
 
-  static ScenePrograms& of(RenderView& v, const LightSource& source, const char* define) {
-    std::vector<std::string> defines = source.defines;
+  static ScenePrograms& of(RenderView& v, const GlLightLoop& loop, const char* define) {
+    std::vector<std::string> defines = loop.defines;
     defines.emplace_back(define);
     return v.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines)});
   }
-  ObjectPrograms(RenderView& v, const LightSource& source)
+  ObjectPrograms(RenderView& v, const GlLightLoop& loop)
       : base(of(v, base_lighting(v), "FIRST_OF_DRAWS")),
-        base_and_lights(of(v, source, "FIRST_OF_DRAWS")),
-        lights(of(v, source, "ADDED")) {}
+        base_and_lights(of(v, loop, "FIRST_OF_DRAWS")),
+        lights(of(v, loop, "ADDED")) {}
 };
 
 // Draws one object. Alpha is 0 or 1.
@@ -110,8 +110,8 @@ ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t l
   const ShadedImage image = begin_shading(v);
   glBlendEquation(GL_FUNC_ADD);
   const LightSource source = from_objects(v, objects);
-  source.bind(v);
-  ObjectPrograms programs(v, source);
+  source.in_gl().bind(v);
+  ObjectPrograms programs(v, source.in_gl());
   InstanceDrawer drawer(v, DrawStreams::all);
   PendingDraws pending;
   for (const ObjectLights::Object& object : objects.objects()) {

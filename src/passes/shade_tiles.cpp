@@ -100,7 +100,8 @@ void image_to_gl(RenderView& v, SharedBuffer& image) {
   pass.moves(bytes, bytes);
 }
 
-void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
+void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth,
+               const LightSource& lights) {
   TileShading& s = v.state<TileShading>();
   auto pass = v.timer.pass("shade_tiles", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
@@ -110,35 +111,27 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   const bool base_lighting = holds_base_lighting(gbuffer);
   const glm::vec3 background =
       base_lighting ? glm::vec3(0) : v.scene.background;  // in the image already, or not
-  const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(),
          gbuffer.surfaces[1]->cl_buffer(), gbuffer.in_cl(gbuffer_coat), gbuffer.in_cl(gbuffer_specular),
          s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(),
-         s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
-         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(),
-         gbuffer.image->cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}},
-         s.lights.view.buffer());
+         s.lights.cones.buffer(), lights.in_cl->cells, lights.in_cl->indices, lights.in_cl->z_bins,
+         s.lights.bin_edges.buffer(), gbuffer.image->cl_buffer(),
+         cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());
   const size_t pixels = v.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
-  pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
+  pass.moves(pixels * surface_bytes + lights.bytes, pixels * 16);
 }
 
 }  // namespace
 
 ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
-                        const LightGrid& grid) {
-  const GBufferInCl in_cl = gbuffer_to_cl(v, gbuffer);
-  add_light(v, in_cl, depth, grid);
-  if (!v.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
+                        const LightSource& lights) {
+  const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(v, gbuffer);
+  add_light(v, in_cl, depth, lights);
+  if (gbuffer.in_cl || !v.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
   image_to_gl(v, *in_cl.image);
   return gbuffer.image;
-}
-
-ShadedImage shade_tiles(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth,
-                        const LightGrid& grid) {
-  add_light(v, gbuffer, depth, grid);
-  return {0, gbuffer.image};
 }
 
 }  // namespace lightgrid

@@ -270,6 +270,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
                      const TechniqueNeeds& needs, PlannedInstances instances) {
   FramePlan plan;
   plan.settings = settings;
+  plan.opengl = draws_with_opengl(needs, settings);
   plan.decisions.reserve(std::size(feature_names) + 16);
   plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil ||

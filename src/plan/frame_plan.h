@@ -81,6 +81,7 @@ bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);
 
 struct FramePlan {
   Settings settings;
+  bool opengl = true;  // OpenGL draws the surfaces; else OpenCL does
 
   // The instances this view may see (conservative frustum test), in scene order; blended ones back to front.
   std::vector<int> opaque, blended;

@@ -56,10 +56,9 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
       targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
       settings_(with_tuned(settings, renderer.tuned)),
       needs_(needs),
-      opengl_(draws_with_opengl(needs, settings)),
       shared_pool_(std::move(pool)) {
-  if (opengl_) renderer.require_gl();
-  if (opengl_ && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
+  if (plan.opengl) renderer.require_gl();
+  if (plan.opengl && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
   follow_view();
 }
 
@@ -131,7 +130,7 @@ void RenderView::follow_view() {
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
-  if (!opengl_) return;
+  if (!plan.opengl) return;
   lights.update(scene, view, plan, params);
   if (preparing_) {
     opaque.clear(), blended.clear();
@@ -212,8 +211,8 @@ SharedGridStorage& RenderView::blend_grid() {
 
 size_t RenderView::memory_bytes() const {
   size_t bytes = targets.bytes() + lights.light_bytes();
-  if (opengl_) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
-  if (opengl_ && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
+  if (plan.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
+  if (plan.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& [type, state] : states_) bytes += state->memory_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (culler_) bytes += culler_->memory_bytes();

@@ -117,7 +117,6 @@ struct RenderView {
 
   Settings settings_;
   TechniqueNeeds needs_;
-  bool opengl_;  // draws_with_opengl()
   bool preparing_ = false;
   std::shared_ptr<TargetPool> shared_pool_;  // null: own images
   std::map<std::string, ScenePrograms> programs_;

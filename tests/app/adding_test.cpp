@@ -1,5 +1,5 @@
-// The places that a technique, a cull test and an error measure need: the source files that name them are
-// counted (docs/overview.md#how-to-add).
+// The places that a technique, a light source, a cull test and an error measure need: the source files that
+// name them are counted (docs/overview.md#how-to-add).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -100,6 +100,31 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
     EXPECT_EQ(mentions(registry, name).size(), 2u) << name;
   }
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+// Its builder, which makes the LightSource, and the choice of a loop in forward.frag; and that of kernels
+// where they read it too. The loop's own text names nothing.
+TEST(Adding, ALightSourceTakesItsBuilderAndTheChoiceOfItsLoop) {
+  std::map<std::string, std::vector<std::string>> texts = {
+      {"-DWORLD_GRID", {"-DWORLD_GRID\"", "#ifdef WORLD_GRID", "defined(WORLD_GRID)"}}};
+  std::set<std::string> in_glsl;
+  const std::string choice = code_of(text_at("shaders/forward.frag"));
+  const std::regex define("defined\\((LIGHTS_\\w+)\\)");
+  for (std::sregex_iterator at(choice.begin(), choice.end(), define), end; at != end; ++at) {
+    in_glsl.insert((*at)[1]);
+    texts[(*at)[1]] = {(*at)[1]};
+  }
+  const Naming expected = {
+      {"shaders/forward.frag", in_glsl},
+      {"kernels/common/resolve_light.h", {"-DWORLD_GRID", "LIGHTS_VOXELS"}},
+      {"src/passes/build_voxels.cpp", {"LIGHTS_VOXELS"}},
+      {"src/passes/build_world_grid.cpp", {"-DWORLD_GRID", "LIGHTS_WORLD"}},
+      {"src/passes/common/light_buffer.cpp", {"LIGHTS_BUFFER"}},
+      {"src/passes/cull_lights.cpp", {"LIGHTS_GRID", "LIGHTS_MASKS"}},
+      {"src/passes/find_object_lights.cpp", {"LIGHTS_OBJECT"}},
+      {"src/passes/light_index.cpp", {"LIGHTS_LIDR"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "shaders", "kernels"}, texts), expected), IsEmpty());
 }
 
 // Its row with its number, and its function in light_cell_tests.h, where tests of planes share one.

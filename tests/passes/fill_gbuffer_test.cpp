@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
 #include "passes/read_outs/surfaces.h"
+#include "passes/surfaces.h"
 #include "shared/model_records.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -33,8 +32,7 @@ Surfaces surfaces_of(const Scene& scene, const View& view, int bits, bool after_
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, {.buffer_bits = bits}, {});
   if (after_prepass) {
-    const DepthImage depth = depth_prepass(v);
-    fill_gbuffer(v, visible_surfaces(v, tile_distances(v, depth_bounds(v, depth))));
+    fill_gbuffer(v, find_surfaces(v).drawn);
   } else {
     fill_gbuffer(v);
   }

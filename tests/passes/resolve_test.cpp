@@ -48,10 +48,10 @@ Resolved resolved(const Scene& scene, const View& view, const Settings& settings
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, settings, needs);
   const VisibilityBuffer visible = rasterize(v);
-  std::optional<LightGrid> grid;
+  std::optional<ViewGrid> grid;
   if (v.plan.light_grid) grid = cull_lights(v, depth_bounds(v, visible.depth()));
   Resolved r;
-  read_back(v, resolve(v, visible, grid ? GridInCl{&*grid, &v.opaque_grid()} : GridInCl{}), r.image);
+  read_back(v, resolve(v, visible, grid ? from_grid(v, *grid) : every_light(v)), r.image);
   std::vector<uint32_t> triangles(v.pixels());
   r.depth.resize(v.pixels());
   read_buffer(*v.renderer.cl, "reading triangles", visible.image.triangle, triangles.data(),
@@ -239,10 +239,9 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
         Settings{.slices = 8, .kernel_shape = KernelShape::group, .given = {"slices"}},
         Settings{.tile = 64, .lights = ShadedLights::all}}) {
     RenderView v(test_devices(), gpu, view, settings, needs);
-    std::optional<LightGrid> grid;
+    std::optional<ViewGrid> grid;
     if (v.plan.light_grid) grid = cull_lights(v, depth_bounds(v, visible.depth()));
-    read_back(v, resolve(v, visible, grid ? GridInCl{&*grid, &v.opaque_grid()} : GridInCl{}),
-              images.emplace_back());
+    read_back(v, resolve(v, visible, grid ? from_grid(v, *grid) : every_light(v)), images.emplace_back());
     EXPECT_TRUE(compare_images(images.back(), images.front()).bit_identical) << images.size();
   }
   EXPECT_GT(brightest_channel(images.front()), 0.1f);

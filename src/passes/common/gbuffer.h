@@ -110,7 +110,8 @@ struct GBuffer {
   std::array<GLuint, gbuffer_most_images> textures{};  // by number; 0 without
   GLuint depth = 0;
   DepthImage depth_image;
-  ShadedImage image;  // contains base lighting, for light passes to add to
+  ShadedImage image;                 // contains base lighting, for light passes to add to
+  std::optional<GBufferInCl> in_cl;  // where OpenCL wrote it: all else is then empty
   size_t bytes() const { return layout->bytes(images); }  // a pixel
   // The place of an image by its number.
   int attachment(size_t i) const {

@@ -85,19 +85,21 @@ LightBuffer light_buffer_of(RenderView& v) {
 }
 
 LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer) {
-  LightSource source = base_lighting(v);
-  source.defines.emplace_back("LIGHTS");
-  source.defines.emplace_back("LIGHTS_BUFFER");
-  for (std::string& define : light_buffer_defines(v)) source.defines.push_back(std::move(define));
-  // Where nothing reads it, lights of another brightness need no other program.
-  const bool read =
-      v.plan.settings.prepass_specular == PrepassSpecular::bent || v.plan.skin || v.plan.minnaert;
-  source.defines.push_back(
-      fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(v.scene, v.plan) : 1.0));
-  source.textures = {{12, buffer.first}};
-  if (buffer.second) source.textures.push_back({13, buffer.second});
-  source.bytes = v.pixels() * buffer.bytes();
-  return source;
+  const auto in_gl = [&v, buffer] {
+    GlLightLoop loop = base_lighting(v);
+    loop.defines.emplace_back("LIGHTS");
+    loop.defines.emplace_back("LIGHTS_BUFFER");
+    for (std::string& define : light_buffer_defines(v)) loop.defines.push_back(std::move(define));
+    // Where nothing reads it, lights of another brightness need no other program.
+    const bool read =
+        v.plan.settings.prepass_specular == PrepassSpecular::bent || v.plan.skin || v.plan.minnaert;
+    loop.defines.push_back(
+        fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(v.scene, v.plan) : 1.0));
+    loop.textures = {{12, buffer.first}};
+    if (buffer.second) loop.textures.push_back({13, buffer.second});
+    return loop;
+  };
+  return LightSource(in_gl, {}, v.pixels() * buffer.bytes());
 }
 
 }  // namespace lightgrid

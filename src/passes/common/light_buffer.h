@@ -101,7 +101,7 @@ struct LightBufferInCl {
   size_t bytes() const { return layout->first.bytes + (second ? layout->second.bytes : 0); }
 };
 
-// The light of the sums, for forward.frag.
+// The light of the sums.
 LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer);
 
 }  // namespace lightgrid

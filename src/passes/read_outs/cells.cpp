@@ -1,6 +1,7 @@
 #include "passes/read_outs/cells.h"
 
 #include "renderer/draw.h"
+#include "shared/light_grid.h"
 
 namespace lightgrid {
 
@@ -49,6 +50,30 @@ std::vector<uint32_t> cells_at_depths(RenderView& v, const std::vector<float>& d
     glBindTextureUnit(0, texture.name());
     draw_screen(v.program("shaders/screen.vert", "shaders/cells.frag", defines));
   });
+}
+
+std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<float>& depth) {
+  const CullView view = cull_view(v.view, v.plan);
+  const auto edges = slice_keys(view);
+  std::vector<uint32_t> cells;
+  cells.reserve(depth.size());
+  for (int y = 0; y < v.view.height; ++y) {
+    for (int x = 0; x < v.view.width; ++x) {
+      const uint slice = slice_of_key(depth_key(view, depth[cells.size()]), edges.data());
+      const uint first = cell_of_pixel(x, y, v.params.tile_size, v.params.tiles_x);
+      cells.push_back(cell_in_slice(first, slice, v.params.tiles_x, v.params.tiles_y));
+    }
+  }
+  return cells;
+}
+
+std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth) {
+  const CullView view = cull_view(v.view, v.plan);
+  const auto edges = z_bin_keys(view);
+  std::vector<uint32_t> bins;
+  bins.reserve(depth.size());
+  for (const float value : depth) bins.push_back(z_bin_of_key(depth_key(view, value), edges.data()));
+  return bins;
 }
 
 }  // namespace lightgrid

@@ -16,7 +16,13 @@ std::vector<uint32_t> indices_drawn(RenderView& v, const std::function<void()>& 
 // The cell of each pixel that shows an opaque surface, else no_cell. Uses the depth image of the last frame.
 std::vector<uint32_t> shaded_cells(RenderView& v);
 
-// The cell of each pixel if it had the given depth.
+// The cell of the light grid that shading reads at each pixel, from the depth of the frame's surfaces.
+std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<float>& depth);
+
+// The pixel's z-bin: 0 without z-bins.
+std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth);
+
+// The cell of each pixel if it had the given depth, as shaders find it.
 std::vector<uint32_t> cells_at_depths(RenderView& v, const std::vector<float>& depths);
 
 }  // namespace lightgrid
