@@ -92,7 +92,7 @@ struct ReferenceTriangles {
 
 ReferenceTriangles triangles_of(ReferenceRun& reference) {
   RenderView& v = reference.run->view();
-  if (!reference.run->frame().triangles) return {read_triangles(v)};
+  if (!reference.run->frame().triangles) return {read_triangles(v, v)};
   return {{own_triangles(*reference.run), std::vector<bool>(v.pixels())}};
 }
 

@@ -1,9 +1,9 @@
 #include "compare/oracle.h"
 
 #include "cl/transfer.h"
+#include "compare/oracle_sample.h"
 #include "reference/position.h"
 #include "results/metrics.h"
-#include "compare/oracle_sample.h"
 
 namespace lightgrid {
 namespace {
@@ -49,7 +49,7 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
 
 std::vector<float> read_depth(TechniqueRun& run) {
   RenderView& v = run.view();
-  if (!run.frame().depth) return read_depth(v);
+  if (!run.frame().depth) return read_depth(v, v);
   std::vector<float> depth(v.pixels());
   read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(),
               depth.size() * sizeof(float));

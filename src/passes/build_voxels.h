@@ -19,11 +19,13 @@ struct VoxelVolume {
 // Places the volume around what is visible, and adds up the lights at its samples. Deterministic: a sample is
 // the sum of its lights in an order that depends on the lights alone. `depth`: what the frame shades from, if
 // OpenCL made it.
-VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const DepthBuffer& depth = {});
+VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache,
+                         const TileDistances& distances, const DepthBuffer& depth = {});
 
 // The light of the volume. With voxel-lights-exact the lights of the pixel's cell that matter most are taken
 // out of it: `grid` has their lists, else it is null.
-LightSource from_voxels(RenderView& v, const VoxelVolume& volume, const LightSource* grid);
+LightSource from_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
+                        const LightSource* grid);
 
 // The last frame's volume on the host, for tests and the oracle.
 struct ReadVoxels {
@@ -31,6 +33,6 @@ struct ReadVoxels {
   PlacedVoxels placed;
   std::vector<glm::vec4> irradiance, directions;  // without the scale by which they are stored; x fastest
 };
-ReadVoxels read_voxels(RenderView& v);
+ReadVoxels read_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache);
 
 }  // namespace lightgrid

@@ -8,22 +8,23 @@
 namespace lightgrid {
 namespace {
 
-ViewGrid cull(RenderView& v, const char* name, const TileBounds& bounds, SharedGridStorage& storage) {
-  auto pass = v.timer.pass(name, "cl");
-  const ViewGrid grid{v.culler().cull(bounds, storage), &storage};
-  pass.moves(v.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
+ViewGrid cull(Work& work, const Seen& seen, LightCuller& culler, const char* name, const TileBounds& bounds,
+              SharedGridStorage& storage) {
+  auto pass = work.timer.pass(name, "cl");
+  const ViewGrid grid{culler.cull(bounds, storage), &storage};
+  pass.moves(seen.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
   return grid;
 }
 
 // As lists, or as masks.
-GlLightLoop grid_to_gl(RenderView& v, const ViewGrid& grid) {
-  auto pass = v.timer.pass("grid_to_gl", "gl");
+GlLightLoop grid_to_gl(Work& work, const Seen& seen, const ViewGrid& grid) {
+  auto pass = work.timer.pass("grid_to_gl", "gl");
   pass.moves(grid.bytes(), grid.bytes());
   SharedGridStorage& storage = *grid.storage;
-  GlLightLoop loop = light_loop(v);
+  GlLightLoop loop = light_loop(seen);
   loop.defines.emplace_back(grid.mask_bytes ? "LIGHTS_MASKS" : "LIGHTS_GRID");
-  if (v.plan.slices > 1) loop.defines.emplace_back("SLICES");
-  if (v.plan.z_bins > 1) loop.defines.emplace_back("Z_BINS");
+  if (seen.plan.slices > 1) loop.defines.emplace_back("SLICES");
+  if (seen.plan.z_bins > 1) loop.defines.emplace_back("Z_BINS");
   if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
   if (grid.mask_bytes) {
     storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
@@ -46,53 +47,57 @@ ClLightLoop grid_in_cl(const ViewGrid& grid) {
 }
 
 template <typename T>
-std::vector<T> read_shared(const RenderView& v, SharedTexture& shared, size_t count) {
+std::vector<T> read_shared(Work& work, SharedTexture& shared, size_t count) {
   std::vector<T> values(count);
   if (count)
-    read_buffer(*v.renderer.cl, "reading the light grid", shared.buffer->cl_buffer(), values.data(),
+    read_buffer(*work.renderer.cl, "reading the light grid", shared.buffer->cl_buffer(), values.data(),
                 count * sizeof(T));
   return values;
 }
 
-void add_lists(const RenderView& v, const ViewGrid& grid, size_t cells, ListedLights& lists) {
-  for (const glm::uvec2& cell : read_shared<glm::uvec2>(v, grid.storage->cells_, cells)) {
+void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lists) {
+  for (const glm::uvec2& cell : read_shared<glm::uvec2>(work, grid.storage->cells_, cells)) {
     lists.first.push_back(cell.x), lists.count.push_back(cell.y);
   }
   if (grid.index_bits == 16) {
-    const auto narrow = read_shared<uint16_t>(v, grid.storage->indices_, grid.index_count);
+    const auto narrow = read_shared<uint16_t>(work, grid.storage->indices_, grid.index_count);
     lists.indices.assign(narrow.begin(), narrow.end());
   } else {
-    lists.indices = read_shared<uint32_t>(v, grid.storage->indices_, grid.index_count);
+    lists.indices = read_shared<uint32_t>(work, grid.storage->indices_, grid.index_count);
   }
 }
 
-ListedLights listed_of_grid(const RenderView& v, const ViewGrid& grid, const std::vector<float>& depth) {
+ListedLights listed_of_grid(Work& work, const Seen& seen, const ViewGrid& grid,
+                            const std::vector<float>& depth) {
   ListedLights lists;
-  lists.cell_of_pixel = cells_of_pixels(v, depth);
+  lists.cell_of_pixel = cells_of_pixels(seen, depth);
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  if (v.plan.settings.grid_lists == GridLists::masks) {
-    add_masks(read_shared<uint32_t>(v, grid.storage->masks_, cells * grid.mask_words), cells, lists);
+  if (seen.plan.settings.grid_lists == GridLists::masks) {
+    add_masks(read_shared<uint32_t>(work, grid.storage->masks_, cells * grid.mask_words), cells, lists);
   } else {
-    add_lists(v, grid, cells, lists);
+    add_lists(work, grid, cells, lists);
   }
   if (grid.z_bin_bytes == 0) return lists;
-  return in_z_bins(lists, z_bins_of_pixels(v, depth),
-                   read_shared<uint32_t>(v, grid.storage->z_bins_, grid.z_bin_bytes / 4));
+  return in_z_bins(lists, z_bins_of_pixels(seen, depth),
+                   read_shared<uint32_t>(work, grid.storage->z_bins_, grid.z_bin_bytes / 4));
 }
 
 }  // namespace
 
-ViewGrid cull_lights(RenderView& v, const DepthBounds& bounds) {
-  return cull(v, "cull_lights", bounds.opaque, v.opaque_grid());
+ViewGrid cull_lights(Work& work, const Seen& seen, LightCuller& culler, SharedGridStorage& storage,
+                     const DepthBounds& bounds) {
+  return cull(work, seen, culler, "cull_lights", bounds.opaque, storage);
 }
 
-ViewGrid cull_lights_for_blended(RenderView& v, const DepthBounds& bounds) {
-  return cull(v, "cull_lights_for_blended", bounds.blend, v.blend_grid());
+ViewGrid cull_lights_for_blended(Work& work, const Seen& seen, LightCuller& culler,
+                                 SharedGridStorage& storage, const DepthBounds& bounds) {
+  return cull(work, seen, culler, "cull_lights_for_blended", bounds.blend, storage);
 }
 
-LightSource from_grid(RenderView& v, const ViewGrid& grid) {
-  return LightSource([&v, grid] { return grid_to_gl(v, grid); }, grid_in_cl(grid), grid.bytes(),
-                     [&v, grid](auto& depth) { return listed_of_grid(v, grid, depth); });
+LightSource from_grid(Work& work, const Seen& seen, const ViewGrid& grid) {
+  return LightSource([&work, &seen, grid] { return grid_to_gl(work, seen, grid); }, grid_in_cl(grid),
+                     grid.bytes(),
+                     [&work, &seen, grid](auto& depth) { return listed_of_grid(work, seen, grid, depth); });
 }
 
 }  // namespace lightgrid

@@ -7,9 +7,9 @@ namespace lightgrid {
 
 // Adds each point and spot light, in index order, to `gbuffer.image`, on the pixels that its volume selects
 // by the setting volume-culling (docs/techniques/deferred.md).
-void shade_light_volumes(RenderView& v, const GBuffer& gbuffer);
+void shade_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cache, const GBuffer& gbuffer);
 
 // The (pixel, light) pairs for which the last frame ran the light shader.
-HostLists listed_of_light_volumes(RenderView& v);
+HostLists listed_of_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cache);
 
 }  // namespace lightgrid

@@ -5,6 +5,7 @@
 
 #include "passes/common/light_source.h"
 #include "passes/rasterize.h"
+#include "renderer/render_view.h"
 
 namespace lightgrid {
 

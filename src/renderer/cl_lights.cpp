@@ -2,28 +2,29 @@
 
 #include <fmt/format.h>
 
+#include "renderer/culler_input.h"
 #include "renderer/light_texels.h"
 
 namespace lightgrid {
 
-void ClLights::upload(RenderView& v) {
-  const LightTexels texels = light_texels(v.scene, v.view, v.plan);
-  ClDevice& device = *v.renderer.cl;
+void ClLights::upload(Work& work, const Seen& seen) {
+  const LightTexels texels = light_texels(seen.scene, seen.view, seen.plan);
+  ClDevice& device = *work.renderer.cl;
   constexpr const char* what = "uploading lights";
   positions.put(device, what, texels.positions);
   colors.put(device, what, texels.colors);
   cones.put(device, what, texels.cones);
   directional.put(device, what, texels.directional);
-  view.put(device, what, std::vector<ViewParams>{v.params});
+  view.put(device, what, std::vector<ViewParams>{seen.params});
   std::vector<float> edges;
-  if (v.plan.z_bins > 1) {
-    const auto keys = z_bin_keys(cull_view(v.view, v.plan));
+  if (seen.plan.z_bins > 1) {
+    const auto keys = z_bin_keys(cull_view(seen.view, seen.plan));
     edges.assign(keys.begin(), keys.end());
   }
   bin_edges.put(device, what, edges);
   edges.clear();
-  if (v.plan.slices > 1) {
-    const auto keys = slice_keys(cull_view(v.view, v.plan));
+  if (seen.plan.slices > 1) {
+    const auto keys = slice_keys(cull_view(seen.view, seen.plan));
     edges.assign(keys.begin(), keys.end());
   }
   slice_edges.put(device, what, edges);
@@ -36,23 +37,23 @@ size_t ClLights::memory_bytes() const {
   return bytes;
 }
 
-std::string light_defines(const RenderView& v, bool lanes, Brdf brdf) {
+std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   std::string defines;
-  if (lanes) defines += fmt::format(" -DTILE={}", v.plan.settings.tile);
-  if (lanes && v.plan.settings.portable) defines += " -DPORTABLE";
-  if (v.plan.index_bits == 32) defines += " -DINDEX_32";
-  if (v.plan.z_bins > 1) defines += " -DZ_BINS";
-  if (v.plan.spots) defines += " -DSPOTS";
+  if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings.tile);
+  if (lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
+  if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
+  if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
+  if (seen.plan.spots) defines += " -DSPOTS";
   if (brdf == Brdf::blinn) defines += " -DBLINN";
   if (brdf == Brdf::lambert) defines += " -DLAMBERT";
-  for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
-  if (v.view.orthographic) defines += " -DORTHOGRAPHIC";
+  for (const char* define : range_defines(seen.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
+  if (seen.view.orthographic) defines += " -DORTHOGRAPHIC";
   return defines;
 }
 
-bool shades_in_lanes(const RenderView& v) {
-  const KernelShape shape = v.plan.settings.kernel_shape;
-  return shape == KernelShape::lanes || (shape == KernelShape::automatic && v.renderer.cl->info().cpu);
+bool shades_in_lanes(Work& work, const Seen& seen) {
+  const KernelShape shape = seen.plan.settings.kernel_shape;
+  return shape == KernelShape::lanes || (shape == KernelShape::automatic && work.renderer.cl->info().cpu);
 }
 
 }  // namespace lightgrid

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "cl/uploaded_buffer.h"
-#include "renderer/render_view.h"
+#include "renderer/pass_caches.h"
 
 namespace lightgrid {
 
 class ClLights {
  public:
-  void upload(RenderView& v);
+  void upload(Work& work, const Seen& seen);
   size_t memory_bytes() const;
 
   UploadedBuffer positions, colors, cones, directional, view, bin_edges,
@@ -17,9 +17,9 @@ class ClLights {
 
 // The -D names that light loops in OpenCL take of a view and its plan (kernels/common/shade_pixels.h).
 // `lanes`: those of kernels that take a tile. brdf: of the kernel, which may serve several of the setting's.
-std::string light_defines(const RenderView& v, bool lanes, Brdf brdf);
+std::string light_defines(const Seen& seen, bool lanes, Brdf brdf);
 
 // Whether kernels that shade pixels take the shape for CPUs.
-bool shades_in_lanes(const RenderView& v);
+bool shades_in_lanes(Work& work, const Seen& seen);
 
 }  // namespace lightgrid

@@ -54,11 +54,13 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
   ClDevice& device = *renderer.cl;
   SharedBuffer& depth = v.shared_pixels("depth", 4);
   write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.pixels() * 4);
-  const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
+  const NormalsInCl normals = normals_in_cl_of(v, v, TargetUse::gbuffer);
   write_buffer(device, "writing normals", normals.image->cl_buffer(), input.normals.data(), v.pixels() * 16);
   const DepthBuffer in_cl{depth.cl_buffer()};
-  const LightSource lights = from_grid(v, cull_lights(v, depth_bounds(v, in_cl)));
-  const LightBufferInCl sums = fill_light_buffer(v, normals, in_cl, lights, TargetUse::gbuffer);
+  const LightSource lights =
+      from_grid(v, v, cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), in_cl)));
+  const LightBufferInCl sums =
+      fill_light_buffer(v, v, v.caches.light_sums, normals, in_cl, lights, TargetUse::gbuffer);
   std::vector<glm::vec4> first(v.pixels());
   std::vector<glm::vec2> second(v.pixels());
   read_buffer(device, "reading sums", sums.first->cl_buffer(), first.data(), first.size() * 16);

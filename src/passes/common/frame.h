@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/render_view.h"
+#include "renderer/grid_storage.h"
+#include "renderer/pass_caches.h"
 #include "scene/listed_lights.h"
 
 namespace lightgrid {

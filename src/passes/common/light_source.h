@@ -20,7 +20,7 @@ struct GlLightLoop {
   };
   std::vector<Block> blocks;  // uniform blocks besides the view's
 
-  void bind(const RenderView& v) const;  // binds these textures, the lights and the view
+  void bind(Work& work) const;  // binds these textures, the lights and the view
 };
 
 // The loop of kernels/common/resolve_light.h.
@@ -54,11 +54,11 @@ class LightSource {
 };
 
 // Every light of the scene at every pixel.
-LightSource every_light(const RenderView& v);
+LightSource every_light(const Seen& seen);
 
 // What every loop over point and spot lights begins with; a source adds its own loop and input.
-GlLightLoop light_loop(const RenderView& v);
+GlLightLoop light_loop(const Seen& seen);
 // No point or spot light: ambient, emissive and directional light alone.
-GlLightLoop base_lighting(const RenderView& v);
+GlLightLoop base_lighting(const Seen& seen);
 
 }  // namespace lightgrid

@@ -200,7 +200,7 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
   return volumes;
 }
 
-LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
+LightVolumes::LightVolumes(Work&, const Seen& seen) : array_(make_vertex_array()) {
   glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> indices;
@@ -212,7 +212,7 @@ LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
   }
   vertices_ = make_buffer(positions.size() * sizeof(glm::vec3), positions.data());
   indices_ = make_buffer(indices.size() * sizeof(uint16_t), indices.data());
-  instance_bytes_ = v.plan.local.size() * sizeof(VolumeInstance);
+  instance_bytes_ = seen.plan.local.size() * sizeof(VolumeInstance);
   instances_ = make_buffer(instance_bytes_, nullptr);
   mesh_bytes_ = positions.size() * sizeof(glm::vec3) + indices.size() * sizeof(uint16_t);
 
@@ -234,15 +234,15 @@ LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
 
 size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_; }
 
-bool LightVolumes::follow(RenderView& v) {
-  return instance_bytes_ == v.plan.local.size() * sizeof(VolumeInstance);
+bool LightVolumes::follow(Work&, const Seen& seen) {
+  return instance_bytes_ == seen.plan.local.size() * sizeof(VolumeInstance);
 }
 
-const std::vector<LightVolume>& LightVolumes::update(RenderView& v, VolumeMeshes meshes) {
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
+const std::vector<LightVolume>& LightVolumes::update(const Seen& seen, VolumeMeshes meshes) {
+  const std::vector<ViewLight> all = lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges);
   lights_.clear();
-  for (int i : v.plan.local) lights_.push_back(all[i]);
-  upload_volumes(light_volumes(v.view, lights_, meshes, subpixel_bits_));
+  for (int i : seen.plan.local) lights_.push_back(all[i]);
+  upload_volumes(light_volumes(seen.view, lights_, meshes, subpixel_bits_));
   return volumes_;
 }
 

@@ -12,15 +12,15 @@ namespace {
 
 class VoxelLister {
  public:
-  VoxelLister(RenderView& v, ReadVoxels read)
-      : v_(v),
+  VoxelLister(const Seen& seen, ReadVoxels read)
+      : seen_(seen),
         r_(std::move(read)),
         size_(r_.placed.grid.size_x, r_.placed.grid.size_y, r_.placed.grid.size_z) {
     View along;
     along.view_from_world = glm::dmat4(r_.axes.from_world);
     along.eye = r_.axes.origin;
-    const std::vector<ViewLight> all = lights_in_view(v.scene, along, v.plan.settings.ranges);
-    for (const int i : v.plan.local) lights_.push_back(all[size_t(i)]);
+    const std::vector<ViewLight> all = lights_in_view(seen.scene, along, seen.plan.settings.ranges);
+    for (const int i : seen.plan.local) lights_.push_back(all[size_t(i)]);
   }
 
   ListedLights listed(const std::vector<float>& depth) {
@@ -72,7 +72,7 @@ class VoxelLister {
 
   // The cell between samples in which a pixel lies, as kernels/common/voxel_lookup.h finds it.
   glm::uvec3 cell_at(size_t pixel, float depth) const {
-    const ViewParams& p = v_.params;
+    const ViewParams& p = seen_.params;
     const double x = double(pixel % p.width) + 0.5, y = double(pixel / p.width) + 0.5;
     const double distance = p.orthographic ? (p.depth_b - double(depth)) * p.depth_a
                                            : double(p.depth_b) / (double(depth) + p.depth_a);
@@ -136,7 +136,7 @@ class VoxelLister {
     return around;
   }
 
-  RenderView& v_;
+  const Seen& seen_;
   ReadVoxels r_;
   glm::uvec3 size_;
   std::vector<ViewLight> lights_;
@@ -144,15 +144,16 @@ class VoxelLister {
 
 }  // namespace
 
-ListedLights list_voxels(RenderView& v, const ReadVoxels& read, const DepthBuffer& shaded_from) {
-  std::vector<float> depth(v.pixels());
+ListedLights list_voxels(Work& work, const Seen& seen, const ReadVoxels& read,
+                         const DepthBuffer& shaded_from) {
+  std::vector<float> depth(seen.pixels());
   if (shaded_from.values()) {
-    read_buffer(*v.renderer.cl, "reading depth", shaded_from.values, depth.data(),
+    read_buffer(*work.renderer.cl, "reading depth", shaded_from.values, depth.data(),
                 depth.size() * sizeof(float));
   } else {
-    depth = read_depth(v);
+    depth = read_depth(work, seen);
   }
-  return VoxelLister(v, read).listed(depth);
+  return VoxelLister(seen, read).listed(depth);
 }
 
 }  // namespace lightgrid
