@@ -43,7 +43,8 @@ class LightSums : public PassCache {
   // Built at first use.
   cl::Kernel& kernel(Work& work) {
     if (!kernel_())
-      kernel_ = work.renderer.kernels->kernel(lanes ? "cpu/light_buffer" : "gpu/light_buffer", defines_);
+      kernel_ = work.renderer.kernels->kernel(lanes ? "resolve/cpu/light_buffer" : "resolve/gpu/light_buffer",
+                                              defines_);
     return kernel_;
   }
 

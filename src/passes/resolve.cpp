@@ -49,7 +49,7 @@ class Resolver : public PassCache {
   cl::Kernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
     cl::Kernel& kernel = kernels_[stem + more_defines];
     if (!kernel()) {
-      kernel = work.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem),
+      kernel = work.renderer.kernels->kernel((lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
                                              defines_ + more_defines + register_limit(work));
     }
     return kernel;
@@ -67,7 +67,7 @@ class Resolver : public PassCache {
     return scene;
   }
 
-  // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
+  // RESOLVE_ARGUMENTS of kernels/resolve/resolve_light.h.
   auto arguments(Work& work, const Seen& seen, const RasterBuffers& raster, const cl::Buffer& surfaces,
                  const ClLightLoop& loop = {}) {
     const ClScene& s = scene(work, seen);

@@ -43,7 +43,8 @@ class TileShading : public PassCache {
     if (kernel()) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
                                             holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel = work.renderer.kernels->kernel(lanes ? "cpu/shade_tiles" : "gpu/shade_tiles", defines);
+    kernel =
+        work.renderer.kernels->kernel(lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles", defines);
     return kernel;
   }
 

@@ -23,7 +23,7 @@ struct GlLightLoop {
   void bind(Work& work) const;  // binds these textures, the lights and the view
 };
 
-// The loop of kernels/common/resolve_light.h.
+// The loop of kernels/resolve/resolve_light.h.
 struct ClLightLoop {
   std::string defines;                // -D options; none: lists of cells, or every light
   cl::Buffer cells, indices, z_bins;  // null: every light
