@@ -8,8 +8,8 @@
 #include "shared/stored_normal.h"
 #include "shaders/lights/punctual.glsl"
 
-layout(binding = 0) uniform sampler2D normals;
-layout(binding = 2) uniform sampler2D depth_image;
+uniform sampler2D normals;
+uniform sampler2D depth_image;
 #ifdef LIGHT_VOLUME
 flat in uint light;
 #else

@@ -1,10 +1,10 @@
 // The point and spot lights by index.
 #include "shared/punctual_light.h"
 
-layout(binding = 8) uniform samplerBuffer light_positions;
-layout(binding = 9) uniform samplerBuffer light_colors;
+uniform samplerBuffer light_positions;
+uniform samplerBuffer light_colors;
 #ifdef SPOTS
-layout(binding = 10) uniform samplerBuffer light_cones;
+uniform samplerBuffer light_cones;
 #endif
 
 PunctualLight light_at(int index) {

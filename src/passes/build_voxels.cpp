@@ -63,7 +63,7 @@ class VoxelBuffers : public PassCache {
     std::string defines = defines_of(seen);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      kernel_ = cl::Kernel();
+      kernel_ = {};
       filled.reset();
     }
     return true;
@@ -75,10 +75,10 @@ class VoxelBuffers : public PassCache {
     return bytes + texture_bytes;
   }
 
-  cl::Kernel& kernel(Work& work) {
-    if (!kernel_())
-      kernel_ = work.renderer.kernels->kernel(lanes ? "voxels/cpu/build_voxels" : "voxels/gpu/build_voxels",
-                                              defines_);
+  NamedKernel& kernel(Work& work) {
+    if (!kernel_)
+      kernel_ = NamedKernel(*work.renderer.kernels,
+                            lanes ? "voxels/cpu/build_voxels" : "voxels/gpu/build_voxels", defines_);
     return kernel_;
   }
 
@@ -112,7 +112,7 @@ class VoxelBuffers : public PassCache {
   }
 
   std::string defines_;
-  cl::Kernel kernel_;
+  NamedKernel kernel_;
 };
 
 namespace {
@@ -157,7 +157,7 @@ VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cac
                          const TileDistances& distances, const DepthBuffer& depth) {
   VoxelBuffers& s = cache.of(work, seen);
   s.shaded_from = depth;
-  cl::Kernel& kernel = s.kernel(work);
+  NamedKernel& kernel = s.kernel(work);
   place(work, seen, s, distances);
   const size_t bytes = volume_bytes(seen);
   const BridgeKind bridge =
@@ -171,11 +171,16 @@ VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cac
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
   const cl::NDRange items(g.size_x / VOXEL_GROUP_X * VOXEL_GROUP_ITEMS, g.size_y / VOXEL_GROUP_Y, g.size_z);
-  launch(*work.renderer.cl, "build_voxels", kernel, s.lanes ? bricks : items,
-         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1), s.lights.boxes.buffer(),
-         s.lights.places.buffer(), s.lights.colors.buffer(),
-         seen.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(), s.slices.buffer(),
-         s.irradiance->cl_buffer(), s.directions->cl_buffer());
+  kernel.launch(*work.renderer.cl, "build_voxels", s.lanes ? bricks : items,
+                s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1),
+                {{"boxes", s.lights.boxes.buffer()},
+                 {"places", s.lights.places.buffer()},
+                 {"colors", s.lights.colors.buffer()},
+                 {"cones", seen.plan.spots ? s.lights.cones.buffer() : cl::Buffer()},
+                 {"grid", s.grid.buffer()},
+                 {"slices", s.slices.buffer()},
+                 {"irradiance", s.irradiance->cl_buffer()},
+                 {"directions", s.directions->cl_buffer()}});
   s.filled = std::move(needed);
   s.texture_stale = true;
   pass.moves(s.lights.memory_bytes(), volume.bytes);
@@ -226,17 +231,20 @@ LightSource from_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cach
     GlLightLoop loop = light_loop(seen);
     loop.defines.emplace_back("LIGHTS_VOXELS");
     if (s.axes.log_depth) loop.defines.emplace_back("VOXELS_LOG");
-    loop.textures = {{14, s.irradiance_texture.name()}, {15, s.directions_texture.name()}};
+    loop.textures = {{Sampler::voxel_irradiance, s.irradiance_texture.name()},
+                     {Sampler::voxel_directions, s.directions_texture.name()}};
     if (grid) {
       loop.defines.emplace_back("VOXEL_EXACT " + exact);
       for (const GlLightLoop::Binding& lists : grid->in_gl().textures) loop.textures.push_back(lists);
     }
-    loop.blocks = {{4, s.lookup_block.name()}};
+    loop.blocks = {{UniformBlock::VoxelLookupBlock, s.lookup_block.name()}};
     return loop;
   };
   ClLightLoop in_cl = grid ? *grid->in_cl : ClLightLoop();
   in_cl.defines = " -DLIGHTS_VOXELS" + volume.kernel_defines + (grid ? " -DVOXEL_EXACT=" + exact : "");
-  in_cl.more = {volume.irradiance->cl_buffer(), volume.directions->cl_buffer(), volume.lookup};
+  in_cl.more = {{"irradiance", volume.irradiance->cl_buffer()},
+                {"directions", volume.directions->cl_buffer()},
+                {"voxels", volume.lookup}};
   return LightSource(in_gl, in_cl, volume.bytes + (grid ? grid->bytes : 0),
                      [&work, &seen, &cache](auto&) { return listed_of_voxels(work, seen, cache); });
 }

@@ -79,11 +79,12 @@ GlLightLoop grid_to_gl(Work& work, const Seen& seen, ViewOfWorldGrid& state) {
   GlLightLoop loop = light_loop(seen);
   loop.defines.emplace_back("LIGHTS_WORLD");
   if (!grid.layout().everywhere.empty()) loop.defines.emplace_back("WORLD_EVERYWHERE");
-  loop.textures = {{12, grid.cell_texture()},
-                   {13, grid.index_texture()},
-                   {14, grid.bucket_texture()},
-                   {15, grid.key_texture()}};
-  loop.blocks = {{4, grid.block()}, {5, state.in_gl.name()}};
+  loop.textures = {{Sampler::world_cells, grid.cell_texture()},
+                   {Sampler::world_indices, grid.index_texture()},
+                   {Sampler::world_buckets, grid.bucket_texture()},
+                   {Sampler::world_keys, grid.key_texture()}};
+  loop.blocks = {{UniformBlock::WorldGridBlock, grid.block()},
+                 {UniformBlock::WorldViewBlock, state.in_gl.name()}};
   return loop;
 }
 
@@ -92,7 +93,10 @@ ClLightLoop grid_in_cl(const ViewOfWorldGrid& state) {
   return {.defines = " -DWORLD_GRID",
           .cells = grid.cells(),
           .indices = grid.indices(),
-          .more = {grid.buckets(), grid.keys(), grid.params(), state.in_cl.buffer()}};
+          .more = {{"world_buckets", grid.buckets()},
+                   {"world_keys", grid.keys()},
+                   {"world", grid.params()},
+                   {"world_view", state.in_cl.buffer()}}};
 }
 
 // Rounds as C++ does. A device may round the position differently and then read a neighbouring cell's list,

@@ -28,13 +28,14 @@ GlLightLoop grid_to_gl(Work& work, const Seen& seen, const ViewGrid& grid) {
   if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
   if (grid.mask_bytes) {
     storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
-    loop.textures = {{12, storage.masks_.texture.name()}};
+    loop.textures = {{Sampler::grid_masks, storage.masks_.texture.name()}};
   } else {
     storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
     storage.indices_.buffer->hand_to_gl(grid.index_bytes);
-    loop.textures = {{12, storage.cells_.texture.name()}, {13, storage.indices_.texture.name()}};
+    loop.textures = {{Sampler::grid_cells, storage.cells_.texture.name()},
+                     {Sampler::grid_indices, storage.indices_.texture.name()}};
   }
-  if (storage.z_bins_.texture) loop.textures.push_back({14, storage.z_bins_.texture.name()});
+  if (storage.z_bins_.texture) loop.textures.push_back({Sampler::light_z_bins, storage.z_bins_.texture.name()});
   return loop;
 }
 

@@ -21,10 +21,9 @@ LightBuffer draw_light_buffer(Work& work, const Seen& seen, Cached<LightVolumes>
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
   for (std::string& define : light_buffer_defines(seen)) defines.push_back(std::move(define));
   begin_adding_lights(work, seen, framebuffer);
-  glBindTextureUnit(0, normals.texture);
-  glBindTextureUnit(2, work.targets.depth());
-  VolumeDraws(work, seen, cache.of(work, seen), "shaders/light_buffer.frag", std::move(defines))
-      .draw(0, volumes.volumes().size());
+  bind_texture(Sampler::normals, normals.texture);
+  bind_texture(Sampler::depth_image, work.targets.depth());
+  VolumeDraws(work, seen, cache.of(work, seen), "shaders/light_buffer.frag", std::move(defines)).draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
   pass.moves(seen.pixels() * (4 + normals.layout->image.bytes + buffer.bytes()),
              seen.pixels() * buffer.bytes());

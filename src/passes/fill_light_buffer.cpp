@@ -32,7 +32,7 @@ class LightSums : public PassCache {
     std::string defines = defines_of_light_buffer(seen, lanes);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      kernel_ = cl::Kernel();
+      kernel_ = {};
     }
     lights.upload(work, seen);
     return true;
@@ -41,10 +41,10 @@ class LightSums : public PassCache {
   size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
-  cl::Kernel& kernel(Work& work) {
-    if (!kernel_())
-      kernel_ = work.renderer.kernels->kernel(lanes ? "resolve/cpu/light_buffer" : "resolve/gpu/light_buffer",
-                                              defines_);
+  NamedKernel& kernel(Work& work) {
+    if (!kernel_)
+      kernel_ = NamedKernel(*work.renderer.kernels,
+                            lanes ? "resolve/cpu/light_buffer" : "resolve/gpu/light_buffer", defines_);
     return kernel_;
   }
 
@@ -53,7 +53,7 @@ class LightSums : public PassCache {
 
  private:
   std::string defines_;
-  cl::Kernel kernel_;
+  NamedKernel kernel_;
 };
 
 namespace {
@@ -82,7 +82,7 @@ LightBufferInCl fill_light_buffer(Work& work, const Seen& seen, Cached<LightSums
                                   const NormalsInCl& normals, const DepthBuffer& depth,
                                   const LightSource& lights, TargetUse use) {
   LightSums& s = cache.of(work, seen);
-  cl::Kernel& kernel = s.kernel(work);
+  NamedKernel& kernel = s.kernel(work);
   LightBufferInCl buffer{&light_buffer_layout(seen.plan.settings), nullptr, nullptr};
   buffer.first = &work.shared_pixels("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(seen.plan.settings))
@@ -92,13 +92,22 @@ LightBufferInCl fill_light_buffer(Work& work, const Seen& seen, Cached<LightSums
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(seen.params.tiles_x, seen.params.tiles_y)
                                     : cl::NDRange(whole(seen.view.width), whole(seen.view.height));
-  launch(*work.renderer.cl, "fill_light_buffer", kernel, items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), normals.image->cl_buffer(), depth.values,
-         s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(), lights.in_cl->cells,
-         lights.in_cl->indices, lights.in_cl->z_bins, s.lights.bin_edges.buffer(), buffer.first->cl_buffer(),
-         buffer.second ? buffer.second->cl_buffer() : cl::Buffer(),
-         cl_float(seen.plan.settings.prepass_shininess), cl_float(1 / stored_scale(seen)),
-         s.lights.view.buffer());
+  kernel.launch(*work.renderer.cl, "fill_light_buffer", items,
+                s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+                {{"normals", normals.image->cl_buffer()},
+                 {"depth", depth.values},
+                 {"positions", s.lights.positions.buffer()},
+                 {"colors", s.lights.colors.buffer()},
+                 {"cones", s.lights.cones.buffer()},
+                 {"cells", lights.in_cl->cells},
+                 {"indices", lights.in_cl->indices},
+                 {"light_bins", lights.in_cl->z_bins},
+                 {"bin_edges", s.lights.bin_edges.buffer()},
+                 {"first", buffer.first->cl_buffer()},
+                 {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
+                 {"exponent", cl_float(seen.plan.settings.prepass_shininess)},
+                 {"inverse_scale", cl_float(1 / stored_scale(seen))},
+                 {"view", s.lights.view.buffer()}});
   pass.moves(seen.pixels() * (4 + normals.layout->image.bytes) + lights.bytes,
              seen.pixels() * buffer.bytes());
   return buffer;

@@ -84,7 +84,7 @@ LightSource from_objects(Work& work, const Seen& seen, const ObjectLights& objec
   const auto in_gl = [&work, &seen, &objects] {
     GlLightLoop loop = light_loop(seen);
     loop.defines.emplace_back("LIGHTS_OBJECT");
-    if (objects.texture()) loop.textures.push_back({12, objects.texture()});
+    if (objects.texture()) loop.textures.push_back({Sampler::object_lights, objects.texture()});
     return loop;
   };
   return LightSource(in_gl, {}, objects.lights().size() * sizeof(uint32_t));

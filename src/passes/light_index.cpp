@@ -277,7 +277,7 @@ GlLightLoop index_loop(const Seen& seen, const LightIndexLayout& layout, const s
   loop.defines.emplace_back("LIGHTS_LIDR");
   if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
-  for (size_t i = 0; i < images.size(); ++i) loop.textures.push_back({GLuint(12 + i), images[i]});
+  for (size_t i = 0; i < images.size(); ++i) loop.textures.push_back({Sampler::light_index_images, images[i], i});
   return loop;
 }
 

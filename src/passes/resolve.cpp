@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
-
 #include "cl/launch.h"
 #include "renderer/cl_lights.h"
 
@@ -20,7 +18,15 @@ cl::NDRange whole_groups(const View& view) {
   return {whole(view.width, group_width), whole(view.height, group_height)};
 }
 
+// The lists of a source of lights, as RESOLVE_ARGUMENTS has them.
+ClArguments source_arguments(const ClLightLoop& loop) {
+  return ClArguments{
+             {"cells", loop.cells}, {"light_indices", loop.indices}, {"light_bins", loop.z_bins}} +
+         loop.more;
+}
+
 }  // namespace
+
 
 // The image, the lights and the kernels.
 class Resolver : public PassCache {
@@ -46,11 +52,11 @@ class Resolver : public PassCache {
   size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
 
   // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
-  cl::Kernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
-    cl::Kernel& kernel = kernels_[stem + more_defines];
-    if (!kernel()) {
-      kernel = work.renderer.kernels->kernel((lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
-                                             defines_ + more_defines + register_limit(work));
+  NamedKernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
+    NamedKernel& kernel = kernels_[stem + more_defines];
+    if (!kernel) {
+      kernel = NamedKernel(*work.renderer.kernels, (lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
+                           defines_ + more_defines + register_limit(work));
     }
     return kernel;
   }
@@ -68,14 +74,26 @@ class Resolver : public PassCache {
   }
 
   // RESOLVE_ARGUMENTS of kernels/resolve/resolve_light.h.
-  auto arguments(Work& work, const Seen& seen, const RasterBuffers& raster, const cl::Buffer& surfaces,
-                 const ClLightLoop& loop = {}) {
+  ClArguments arguments(Work& work, const Seen& seen, const RasterBuffers& raster, const cl::Buffer& surfaces,
+                        const ClLightLoop& loop = {}) {
     const ClScene& s = scene(work, seen);
-    return std::tuple(raster.triangle_instance, raster.instances, raster.indices, raster.clip, surfaces,
-                      s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.positions.buffer(),
-                      lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), loop.cells,
-                      loop.indices, loop.z_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
-                      lights.view.buffer(), loop.more);
+    return ClArguments{{"triangle_instance", raster.triangle_instance},
+                       {"instances", raster.instances},
+                       {"indices", raster.indices},
+                       {"clip", raster.clip},
+                       {"surfaces", surfaces},
+                       {"vertices", s.vertices()},
+                       {"materials", s.materials()},
+                       {"texels_4", s.texels_4()},
+                       {"texels_8", s.texels_8()},
+                       {"positions", lights.positions.buffer()},
+                       {"colors", lights.colors.buffer()},
+                       {"cones", lights.cones.buffer()},
+                       {"directional", lights.directional.buffer()}} +
+           source_arguments(loop) +
+           ClArguments{{"bin_edges", lights.bin_edges.buffer()},
+                       {"slice_edges", lights.slice_edges.buffer()},
+                       {"view", lights.view.buffer()}};
   }
 
   // Of kernels over all pixels: a work-item takes a tile, or a pixel.
@@ -114,7 +132,7 @@ class Resolver : public PassCache {
   }
 
   std::string defines_;
-  std::map<std::string, cl::Kernel> kernels_;  // by stem and what more defines it has
+  std::map<std::string, NamedKernel> kernels_;  // by stem and what more defines it has
   size_t scene_bytes_ = 0;
   bool uploaded_ = false;  // for this view
 };
@@ -132,6 +150,10 @@ std::string specular_define(const Settings& settings) {
   return define ? fmt::format(" -D{}", define) : "";
 }
 
+ClArguments visible_arguments(const VisibilityBuffer& visible) {
+  return {{"triangles", visible.image.triangle}, {"depths", visible.image.depth}};
+}
+
 cl_float4 background(const Seen& seen) {
   const glm::vec3& background = seen.scene.background;
   return {{background.r, background.g, background.b, 1}};
@@ -142,14 +164,11 @@ cl_float4 background(const Seen& seen) {
 ShadedImage resolve(Work& work, const Seen& seen, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                     const LightSource& lights) {
   Resolver& r = resolving(work, seen, cache);
-  cl::Kernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
+  NamedKernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
   auto pass = work.timer.pass("resolve", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*work.renderer.cl, "resolve", kernel, r.items(seen), r.group(), visible.image.triangle,
-               visible.image.depth, shared..., background(seen), r.image.cl_buffer());
-      },
-      r.arguments(work, seen, visible.raster, visible.surfaces, *lights.in_cl));
+  kernel.launch(*work.renderer.cl, "resolve", r.items(seen), r.group(),
+                visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces, *lights.in_cl) +
+                    ClArguments{{"background", background(seen)}, {"image", r.image.cl_buffer()}});
   pass.moves(seen.pixels() * 8 + lights.bytes + r.scene(work, seen).memory_bytes(), seen.pixels() * 16);
   return {0, &r.image};
 }
@@ -159,16 +178,16 @@ GBufferInCl resolve_gbuffer(Work& work, const Seen& seen, Cached<Resolver>& cach
   Resolver& r = resolving(work, seen, cache);
   const GBufferInCl g = gbuffer_in_cl_of(work, seen, base_lighting, TargetUse::gbuffer);
   const bool image = base_lighting == BaseLighting::in_image;
-  cl::Kernel& kernel = r.kernel(work, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
+  NamedKernel& kernel = r.kernel(work, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
   auto pass = work.timer.pass("resolve_gbuffer", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*work.renderer.cl, "resolve_gbuffer", kernel, r.items(seen), r.group(), visible.image.triangle,
-               visible.image.depth, shared..., background(seen), g.surfaces[0]->cl_buffer(),
-               g.surfaces[1]->cl_buffer(), g.in_cl(gbuffer_coat), g.in_cl(gbuffer_specular),
-               image ? g.image->cl_buffer() : cl::Buffer());
-      },
-      r.arguments(work, seen, visible.raster, visible.surfaces));
+  kernel.launch(*work.renderer.cl, "resolve_gbuffer", r.items(seen), r.group(),
+                visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces) +
+                    ClArguments{{"background", background(seen)},
+                                {"first", g.surfaces[0]->cl_buffer()},
+                                {"second", g.surfaces[1]->cl_buffer()},
+                                {"coats", g.in_cl(gbuffer_coat)},
+                                {"specular", g.in_cl(gbuffer_specular)},
+                                {"image", image ? g.image->cl_buffer() : cl::Buffer()}});
   pass.moves(seen.pixels() * (image ? 8 : 4) + r.scene(work, seen).memory_bytes(),
              seen.pixels() * (g.bytes() + (image ? 16 : 0)));
   return g;
@@ -179,35 +198,31 @@ NormalsInCl resolve_normals(Work& work, const Seen& seen, Cached<Resolver>& cach
   Resolver& r = resolving(work, seen, cache);
   const NormalsInCl normals = normals_in_cl_of(work, seen, TargetUse::gbuffer);
   const char* define = normals.layout->define;
-  cl::Kernel& kernel = r.kernel(work, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
+  NamedKernel& kernel = r.kernel(work, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
   auto pass = work.timer.pass("resolve_normals", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*work.renderer.cl, "resolve_normals", kernel, r.items(seen), r.group(), visible.image.triangle,
-               shared..., normals.image->cl_buffer());
-      },
-      r.arguments(work, seen, visible.raster, visible.surfaces));
-  pass.moves(seen.pixels() * 4 + r.scene(work, seen).memory_bytes(),
-             seen.pixels() * normals.layout->image.bytes);
+  kernel.launch(*work.renderer.cl, "resolve_normals", r.items(seen), r.group(),
+                ClArguments{{"triangles", visible.image.triangle}} +
+                    r.arguments(work, seen, visible.raster, visible.surfaces) +
+                    ClArguments{{"normals", normals.image->cl_buffer()}});
+  pass.moves(seen.pixels() * 4 + r.scene(work, seen).memory_bytes(), seen.pixels() * normals.layout->image.bytes);
   return normals;
 }
 
-ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                              const VisibilityBuffer& visible, const LightBufferInCl& sums) {
+ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& cache, const VisibilityBuffer& visible, const LightBufferInCl& sums) {
   Resolver& r = resolving(work, seen, cache);
   const Settings& s = seen.plan.settings;
-  cl::Kernel& kernel = r.kernel(work, "resolve_materials",
-                                fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
+  NamedKernel& kernel =
+      r.kernel(work, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
   auto pass = work.timer.pass("resolve_materials", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*work.renderer.cl, "resolve_materials", kernel, r.items(seen), r.group(),
-               visible.image.triangle, visible.image.depth, shared..., background(seen),
-               sums.first->cl_buffer(), sums.second ? sums.second->cl_buffer() : cl::Buffer(),
-               cl_float(stored_scale(seen)), cl_float(s.prepass_shininess),
-               cl_float(reference_light(seen.scene, seen.plan)), r.image.cl_buffer());
-      },
-      r.arguments(work, seen, visible.raster, visible.surfaces));
+  kernel.launch(*work.renderer.cl, "resolve_materials", r.items(seen), r.group(),
+                visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces) +
+                    ClArguments{{"background", background(seen)},
+                                {"first", sums.first->cl_buffer()},
+                                {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
+                                {"scale", cl_float(stored_scale(seen))},
+                                {"exponent", cl_float(s.prepass_shininess)},
+                                {"reference", cl_float(reference_light(seen.scene, seen.plan))},
+                                {"image", r.image.cl_buffer()}});
   pass.moves(seen.pixels() * (8 + sums.bytes()) + r.scene(work, seen).memory_bytes(), seen.pixels() * 16);
   return {0, &r.image};
 }
@@ -215,17 +230,18 @@ ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& ca
 void blend_resolved(Work& work, const Seen& seen, Cached<Resolver>& cache, const BlendedTriangles& blended,
                     const DepthBuffer& depth, const LightSource& lights) {
   Resolver& r = resolving(work, seen, cache);
-  cl::Kernel& kernel = r.kernel(work, "blend", lights.in_cl->defines);
+  NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines);
   auto pass = work.timer.pass("blend_resolved", "cl");
-  std::apply(
-      [&](const auto&... shared) {
-        launch(*work.renderer.cl, "blend_resolved", kernel,
-               r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(seen.view),
-               r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height), blended.lists.records,
-               blended.lists.tile_begin, blended.lists.lists, cl_uint(blended.lists.tiles_x), depth.values,
-               shared..., r.image.cl_buffer());
-      },
-      r.arguments(work, seen, blended.raster, blended.surfaces, *lights.in_cl));
+  kernel.launch(*work.renderer.cl, "blend_resolved",
+                r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(seen.view),
+                r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height),
+                ClArguments{{"records", blended.lists.records},
+                            {"tile_begin", blended.lists.tile_begin},
+                            {"lists", blended.lists.lists},
+                            {"tiles_x", cl_uint(blended.lists.tiles_x)},
+                            {"depths", depth.values}} +
+                    r.arguments(work, seen, blended.raster, blended.surfaces, *lights.in_cl) +
+                    ClArguments{{"image", r.image.cl_buffer()}});
   pass.moves(seen.pixels() * 20 + lights.bytes, seen.pixels() * 16);
 }
 

@@ -29,7 +29,7 @@ void visit_pairs(Work& work, const Seen& seen, Cached<LightVolumes>& cache, cons
     const float nothing[4] = {0, 0, 0, 0};
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, nothing);
     begin_adding_lights(work, seen, framebuffer.name());
-    glBindTextureUnit(2, depth);
+    bind_texture(Sampler::depth_image, depth);
     glUseProgram(draws.program().name());
     glUniform1ui(draws.program().uniform("first_light"), first_light);
     draws.draw(first, end);

@@ -29,7 +29,7 @@ class TileShading : public PassCache {
     std::string defines = defines_of_view(seen);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      for (cl::Kernel& kernel : kernels_) kernel = cl::Kernel();
+      for (NamedKernel& kernel : kernels_) kernel = {};
     }
     lights.upload(work, seen);
     return true;
@@ -38,13 +38,13 @@ class TileShading : public PassCache {
   size_t memory_bytes() const override { return lights.memory_bytes() + models.bytes(); }
 
   // Built at first use.
-  cl::Kernel& kernel(Work& work, const GBufferInCl& gbuffer) {
-    cl::Kernel& kernel = kernels_[holds_base_lighting(gbuffer)];
-    if (kernel()) return kernel;
+  NamedKernel& kernel(Work& work, const GBufferInCl& gbuffer) {
+    NamedKernel& kernel = kernels_[holds_base_lighting(gbuffer)];
+    if (kernel) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
                                             holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel =
-        work.renderer.kernels->kernel(lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles", defines);
+    kernel = NamedKernel(*work.renderer.kernels, lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles",
+                         defines);
     return kernel;
   }
 
@@ -61,8 +61,8 @@ class TileShading : public PassCache {
     return defines;
   }
 
-  std::string defines_;    // of the view and its plan
-  cl::Kernel kernels_[2];  // by holds_base_lighting
+  std::string defines_;     // of the view and its plan
+  NamedKernel kernels_[2];  // by holds_base_lighting
 };
 
 namespace {
@@ -119,13 +119,24 @@ void add_light(Work& work, const Seen& seen, Cached<TileShading>& cache, const G
   const bool base_lighting = holds_base_lighting(gbuffer);
   const glm::vec3 background =
       base_lighting ? glm::vec3(0) : seen.scene.background;  // in the image already, or not
-  launch(*work.renderer.cl, "shade_tiles", s.kernel(work, gbuffer), items,
-         s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(),
-         gbuffer.surfaces[1]->cl_buffer(), gbuffer.in_cl(gbuffer_coat), gbuffer.in_cl(gbuffer_specular),
-         s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(),
-         s.lights.cones.buffer(), lights.in_cl->cells, lights.in_cl->indices, lights.in_cl->z_bins,
-         s.lights.bin_edges.buffer(), gbuffer.image->cl_buffer(),
-         cl_float4{{background.r, background.g, background.b, 0}}, s.lights.view.buffer());
+  s.kernel(work, gbuffer)
+      .launch(*work.renderer.cl, "shade_tiles", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+              {{"first", gbuffer.surfaces[0]->cl_buffer()},
+               {"second", gbuffer.surfaces[1]->cl_buffer()},
+               {"coats", gbuffer.in_cl(gbuffer_coat)},
+               {"specular", gbuffer.in_cl(gbuffer_specular)},
+               {"models", s.models.buffer()},
+               {"depth", depth.values},
+               {"positions", s.lights.positions.buffer()},
+               {"colors", s.lights.colors.buffer()},
+               {"cones", s.lights.cones.buffer()},
+               {"cells", lights.in_cl->cells},
+               {"indices", lights.in_cl->indices},
+               {"light_bins", lights.in_cl->z_bins},
+               {"bin_edges", s.lights.bin_edges.buffer()},
+               {"image", gbuffer.image->cl_buffer()},
+               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
+               {"view", s.lights.view.buffer()}});
   const size_t pixels = seen.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + lights.bytes, pixels * 16);

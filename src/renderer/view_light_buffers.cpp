@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "gl/bindings.h"
 #include "renderer/culler_input.h"
 
 namespace lightgrid {
@@ -60,11 +61,13 @@ void ViewLightBuffers::update(const Scene& scene, const View& view, const FrameP
 }
 
 void ViewLightBuffers::bind() const {
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_block_.buffer.name());
-  if (slice_block_.buffer) glBindBufferBase(GL_UNIFORM_BUFFER, 2, slice_block_.buffer.name());
-  if (z_bin_block_.buffer) glBindBufferBase(GL_UNIFORM_BUFFER, 3, z_bin_block_.buffer.name());
+  constexpr Sampler samplers[4] = {Sampler::light_positions, Sampler::light_colors, Sampler::light_cones,
+                                   Sampler::directional_lights};
+  bind_block(UniformBlock::ViewParamsBlock, view_block_.buffer.name());
+  if (slice_block_.buffer) bind_block(UniformBlock::SliceEdgesBlock, slice_block_.buffer.name());
+  if (z_bin_block_.buffer) bind_block(UniformBlock::ZBinEdgesBlock, z_bin_block_.buffer.name());
   for (int i = 0; i < 4; ++i) {
-    if (light_textures_[i]) glBindTextureUnit(8 + i, light_textures_[i].name());
+    if (light_textures_[i]) bind_texture(samplers[i], light_textures_[i].name());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cl/transfer.h"
+#include "renderer/render_view.h"
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/fill_light_buffer.h"

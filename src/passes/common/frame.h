@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/bindings.h"
 #include "renderer/grid_storage.h"
 #include "renderer/pass_caches.h"
 #include "scene/listed_lights.h"

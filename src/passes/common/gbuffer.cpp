@@ -86,12 +86,12 @@ std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
 }
 
 void bind_gbuffer(const GBuffer& gbuffer) {
-  glBindTextureUnit(0, gbuffer.textures[0]);
-  glBindTextureUnit(1, gbuffer.textures[1]);
-  glBindTextureUnit(2, gbuffer.depth);
-  for (const size_t i : gbuffer.images)
-    if (i >= gbuffer_coat) glBindTextureUnit(GLuint(i) + 1, gbuffer.textures[i]);
-  if (gbuffer.model_records) glBindBufferBase(GL_UNIFORM_BUFFER, 5, gbuffer.model_records);
+  constexpr Sampler samplers[gbuffer_most_images] = {Sampler::gbuffer_normal_roughness_metallic,
+                                                     Sampler::gbuffer_base_color_lit, Sampler::gbuffer_coat,
+                                                     Sampler::gbuffer_specular};
+  for (const size_t i : gbuffer.images) bind_texture(samplers[i], gbuffer.textures[i]);
+  bind_texture(Sampler::depth_image, gbuffer.depth);
+  if (gbuffer.model_records) bind_block(UniformBlock::MaterialModelsBlock, gbuffer.model_records);
 }
 
 }  // namespace lightgrid

@@ -95,8 +95,8 @@ LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer) {
         seen.plan.settings.prepass_specular == PrepassSpecular::bent || seen.plan.skin || seen.plan.minnaert;
     loop.defines.push_back(
         fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(seen.scene, seen.plan) : 1.0));
-    loop.textures = {{12, buffer.first}};
-    if (buffer.second) loop.textures.push_back({13, buffer.second});
+    loop.textures = {{Sampler::light_buffer, buffer.first}};
+    if (buffer.second) loop.textures.push_back({Sampler::light_buffer_second, buffer.second});
     return loop;
   };
   return LightSource(in_gl, {}, seen.pixels() * buffer.bytes());

@@ -10,8 +10,8 @@ static constexpr size_t longest_plain_loop = 16384;
 
 void GlLightLoop::bind(Work& work) const {
   work.bind_lights();
-  for (const Binding& binding : textures) glBindTextureUnit(binding.unit, binding.texture);
-  for (const Block& block : blocks) glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
+  for (const Binding& binding : textures) bind_texture(binding.sampler, binding.texture, binding.element);
+  for (const Block& block : blocks) bind_block(block.block, block.buffer);
 }
 
 GlLightLoop base_lighting(const Seen& seen) {

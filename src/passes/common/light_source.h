@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cl/launch.h"
 #include "passes/common/frame.h"
 
 namespace lightgrid {
@@ -12,11 +13,14 @@ namespace lightgrid {
 struct GlLightLoop {
   std::vector<std::string> defines;  // which loop, and its input
   struct Binding {
-    GLuint unit, texture;
+    Sampler sampler;
+    GLuint texture;
+    size_t element = 0;  // of an array of samplers
   };
   std::vector<Binding> textures;
   struct Block {
-    GLuint binding, buffer;
+    UniformBlock block;
+    GLuint buffer;
   };
   std::vector<Block> blocks;  // uniform blocks besides the view's
 
@@ -27,7 +31,7 @@ struct GlLightLoop {
 struct ClLightLoop {
   std::string defines;                // -D options; none: lists of cells, or every light
   cl::Buffer cells, indices, z_bins;  // null: every light
-  std::vector<cl::Buffer> more;       // arguments that the defines add, in their order
+  ClArguments more;                   // what the defines add, in their order
 };
 
 class LightSource {

@@ -106,7 +106,7 @@ std::vector<uint16_t> blend_in_opengl(Work& work, const LightIndexLayout& layout
   glUseProgram(
       work.program("shaders/screen.vert", "shaders/light_index_probe.frag", layout.defines()).name());
   glBindVertexArray(nothing.name());
-  glBindTextureUnit(12, indices.name());  // the units before are used by materials
+  bind_texture(Sampler::indices, indices.name());
   for (size_t r = 0; r < rounds.size(); ++r) {
     glTextureSubImage2D(indices.name(), 0, 0, 0, probe_size, probe_size, GL_RED_INTEGER, GL_UNSIGNED_INT,
                         rounds[r].data());

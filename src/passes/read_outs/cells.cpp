@@ -50,7 +50,7 @@ std::vector<uint32_t> cells_at_depths(Work& work, const Seen& seen, const std::v
   defines.emplace_back("GIVEN_DEPTH");
   return indices_drawn(work, seen, [&] {
     glDisable(GL_DEPTH_TEST);
-    glBindTextureUnit(0, texture.name());
+    bind_texture(Sampler::given_depth, texture.name());
     draw_screen(work.program("shaders/screen.vert", "shaders/cells.frag", defines));
   });
 }
