@@ -1,5 +1,6 @@
 #include "compare/surfaces_in_double.h"
 
+#include <numeric>
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/read_outs/surfaces.h"
+#include "renderer/render_view.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 #include "support/wall_of_normals.h"

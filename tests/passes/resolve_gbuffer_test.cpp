@@ -6,6 +6,7 @@
 #include "cl/transfer.h"
 #include "passes/read_back.h"
 #include "passes/resolve.h"
+#include "renderer/render_view.h"
 #include "results/metrics.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"

@@ -9,6 +9,7 @@
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/read_back.h"
+#include "renderer/render_view.h"
 #include "results/metrics.h"
 #include "scene/builtin.h"
 #include "support/devices.h"
