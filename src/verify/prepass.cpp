@@ -11,6 +11,7 @@
 #include "reference/attenuation.h"
 #include "reference/light_sums.h"
 #include "reference/position.h"
+#include "renderer/render_view.h"
 #include "scene/random.h"
 #include "verify/check.h"
 #include "verify/light_passes.h"
