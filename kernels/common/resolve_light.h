@@ -34,7 +34,7 @@
 
 // What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
-// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
+// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
 // directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
 // pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth
 // keys between them; with -DSLICES the depth keys between slices; with -DWORLD_GRID the world
@@ -52,8 +52,8 @@
   global const uint *triangle_instance, global const RasterInstanceRecord *instances,                \
       global const uint *indices, global const float4 *clip, global const SurfaceInstance *surfaces, \
       global const SurfaceVertex *vertices, global const SurfaceMaterial *materials,                 \
-      global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
-      global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
+      global const ushort *texels_4, global const ushort *texels_8,                                  \
+      LIGHT_ARGUMENTS global const float4 *directional,                                              \
       global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
       constant float *bin_edges, constant float *slice_edges,                                        \
       constant ViewParams *view VOXEL_ARGUMENTS WORLD_ARGUMENTS
@@ -64,7 +64,7 @@
   }
 #define RESOLVE_LIGHTS                                                               \
   {                                                                                  \
-    {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, \
+    {GIVEN_LIGHTS light_bins}, directional, light_indices, 0, cells, 0, \
         slice_edges GIVEN_VOXELS RESOLVE_WORLD                                       \
   }
 

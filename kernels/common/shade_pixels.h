@@ -4,7 +4,7 @@
 // -DBASE_LIGHTING  the image already holds ambient, directional and emitted light; without
 //                  it ambient light is added here
 // -DZ_BINS    lights whose z-bin range misses the pixels are skipped
-// -DSPOTS     some light has a cone
+// -DSPOTS     some light has a cone: shared/light_table.h
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 // -DLAMBERT   there is none: shared/brdf_lambert.h
 // -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
@@ -25,17 +25,13 @@ typedef ushort index_t;
 
 // Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
 typedef struct Lights {
-  global const float4 *positions, *colors, *cones;
+  LIGHT_TABLE(LIGHT_ARRAY)
   global const uint* bins;
 } Lights;
 
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
-  light.position = lights->positions[index];
-  light.color = lights->colors[index];
-#ifdef SPOTS
-  light.cone = lights->cones[index];
-#endif
+  LIGHT_TABLE(LIGHT_ELEMENT)
   return light;
 }
 

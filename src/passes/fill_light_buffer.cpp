@@ -18,7 +18,7 @@ std::string defines_of_light_buffer(RenderView& v, bool lanes) {
   return defines;
 }
 
-// The lights and the kernel.
+// The kernel.
 class LightSums : public PassState {
  public:
   explicit LightSums(RenderView& v) : lanes(shades_in_lanes(v)) { follow(v); }
@@ -30,11 +30,9 @@ class LightSums : public PassState {
       defines_ = std::move(defines);
       kernel_ = cl::Kernel();
     }
-    lights.upload(v);
+    v.cl_lights();
     return true;
   }
-
-  size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
   cl::Kernel& kernel(RenderView& v) {
@@ -44,7 +42,6 @@ class LightSums : public PassState {
   }
 
   const bool lanes;
-  ClLights lights;
 
  private:
   std::string defines_;
@@ -78,6 +75,7 @@ LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, con
   buffer.first = &v.shared_pixels("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(v.plan.settings))
     buffer.second = &v.shared_pixels("light buffer 2", buffer.layout->second.bytes, use);
+  const ClLights& lights = v.cl_lights();
   auto pass = v.timer.pass("fill_light_buffer", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
@@ -86,11 +84,10 @@ LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, con
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   launch(*v.renderer.cl, "fill_light_buffer", kernel, items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), normals.image->cl_buffer(), depth.values,
-         s.lights.positions.buffer(), s.lights.colors.buffer(), s.lights.cones.buffer(),
-         v.opaque_grid().cells(grid.cell_bytes), v.opaque_grid().indices(grid.index_bytes), light_bins,
-         s.lights.bin_edges.buffer(), buffer.first->cl_buffer(),
+         lights.columns(), v.opaque_grid().cells(grid.cell_bytes), v.opaque_grid().indices(grid.index_bytes),
+         light_bins, lights.bin_edges.buffer(), buffer.first->cl_buffer(),
          buffer.second ? buffer.second->cl_buffer() : cl::Buffer(),
-         cl_float(v.plan.settings.prepass_shininess), cl_float(1 / stored_scale(v)), s.lights.view.buffer());
+         cl_float(v.plan.settings.prepass_shininess), cl_float(1 / stored_scale(v)), lights.view.buffer());
   pass.moves(
       v.pixels() * (4 + normals.layout->image.bytes) + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes,
       v.pixels() * buffer.bytes());

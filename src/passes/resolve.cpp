@@ -22,11 +22,10 @@ cl::NDRange whole_groups(const View& view) {
   return {whole(view.width, group_width), whole(view.height, group_height)};
 }
 
-// The image, the lights and the kernels.
+// The image and the kernels.
 class Resolving : public PassState {
  public:
-  explicit Resolving(RenderView& v)
-      : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
+  explicit Resolving(RenderView& v) : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
     upload(v);
   }
 
@@ -39,11 +38,11 @@ class Resolving : public PassState {
       defines_ = std::move(defines);
       kernels_.clear();
     }
-    lights.upload(v);
+    v.cl_lights();
     uploaded_ = true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
+  size_t memory_bytes() const override { return scene_bytes_; }
 
   // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
   cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
@@ -70,6 +69,7 @@ class Resolving : public PassState {
   // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
   auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces, const GridInCl& in) {
     const ClScene& s = scene(v);
+    const ClLights& lights = v.cl_lights();
     cl::Buffer cells, indices, light_bins;
     if (in.world) cells = in.world->grid->cells(), indices = in.world->grid->indices();
     if (in.grid) {
@@ -77,10 +77,9 @@ class Resolving : public PassState {
       if (in.grid->z_bin_bytes) light_bins = in.storage->z_bins(in.grid->z_bin_bytes);
     }
     return std::tuple(raster.triangle_instance, raster.instances, raster.indices, raster.clip, surfaces,
-                      s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.positions.buffer(),
-                      lights.colors.buffer(), lights.cones.buffer(), lights.directional.buffer(), cells,
-                      indices, light_bins, lights.bin_edges.buffer(), lights.slice_edges.buffer(),
-                      lights.view.buffer());
+                      s.vertices(), s.materials(), s.texels_4(), s.texels_8(), lights.columns(),
+                      lights.directional.buffer(), cells, indices, light_bins, lights.bin_edges.buffer(),
+                      lights.slice_edges.buffer(), lights.view.buffer());
   }
 
   // Of kernels over all pixels: a work-item takes a tile, or a pixel.
@@ -91,7 +90,6 @@ class Resolving : public PassState {
 
   const bool lanes;
   SharedBuffer& image;  // of the view's targets
-  ClLights lights;
 
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.

@@ -12,11 +12,11 @@ bool holds_base_lighting(const GBufferInCl& gbuffer) {
   return gbuffer.base_lighting == BaseLighting::in_image;
 }
 
-// The lights and the kernels.
+// The kernels.
 class TileShading : public PassState {
  public:
   explicit TileShading(RenderView& v) : lanes(shades_in_lanes(v)), defines_(defines_of_view(v)) {
-    lights.upload(v);
+    v.cl_lights();
     if (v.plan.skin || v.plan.minnaert)
       models.put(*v.renderer.cl, "uploading models of materials", model_records(v.scene));
   }
@@ -28,11 +28,11 @@ class TileShading : public PassState {
       defines_ = std::move(defines);
       for (cl::Kernel& kernel : kernels_) kernel = cl::Kernel();
     }
-    lights.upload(v);
+    v.cl_lights();
     return true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes() + models.bytes(); }
+  size_t memory_bytes() const override { return models.bytes(); }
 
   // Built at first use.
   cl::Kernel& kernel(RenderView& v, const GBufferInCl& gbuffer) {
@@ -45,7 +45,6 @@ class TileShading : public PassState {
   }
 
   const bool lanes;
-  ClLights lights;
   UploadedBuffer models;  // MaterialModelRecord each
 
  private:
@@ -102,6 +101,7 @@ void image_to_gl(RenderView& v, SharedBuffer& image) {
 
 void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
   TileShading& s = v.state<TileShading>();
+  const ClLights& lights = v.cl_lights();
   auto pass = v.timer.pass("shade_tiles", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
@@ -114,11 +114,10 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   launch(*v.renderer.cl, "shade_tiles", s.kernel(v, gbuffer), items,
          s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side), gbuffer.surfaces[0]->cl_buffer(),
          gbuffer.surfaces[1]->cl_buffer(), gbuffer.in_cl(gbuffer_coat), gbuffer.in_cl(gbuffer_specular),
-         s.models.buffer(), depth.values, s.lights.positions.buffer(), s.lights.colors.buffer(),
-         s.lights.cones.buffer(), v.opaque_grid().cells(grid.cell_bytes),
-         v.opaque_grid().indices(grid.index_bytes), light_bins, s.lights.bin_edges.buffer(),
+         s.models.buffer(), depth.values, lights.columns(), v.opaque_grid().cells(grid.cell_bytes),
+         v.opaque_grid().indices(grid.index_bytes), light_bins, lights.bin_edges.buffer(),
          gbuffer.image->cl_buffer(), cl_float4{{background.r, background.g, background.b, 0}},
-         s.lights.view.buffer());
+         lights.view.buffer());
   const size_t pixels = v.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);
