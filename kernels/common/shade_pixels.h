@@ -73,7 +73,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
                                const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
   if (!any_lane(lit & in_range(p->position, light))) return sum;
-  const Arrival arrival = arrival_at(p->position, light);
+  Arrival arrival = arrival_at(p->position, light);
 #ifdef SKIN
   mask_t facing = dot3(p->normal, arrival.to_light) > -p->roll_off;
 #else
@@ -83,7 +83,9 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   facing |= dot3(p->coat_normal, arrival.to_light) > REAL(0.0f);
 #endif
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
-  return any_lane(lit & reached) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
+  if (!any_lane(lit & reached)) return sum;
+  arrival.attenuation = arrival.attenuation * light_reaches(light, p->position, NO_INSTANCE);
+  return add3(sum, radiance_of(*p, arrival, light));
 }
 
 // In the order of the list: the sum of the GL loop. A list that is null has the first `count` lights.

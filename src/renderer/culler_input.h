@@ -6,6 +6,7 @@
 
 #include "culling/light_culler.h"
 #include "plan/frame_plan.h"
+#include "scene/light_bounds.h"
 
 namespace lightgrid {
 
@@ -13,6 +14,7 @@ namespace lightgrid {
 CullView cull_view(const View& view);
 CullView cull_view(const View& view, const FramePlan& plan);
 
+CullLight cull_light(const LightBounds& bounds);
 // The lights of a scene at `indices`. World space, metres.
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
                                       const LightRanges& ranges = {});

@@ -26,7 +26,7 @@ glm::vec4 color(const ViewLight& light) {
 }
 
 glm::vec4 cone(const ViewLight& light) {
-  if (light.type != LightType::spot) return {0, 0, 0, 1};
+  if (!has_cone(light)) return {0, 0, 0, 1};
   // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product and
   // a sum.
   const double scale = 1.0 / (light.cos_inner - light.cos_outer);
@@ -56,7 +56,7 @@ LightColumn column(T (*value)(const ViewLight&), bool needed, GLuint unit, std::
 
 LightTable light_table(const Scene& scene, const View& view, const FramePlan& plan) {
   const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
-#define LIGHT_COLUMN(condition, type, member, array, sampler, unit) \
+#define LIGHT_COLUMN(condition, type, member, array, texels, unit) \
   column(member, plan.*condition, unit, lights, plan.local),
   LightTable table{{LIGHT_TABLE(LIGHT_COLUMN)}, {}};
 #undef LIGHT_COLUMN
@@ -70,6 +70,7 @@ LightTable light_table(const Scene& scene, const View& view, const FramePlan& pl
 std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.spots) defines.push_back("SPOTS");
+  if (plan.light_reaches) defines.push_back("LIGHT_REACHES");
   return defines;
 }
 

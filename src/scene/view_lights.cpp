@@ -33,4 +33,13 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
   return lights;
 }
 
+std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges,
+                                      const std::vector<int>& indices) {
+  const std::vector<ViewLight> all = lights_in_view(scene, view, ranges);
+  std::vector<ViewLight> lights;
+  lights.reserve(indices.size());
+  for (const int i : indices) lights.push_back(all[size_t(i)]);
+  return lights;
+}
+
 }  // namespace lightgrid

@@ -19,7 +19,7 @@ namespace lightgrid {
 #define IF_SPOTS(text)
 #endif
 
-// ROW(condition, type, member of PunctualLight, array, sampler of the array in GLSL, its texture unit)
+// ROW(condition, type, member of PunctualLight, array, type of its texture in GLSL, that texture's unit)
 //   position  view space, and 1 / radius^2 (next to 0: no range)
 //   color     radiant intensity, and the least 1 / distance^2
 //   cone      axis times scale, and offset: 1 inside, 0 outside
@@ -28,23 +28,41 @@ namespace lightgrid {
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer, 9)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer, 10)
 
-#define LIGHT_MEMBER(condition, type, member, array, sampler, unit) condition(type member;)
+#define LIGHT_MEMBER(condition, type, member, array, texels, unit) condition(type member;)
 SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER)};
 
+// The end of every light loop: how much of a light reaches a point of an instance, 0 to 1, besides what
+// distance and cone let through. Nothing keeps a light from a point yet: groups, shadows and cookies will
+// answer here, and in reference/attenuation.h. The plan says whether an effect asks
+// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing.
+//   point: along the axes of light.position. Those are the view's, but a voxel light buffer's where one is
+//   filled. instance: the scene's index. NO_INSTANCE in every loop until an effect needs it. Forward shaders
+//   then get it with each draw, resolve kernels from triangle_instance, both by way of ShadingPoint; the
+//   geometry buffer has no room for it yet, and light_prepass and voxel light buffers light points of no
+//   instance.
+#define NO_INSTANCE WHOLE(0)
+#if defined(LIGHT_REACHES)
+SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) { return REAL(1.0f); }
+#elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
+#define light_reaches(light, point, instance) REAL(1.0f)
+#else
+inline real light_reaches(const PunctualLight&, const Real3&, Whole) { return 1; }
+#endif
+
 #if defined(LIGHTGRID_GLSL)
-#define LIGHT_TEXTURE(condition, type, member, array, sampler, unit) \
-  condition(layout(binding = unit) uniform sampler array;)
-#define LIGHT_TEXEL(condition, type, member, array, sampler, unit) \
+#define LIGHT_TEXTURE(condition, type, member, array, texels, unit) \
+  condition(layout(binding = unit) uniform texels array;)
+#define LIGHT_TEXEL(condition, type, member, array, texels, unit) \
   condition(light.member = type(texelFetch(array, index));)
 #elif defined(__OPENCL_VERSION__)
 // Arguments of a kernel, before others; those without their condition are not read. Then the same as members
 // of a struct, and as their first values.
-#define LIGHT_ARGUMENT(condition, type, member, array, sampler, unit) global const type *array,
+#define LIGHT_ARGUMENT(condition, type, member, array, texels, unit) global const type *array,
 #define LIGHT_ARGUMENTS LIGHT_TABLE(LIGHT_ARGUMENT)
-#define LIGHT_ARRAY(condition, type, member, array, sampler, unit) global const type* array;
-#define LIGHT_GIVEN(condition, type, member, array, sampler, unit) array,
+#define LIGHT_ARRAY(condition, type, member, array, texels, unit) global const type* array;
+#define LIGHT_GIVEN(condition, type, member, array, texels, unit) array,
 #define GIVEN_LIGHTS LIGHT_TABLE(LIGHT_GIVEN)
-#define LIGHT_ELEMENT(condition, type, member, array, sampler, unit) \
+#define LIGHT_ELEMENT(condition, type, member, array, texels, unit) \
   condition(light.member = lights->array[index];)
 #endif
 

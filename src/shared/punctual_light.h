@@ -65,7 +65,9 @@ SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight
 }
 
 SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {
-  return radiance_of(p, arrival_at(p.position, light), light);
+  Arrival arrival = arrival_at(p.position, light);
+  arrival.attenuation = arrival.attenuation * light_reaches(light, p.position, NO_INSTANCE);
+  return radiance_of(p, arrival, light);
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
