@@ -10,7 +10,6 @@
 #include "reference/lit_set.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
-#include "scene/light_bounds.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {

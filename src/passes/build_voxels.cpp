@@ -96,7 +96,6 @@ class VoxelBuffers : public PassState {
     std::string defines = lookup_defines(v);
     if (lanes && v.plan.settings.portable) defines += " -DPORTABLE";
     for (const char* define : light_table_defines(v.plan)) defines += fmt::format(" -D{}", define);
-    for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
     return defines;
   }
 

@@ -46,7 +46,6 @@ std::string light_defines(const RenderView& v, bool lanes, Brdf brdf) {
   for (const char* define : light_table_defines(v.plan)) defines += fmt::format(" -D{}", define);
   if (brdf == Brdf::blinn) defines += " -DBLINN";
   if (brdf == Brdf::lambert) defines += " -DLAMBERT";
-  for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
   if (v.view.orthographic) defines += " -DORTHOGRAPHIC";
   return defines;
 }

@@ -6,7 +6,6 @@
 
 #include "culling/light_culler.h"
 #include "plan/frame_plan.h"
-#include "scene/light_bounds.h"
 
 namespace lightgrid {
 

@@ -71,11 +71,7 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.spots) defines.push_back("SPOTS");
   if (plan.light_reaches) defines.push_back("LIGHT_REACHES");
-  return defines;
-}
-
-std::vector<const char*> range_defines(const LightRanges& ranges) {
-  std::vector<const char*> defines;
+  const LightRanges& ranges = plan.settings.ranges;
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
   if (ranges.range == LightRange::stochastic) defines.push_back("LEAST_FALLOFF");

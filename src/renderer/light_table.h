@@ -31,10 +31,8 @@ struct LightTable {
 
 LightTable light_table(const Scene& scene, const View& view, const FramePlan& plan);
 
-// What light loops are compiled with so that they read the plan's columns, and no others.
+// What light loops are compiled with so that they read the plan's columns and no others, and as its ranges
+// have it (shared/punctual_light.h).
 std::vector<const char*> light_table_defines(const FramePlan& plan);
-
-// What the shading of lights with such ranges is compiled with (shared/punctual_light.h).
-std::vector<const char*> range_defines(const LightRanges& ranges);
 
 }  // namespace lightgrid

@@ -1,4 +1,5 @@
-#include "scene/light_bounds.h"
+// The bounds of lights: scene/view_lights.h.
+#include "scene/view_lights.h"
 
 #include <gtest/gtest.h>
 

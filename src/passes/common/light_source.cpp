@@ -31,7 +31,6 @@ LightSource base_lighting(const RenderView& v) {
   LightSource source;
   if (v.plan.settings.brdf == Brdf::blinn) source.defines.emplace_back("BLINN");
   if (v.plan.settings.brdf == Brdf::lambert) source.defines.emplace_back("LAMBERT");
-  for (const char* define : range_defines(v.plan.settings.ranges)) source.defines.emplace_back(define);
   if (v.plan.directional) source.defines.emplace_back("DIRECTIONAL");
   return source;
 }

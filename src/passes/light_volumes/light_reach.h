@@ -1,7 +1,7 @@
 // Whether a light may reach a box: in double, conservative.
 #pragma once
 
-#include "scene/light_bounds.h"
+#include "scene/view_lights.h"
 
 namespace lightgrid {
 

@@ -9,7 +9,7 @@
 
 #include "passes/light_volumes/light_meshes.h"
 #include "renderer/render_view.h"
-#include "scene/light_bounds.h"
+#include "scene/view_lights.h"
 
 namespace lightgrid {
 

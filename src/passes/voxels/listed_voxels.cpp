@@ -6,7 +6,6 @@
 
 #include "cl/transfer.h"
 #include "passes/read_outs/depth.h"
-#include "scene/light_bounds.h"
 
 namespace lightgrid {
 namespace {
