@@ -120,15 +120,15 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   EXPECT_EQ(all.size(), std::size(cull_tests));
   const Naming expected = {
       {"src/shared/cull_settings.h", all},
-      {"kernels/common/light_cell_tests.h", {"exact", "planes", "sphere"}},
+      {"kernels/culling/light_cell_tests.h", {"exact", "planes", "sphere"}},
       // The default.
       {"src/culling/light_culler.h", {"planes_aabb"}},
       {"src/plan/settings.h", {"planes_aabb"}},
       // Kernels that compute more, or less, for one test.
-      {"kernels/common/bin_cells.h", {"exact"}},
-      {"kernels/common/bin_tiles.h", {"exact"}},
-      {"kernels/common/cell.h", {"exact"}},
-      {"kernels/common/project.h", {"aabb", "planes_aabb", "sphere"}},
+      {"kernels/culling/bin_cells.h", {"exact"}},
+      {"kernels/culling/bin_tiles.h", {"exact"}},
+      {"kernels/culling/cell.h", {"exact"}},
+      {"kernels/culling/project.h", {"aabb", "planes_aabb", "sphere"}},
       // Checks that hold between certain tests.
       {"src/verify/agreement.cpp", {"aabb", "exact", "planes", "planes_aabb"}},
       {"src/verify/camera.cpp", {"exact", "planes"}},
@@ -183,9 +183,9 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone"}},
       {"src/shared/voxel_exact.h", {"cone"}},
-      {"kernels/common/voxel_light.h", {"cone"}},
+      {"kernels/voxels/voxel_light.h", {"cone"}},
       // A record of the culler's own, from LightBounds.
-      {"kernels/gpu/cull_lights.cl", {"cone"}},
+      {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }
@@ -207,10 +207,10 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       {"src/shared/voxel_exact.h", {"arrives", "asks"}},
       {"shaders/deferred_light.frag", {"arrives", "asks"}},
       {"shaders/light_buffer.frag", {"arrives", "asks"}},
-      {"kernels/common/shade_pixels.h", {"arrives", "asks"}},
-      {"kernels/common/light_buffer.h", {"arrives", "asks"}},
-      {"kernels/common/voxel_light.h", {"arrives", "asks"}},
-      {"kernels/gpu/build_voxels.cl", {"arrives"}},  // voxel_arrival asks
+      {"kernels/resolve/shade_pixels.h", {"arrives", "asks"}},
+      {"kernels/resolve/light_buffer.h", {"arrives", "asks"}},
+      {"kernels/voxels/voxel_light.h", {"arrives", "asks"}},
+      {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},  // voxel_arrival asks
       {"src/reference/shading.cpp", {"arrives", "asks"}},
       {"src/reference/light_sums.cpp", {"arrives", "asks"}},
       {"src/reference/lit_set.cpp", {"asks"}},
