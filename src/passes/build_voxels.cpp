@@ -96,8 +96,7 @@ class VoxelBuffers : public PassState {
   std::string defines_of(const RenderView& v) const {
     std::string defines = lookup_defines(v);
     if (lanes && v.plan.settings.portable) defines += " -DPORTABLE";
-    if (v.plan.spots) defines += " -DSPOTS";
-    for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
+    for (const char* define : light_table_defines(v.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
 

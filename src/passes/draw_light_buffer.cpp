@@ -15,8 +15,7 @@ LightBuffer draw_light_buffer(RenderView& v, const NormalImage& normals) {
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), nothing);
   LightVolumes& volumes = v.state<LightVolumes>();
   volumes.update(v, v.plan.settings.volume_mesh);
-  std::vector<std::string> defines = base_lighting(v).defines;
-  if (v.plan.spots) defines.emplace_back("SPOTS");
+  std::vector<std::string> defines = every_light(v).defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
   for (std::string& define : light_buffer_defines(v)) defines.push_back(std::move(define));
   begin_adding_lights(v, framebuffer);

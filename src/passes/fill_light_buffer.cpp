@@ -18,7 +18,7 @@ std::string defines_of_light_buffer(RenderView& v, bool lanes) {
   return defines;
 }
 
-// The lights and the kernel.
+// The kernel.
 class LightSums : public PassState {
  public:
   explicit LightSums(RenderView& v) : lanes(shades_in_lanes(v)) { follow(v); }
@@ -30,11 +30,9 @@ class LightSums : public PassState {
       defines_ = std::move(defines);
       kernel_ = {};
     }
-    lights.upload(v);
+    v.cl_lights();
     return true;
   }
-
-  size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
   NamedKernel& kernel(RenderView& v) {
@@ -45,7 +43,6 @@ class LightSums : public PassState {
   }
 
   const bool lanes;
-  ClLights lights;
 
  private:
   std::string defines_;
@@ -79,28 +76,25 @@ LightBufferInCl fill_light_buffer(RenderView& v, const NormalsInCl& normals, con
   buffer.first = &v.shared_pixels("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(v.plan.settings))
     buffer.second = &v.shared_pixels("light buffer 2", buffer.layout->second.bytes, use);
+  const ClLights& lights = v.cl_lights();
   auto pass = v.timer.pass("fill_light_buffer", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(v.params.tiles_x, v.params.tiles_y)
                                     : cl::NDRange(whole(v.view.width), whole(v.view.height));
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
-  kernel.launch(*v.renderer.cl, "fill_light_buffer", items,
-                s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
-                {{"normals", normals.image->cl_buffer()},
-                 {"depth", depth.values},
-                 {"positions", s.lights.positions.buffer()},
-                 {"colors", s.lights.colors.buffer()},
-                 {"cones", s.lights.cones.buffer()},
-                 {"cells", v.opaque_grid().cells(grid.cell_bytes)},
-                 {"indices", v.opaque_grid().indices(grid.index_bytes)},
-                 {"light_bins", light_bins},
-                 {"bin_edges", s.lights.bin_edges.buffer()},
-                 {"first", buffer.first->cl_buffer()},
-                 {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
-                 {"exponent", cl_float(v.plan.settings.prepass_shininess)},
-                 {"inverse_scale", cl_float(1 / stored_scale(v))},
-                 {"view", s.lights.view.buffer()}});
+  kernel.launch(
+      *v.renderer.cl, "fill_light_buffer", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+      ClArguments{{"normals", normals.image->cl_buffer()}, {"depth", depth.values}} + lights.columns() +
+          ClArguments{{"cells", v.opaque_grid().cells(grid.cell_bytes)},
+                      {"indices", v.opaque_grid().indices(grid.index_bytes)},
+                      {"light_bins", light_bins},
+                      {"bin_edges", lights.bin_edges.buffer()},
+                      {"first", buffer.first->cl_buffer()},
+                      {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
+                      {"exponent", cl_float(v.plan.settings.prepass_shininess)},
+                      {"inverse_scale", cl_float(1 / stored_scale(v))},
+                      {"view", lights.view.buffer()}});
   pass.moves(
       v.pixels() * (4 + normals.layout->image.bytes) + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes,
       v.pixels() * buffer.bytes());

@@ -57,11 +57,10 @@ class LightIndexState : public PassState {
  private:
   void find_influence(const RenderView& v) {
     influence.clear();
-    const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-    for (int i : v.plan.local) {
-      const glm::dvec3& i_rgb = lights[i].radiant_intensity;
+    for (const ViewLight& light : lights_in_view(v.scene, v.view, v.plan.settings.ranges, v.plan.local)) {
+      const glm::dvec3& i_rgb = light.radiant_intensity;
       // The integral of intensity / distance^2 over the sphere, up to a factor.
-      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
+      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * light.radius_m);
     }
   }
 };

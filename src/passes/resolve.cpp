@@ -41,7 +41,7 @@ ClArguments source_arguments(const GridInCl& in) {
                              {"world_view", in.world->view}};
 }
 
-// The image, the lights and the kernels.
+// The image and the kernels.
 class Resolving : public PassState {
  public:
   explicit Resolving(RenderView& v) : lanes(shades_in_lanes(v)), image(v.shared_pixels("image", 16)) {
@@ -57,11 +57,11 @@ class Resolving : public PassState {
       defines_ = std::move(defines);
       kernels_.clear();
     }
-    lights.upload(v);
+    v.cl_lights();
     uploaded_ = true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
+  size_t memory_bytes() const override { return scene_bytes_; }
 
   // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
   NamedKernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
@@ -89,6 +89,7 @@ class Resolving : public PassState {
   ClArguments arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces,
                         const GridInCl& in) {
     const ClScene& s = scene(v);
+    const ClLights& lights = v.cl_lights();
     return ClArguments{{"triangle_instance", raster.triangle_instance},
                        {"instances", raster.instances},
                        {"indices", raster.indices},
@@ -97,11 +98,8 @@ class Resolving : public PassState {
                        {"vertices", s.vertices()},
                        {"materials", s.materials()},
                        {"texels_4", s.texels_4()},
-                       {"texels_8", s.texels_8()},
-                       {"positions", lights.positions.buffer()},
-                       {"colors", lights.colors.buffer()},
-                       {"cones", lights.cones.buffer()},
-                       {"directional", lights.directional.buffer()}} +
+                       {"texels_8", s.texels_8()}} +
+           lights.columns() + ClArguments{{"directional", lights.directional.buffer()}} +
            source_arguments(in) +
            ClArguments{{"bin_edges", lights.bin_edges.buffer()},
                        {"slice_edges", lights.slice_edges.buffer()},
@@ -116,7 +114,6 @@ class Resolving : public PassState {
 
   const bool lanes;
   SharedBuffer& image;  // of the view's targets
-  ClLights lights;
 
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.

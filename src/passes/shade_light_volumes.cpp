@@ -54,8 +54,7 @@ void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
   auto pass = v.timer.pass("shade_light_volumes", "gl");
   LightVolumes& volumes = v.state<LightVolumes>();
   volumes.update(v, v.plan.settings.volume_mesh);
-  std::vector<std::string> defines = base_lighting(v).defines;
-  if (v.plan.spots) defines.emplace_back("SPOTS");
+  std::vector<std::string> defines = every_light(v).defines;
   for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
   begin_adding_lights(v, gbuffer.image.framebuffer);
   bind_gbuffer(gbuffer);

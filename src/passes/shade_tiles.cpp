@@ -12,11 +12,11 @@ bool holds_base_lighting(const GBufferInCl& gbuffer) {
   return gbuffer.base_lighting == BaseLighting::in_image;
 }
 
-// The lights and the kernels.
+// The kernels.
 class TileShading : public PassState {
  public:
   explicit TileShading(RenderView& v) : lanes(shades_in_lanes(v)), defines_(defines_of_view(v)) {
-    lights.upload(v);
+    v.cl_lights();
     if (v.plan.skin || v.plan.minnaert)
       models.put(*v.renderer.cl, "uploading models of materials", model_records(v.scene));
   }
@@ -28,11 +28,11 @@ class TileShading : public PassState {
       defines_ = std::move(defines);
       for (NamedKernel& kernel : kernels_) kernel = {};
     }
-    lights.upload(v);
+    v.cl_lights();
     return true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes() + models.bytes(); }
+  size_t memory_bytes() const override { return models.bytes(); }
 
   // Built at first use.
   NamedKernel& kernel(RenderView& v, const GBufferInCl& gbuffer) {
@@ -46,7 +46,6 @@ class TileShading : public PassState {
   }
 
   const bool lanes;
-  ClLights lights;
   UploadedBuffer models;  // MaterialModelRecord each
 
  private:
@@ -103,6 +102,7 @@ void image_to_gl(RenderView& v, SharedBuffer& image) {
 
 void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth, const LightGrid& grid) {
   TileShading& s = v.state<TileShading>();
+  const ClLights& lights = v.cl_lights();
   auto pass = v.timer.pass("shade_tiles", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
@@ -114,22 +114,20 @@ void add_light(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& dep
   const cl::Buffer light_bins = grid.z_bin_bytes ? v.opaque_grid().z_bins(grid.z_bin_bytes) : cl::Buffer();
   s.kernel(v, gbuffer)
       .launch(*v.renderer.cl, "shade_tiles", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
-              {{"first", gbuffer.surfaces[0]->cl_buffer()},
-               {"second", gbuffer.surfaces[1]->cl_buffer()},
-               {"coats", gbuffer.in_cl(gbuffer_coat)},
-               {"specular", gbuffer.in_cl(gbuffer_specular)},
-               {"models", s.models.buffer()},
-               {"depth", depth.values},
-               {"positions", s.lights.positions.buffer()},
-               {"colors", s.lights.colors.buffer()},
-               {"cones", s.lights.cones.buffer()},
-               {"cells", v.opaque_grid().cells(grid.cell_bytes)},
-               {"indices", v.opaque_grid().indices(grid.index_bytes)},
-               {"light_bins", light_bins},
-               {"bin_edges", s.lights.bin_edges.buffer()},
-               {"image", gbuffer.image->cl_buffer()},
-               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
-               {"view", s.lights.view.buffer()}});
+              ClArguments{{"first", gbuffer.surfaces[0]->cl_buffer()},
+                          {"second", gbuffer.surfaces[1]->cl_buffer()},
+                          {"coats", gbuffer.in_cl(gbuffer_coat)},
+                          {"specular", gbuffer.in_cl(gbuffer_specular)},
+                          {"models", s.models.buffer()},
+                          {"depth", depth.values}} +
+                  lights.columns() +
+                  ClArguments{{"cells", v.opaque_grid().cells(grid.cell_bytes)},
+                              {"indices", v.opaque_grid().indices(grid.index_bytes)},
+                              {"light_bins", light_bins},
+                              {"bin_edges", lights.bin_edges.buffer()},
+                              {"image", gbuffer.image->cl_buffer()},
+                              {"background", cl_float4{{background.r, background.g, background.b, 0}}},
+                              {"view", lights.view.buffer()}});
   const size_t pixels = v.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + grid.cell_bytes + grid.index_bytes + grid.z_bin_bytes, pixels * 16);

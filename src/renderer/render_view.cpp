@@ -111,6 +111,7 @@ void RenderView::release() {
 
 void RenderView::drop_states() {
   states_.clear();
+  cl_lights_.reset();
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
 }
@@ -131,6 +132,7 @@ void RenderView::follow_view() {
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
+  cl_lights_stale_ = true;
   if (!opengl_) return;
   lights.update(scene, view, plan, params);
   if (preparing_) {
@@ -191,6 +193,13 @@ void RenderView::upload_states() {
   for (auto& [type, state] : states_) state->upload(*this);
 }
 
+const ClLights& RenderView::cl_lights() {
+  if (!cl_lights_) cl_lights_stale_ = true, cl_lights_.emplace();
+  if (cl_lights_stale_) cl_lights_->upload(*renderer.cl, scene, view, plan, params);
+  cl_lights_stale_ = false;
+  return *cl_lights_;
+}
+
 LightCuller& RenderView::culler() {
   if (!culler_) {
     culler_.emplace(*renderer.cl, *renderer.kernels, culler_options(plan));
@@ -211,7 +220,7 @@ SharedGridStorage& RenderView::blend_grid() {
 }
 
 size_t RenderView::memory_bytes() const {
-  size_t bytes = targets.bytes() + lights.light_bytes();
+  size_t bytes = targets.bytes() + lights.light_bytes() + (cl_lights_ ? cl_lights_->memory_bytes() : 0);
   if (opengl_) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
   if (opengl_ && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& [type, state] : states_) bytes += state->memory_bytes();

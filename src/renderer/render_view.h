@@ -9,6 +9,7 @@
 #include <optional>
 #include <typeindex>
 
+#include "renderer/cl_lights.h"
 #include "renderer/culler_input.h"
 #include "renderer/draw_list.h"
 #include "renderer/gpu_scene.h"
@@ -88,6 +89,8 @@ struct RenderView {
   // (shared/punctual_light.h).
   void bind_lights() const { lights.bind(); }
   ViewLightBuffers lights;
+  // The same for kernels: uploaded by the first call after look().
+  const ClLights& cl_lights();
 
   // Memory that OpenCL and OpenGL share, for `pixel_bytes` a pixel and spare ones, by name (Targets::buffer).
   SharedBuffer& shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use = TargetUse::image);
@@ -121,6 +124,8 @@ struct RenderView {
   bool preparing_ = false;
   std::shared_ptr<TargetPool> shared_pool_;  // null: own images
   std::map<std::string, ScenePrograms> programs_;
+  std::optional<ClLights> cl_lights_;
+  bool cl_lights_stale_ = true;
   std::optional<LightCuller> culler_;
   std::optional<SharedGridStorage> grids_[2];
   std::map<std::type_index, std::unique_ptr<PassState>> states_;

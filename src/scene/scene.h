@@ -123,6 +123,13 @@ struct Light {
   int node = -1;  // of the rig, which moves it; -1: static
 };
 
+// Of Light and ViewLight. Directional lights have no place: they reach every surface, and are in no list.
+inline bool is_directional(const auto& light) { return light.type == LightType::directional; }
+inline bool has_cone(const auto& light) { return light.type == LightType::spot; }
+
+// As files have it: "point", "spot" or "directional".
+const char* name_of(LightType type);
+
 // Whether colour times intensity exceeds the largest float in any channel. Shaders cannot represent such a
 // light, so all readers of lights reject it.
 bool intensity_overflows(const Light& light);

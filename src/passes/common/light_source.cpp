@@ -2,7 +2,7 @@
 
 #include "passes/build_voxels.h"
 #include "passes/find_object_lights.h"
-#include "renderer/light_texels.h"
+#include "renderer/light_table.h"
 
 namespace lightgrid {
 namespace {
@@ -14,7 +14,7 @@ constexpr size_t longest_plain_loop = 16384;
 LightSource with_lights(const RenderView& v) {
   LightSource source = base_lighting(v);
   if (v.plan.local_lights) source.defines.emplace_back("LIGHTS");
-  if (v.plan.spots) source.defines.emplace_back("SPOTS");
+  for (const char* define : light_table_defines(v.plan)) source.defines.emplace_back(define);
   if (v.plan.local.size() > longest_plain_loop) source.defines.emplace_back("LONG_LOOPS");
   return source;
 }
@@ -31,7 +31,6 @@ LightSource base_lighting(const RenderView& v) {
   LightSource source;
   if (v.plan.settings.brdf == Brdf::blinn) source.defines.emplace_back("BLINN");
   if (v.plan.settings.brdf == Brdf::lambert) source.defines.emplace_back("LAMBERT");
-  for (const char* define : range_defines(v.plan.settings.ranges)) source.defines.emplace_back(define);
   if (v.plan.directional) source.defines.emplace_back("DIRECTIONAL");
   return source;
 }
