@@ -9,10 +9,7 @@ namespace lightgrid {
 namespace {
 
 std::vector<ViewLight> local_lights(const RenderView& v) {
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-  std::vector<ViewLight> local;
-  for (int i : v.plan.local) local.push_back(all[i]);
-  return local;
+  return lights_in_view(v.scene, v.view, v.plan.settings.ranges, v.plan.local);
 }
 
 // A row of pixels as an image, for the metrics.

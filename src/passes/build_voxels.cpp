@@ -105,9 +105,7 @@ class VoxelBuffers : public PassCache {
   std::string defines_of(const Seen& seen) const {
     std::string defines = lookup_defines(seen);
     if (lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
-    if (seen.plan.spots) defines += " -DSPOTS";
-    for (const char* define : range_defines(seen.plan.settings.ranges))
-      defines += fmt::format(" -D{}", define);
+    for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
 

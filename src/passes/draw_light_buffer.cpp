@@ -16,14 +16,14 @@ LightBuffer draw_light_buffer(Work& work, const Seen& seen, Cached<LightVolumes>
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), nothing);
   LightVolumes& volumes = cache.of(work, seen);
   volumes.update(seen, seen.plan.settings.volume_mesh);
-  std::vector<std::string> defines = base_lighting(seen).defines;
-  if (seen.plan.spots) defines.emplace_back("SPOTS");
+  std::vector<std::string> defines = light_loop(seen).defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
   for (std::string& define : light_buffer_defines(seen)) defines.push_back(std::move(define));
   begin_adding_lights(work, seen, framebuffer);
   bind_texture(Sampler::normals, normals.texture);
   bind_texture(Sampler::depth_image, work.targets.depth());
-  VolumeDraws(work, seen, cache.of(work, seen), "shaders/light_buffer.frag", std::move(defines)).draw(0, volumes.volumes().size());
+  VolumeDraws(work, seen, cache.of(work, seen), "shaders/light_buffer.frag", std::move(defines))
+      .draw(0, volumes.volumes().size());
   glDisable(GL_BLEND);
   pass.moves(seen.pixels() * (4 + normals.layout->image.bytes + buffer.bytes()),
              seen.pixels() * buffer.bytes());

@@ -20,7 +20,7 @@ std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
 
 }  // namespace
 
-// The lights and the kernel.
+// The kernel.
 class LightSums : public PassCache {
  public:
   explicit LightSums(Work& work, const Seen& seen) : lanes(shades_in_lanes(work, seen)) {
@@ -34,11 +34,9 @@ class LightSums : public PassCache {
       defines_ = std::move(defines);
       kernel_ = {};
     }
-    lights.upload(work, seen);
+    work.cl_lights();
     return true;
   }
-
-  size_t memory_bytes() const override { return lights.memory_bytes(); }
 
   // Built at first use.
   NamedKernel& kernel(Work& work) {
@@ -49,7 +47,6 @@ class LightSums : public PassCache {
   }
 
   const bool lanes;
-  ClLights lights;
 
  private:
   std::string defines_;
@@ -87,27 +84,24 @@ LightBufferInCl fill_light_buffer(Work& work, const Seen& seen, Cached<LightSums
   buffer.first = &work.shared_pixels("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(seen.plan.settings))
     buffer.second = &work.shared_pixels("light buffer 2", buffer.layout->second.bytes, use);
+  const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("fill_light_buffer", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
   const cl::NDRange items = s.lanes ? cl::NDRange(seen.params.tiles_x, seen.params.tiles_y)
                                     : cl::NDRange(whole(seen.view.width), whole(seen.view.height));
-  kernel.launch(*work.renderer.cl, "fill_light_buffer", items,
-                s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
-                {{"normals", normals.image->cl_buffer()},
-                 {"depth", depth.values},
-                 {"positions", s.lights.positions.buffer()},
-                 {"colors", s.lights.colors.buffer()},
-                 {"cones", s.lights.cones.buffer()},
-                 {"cells", lights.in_cl->cells},
-                 {"indices", lights.in_cl->indices},
-                 {"light_bins", lights.in_cl->z_bins},
-                 {"bin_edges", s.lights.bin_edges.buffer()},
-                 {"first", buffer.first->cl_buffer()},
-                 {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
-                 {"exponent", cl_float(seen.plan.settings.prepass_shininess)},
-                 {"inverse_scale", cl_float(1 / stored_scale(seen))},
-                 {"view", s.lights.view.buffer()}});
+  kernel.launch(
+      *work.renderer.cl, "fill_light_buffer", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+      ClArguments{{"normals", normals.image->cl_buffer()}, {"depth", depth.values}} + table.columns() +
+          ClArguments{{"cells", lights.in_cl->cells},
+                      {"indices", lights.in_cl->indices},
+                      {"light_bins", lights.in_cl->z_bins},
+                      {"bin_edges", table.bin_edges.buffer()},
+                      {"first", buffer.first->cl_buffer()},
+                      {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
+                      {"exponent", cl_float(seen.plan.settings.prepass_shininess)},
+                      {"inverse_scale", cl_float(1 / stored_scale(seen))},
+                      {"view", table.view.buffer()}});
   pass.moves(seen.pixels() * (4 + normals.layout->image.bytes) + lights.bytes,
              seen.pixels() * buffer.bytes());
   return buffer;

@@ -25,8 +25,9 @@ void ObjectLights::update(Work& work, const Seen& seen, const DrawList& list) {
   objects_.clear();
   lights_.clear();
   reaches_.clear();
-  const std::vector<ViewLight> all = lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges);
-  for (const int i : seen.plan.local) reaches_.emplace_back(all[size_t(i)]);
+  for (const ViewLight& light :
+       lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local))
+    reaches_.emplace_back(bounds_of(light));
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
   for (const DrawItem& item : list) {

@@ -59,11 +59,11 @@ class LightIndexOrder : public PassCache {
  private:
   void find_influence(const Seen& seen) {
     influence.clear();
-    const std::vector<ViewLight> lights = lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges);
-    for (int i : seen.plan.local) {
-      const glm::dvec3& i_rgb = lights[i].radiant_intensity;
+    for (const ViewLight& light :
+         lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local)) {
+      const glm::dvec3& i_rgb = light.radiant_intensity;
       // The integral of intensity / distance^2 over the sphere, up to a factor.
-      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
+      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * light.radius_m);
     }
   }
 };
@@ -277,7 +277,8 @@ GlLightLoop index_loop(const Seen& seen, const LightIndexLayout& layout, const s
   loop.defines.emplace_back("LIGHTS_LIDR");
   if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
-  for (size_t i = 0; i < images.size(); ++i) loop.textures.push_back({Sampler::light_index_images, images[i], i});
+  for (size_t i = 0; i < images.size(); ++i)
+    loop.textures.push_back({Sampler::light_index_images, images[i], i});
   return loop;
 }
 

@@ -20,15 +20,13 @@ cl::NDRange whole_groups(const View& view) {
 
 // The lists of a source of lights, as RESOLVE_ARGUMENTS has them.
 ClArguments source_arguments(const ClLightLoop& loop) {
-  return ClArguments{
-             {"cells", loop.cells}, {"light_indices", loop.indices}, {"light_bins", loop.z_bins}} +
+  return ClArguments{{"cells", loop.cells}, {"light_indices", loop.indices}, {"light_bins", loop.z_bins}} +
          loop.more;
 }
 
 }  // namespace
 
-
-// The image, the lights and the kernels.
+// The image and the kernels.
 class Resolver : public PassCache {
  public:
   explicit Resolver(Work& work, const Seen& seen)
@@ -45,18 +43,19 @@ class Resolver : public PassCache {
       defines_ = std::move(defines);
       kernels_.clear();
     }
-    lights.upload(work, seen);
+    work.cl_lights();
     uploaded_ = true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes() + scene_bytes_; }
+  size_t memory_bytes() const override { return scene_bytes_; }
 
   // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
   NamedKernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
     NamedKernel& kernel = kernels_[stem + more_defines];
     if (!kernel) {
-      kernel = NamedKernel(*work.renderer.kernels, (lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
-                           defines_ + more_defines + register_limit(work));
+      kernel =
+          NamedKernel(*work.renderer.kernels, (lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
+                      defines_ + more_defines + register_limit(work));
     }
     return kernel;
   }
@@ -77,6 +76,7 @@ class Resolver : public PassCache {
   ClArguments arguments(Work& work, const Seen& seen, const RasterBuffers& raster, const cl::Buffer& surfaces,
                         const ClLightLoop& loop = {}) {
     const ClScene& s = scene(work, seen);
+    const ClLights& lights = work.cl_lights();
     return ClArguments{{"triangle_instance", raster.triangle_instance},
                        {"instances", raster.instances},
                        {"indices", raster.indices},
@@ -85,11 +85,8 @@ class Resolver : public PassCache {
                        {"vertices", s.vertices()},
                        {"materials", s.materials()},
                        {"texels_4", s.texels_4()},
-                       {"texels_8", s.texels_8()},
-                       {"positions", lights.positions.buffer()},
-                       {"colors", lights.colors.buffer()},
-                       {"cones", lights.cones.buffer()},
-                       {"directional", lights.directional.buffer()}} +
+                       {"texels_8", s.texels_8()}} +
+           lights.columns() + ClArguments{{"directional", lights.directional.buffer()}} +
            source_arguments(loop) +
            ClArguments{{"bin_edges", lights.bin_edges.buffer()},
                        {"slice_edges", lights.slice_edges.buffer()},
@@ -104,7 +101,6 @@ class Resolver : public PassCache {
 
   const bool lanes;
   SharedBuffer& image;  // of the view's targets
-  ClLights lights;
 
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
@@ -167,7 +163,8 @@ ShadedImage resolve(Work& work, const Seen& seen, Cached<Resolver>& cache, const
   NamedKernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
   auto pass = work.timer.pass("resolve", "cl");
   kernel.launch(*work.renderer.cl, "resolve", r.items(seen), r.group(),
-                visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces, *lights.in_cl) +
+                visible_arguments(visible) +
+                    r.arguments(work, seen, visible.raster, visible.surfaces, *lights.in_cl) +
                     ClArguments{{"background", background(seen)}, {"image", r.image.cl_buffer()}});
   pass.moves(seen.pixels() * 8 + lights.bytes + r.scene(work, seen).memory_bytes(), seen.pixels() * 16);
   return {0, &r.image};
@@ -204,15 +201,17 @@ NormalsInCl resolve_normals(Work& work, const Seen& seen, Cached<Resolver>& cach
                 ClArguments{{"triangles", visible.image.triangle}} +
                     r.arguments(work, seen, visible.raster, visible.surfaces) +
                     ClArguments{{"normals", normals.image->cl_buffer()}});
-  pass.moves(seen.pixels() * 4 + r.scene(work, seen).memory_bytes(), seen.pixels() * normals.layout->image.bytes);
+  pass.moves(seen.pixels() * 4 + r.scene(work, seen).memory_bytes(),
+             seen.pixels() * normals.layout->image.bytes);
   return normals;
 }
 
-ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& cache, const VisibilityBuffer& visible, const LightBufferInCl& sums) {
+ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& cache,
+                              const VisibilityBuffer& visible, const LightBufferInCl& sums) {
   Resolver& r = resolving(work, seen, cache);
   const Settings& s = seen.plan.settings;
-  NamedKernel& kernel =
-      r.kernel(work, "resolve_materials", fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
+  NamedKernel& kernel = r.kernel(work, "resolve_materials",
+                                 fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
   auto pass = work.timer.pass("resolve_materials", "cl");
   kernel.launch(*work.renderer.cl, "resolve_materials", r.items(seen), r.group(),
                 visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces) +
@@ -232,16 +231,17 @@ void blend_resolved(Work& work, const Seen& seen, Cached<Resolver>& cache, const
   Resolver& r = resolving(work, seen, cache);
   NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines);
   auto pass = work.timer.pass("blend_resolved", "cl");
-  kernel.launch(*work.renderer.cl, "blend_resolved",
-                r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(seen.view),
-                r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height),
-                ClArguments{{"records", blended.lists.records},
-                            {"tile_begin", blended.lists.tile_begin},
-                            {"lists", blended.lists.lists},
-                            {"tiles_x", cl_uint(blended.lists.tiles_x)},
-                            {"depths", depth.values}} +
-                    r.arguments(work, seen, blended.raster, blended.surfaces, *lights.in_cl) +
-                    ClArguments{{"image", r.image.cl_buffer()}});
+  kernel.launch(
+      *work.renderer.cl, "blend_resolved",
+      r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(seen.view),
+      r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height),
+      ClArguments{{"records", blended.lists.records},
+                  {"tile_begin", blended.lists.tile_begin},
+                  {"lists", blended.lists.lists},
+                  {"tiles_x", cl_uint(blended.lists.tiles_x)},
+                  {"depths", depth.values}} +
+          r.arguments(work, seen, blended.raster, blended.surfaces, *lights.in_cl) +
+          ClArguments{{"image", r.image.cl_buffer()}});
   pass.moves(seen.pixels() * 20 + lights.bytes, seen.pixels() * 16);
 }
 

@@ -67,8 +67,7 @@ void shade_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cac
   auto pass = work.timer.pass("shade_light_volumes", "gl");
   LightVolumes& volumes = cache.of(work, seen);
   volumes.update(seen, seen.plan.settings.volume_mesh);
-  std::vector<std::string> defines = base_lighting(seen).defines;
-  if (seen.plan.spots) defines.emplace_back("SPOTS");
+  std::vector<std::string> defines = light_loop(seen).defines;
   for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
   begin_adding_lights(work, seen, gbuffer.image.framebuffer);
   bind_gbuffer(gbuffer);

@@ -14,12 +14,12 @@ bool holds_base_lighting(const GBufferInCl& gbuffer) {
 
 }  // namespace
 
-// The lights and the kernels.
+// The kernels.
 class TileShading : public PassCache {
  public:
   explicit TileShading(Work& work, const Seen& seen)
       : lanes(shades_in_lanes(work, seen)), defines_(defines_of_view(seen)) {
-    lights.upload(work, seen);
+    work.cl_lights();
     if (seen.plan.skin || seen.plan.minnaert)
       models.put(*work.renderer.cl, "uploading models of materials", model_records(seen.scene));
   }
@@ -31,11 +31,11 @@ class TileShading : public PassCache {
       defines_ = std::move(defines);
       for (NamedKernel& kernel : kernels_) kernel = {};
     }
-    lights.upload(work, seen);
+    work.cl_lights();
     return true;
   }
 
-  size_t memory_bytes() const override { return lights.memory_bytes() + models.bytes(); }
+  size_t memory_bytes() const override { return models.bytes(); }
 
   // Built at first use.
   NamedKernel& kernel(Work& work, const GBufferInCl& gbuffer) {
@@ -43,13 +43,12 @@ class TileShading : public PassCache {
     if (kernel) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
                                             holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel = NamedKernel(*work.renderer.kernels, lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles",
-                         defines);
+    kernel = NamedKernel(*work.renderer.kernels,
+                         lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles", defines);
     return kernel;
   }
 
   const bool lanes;
-  ClLights lights;
   UploadedBuffer models;  // MaterialModelRecord each
 
  private:
@@ -111,6 +110,7 @@ void image_to_gl(Work& work, const Seen& seen, SharedBuffer& image) {
 void add_light(Work& work, const Seen& seen, Cached<TileShading>& cache, const GBufferInCl& gbuffer,
                const DepthBuffer& depth, const LightSource& lights) {
   TileShading& s = cache.of(work, seen);
+  const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("shade_tiles", "cl");
   constexpr size_t side = 16;  // pixels a side of a work-group's tile
   const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
@@ -121,22 +121,20 @@ void add_light(Work& work, const Seen& seen, Cached<TileShading>& cache, const G
       base_lighting ? glm::vec3(0) : seen.scene.background;  // in the image already, or not
   s.kernel(work, gbuffer)
       .launch(*work.renderer.cl, "shade_tiles", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
-              {{"first", gbuffer.surfaces[0]->cl_buffer()},
-               {"second", gbuffer.surfaces[1]->cl_buffer()},
-               {"coats", gbuffer.in_cl(gbuffer_coat)},
-               {"specular", gbuffer.in_cl(gbuffer_specular)},
-               {"models", s.models.buffer()},
-               {"depth", depth.values},
-               {"positions", s.lights.positions.buffer()},
-               {"colors", s.lights.colors.buffer()},
-               {"cones", s.lights.cones.buffer()},
-               {"cells", lights.in_cl->cells},
-               {"indices", lights.in_cl->indices},
-               {"light_bins", lights.in_cl->z_bins},
-               {"bin_edges", s.lights.bin_edges.buffer()},
-               {"image", gbuffer.image->cl_buffer()},
-               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
-               {"view", s.lights.view.buffer()}});
+              ClArguments{{"first", gbuffer.surfaces[0]->cl_buffer()},
+                          {"second", gbuffer.surfaces[1]->cl_buffer()},
+                          {"coats", gbuffer.in_cl(gbuffer_coat)},
+                          {"specular", gbuffer.in_cl(gbuffer_specular)},
+                          {"models", s.models.buffer()},
+                          {"depth", depth.values}} +
+                  table.columns() +
+                  ClArguments{{"cells", lights.in_cl->cells},
+                              {"indices", lights.in_cl->indices},
+                              {"light_bins", lights.in_cl->z_bins},
+                              {"bin_edges", table.bin_edges.buffer()},
+                              {"image", gbuffer.image->cl_buffer()},
+                              {"background", cl_float4{{background.r, background.g, background.b, 0}}},
+                              {"view", table.view.buffer()}});
   const size_t pixels = seen.pixels();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(pixels * surface_bytes + lights.bytes, pixels * 16);

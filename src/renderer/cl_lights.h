@@ -1,18 +1,30 @@
-// What light loops in OpenCL read of a view besides its grid: lights in view space, the view, z-bin edges.
+// What light loops in OpenCL read of a view besides its lists: the light table, the view, slice and z-bin
+// edges.
 #pragma once
 
+#include "cl/launch.h"
 #include "cl/uploaded_buffer.h"
-#include "renderer/pass_caches.h"
+#include "renderer/light_table.h"
+#include "shared/view_params.h"
 
 namespace lightgrid {
 
+struct Seen;
+struct Work;
+
 class ClLights {
  public:
-  void upload(Work& work, const Seen& seen);
+  void upload(ClDevice& device, const Scene& scene, const View& view, const FramePlan& plan,
+              const ViewParams& params);
   size_t memory_bytes() const;
 
-  UploadedBuffer positions, colors, cones, directional, view, bin_edges,
-      slice_edges;  // shared/punctual_light.h, shared/slices.h
+  // LIGHT_ARGUMENTS (shared/light_table.h).
+  ClArguments columns() const;
+
+  UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
+
+ private:
+  UploadedBuffer columns_[light_column_count];
 };
 
 // The -D names that light loops in OpenCL take of a view and its plan (kernels/resolve/shade_pixels.h).

@@ -87,6 +87,7 @@ void RenderView::release() {
 
 void RenderView::drop_caches() {
   caches.clear();
+  cl_lights_.reset();
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
 }
@@ -107,6 +108,7 @@ void RenderView::follow_view() {
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
+  cl_lights_stale_ = true;
   if (!plan.opengl) return;
   lights.update(scene, view, plan, params);
   if (preparing_) {
@@ -150,6 +152,7 @@ SharedGridStorage& RenderView::blend_grid() {
 
 size_t RenderView::memory_bytes() const {
   size_t bytes = targets.bytes() + lights.light_bytes() + caches.memory_bytes();
+  bytes += cl_lights_ ? cl_lights_->memory_bytes() : 0;
   if (plan.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
   if (plan.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;

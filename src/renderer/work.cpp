@@ -68,4 +68,11 @@ SharedBuffer& Work::shared_pixels(const std::string& name, size_t pixel_bytes, T
                         use);
 }
 
+const ClLights& Work::cl_lights() {
+  if (!cl_lights_) cl_lights_stale_ = true, cl_lights_.emplace();
+  if (cl_lights_stale_) cl_lights_->upload(*renderer.cl, seen_.scene, seen_.view, seen_.plan, seen_.params);
+  cl_lights_stale_ = false;
+  return *cl_lights_;
+}
+
 }  // namespace lightgrid

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/cl_lights.h"
 #include "renderer/draw_list.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/pass_timer.h"
@@ -49,6 +51,8 @@ struct Work {
   // (shared/punctual_light.h).
   void bind_lights() const { lights.bind(); }
   ViewLightBuffers lights;
+  // The same for kernels: uploaded by the first call after look().
+  const ClLights& cl_lights();
 
   // Memory that OpenCL and OpenGL share, for `pixel_bytes` a pixel and spare ones, by name (Targets::buffer).
   SharedBuffer& shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use = TargetUse::image);
@@ -56,6 +60,8 @@ struct Work {
  protected:
   bool preparing_ = false;  // programs() then compiles what every planned surface needs
   std::map<std::string, ScenePrograms> programs_;
+  std::optional<ClLights> cl_lights_;
+  bool cl_lights_stale_ = true;
 
  private:
   std::vector<std::string> view_defines(std::vector<std::string> defines) const;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cl/transfer.h"
-#include "renderer/render_view.h"
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/fill_light_buffer.h"
@@ -83,7 +82,7 @@ double rounding_of(const ViewLight& light, const glm::dvec3& position, double br
   const double size = glm::length(position) + std::min(glm::length(light.position), light.radius_m);
   const double turned = 16 * float_step * (size / std::max(distance, 1e-30) + 1);
   if (!(distance < light.radius_m * (1 + turned))) return 0;
-  const double cone = light.type == LightType::spot ? 2 / (light.cos_inner - light.cos_outer) : 0;
+  const double cone = has_cone(light) ? 2 / (light.cos_inner - light.cos_outer) : 0;
   return brightest / (distance * distance) * (turned * (16 + cone) + 64 * float_step);
 }
 

@@ -140,7 +140,7 @@ void expect_nothing_lost(Check& c, const FilledVoxels& filled, size_t points, co
     if (!(light.radius_m > 0)) continue;
     for (size_t i = 0; i < points; ++i) {
       glm::dvec3 away = any_direction(random);
-      if (light.type == LightType::spot) {
+      if (has_cone(light)) {
         const glm::dvec3 across = glm::normalize(away - light.direction * glm::dot(away, light.direction));
         const double angle = std::acos(light.cos_outer) * (1 - 1e-6 * double(random.uniform()));
         away = light.direction * std::cos(angle) + across * std::sin(angle);

@@ -1,6 +1,6 @@
 #include "passes/common/light_source.h"
 
-#include "renderer/light_texels.h"
+#include "renderer/light_table.h"
 
 namespace lightgrid {
 
@@ -18,7 +18,6 @@ GlLightLoop base_lighting(const Seen& seen) {
   GlLightLoop loop;
   if (seen.plan.settings.brdf == Brdf::blinn) loop.defines.emplace_back("BLINN");
   if (seen.plan.settings.brdf == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
-  for (const char* define : range_defines(seen.plan.settings.ranges)) loop.defines.emplace_back(define);
   if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
   return loop;
 }
@@ -26,7 +25,7 @@ GlLightLoop base_lighting(const Seen& seen) {
 GlLightLoop light_loop(const Seen& seen) {
   GlLightLoop loop = base_lighting(seen);
   if (seen.plan.local_lights) loop.defines.emplace_back("LIGHTS");
-  if (seen.plan.spots) loop.defines.emplace_back("SPOTS");
+  for (const char* define : light_table_defines(seen.plan)) loop.defines.emplace_back(define);
   if (seen.plan.local.size() > longest_plain_loop) loop.defines.emplace_back("LONG_LOOPS");
   return loop;
 }

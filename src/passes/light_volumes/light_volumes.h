@@ -18,6 +18,7 @@ struct LightVolume {
                                              // enclose
 
   uint32_t light;             // index into the given lights, which are FramePlan::local's
+  LightBounds bounds;         // of the light
   uint32_t mesh;              // index into light_meshes()
   glm::dmat4 view_from_mesh;  // unused for `everything`
   glm::mat4 clip_from_mesh;
@@ -49,8 +50,6 @@ class LightVolumes : public PassCache {
   // The same in the caller's order, to which the indices of draw() refer.
   void upload_volumes(std::vector<LightVolume> volumes);
   const std::vector<LightVolume>& volumes() const { return volumes_; }
-  // Point and spot lights of the last update, by LightVolume::light.
-  const std::vector<ViewLight>& lights() const { return lights_; }
 
   // Between begin() and end(), the vertex array is bound, only GL_CLIP_DISTANCE0 at the near plane clips in
   // depth, faces are counter-clockwise and none is culled. Stencil, depth test and blending are the caller's.
@@ -62,7 +61,6 @@ class LightVolumes : public PassCache {
 
  private:
   std::vector<LightVolume> volumes_;
-  std::vector<ViewLight> lights_;
   GlBuffer vertices_, indices_, instances_;
   GlVertexArray array_;
   struct Range {

@@ -81,7 +81,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
   const GLint light = program_->uniform("light"), depth_bounds = program_->uniform("depth_bounds");
   for (size_t i = first; i < end; ++i) {
     const LightVolume& volume = volumes_.volumes()[i];
-    const ScreenBounds bounds = screen_bounds(seen_.view, volumes_.lights()[volume.light], volume);
+    const ScreenBounds bounds = screen_bounds(seen_.view, volume);
     const glm::ivec2 size = bounds.end - bounds.first;
     glScissor(bounds.first.x, bounds.first.y, size.x, size.y);
     glUniform1ui(light, volume.light);

@@ -93,7 +93,7 @@ void GroupedLights::update(Work& work, const Seen& seen, const VoxelAxes& axes) 
                           float(std::min(light.least_falloff, double(std::numeric_limits<float>::max()))));
     brightest_ = std::max({brightest_, colors[n].x, colors[n].y, colors[n].z});
     if (cones.empty()) continue;
-    const bool spot = light.type == LightType::spot;
+    const bool spot = has_cone(light);
     const double scale = spot ? 1 / (light.cos_inner - light.cos_outer) : 0;
     // Directions are those to the light: the axis is turned around.
     cones[2 * n] = glm::vec4(glm::vec3(-light.direction * scale), spot ? float(-light.cos_outer * scale) : 1);

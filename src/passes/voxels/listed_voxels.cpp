@@ -19,8 +19,9 @@ class VoxelLister {
     View along;
     along.view_from_world = glm::dmat4(r_.axes.from_world);
     along.eye = r_.axes.origin;
-    const std::vector<ViewLight> all = lights_in_view(seen.scene, along, seen.plan.settings.ranges);
-    for (const int i : seen.plan.local) lights_.push_back(all[size_t(i)]);
+    for (const ViewLight& light :
+         lights_in_view(seen.scene, along, seen.plan.settings.ranges, seen.plan.local))
+      lights_.push_back(bounds_of(light));
   }
 
   ListedLights listed(const std::vector<float>& depth) {
@@ -96,11 +97,11 @@ class VoxelLister {
   }
 
   // Whether add_voxel_light of kernels/voxels/voxel_light.h adds anything of a light.
-  bool reaches(const ViewLight& light, glm::uvec3 i) const {
+  bool reaches(const LightBounds& light, glm::uvec3 i) const {
     const glm::dvec3 d = light.position - sample_at(i);
     const double squared = glm::dot(d, d), grown = r_.placed.slices[i.z].half_diagonal_squared;
     if (light.radius_m <= 0 || squared >= light.radius_m * light.radius_m + grown) return false;
-    if (light.type == LightType::point || squared == 0) return true;
+    if (!light.has_cone() || squared == 0) return true;
     const double past_edge = light.cos_outer + glm::dot(light.direction, d) / std::sqrt(squared);
     return past_edge <= 4 * std::sqrt(std::min(grown / squared, 4.0));
   }
@@ -139,7 +140,7 @@ class VoxelLister {
   const Seen& seen_;
   ReadVoxels r_;
   glm::uvec3 size_;
-  std::vector<ViewLight> lights_;
+  std::vector<LightBounds> lights_;
 };
 
 }  // namespace
