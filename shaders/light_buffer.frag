@@ -44,6 +44,7 @@ void main() {
   PunctualLight from = light_at(int(light));
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
+  arrival.attenuation *= light_reaches(from, position, NO_INSTANCE);
   LightTerms terms =
       light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);

@@ -37,22 +37,21 @@
 
 // What all kernels that resolve triangles take, and the values of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
-// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
+// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
 // directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
 // pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light; what another
 // source of lights reads (voxels, the world grid: shared/world_grid.h); with -DZ_BINS the depth keys between
 // z-bins; with -DSLICES those between slices.
 #define RESOLVE_ARGUMENTS                                                                               \
   RESOLVE_SCENE_LIST(PARAMETER)                                                                         \
-  global const float4 *positions, global const float4 *colors, global const float4 *cones,              \
-      global const float4 *directional, global const uint2 *cells, global const index_t *light_indices, \
+  LIGHT_ARGUMENTS global const float4 *directional, global const uint2 *cells, global const index_t *light_indices, \
       global const uint *light_bins, SOURCE_LIST(PARAMETER) constant float *bin_edges,                  \
       constant float *slice_edges, constant ViewParams *view
 #define RESOLVE_SCENE \
   { RESOLVE_SCENE_LIST(GIVEN).half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height) }
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
-    .lights = {.positions = positions, .colors = colors, .cones = cones, .bins = light_bins},      \
+    .lights = {GIVEN_LIGHTS light_bins},      \
     .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
     SOURCE_LIST(GIVEN)                                                                             \
   }

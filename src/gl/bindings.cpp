@@ -18,7 +18,9 @@ struct Binding {
 
 #define LIGHTGRID_UNIT(name) {#name, GLuint(Sampler::name)},
 #define LIGHTGRID_SHARED(name, first) LIGHTGRID_UNIT(name)
-constexpr Binding listed_samplers[] = {LIGHTGRID_SAMPLERS(LIGHTGRID_UNIT, LIGHTGRID_SHARED)};
+#define LIGHTGRID_COLUMN(condition, type, member, array, texels) LIGHTGRID_UNIT(array)
+constexpr Binding listed_samplers[] = {LIGHTGRID_SURFACE_SAMPLERS(LIGHTGRID_UNIT) LIGHT_TABLE(
+    LIGHTGRID_COLUMN) LIGHTGRID_LIGHT_SAMPLERS(LIGHTGRID_UNIT, LIGHTGRID_SHARED)};
 #define LIGHTGRID_BLOCK(name) {#name, GLuint(UniformBlock::name)},
 constexpr Binding listed_blocks[] = {LIGHTGRID_UNIFORM_BLOCKS(LIGHTGRID_BLOCK)};
 

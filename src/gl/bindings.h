@@ -5,22 +5,25 @@
 #include <string>
 
 #include "gl/gl.h"
+#include "shared/light_table.h"
 
 namespace lightgrid {
 
 // UNIT takes the next unit. SHARE goes back to the unit of `first`: samplers that no program uses together
 // share units.
 // clang-format off
-#define LIGHTGRID_SAMPLERS(UNIT, SHARE) \
+#define LIGHTGRID_SURFACE_SAMPLERS(UNIT) \
   /* the surface of a pixel */ \
   UNIT(gbuffer_normal_roughness_metallic) UNIT(gbuffer_base_color_lit) UNIT(gbuffer_coat) UNIT(gbuffer_specular) \
   UNIT(normals) UNIT(depth_image) \
   /* a material's maps; sampler objects are bound to their units */ \
   UNIT(base_color_map) UNIT(metallic_roughness_map) UNIT(normal_map) UNIT(occlusion_map) UNIT(emissive_map) \
   UNIT(clearcoat_map) UNIT(clearcoat_roughness_map) UNIT(clearcoat_normal_map) UNIT(specular_map) \
-  UNIT(specular_color_map) \
-  /* lights */ \
-  UNIT(light_positions) UNIT(light_colors) UNIT(light_cones) UNIT(directional_lights) \
+  UNIT(specular_color_map)
+
+// After them the arrays of LIGHT_TABLE.
+#define LIGHTGRID_LIGHT_SAMPLERS(UNIT, SHARE) \
+  UNIT(directional_lights) \
   /* which lights a pixel reads: one source a program */ \
   UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(voxel_irradiance) UNIT(voxel_directions) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \
@@ -40,10 +43,15 @@ namespace lightgrid {
 
 #define LIGHTGRID_NEXT(name) name,
 #define LIGHTGRID_SHARED(name, first) name = first,
-enum class Sampler : GLuint { LIGHTGRID_SAMPLERS(LIGHTGRID_NEXT, LIGHTGRID_SHARED) };
+#define LIGHTGRID_COLUMN(condition, type, member, array, texels) array,
+enum class Sampler : GLuint {
+  LIGHTGRID_SURFACE_SAMPLERS(LIGHTGRID_NEXT) LIGHT_TABLE(LIGHTGRID_COLUMN)
+      LIGHTGRID_LIGHT_SAMPLERS(LIGHTGRID_NEXT, LIGHTGRID_SHARED)
+};
 enum class UniformBlock : GLuint { LIGHTGRID_UNIFORM_BLOCKS(LIGHTGRID_NEXT) };
 #undef LIGHTGRID_NEXT
 #undef LIGHTGRID_SHARED
+#undef LIGHTGRID_COLUMN
 
 // The one storage block and the one image of a compute shader: GLSL's default where it names no number.
 inline constexpr GLuint only_storage_block = 0, only_image = 0;

@@ -1,43 +1,48 @@
 #include "techniques/add_tiled_light.h"
 
 #include "passes/cull_lights.h"
-#include "passes/depth_bounds.h"
+#include "passes/fill_gbuffer.h"
 #include "passes/resolve.h"
-#include "passes/shade_blended.h"
 #include "passes/shade_tiles.h"
 
 namespace lightgrid {
+namespace {
 
-Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
-                      const DepthBounds& bounds) {
-  if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
-  Frame frame;
-  frame.grid = cull_lights(v, bounds);
-  frame.image = shade_tiles(v, gbuffer, depth, *frame.grid);
-  shade_blended_from_grid(v, bounds, frame);
-  return frame;
+// Without point and spot lights there is no light pass, and the image takes all.
+BaseLighting base_lighting_of(const RenderView& v) {
+  return v.plan.light_grid && !v.plan.base_lighting ? BaseLighting::in_light_pass : BaseLighting::in_image;
 }
 
-Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer) {
-  shade_blended(v, gbuffer.image, every_light(v));
-  return {gbuffer.image};
-}
-
-Frame tiled_light_in_cl(RenderView& v) {
-  Frame frame;
-  const VisibilityBuffer visible = rasterize(v);
-  frame.depth = visible.depth();
-  frame.triangles = visible.triangles();
-  DepthBounds bounds;
-  if (v.plan.light_grid) {
-    const GBufferInCl gbuffer = resolve_gbuffer(v, visible, base_lighting_of(v));
-    bounds = depth_bounds(v, *frame.depth);
-    frame.grid = cull_lights(v, bounds);
-    frame.image = shade_tiles(v, gbuffer, *frame.depth, *frame.grid);
-  } else {
-    frame.image = resolve(v, visible, {});  // no light has a position: nothing reads a geometry buffer
+GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
+  if (!surfaces) {
+    const GBuffer gbuffer = fill_gbuffer(v, v, base_lighting_of(v));
+    surfaces = Surfaces{.image = gbuffer.depth_image};
+    return gbuffer;
   }
-  blend_resolved_from_grid(v, bounds, frame);
+  if (!surfaces->visible) return fill_gbuffer(v, v, surfaces->drawn, base_lighting_of(v));
+  GBuffer gbuffer;
+  gbuffer.in_cl = resolve_gbuffer(v, v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
+  return gbuffer;
+}
+
+}  // namespace
+
+Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
+  // Nothing reads a geometry buffer if no light has a position; OpenGL's two recipes have drawn it all the
+  // same.
+  if (!v.plan.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
+  const GBuffer gbuffer = fill(v, surfaces);
+  Frame frame = frame_of(*surfaces);
+  if (!v.plan.light_grid) {
+    frame.image = gbuffer.image;
+    blend(v, *surfaces, every_light(v), frame.image);
+    return frame;
+  }
+  const DepthBuffer& depth = depth_of(v, *surfaces);
+  frame.grid = cull_lights(v, v, v.culler(), v.opaque_grid(), bounds_of(v, *surfaces));
+  const LightSource lights = from_grid(v, v, *frame.grid);
+  frame.image = shade_tiles(v, v, v.caches.tile_shading, gbuffer, depth, lights);
+  blend_from_grid(v, *surfaces, lights, frame);
   return frame;
 }
 

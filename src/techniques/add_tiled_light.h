@@ -1,26 +1,12 @@
-// The part that deferred_tiled and forward_plus_compute share; they fill the geometry buffer differently.
+// The recipe that deferred_tiled and forward_plus_compute share. With OpenGL they find depth differently.
 #pragma once
 
-#include "passes/common/gbuffer.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
 
-// Without point and spot lights there is no light pass, and the image takes all.
-inline BaseLighting base_lighting_of(const RenderView& v) {
-  return v.plan.light_grid && !v.plan.base_lighting ? BaseLighting::in_light_pass : BaseLighting::in_image;
-}
-
-// Culls lights, adds those of each tile's list to the geometry buffer's image, and blends blended surfaces
-// over it.
-Frame add_tiled_light(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
-                      const DepthBounds& bounds);
-
-// The same without point and spot lights: the geometry buffer's image lacks only blended surfaces.
-Frame without_tiled_light(RenderView& v, const GBuffer& gbuffer);
-
-// The whole frame with raster=opencl: triangles, surfaces and light in OpenCL. Both techniques then have the
-// depth before the surfaces, and each pixel's material once.
-Frame tiled_light_in_cl(RenderView& v);
+// Surfaces into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended
+// surfaces are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
+Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
 
 }  // namespace lightgrid
