@@ -41,7 +41,8 @@ Frame shade_from_light_grid(RenderView& v);
 Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
 
 // Blends blended surfaces over the frame's image, whose opaque ones have the lights of a grid. With depth
-// bounds, they get a grid of their own, stored in the frame; without, they use that of opaque surfaces.
+// bounds, they get a grid of their own, stored in the frame; without, they use that of opaque surfaces, whose
+// lists become the frame's.
 void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
 
 const std::vector<const Technique*>& techniques();

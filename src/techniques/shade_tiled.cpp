@@ -1,4 +1,4 @@
-#include "techniques/add_tiled_light.h"
+#include "techniques/shade_tiled.h"
 
 #include "passes/cull_lights.h"
 #include "passes/fill_gbuffer.h"
@@ -28,8 +28,8 @@ GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
 }  // namespace
 
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
-  // Nothing reads a geometry buffer if no light has a position; OpenGL's two recipes have drawn it all the
-  // same.
+  // If no light has a position, nothing adds to a geometry buffer. OpenGL fills it all the same, for its
+  // image.
   if (!v.plan.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
   const GBuffer gbuffer = fill(v, surfaces);
   Frame frame = frame_of(*surfaces);
