@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "gl/bindings.h"
+
 namespace lightgrid {
 namespace {
 
@@ -53,7 +55,7 @@ void dispatch_pixels(const GlProgram& program, const PixelGrid& grid, int depth 
   glDispatchCompute(GLuint(grid.width + group_width - 1) / group_width,
                     GLuint(grid.height + group_height - 1) / group_height, GLuint(depth));
   glUseProgram(0);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, 0);
 }
 
 }  // namespace
@@ -71,11 +73,11 @@ void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, co
   const size_t count = grid.values();
   const auto* pixel = by_shader_ ? pixel_of<CopiedPixel>(copied_pixels, format, type, count) : nullptr;
   if (pixel) {
-    glBindSampler(0, 0);
-    glBindTextureUnit(0, source.texture);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
+    bind_sampler_object(Sampler::image, 0);
+    bind_texture(Sampler::image, source.texture);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, buffer);
     dispatch_pixels(program("shaders/pixels_to_buffer.comp", {pixel->define}), grid);
-    glBindTextureUnit(0, 0);
+    bind_texture(Sampler::image, 0);
     return;
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.framebuffer);
@@ -93,10 +95,10 @@ void PixelCopies::to_texture(GLuint buffer, GLenum format, GLenum type, const Pi
     std::vector<std::string> defines = {pixel->bits, pixel->channels, pixel->image};
     if (depth > 0) defines.emplace_back("VOLUME");
     const GlProgram& copy = program("shaders/buffer_to_image.comp", defines);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
-    glBindImageTexture(0, texture, 0, depth > 0, 0, GL_WRITE_ONLY, pixel->image_format);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, buffer);
+    glBindImageTexture(only_image, texture, 0, depth > 0, 0, GL_WRITE_ONLY, pixel->image_format);
     dispatch_pixels(copy, grid, std::max(depth, 1));
-    glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, pixel->image_format);
+    glBindImageTexture(only_image, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, pixel->image_format);
     glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
     return;

@@ -63,7 +63,7 @@ std::vector<float> read_depth_file(const fs::path& path, const View& view) {
 
 size_t local_count(const CapturedFrame& frame) {
   return size_t(std::count_if(frame.lights.begin(), frame.lights.end(),
-                              [](const Light& l) { return l.type != LightType::directional; }));
+                              [](const Light& l) { return !is_directional(l); }));
 }
 
 // Empty if the file lacks them.
@@ -211,7 +211,7 @@ void write_frame_grid(const fs::path& folder, const FrameGrid& grid) {
 std::vector<Light> local_world_lights(const CapturedFrame& frame) {
   std::vector<Light> local;
   for (const Light& light : frame.lights) {
-    if (light.type != LightType::directional) local.push_back(light);
+    if (!is_directional(light)) local.push_back(light);
   }
   return local;
 }

@@ -1,7 +1,7 @@
 #include "capture/frame_lists.h"
 
-#include "capture/grid_lists.h"
 #include "renderer/render_view.h"
+#include "scene/grid_lists.h"
 
 namespace lightgrid {
 

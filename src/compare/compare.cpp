@@ -14,7 +14,6 @@
 #include "compare/silhouettes.h"
 #include "compare/surfaces_in_double.h"
 #include "gl/state.h"
-#include "passes/shade_objects.h"
 #include "reference/position.h"
 #include "results/flip.h"
 #include "results/metrics.h"
@@ -93,7 +92,7 @@ struct ReferenceTriangles {
 
 ReferenceTriangles triangles_of(ReferenceRun& reference) {
   RenderView& v = reference.run->view();
-  if (!reference.run->frame().triangles) return {read_triangles(v)};
+  if (!reference.run->frame().triangles) return {read_triangles(v, v)};
   return {{own_triangles(*reference.run), std::vector<bool>(v.grid().values())}};
 }
 
@@ -202,7 +201,15 @@ std::vector<size_t> order_of_rows(const std::vector<ContestantRun>& entries, con
     const Contestant& c = *entries[i].contestant;
     if (entries[i].run && entries[i].run.get() == reference) return -1;
     if (own_surfaces(*c.technique, c.settings)) return 0;
-    return !c.technique->listed ? 3 : c.technique->listed == listed_of_objects ? 2 : 1;
+    switch (c.technique->listed_by) {
+      case ListedBy::pixel:
+        return 1;
+      case ListedBy::object:
+        return 2;
+      case ListedBy::cell:
+        return 3;
+    }
+    return 3;
   });
   return order;
 }

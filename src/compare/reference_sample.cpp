@@ -4,11 +4,8 @@
 
 #include "base/timer.h"
 #include "compare/oracle.h"
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
 #include "passes/read_back.h"
-#include "passes/shade_blended.h"
-#include "passes/shade_forward.h"
+#include "passes/surfaces.h"
 #include "scene/random.h"
 
 namespace lightgrid {
@@ -18,7 +15,7 @@ namespace {
 // than everything.
 class DepthOfBlocks {
  public:
-  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v)) {
+  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v, v)) {
     std::vector<float> masked(whole_.size(), 1.0f);
     for (const uint32_t pixel : pixels_of(blocks, v.grid())) masked[pixel] = whole_[pixel];
     write(masked);
@@ -62,13 +59,12 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, const Pix
 }
 
 void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Image& image) {
-  const DepthImage depth = depth_prepass(v);
-  const TileDistances distances = tile_distances(v, depth_bounds(v, depth));
+  const Surfaces surfaces = find_surfaces(v);
   const DepthOfBlocks masked(v, blocks);
   const LightSource lights = every_light(v);
-  const ShadedImage shaded = shade_forward(v, visible_surfaces(v, distances), lights);
-  shade_blended(v, shaded, lights);
-  read_back(v, shaded, image);
+  const ShadedImage shaded = shade(v, surfaces, lights);
+  blend(v, surfaces, lights, shaded);
+  read_back(v, v, shaded, image);
 }
 
 bool is_quick_for_forward(const View& view, size_t lights, double most_ms) {

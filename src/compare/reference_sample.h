@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/image.h"
 #include "renderer/render_view.h"
 
 namespace lightgrid {

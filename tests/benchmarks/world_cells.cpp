@@ -15,12 +15,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "capture/grid_lists.h"
 #include "compare/oracle.h"
 #include "compare/run_technique.h"
 #include "renderer/culler_input.h"
 #include "renderer/world_cell.h"
 #include "scene/builtin.h"
+#include "scene/grid_lists.h"
 #include "scene/light_rigs.h"
 
 using namespace lightgrid;

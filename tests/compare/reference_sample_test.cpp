@@ -46,7 +46,7 @@ TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("forward"));
   run.run_frame();
   const Image whole = run.image();
-  const std::vector<float> depth = read_depth(run.view());
+  const std::vector<float> depth = read_depth(run);
   std::vector<PixelBlock> blocks = shuffled_blocks({127, 73}, 3);
   blocks.resize(60);
   Image sampled;
@@ -59,7 +59,7 @@ TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   for (const uint32_t pixel : pixels) lit += whole.pixels[pixel] != background;
   EXPECT_GT(lit, 0u);
   EXPECT_EQ(shaded, lit) << "pixels outside the sample are shaded";
-  EXPECT_EQ(read_depth(run.view()), depth) << "the depth image is not restored";
+  EXPECT_EQ(read_depth(run), depth) << "the depth image is not restored";
 }
 
 TEST(ReferenceSample, HasFewerPixelsTheMoreLightsThereAre) {
