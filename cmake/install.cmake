@@ -29,12 +29,12 @@ install(TARGETS ${library_targets} EXPORT lightgridTargets
 # The public headers and the headers that they include. As <lightgrid/FOLDER/x.h> no user's header has their name, and they
 # include each other by relative paths, where they are found first even if a user has a folder of that name.
 set(public_headers
-  base/error.h
+  base/error.h base/pixel_grid.h
   shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h
   shared/raster_instance.h shared/slices.h shared/view_params.h
   cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h cl/transfer.h
   culling/cull_view.h culling/light_culler.h
-  raster/rasterizer.h)
+  raster/raster_scene.h raster/raster_view.h)
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH folder)
   set(installed ${PROJECT_BINARY_DIR}/installed_headers/${header})

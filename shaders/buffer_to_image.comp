@@ -26,7 +26,7 @@ uvec4 channels_of(uint word) { return uvec4(word, word >> 8, word >> 16, word >>
 #endif
 #endif
 
-layout(std430, binding = 0) readonly buffer Pixels { WORDS pixels[]; };
+layout(std430) readonly buffer Pixels { WORDS pixels[]; };
 
 uvec4 pixel(int i) {
 #if BITS * CHANNELS == 16
@@ -37,14 +37,14 @@ uvec4 pixel(int i) {
 }
 
 #ifdef VOLUME
-layout(FORMAT, binding = 0) writeonly uniform uimage3D image;
+layout(FORMAT) writeonly uniform uimage3D image;
 void main() {
   ivec3 size = imageSize(image), at = ivec3(gl_GlobalInvocationID);
   if (any(greaterThanEqual(at, size))) return;
   imageStore(image, at, pixel((at.z * size.y + at.y) * size.x + at.x));
 }
 #else
-layout(FORMAT, binding = 0) writeonly uniform uimage2D image;
+layout(FORMAT) writeonly uniform uimage2D image;
 void main() {
   ivec2 size = imageSize(image), at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, size))) return;

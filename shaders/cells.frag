@@ -4,7 +4,7 @@
 #include "shaders/lights/cell.glsl"
 
 #ifdef GIVEN_DEPTH
-layout(binding = 0) uniform sampler2D given_depth;
+uniform sampler2D given_depth;
 #endif
 
 layout(location = 0) out uint cell;

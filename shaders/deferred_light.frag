@@ -63,6 +63,7 @@ void main() {
   Coat coat = coat_of_pixel(pixel, s.normal);
   p = with_coat(p, coat.normal, coat.factor, coat.roughness);
 #endif
+  arrival.attenuation *= light_reaches(from, position, NO_INSTANCE);
   added = vec4(radiance_of(p, arrival, from), 0.0);
 #endif
 }

@@ -8,8 +8,8 @@
 #include "shared/stored_normal.h"
 #include "shaders/lights/punctual.glsl"
 
-layout(binding = 0) uniform sampler2D normals;
-layout(binding = 2) uniform sampler2D depth_image;
+uniform sampler2D normals;
+uniform sampler2D depth_image;
 #ifdef LIGHT_VOLUME
 flat in uint light;
 #else
@@ -44,6 +44,7 @@ void main() {
   PunctualLight from = light_at(int(light));
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
+  arrival.attenuation *= light_reaches(from, position, NO_INSTANCE);
   LightTerms terms =
       light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);

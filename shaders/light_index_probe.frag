@@ -1,7 +1,7 @@
 // A separate index at each pixel, to test this machine's blending.
 #include "shaders/common/light_index.glsl"
 
-layout(binding = 12) uniform usampler2D indices;
+uniform usampler2D indices;
 layout(location = 0) out vec4 images[LIDR_TARGETS];
 
 void main() {

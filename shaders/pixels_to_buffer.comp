@@ -5,7 +5,7 @@
 //   one of  FLOAT_1 (its first channel, or depth), FLOAT_4: 32 bits a channel
 //           UNORM8_4, UNORM16_2, UNORM16_4: the integers that the image stores
 layout(local_size_x = 32, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D image;
+uniform sampler2D image;
 
 #if defined(FLOAT_1)
 #define PIXEL uint
@@ -24,7 +24,7 @@ PIXEL pixel_of(vec4 texel) { return packUnorm2x16(texel.rg); }
 PIXEL pixel_of(vec4 texel) { return uvec2(packUnorm2x16(texel.rg), packUnorm2x16(texel.ba)); }
 #endif
 
-layout(std430, binding = 0) writeonly buffer Pixels { PIXEL pixels[]; };
+layout(std430) writeonly buffer Pixels { PIXEL pixels[]; };
 
 void main() {
   ivec2 size = textureSize(image, 0), at = ivec2(gl_GlobalInvocationID.xy);

@@ -1,6 +1,6 @@
 // The picture of a window (src/view): the left image left of the line, the right image from there on.
-layout(binding = 0) uniform sampler2D left_image;   // linear RGB
-layout(binding = 1) uniform sampler2D right_image;
+uniform sampler2D left_image;   // linear RGB
+uniform sampler2D right_image;
 
 uniform vec2 size;        // of the picture, pixels
 uniform float line;       // pixels from its left

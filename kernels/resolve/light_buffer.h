@@ -15,11 +15,11 @@ static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal
                                     uint index, const Lights* lights, float exponent) {
   const PunctualLight light = light_at(lights, index);
   if (!any_lane(lit & in_range(position, light))) return sum;
-  const Arrival arrival = arrival_at(position, light);
+  Arrival arrival = arrival_at(position, light);
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
-  return any_lane(lit & reached)
-             ? add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)))
-             : sum;
+  if (!any_lane(lit & reached)) return sum;
+  arrival.attenuation = arrival.attenuation * light_reaches(light, position, NO_INSTANCE);
+  return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));
 }
 
 // In the order of the list.

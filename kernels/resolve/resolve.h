@@ -11,15 +11,25 @@
 #include "shared/raster_instance.h"
 #include "shared/real.h"
 
+// A list names (type, name) once for a kernel's parameters, a struct's members and their values.
+#define PARAMETER(type, name) type name,
+#define MEMBER(type, name) type name;
+#define GIVEN(type, name) .name = name,
+
+// triangle_instance  by triangle number
+// instances, surfaces  the rasteriser's, and ours in the same order
+#define RESOLVE_SCENE_LIST(X)                      \
+  X(global const uint*, triangle_instance)         \
+  X(global const RasterInstanceRecord*, instances) \
+  X(global const uint*, indices)                   \
+  X(global const float4*, clip)                    \
+  X(global const SurfaceInstance*, surfaces)       \
+  X(global const SurfaceVertex*, vertices)         \
+  X(global const SurfaceMaterial*, materials)      \
+  X(global const ushort*, texels_4) X(global const ushort*, texels_8)
+
 typedef struct ResolveScene {
-  global const uint* triangle_instance;          // by triangle number
-  global const RasterInstanceRecord* instances;  // the rasteriser's, and ours in the same order
-  global const SurfaceInstance* surfaces;
-  global const uint* indices;
-  global const float4* clip;
-  global const SurfaceVertex* vertices;
-  global const SurfaceMaterial* materials;
-  global const ushort *texels_4, *texels_8;
+  RESOLVE_SCENE_LIST(MEMBER)
   float2 half_size;  // of the image, pixels
 } ResolveScene;
 

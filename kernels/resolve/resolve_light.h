@@ -20,71 +20,51 @@
 #ifdef VOXEL_EXACT
 #include "shared/voxel_exact.h"
 #endif
-#define VOXEL_ARGUMENTS                                                               \
-  , global const stored_voxel_t *irradiance, global const stored_voxel_t *directions, \
-      constant VoxelLookup *voxels
-#define GIVEN_VOXELS , irradiance, directions, voxels
-#else
-#define VOXEL_ARGUMENTS
-#define GIVEN_VOXELS
-#endif
-#ifdef WORLD_GRID
+#define SOURCE_LIST(X)                        \
+  X(global const stored_voxel_t*, irradiance) \
+  X(global const stored_voxel_t*, directions) \
+  X(constant VoxelLookup*, voxels)
+#elif defined(WORLD_GRID)
 #include "shared/world_grid.h"
+#define SOURCE_LIST(X)                 \
+  X(global const uint*, world_buckets) \
+  X(global const uint2*, world_keys)   \
+  X(constant WorldGridParams*, world)  \
+  X(constant WorldViewParams*, world_view)
+#else
+#define SOURCE_LIST(X)
 #endif
 
-// What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
-// What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
-// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
+// What all kernels that resolve triangles take, and the values of ResolveScene and ResolveLights.
+// What a triangle number leads to (raster/raster_view.h); surfaces, vertices and materials
+// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
 // directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
-// pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth
-// keys between them; with -DSLICES the depth keys between slices; with -DWORLD_GRID the world
-// grid's own (shared/world_grid.h).
-#ifdef WORLD_GRID
-#define WORLD_ARGUMENTS                                                                                \
-  , global const uint *world_buckets, global const uint2 *world_keys, constant WorldGridParams *world, \
-      constant WorldViewParams *world_view
-#define RESOLVE_WORLD , {world_buckets, world_keys, cells}, world, world_view
-#else
-#define WORLD_ARGUMENTS
-#define RESOLVE_WORLD
-#endif
-#define RESOLVE_ARGUMENTS                                                                            \
-  global const uint *triangle_instance, global const RasterInstanceRecord *instances,                \
-      global const uint *indices, global const float4 *clip, global const SurfaceInstance *surfaces, \
-      global const SurfaceVertex *vertices, global const SurfaceMaterial *materials,                 \
-      global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
-      global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
-      global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
-      constant float *bin_edges, constant float *slice_edges,                                        \
-      constant ViewParams *view VOXEL_ARGUMENTS WORLD_ARGUMENTS
-#define RESOLVE_SCENE                                                                               \
-  {                                                                                                 \
-    triangle_instance, instances, surfaces, indices, clip, vertices, materials, texels_4, texels_8, \
-        (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                             \
-  }
-#define RESOLVE_LIGHTS                                                               \
-  {                                                                                  \
-    {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, \
-        slice_edges GIVEN_VOXELS RESOLVE_WORLD                                       \
+// pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light; what another
+// source of lights reads (voxels, the world grid: shared/world_grid.h); with -DZ_BINS the depth keys between
+// z-bins; with -DSLICES those between slices.
+#define RESOLVE_ARGUMENTS                                                                               \
+  RESOLVE_SCENE_LIST(PARAMETER)                                                                         \
+  LIGHT_ARGUMENTS global const float4 *directional, global const uint2 *cells, global const index_t *light_indices, \
+      global const uint *light_bins, SOURCE_LIST(PARAMETER) constant float *bin_edges,                  \
+      constant float *slice_edges, constant ViewParams *view
+#define RESOLVE_SCENE \
+  { RESOLVE_SCENE_LIST(GIVEN).half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height) }
+#define RESOLVE_LIGHTS                                                                             \
+  {                                                                                                \
+    .lights = {GIVEN_LIGHTS light_bins},      \
+    .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
+    SOURCE_LIST(GIVEN)                                                                             \
   }
 
 typedef struct ResolveLights {
   Lights lights;
   global const float4* directional;  // two each: direction to the light, and illuminance
-  global const index_t* list;  // null: all of them
+  global const index_t* list;  // null: all of them; with -DSLICES and -DWORLD_GRID where all lists begin
   uint count;
-  global const uint2* cells;  // with -DSLICES: of all tiles; `list` is then where all lists begin
+  global const uint2* cells;  // with -DSLICES: of all tiles
   uint cell;                  // the tile's in slice 0
   constant float* slice_edges;
-#ifdef LIGHTS_VOXELS
-  global const stored_voxel_t *irradiance, *directions;
-  constant VoxelLookup* voxels;
-#endif
-#ifdef WORLD_GRID  // `list` is then where all lists begin
-  WorldLists world_lists;
-  constant WorldGridParams* world;
-  constant WorldViewParams* world_view;
-#endif
+  SOURCE_LIST(MEMBER)
 } ResolveLights;
 
 // The list of a tile's cell, or the cells that are one behind the other.
@@ -181,6 +161,7 @@ static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t 
 // The pixels' cells one after the other, each with its list. Neighbours are mostly in one cell.
 static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
   constant WorldGridParams* const world = l->world;
+  const WorldLists lists = {.buckets = l->world_buckets, .keys = l->world_keys, .cells = l->cells};
   const Real3 at = world_position(p->position, l->world_view);
   const whole x = world_coordinate(at.x, world->least_x, world->most_x);
   const whole y = world_coordinate(at.y, world->least_y, world->most_y);
@@ -193,7 +174,7 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
     const int cell_x = ((const int*)&x)[one], cell_y = ((const int*)&y)[one], cell_z = ((const int*)&z)[one];
     const mask_t here = lit & (x == (whole)(cell_x)) & (y == (whole)(cell_y)) & (z == (whole)(cell_z));
     left &= ~mask_bits(here);
-    ranges[found] = world_range((uint)cell_x, (uint)cell_y, (uint)cell_z, world, &l->world_lists);
+    ranges[found] = world_range((uint)cell_x, (uint)cell_y, (uint)cell_z, world, &lists);
     list = here ? (whole)((int)ranges[found].x) : list, count = here ? (whole)((int)ranges[found].y) : count;
   }
   Real3 sum = own;
@@ -211,11 +192,11 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 #else
 static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
   constant WorldGridParams* const world = l->world;
+  const WorldLists lists = {.buckets = l->world_buckets, .keys = l->world_keys, .cells = l->cells};
   const Real3 at = world_position(p->position, l->world_view);
-  const uint2 range =
-      world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
-                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
-                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &l->world_lists);
+  const uint2 range = world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
+                                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
+                                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &lists);
   return sum_of_world_lists(own, p, lit, range, l);
 }
 #endif

@@ -4,7 +4,7 @@
 // -DBASE_LIGHTING  the image already holds ambient, directional and emitted light; without
 //                  it ambient light is added here
 // -DZ_BINS    lights whose z-bin range misses the pixels are skipped
-// -DSPOTS     some light has a cone
+// -DSPOTS     some light has a cone: shared/light_table.h
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
 // -DLAMBERT   there is none: shared/brdf_lambert.h
 // -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
@@ -25,17 +25,13 @@ typedef ushort index_t;
 
 // Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
 typedef struct Lights {
-  global const float4 *positions, *colors, *cones;
+  LIGHT_TABLE(LIGHT_ARRAY)
   global const uint* bins;
 } Lights;
 
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
-  light.position = lights->positions[index];
-  light.color = lights->colors[index];
-#ifdef SPOTS
-  light.cone = lights->cones[index];
-#endif
+  LIGHT_TABLE(LIGHT_ELEMENT)
   return light;
 }
 
@@ -77,7 +73,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
                                const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
   if (!any_lane(lit & in_range(p->position, light))) return sum;
-  const Arrival arrival = arrival_at(p->position, light);
+  Arrival arrival = arrival_at(p->position, light);
 #ifdef SKIN
   mask_t facing = dot3(p->normal, arrival.to_light) > -p->roll_off;
 #else
@@ -87,7 +83,9 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   facing |= dot3(p->coat_normal, arrival.to_light) > REAL(0.0f);
 #endif
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
-  return any_lane(lit & reached) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
+  if (!any_lane(lit & reached)) return sum;
+  arrival.attenuation = arrival.attenuation * light_reaches(light, p->position, NO_INSTANCE);
+  return add3(sum, radiance_of(*p, arrival, light));
 }
 
 // In the order of the list: the sum of the GL loop. A list that is null has the first `count` lights.

@@ -5,9 +5,11 @@
 // -DVOXEL_BITS  16 or 32: bits of a stored value (default 32)
 // -DSPOTS       some light has a cone
 // -DWINDOW_SMOOTH, -DWINDOW_NONE, -DLEAST_FALLOFF  shared/punctual_light.h
+// -DLIGHT_REACHES  shared/light_table.h
 // -DVOXELS_LOG  shared/voxel_volume.h
 #pragma once
 
+#include "shared/light_table.h"
 #include "shared/voxel_volume.h"
 
 #ifndef VOXEL_BITS
@@ -129,13 +131,14 @@ static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real i
 }
 
 // What a light is attenuated by at samples, 0 out of its reach or its cone, and 1 / distance. d: to the
-// light. cone: as in VoxelLights, without SPOTS unread.
+// light, from position. color, cone: as in VoxelLights; cone is unread without SPOTS.
 typedef struct VoxelArrival {
   real attenuation, inverse;
 } VoxelArrival;
 
-static inline VoxelArrival voxel_arrival(Real3 d, real squared, constant VoxelSlice* slice, VoxelReach reach,
-                                         float least_falloff, float8 cone) {
+static inline VoxelArrival voxel_arrival(Real3 position, float3 place, Real3 d, real squared,
+                                         constant VoxelSlice* slice, VoxelReach reach, float4 color,
+                                         float8 cone) {
   const real ratio = squared * reach.inverse_squared;
 #ifdef WINDOW_NONE
   real window = 1.0f;
@@ -150,13 +153,21 @@ static inline VoxelArrival voxel_arrival(Real3 d, real squared, constant VoxelSl
   a.inverse = sqrt(inverse_squared);
   real falloff = lane_min(inverse_squared, REAL(1.0f / slice->core_squared));
 #ifdef LEAST_FALLOFF
-  falloff = lane_max(falloff, REAL(least_falloff));
+  falloff = lane_max(falloff, REAL(color.w));
 #endif
   a.attenuation = window * falloff * reach.dimmed;
 #ifdef SPOTS
   if (cone.s4 != 0.0f) a.attenuation = a.attenuation * voxel_cone(cone, d, inverse_squared, a.inverse, slice);
 #endif
   a.attenuation = squared < REAL(reach.squared) ? a.attenuation : REAL(0.0f);
+#ifdef LIGHT_REACHES
+  PunctualLight light;
+  light.position = (float4)(place, reach.inverse_squared), light.color = color;
+#ifdef SPOTS
+  light.cone = (float4)(-cone.s012, cone.s3);
+#endif
+  a.attenuation = a.attenuation * light_reaches(light, position, NO_INSTANCE);
+#endif
   return a;
 }
 
@@ -178,7 +189,7 @@ static inline void add_voxel_light(VoxelSum* sum, Real3 position, constant Voxel
 #else
   const float8 cone = (float8)(0.0f);
 #endif
-  const VoxelArrival a = voxel_arrival(d, squared, slice, reach, color.w, cone);
+  const VoxelArrival a = voxel_arrival(position, place, d, squared, slice, reach, color, cone);
   const Real3 arrives = voxel_irradiance(a.attenuation, color);
   const real weight = luminance_of(arrives), along_weight = weight * a.inverse;
   sum->irradiance = add3(sum->irradiance, arrives);

@@ -23,34 +23,34 @@ in vec2 fragment_uv1;
 in vec4 fragment_color;
 #endif
 #ifdef BASE_COLOR_MAP
-layout(binding = 0) uniform sampler2D base_color_map;
+uniform sampler2D base_color_map;
 #endif
 #ifdef METALLIC_ROUGHNESS_MAP
-layout(binding = 1) uniform sampler2D metallic_roughness_map;
+uniform sampler2D metallic_roughness_map;
 #endif
 #ifdef NORMAL_MAP
-layout(binding = 2) uniform sampler2D normal_map;
+uniform sampler2D normal_map;
 #endif
 #ifdef OCCLUSION_MAP
-layout(binding = 3) uniform sampler2D occlusion_map;
+uniform sampler2D occlusion_map;
 #endif
 #ifdef EMISSIVE_MAP
-layout(binding = 4) uniform sampler2D emissive_map;
+uniform sampler2D emissive_map;
 #endif
 #ifdef CLEARCOAT_MAP
-layout(binding = 5) uniform sampler2D clearcoat_map;
+uniform sampler2D clearcoat_map;
 #endif
 #ifdef CLEARCOAT_ROUGHNESS_MAP
-layout(binding = 6) uniform sampler2D clearcoat_roughness_map;
+uniform sampler2D clearcoat_roughness_map;
 #endif
 #ifdef CLEARCOAT_NORMAL_MAP
-layout(binding = 7) uniform sampler2D clearcoat_normal_map;
+uniform sampler2D clearcoat_normal_map;
 #endif
 #ifdef SPECULAR_MAP
-layout(binding = 16) uniform sampler2D specular_map;
+uniform sampler2D specular_map;
 #endif
 #ifdef SPECULAR_COLOR_MAP
-layout(binding = 17) uniform sampler2D specular_color_map;
+uniform sampler2D specular_color_map;
 #endif
 
 #ifdef TEXTURED

@@ -6,15 +6,15 @@
 #include "shaders/common/gbuffer.glsl"
 #include "shaders/common/position.glsl"
 
-layout(binding = 0) uniform sampler2D gbuffer_normal_roughness_metallic;
-layout(binding = 1) uniform sampler2D gbuffer_base_color_lit;
-layout(binding = 2) uniform sampler2D depth_image;
+uniform sampler2D gbuffer_normal_roughness_metallic;
+uniform sampler2D gbuffer_base_color_lit;
+uniform sampler2D depth_image;
 #ifdef CLEARCOAT
-layout(binding = 3) uniform sampler2D gbuffer_coat;
+uniform sampler2D gbuffer_coat;
 #endif
 
 #ifdef SPECULAR
-layout(binding = 4) uniform sampler2D gbuffer_specular;
+uniform sampler2D gbuffer_specular;
 #endif
 
 LitSurface surface_of_pixel(ivec2 pixel) {

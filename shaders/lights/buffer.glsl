@@ -4,9 +4,9 @@
 //   PREPASS_FIFTH_TERM: there is a second image
 #include "shared/light_buffer.h"
 
-layout(binding = 12) uniform sampler2D light_buffer;
+uniform sampler2D light_buffer;
 #ifdef PREPASS_FIFTH_TERM
-layout(binding = 13) uniform sampler2D light_buffer_second;
+uniform sampler2D light_buffer_second;
 #endif
 
 vec3 light_sum(ShadingPoint p) {

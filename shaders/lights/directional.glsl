@@ -1,6 +1,6 @@
 // Directional lights reach every pixel: they are in no grid, and every technique adds them the same way.
 // two texels each: direction to the light; illuminance
-layout(binding = 11) uniform samplerBuffer directional_lights;
+uniform samplerBuffer directional_lights;
 
 vec3 directional_light_sum(ShadingPoint p) {
   vec3 sum = vec3(0.0);

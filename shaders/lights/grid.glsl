@@ -1,8 +1,8 @@
 // The lights of the pixel's cell, in the order of their indices: the sum has the bits of the brute-force
 // loop. After cell.glsl and z_bins.glsl.
 
-layout(binding = 12) uniform usamplerBuffer grid_cells;    // first, count
-layout(binding = 13) uniform usamplerBuffer grid_indices;
+uniform usamplerBuffer grid_cells;    // first, count
+uniform usamplerBuffer grid_indices;
 
 uint light_of_entry(uint entry) { return texelFetch(grid_indices, int(entry)).r; }
 

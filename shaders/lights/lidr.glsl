@@ -6,7 +6,7 @@
 // Loops run once a light: where several pixels are shaded at once, code under an if may cost all of them.
 #include "shared/light_index.h"
 
-layout(binding = 12) uniform sampler2D light_index_images[LIDR_TARGETS];
+uniform sampler2D light_index_images[LIDR_TARGETS];
 
 vec4 texel_of(uint target) { return texelFetch(light_index_images[target], ivec2(gl_FragCoord.xy), 0); }
 

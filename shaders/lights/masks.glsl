@@ -1,7 +1,7 @@
 // The lights of the pixel's cell, a bit each, lowest first: the sum has the bits of the brute-force loop.
 // After cell.glsl and z_bins.glsl.
 
-layout(binding = 12) uniform usamplerBuffer grid_masks;  // (light_count + 31) / 32 words a cell
+uniform usamplerBuffer grid_masks;  // (light_count + 31) / 32 words a cell
 
 // The bits from the lowest one on whose light reaches the bin.
 uint next_bits(uint bits, uint first_light, uint bin) {

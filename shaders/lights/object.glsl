@@ -1,6 +1,6 @@
 // Lights that reach the object, in the order of their indices: the range of one draw.
 
-layout(binding = 12) uniform usamplerBuffer object_lights;
+uniform usamplerBuffer object_lights;
 uniform ivec2 lights_of_draw;  // first, count
 
 uint light_of_entry(uint entry) { return texelFetch(object_lights, int(entry)).r; }

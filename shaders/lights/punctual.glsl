@@ -1,19 +1,11 @@
 // The point and spot lights by index.
 #include "shared/punctual_light.h"
 
-layout(binding = 8) uniform samplerBuffer light_positions;
-layout(binding = 9) uniform samplerBuffer light_colors;
-#ifdef SPOTS
-layout(binding = 10) uniform samplerBuffer light_cones;
-#endif
+LIGHT_TABLE(LIGHT_TEXTURE)
 
 PunctualLight light_at(int index) {
   PunctualLight light;
-  light.position = texelFetch(light_positions, index);
-  light.color = texelFetch(light_colors, index);
-#ifdef SPOTS
-  light.cone = texelFetch(light_cones, index);
-#endif
+  LIGHT_TABLE(LIGHT_TEXEL)
   return light;
 }
 

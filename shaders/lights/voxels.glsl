@@ -3,8 +3,8 @@
 //   the volume is interpolated in float. After cell.glsl.
 #include "shared/voxel_volume.h"
 
-layout(binding = 14) uniform sampler3D voxel_irradiance;  // and the number of lights
-layout(binding = 15) uniform sampler3D voxel_directions;  // and their weight
+uniform sampler3D voxel_irradiance;  // and the number of lights
+uniform sampler3D voxel_directions;  // and their weight
 
 #ifdef VOXEL_EXACT
 // With the weights of without_light: a GPU's sampler has weights of 8 bits, and what they differ by would be
@@ -38,8 +38,8 @@ VoxelLight voxel_light_at(vec3 position) {
 #ifdef VOXEL_EXACT
 #include "shared/voxel_exact.h"
 
-layout(binding = 12) uniform usamplerBuffer grid_cells;  // first, count
-layout(binding = 13) uniform usamplerBuffer grid_indices;
+uniform usamplerBuffer grid_cells;  // first, count
+uniform usamplerBuffer grid_indices;
 
 vec3 light_sum(ShadingPoint p) {
   VoxelLight rest = voxel_light_at(p.position);

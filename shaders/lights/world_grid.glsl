@@ -2,10 +2,10 @@
 // brute-force loop.
 //   WORLD_EVERYWHERE: some lights belong to every list; they are stored once, behind the cells' lists.
 
-layout(binding = 12) uniform usamplerBuffer world_cells;    // first, count
-layout(binding = 13) uniform usamplerBuffer world_indices;
-layout(binding = 14) uniform usamplerBuffer world_buckets;
-layout(binding = 15) uniform usamplerBuffer world_keys;
+uniform usamplerBuffer world_cells;    // first, count
+uniform usamplerBuffer world_indices;
+uniform usamplerBuffer world_buckets;
+uniform usamplerBuffer world_keys;
 #include "shared/world_grid.h"
 
 uvec2 world_range_at(vec3 position) {

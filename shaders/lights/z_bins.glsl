@@ -4,7 +4,7 @@
 #include "shared/slices.h"
 
 #ifdef Z_BINS
-layout(binding = 14) uniform usamplerBuffer light_z_bins;
+uniform usamplerBuffer light_z_bins;
 
 uint z_bin_here() { return z_bin_of_key(-gl_FragCoord.z); }
 

@@ -50,7 +50,7 @@ KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
   work.indices = grid.index_count, work.index_bytes = grid.index_bytes;
   work.mask_bytes = grid.mask_bytes, work.z_bins = size_t(run.settings().z_bins);
   work.exact = row_of(run.settings().cull_test).distance;
-  for (const Light& light : frame.lights) work.cones |= light.type == LightType::spot;
+  for (const Light& light : frame.lights) work.cones |= has_cone(light);
   return work;
 }
 

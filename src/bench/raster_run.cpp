@@ -15,7 +15,8 @@ const std::vector<std::string>& raster_rows() {
 
 RasterRun::RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height,
                      const Settings& settings)
-    : rasterizer_(device, programs, {.shape = settings.kernel_shape, .portable = settings.portable}) {
+    : geometry_(device),
+      raster_(geometry_, programs, {.shape = settings.kernel_shape, .portable = settings.portable}) {
   std::vector<RasterMesh> meshes;
   for (const Mesh& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
   std::vector<RasterInstance> instances;
@@ -28,17 +29,17 @@ RasterRun::RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scen
                          .two_sided = material.double_sided});
     scene_.vertices += mesh.positions.size();
   }
-  rasterizer_.set_meshes(meshes);
-  rasterizer_.set_instances(instances);
+  geometry_.set_meshes(meshes);
+  raster_.set_instances(instances);
   const View view = make_view(choose_camera(scene, ""), width, height);
-  rasterizer_.set_view({width, height, view.clip_from_view, view.view_from_world, view.eye});
+  raster_.set_camera({{width, height}, view.clip_from_view, view.view_from_world, view.eye});
   const auto tiles = [](int pixels) { return (size_t(pixels) + RASTER_TILE - 1) / RASTER_TILE; };
   scene_.pixels = size_t(width) * size_t(height), scene_.tiles = tiles(width) * tiles(height);
   for (int i = 0; i < 2; ++i) run();
 }
 
 KernelWork RasterRun::work() const {
-  const RasterCounts& counts = rasterizer_.counts();
+  const RasterCounts& counts = raster_.counts();
   KernelWork work = scene_;
   work.triangles = counts.triangles, work.clusters = counts.clusters;
   work.records = counts.records, work.tile_entries = counts.tile_entries;

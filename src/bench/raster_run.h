@@ -7,7 +7,7 @@
 
 #include "bench/kernel_costs.h"
 #include "plan/settings.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 #include "scene/scene.h"
 
 namespace lightgrid {
@@ -22,12 +22,13 @@ class RasterRun {
             const Settings& settings);
 
   // Vertices to the visibility buffer, with the wait in which the rasteriser reads its counters.
-  void run() { rasterizer_.draw(); }
+  void run() { raster_.draw(); }
 
   KernelWork work() const;  // of the last run
 
  private:
-  Rasterizer rasterizer_;
+  RasterScene geometry_;
+  RasterView raster_;
   KernelWork scene_;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "gl/bindings.h"
+
 namespace lightgrid {
 namespace {
 
@@ -47,13 +49,13 @@ const Pixel* pixel_of(std::span<const Pixel> pixels, GLenum format, GLenum type,
   return nullptr;
 }
 
-void dispatch_pixels(const GlProgram& program, int width, int height, int depth = 1) {
+void dispatch_pixels(const GlProgram& program, const PixelGrid& grid, int depth = 1) {
   constexpr int group_width = 32, group_height = 8;  // of the shaders
   glUseProgram(program.name());
-  glDispatchCompute(GLuint(width + group_width - 1) / group_width,
-                    GLuint(height + group_height - 1) / group_height, GLuint(depth));
+  glDispatchCompute(GLuint(grid.width + group_width - 1) / group_width,
+                    GLuint(grid.height + group_height - 1) / group_height, GLuint(depth));
   glUseProgram(0);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, 0);
 }
 
 }  // namespace
@@ -66,37 +68,37 @@ const GlProgram& PixelCopies::program(const std::string& file, const std::vector
   return programs_.try_emplace(std::move(key), file, defines).first->second;
 }
 
-void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, int width, int height,
+void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, const PixelGrid& grid,
                             GLuint buffer) {
-  const size_t count = size_t(width) * size_t(height);
+  const size_t count = grid.values();
   const auto* pixel = by_shader_ ? pixel_of<CopiedPixel>(copied_pixels, format, type, count) : nullptr;
   if (pixel) {
-    glBindSampler(0, 0);
-    glBindTextureUnit(0, source.texture);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
-    dispatch_pixels(program("shaders/pixels_to_buffer.comp", {pixel->define}), width, height);
-    glBindTextureUnit(0, 0);
+    bind_sampler_object(Sampler::image, 0);
+    bind_texture(Sampler::image, source.texture);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, buffer);
+    dispatch_pixels(program("shaders/pixels_to_buffer.comp", {pixel->define}), grid);
+    bind_texture(Sampler::image, 0);
     return;
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.framebuffer);
   if (source.attachment != GL_DEPTH_ATTACHMENT) glReadBuffer(source.attachment);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
-  glReadPixels(0, 0, width, height, format, type, nullptr);
+  glReadPixels(0, 0, grid.width, grid.height, format, type, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
-void PixelCopies::to_texture(GLuint buffer, GLenum format, GLenum type, int width, int height, GLuint texture,
+void PixelCopies::to_texture(GLuint buffer, GLenum format, GLenum type, const PixelGrid& grid, GLuint texture,
                              int depth) {
-  const size_t count = size_t(width) * size_t(height) * size_t(std::max(depth, 1));
+  const size_t count = grid.values() * size_t(std::max(depth, 1));
   const auto* pixel = by_shader_ ? pixel_of<WrittenPixel>(written_pixels, format, type, count) : nullptr;
   if (pixel) {
     std::vector<std::string> defines = {pixel->bits, pixel->channels, pixel->image};
     if (depth > 0) defines.emplace_back("VOLUME");
     const GlProgram& copy = program("shaders/buffer_to_image.comp", defines);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
-    glBindImageTexture(0, texture, 0, depth > 0, 0, GL_WRITE_ONLY, pixel->image_format);
-    dispatch_pixels(copy, width, height, std::max(depth, 1));
-    glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, pixel->image_format);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, buffer);
+    glBindImageTexture(only_image, texture, 0, depth > 0, 0, GL_WRITE_ONLY, pixel->image_format);
+    dispatch_pixels(copy, grid, std::max(depth, 1));
+    glBindImageTexture(only_image, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, pixel->image_format);
     glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
     return;
@@ -104,9 +106,9 @@ void PixelCopies::to_texture(GLuint buffer, GLenum format, GLenum type, int widt
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);  // rows of an odd number of pixels of two bytes
   if (depth > 0)
-    glTextureSubImage3D(texture, 0, 0, 0, 0, width, height, depth, format, type, nullptr);
+    glTextureSubImage3D(texture, 0, 0, 0, 0, grid.width, grid.height, depth, format, type, nullptr);
   else
-    glTextureSubImage2D(texture, 0, 0, 0, width, height, format, type, nullptr);
+    glTextureSubImage2D(texture, 0, 0, 0, grid.width, grid.height, format, type, nullptr);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }

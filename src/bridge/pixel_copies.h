@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/pixel_grid.h"
 #include "gl/program.h"
 
 namespace lightgrid {
@@ -23,10 +24,10 @@ class PixelCopies {
     GLuint texture;
   };
   // `format` and `type` as glReadPixels takes them, of the texture's own channels and bits.
-  void to_buffer(const Source& source, GLenum format, GLenum type, int width, int height, GLuint buffer);
+  void to_buffer(const Source& source, GLenum format, GLenum type, const PixelGrid& grid, GLuint buffer);
   // `format` and `type` as glTextureSubImage takes them, of the texture's own channels and bits. `buffer` has
   // whole words. depth: of a texture of three dimensions, whose slices follow each other; 0: it has two.
-  void to_texture(GLuint buffer, GLenum format, GLenum type, int width, int height, GLuint texture,
+  void to_texture(GLuint buffer, GLenum format, GLenum type, const PixelGrid& grid, GLuint texture,
                   int depth = 0);
 
   int programs() const { return int(programs_.size()); }  // compiled so far

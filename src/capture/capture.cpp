@@ -17,14 +17,14 @@ SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& v
 CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes) {
   gpu_.update(changes);
   view_.look(view);
-  std::vector<float> depth(view_.pixels());
+  std::vector<float> depth(view_.grid().values());
   if (opengl_) {
     reset_gl_state();
-    depth_prepass(view_);
-    depth = read_depth(view_);
+    depth_prepass(view_, view_);
+    depth = read_depth(view_, view_);
   } else {
-    read_buffer(*view_.renderer.cl, "reading depth", rasterize(view_).depth().values, depth.data(),
-                depth.size() * sizeof(float));
+    read_buffer(*view_.renderer.cl, "reading depth", rasterize(view_, view_, view_.caches).depth().values,
+                depth.data(), depth.size() * sizeof(float));
   }
   const Scene& scene = gpu_.scene();
   const Settings& settings = view_.plan.settings;

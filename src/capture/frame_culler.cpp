@@ -4,11 +4,11 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "capture/frame_lists.h"
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
-#include "renderer/render_view.h"
 #include "reference/position.h"
-#include "capture/frame_lists.h"
+#include "renderer/render_view.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -18,7 +18,7 @@ double far_of_surfaces(const CapturedFrame& frame) {
   double far_m = frame.surfaces_far_m;
   for (int y = 0; y < frame.view.height && frame.surfaces_far_m == 0; ++y) {
     for (int x = 0; x < frame.view.width; ++x) {
-      const float depth = frame.depth[size_t(y) * frame.view.width + x];
+      const float depth = frame.depth[frame.view.grid().index(x, y)];
       if (!is_covered(frame, x, y) || !(depth >= 0 && depth <= 1)) continue;
       const double distance = -position_from_depth(frame.view, x, y, depth).z;
       if (distance < 1e12) far_m = std::max(far_m, distance);

@@ -7,11 +7,11 @@
 #include <fstream>
 
 #include "base/write_file.h"
-#include "scene/lights_file.h"
-#include "shared/slices.h"
 #include "capture/frame_view.h"
 #include "results/json_file.h"
 #include "results/results.h"
+#include "scene/lights_file.h"
+#include "shared/slices.h"
 
 namespace lightgrid {
 namespace {
@@ -53,17 +53,17 @@ void check_folder(const fs::path& folder) {
 }
 
 std::vector<float> read_depth_file(const fs::path& path, const View& view) {
-  const uintmax_t expected = uintmax_t(view.width) * view.height * sizeof(float), found = size_of(path);
+  const uintmax_t expected = view.grid().values() * sizeof(float), found = size_of(path);
   if (found != expected) {
     throw input_error("{}: {} bytes are not the {} of {}x{} floats (size in view.json)", path.string(), found,
                       expected, view.width, view.height);
   }
-  return read_values<float>(path, size_t(view.width) * view.height);
+  return read_values<float>(path, view.grid().values());
 }
 
 size_t local_count(const CapturedFrame& frame) {
   return size_t(std::count_if(frame.lights.begin(), frame.lights.end(),
-                              [](const Light& l) { return l.type != LightType::directional; }));
+                              [](const Light& l) { return !is_directional(l); }));
 }
 
 // Empty if the file lacks them.
@@ -211,7 +211,7 @@ void write_frame_grid(const fs::path& folder, const FrameGrid& grid) {
 std::vector<Light> local_world_lights(const CapturedFrame& frame) {
   std::vector<Light> local;
   for (const Light& light : frame.lights) {
-    if (light.type != LightType::directional) local.push_back(light);
+    if (!is_directional(light)) local.push_back(light);
   }
   return local;
 }

@@ -1,12 +1,12 @@
 #include "capture/frame_lists.h"
 
 #include "renderer/render_view.h"
-#include "capture/grid_lists.h"
+#include "scene/grid_lists.h"
 
 namespace lightgrid {
 
 bool is_covered(const CapturedFrame& frame, int x, int y) {
-  const float depth = frame.depth[size_t(y) * frame.view.width + x];
+  const float depth = frame.depth[frame.view.grid().index(x, y)];
   return depth_is_reversed(frame.view) ? depth > 0 : depth < 1;
 }
 
@@ -17,12 +17,12 @@ PixelCells::PixelCells(const CapturedFrame& frame, const FrameGrid& grid)
 }
 
 int PixelCells::slice(int x, int y) const {
-  const float depth = frame_.depth[size_t(y) * frame_.view.width + x];
+  const float depth = frame_.depth[frame_.view.grid().index(x, y)];
   return is_covered(frame_, x, y) ? int(slice_of_key(depth_key(view_, depth), slices_.data())) : 0;
 }
 
 uint32_t PixelCells::z_bin(int x, int y) const {
-  return z_bin_of_key(depth_key(view_, frame_.depth[size_t(y) * frame_.view.width + x]), z_bins_.data());
+  return z_bin_of_key(depth_key(view_, frame_.depth[frame_.view.grid().index(x, y)]), z_bins_.data());
 }
 
 uint32_t PixelCells::cell(int x, int y) const {

@@ -14,7 +14,6 @@
 #include "compare/silhouettes.h"
 #include "compare/surfaces_in_double.h"
 #include "gl/state.h"
-#include "passes/shade_objects.h"
 #include "reference/position.h"
 #include "results/flip.h"
 #include "results/metrics.h"
@@ -93,8 +92,8 @@ struct ReferenceTriangles {
 
 ReferenceTriangles triangles_of(ReferenceRun& reference) {
   RenderView& v = reference.run->view();
-  if (!reference.run->frame().triangles) return {read_triangles(v)};
-  return {{own_triangles(*reference.run), std::vector<bool>(v.pixels())}};
+  if (!reference.run->frame().triangles) return {read_triangles(v, v)};
+  return {{own_triangles(*reference.run), std::vector<bool>(v.grid().values())}};
 }
 
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
@@ -106,7 +105,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, ReferenceRu
   if (!is_reference) run.run_frame(true);
   RunResult row = run.result();
   if (reference.sampled()) {
-    const std::vector<uint32_t> pixels = pixels_of(reference.blocks, report.width, report.height);
+    const std::vector<uint32_t> pixels = pixels_of(reference.blocks, {report.width, report.height});
     row.error = compare_images(at_pixels(run.image(), pixels), at_pixels(reference.image(), pixels));
   } else {
     row.error = compare_images(run.image(), reference.image());
@@ -156,7 +155,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Refere
   const SurfaceOracle oracle(reference.run->view(), depth);
   std::vector<uint32_t> among = oracle.pixels();
   if (reference.sampled()) {
-    const std::vector<uint32_t> sampled = pixels_of(reference.blocks, report.width, report.height);
+    const std::vector<uint32_t> sampled = pixels_of(reference.blocks, {report.width, report.height});
     std::erase_if(among,
                   [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
@@ -202,7 +201,15 @@ std::vector<size_t> order_of_rows(const std::vector<ContestantRun>& entries, con
     const Contestant& c = *entries[i].contestant;
     if (entries[i].run && entries[i].run.get() == reference) return -1;
     if (own_surfaces(*c.technique, c.settings)) return 0;
-    return !c.technique->listed ? 3 : c.technique->listed == listed_of_objects ? 2 : 1;
+    switch (c.technique->listed_by) {
+      case ListedBy::pixel:
+        return 1;
+      case ListedBy::object:
+        return 2;
+      case ListedBy::cell:
+        return 3;
+    }
+    return 3;
   });
   return order;
 }
@@ -224,7 +231,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
   report.commit = commit_of_build();
   const EveryLight every_light = every_light_technique(renderer);
   report.reference = every_light.name();
-  report.reference_pixels = uint64_t(view.width) * uint64_t(view.height);
+  report.reference_pixels = view.grid().pixels();
 
   GpuScene gpu(renderer, scene);
   std::vector<ContestantRun> entries = make_entries(renderer, gpu, view, contestants, every_light);
@@ -242,7 +249,7 @@ CompareReport measure(Renderer& renderer, const Scene& scene, const View& view,
     options.progress(0.8, "reference: " + report.reference);
   if (reference.sampled()) {
     render_forward_at(reference.run->view(), reference.blocks, reference.sampled_image);
-    report.reference_pixels = pixels_of(reference.blocks, view.width, view.height).size();
+    report.reference_pixels = pixels_of(reference.blocks, view.grid()).size();
   } else if (!reference.run) {
     if (!reference.own) reference.own = make_reference_run(renderer, gpu, view, contestants, every_light);
     reference.run = reference.own.get();

@@ -60,7 +60,7 @@ void choose_reference_pixels(ReferenceRun& reference, std::vector<ContestantRun>
   TechniqueRun& run = is_contestant ? *found->run : *reference.own;
 
   if (options.progress) options.progress(0, "estimating the reference's time");
-  std::vector<PixelBlock> blocks = shuffled_blocks(view.width, view.height, options.seed);
+  std::vector<PixelBlock> blocks = shuffled_blocks(view.grid(), options.seed);
   const double frame_ms = automatic ? estimate_forward_ms(run.view(), blocks) : 0;
   if (automatic &&
       frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms)
@@ -68,8 +68,7 @@ void choose_reference_pixels(ReferenceRun& reference, std::vector<ContestantRun>
 
   const size_t most = sample_size(gpu.scene().lights.size()), a_block = PixelBlock::side * PixelBlock::side;
   blocks.resize(std::min(blocks.size(), (most + a_block - 1) / a_block));
-  const size_t pixels = pixels_of(blocks, view.width, view.height).size(),
-               all = size_t(view.width) * size_t(view.height);
+  const size_t pixels = pixels_of(blocks, view.grid()).size(), all = view.grid().pixels();
   const std::string why = automatic ? fmt::format("every light at every pixel would take about {} a frame",
                                                   time_in_words(frame_ms))
                                     : std::string("asked for");

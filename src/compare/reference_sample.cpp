@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "base/timer.h"
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
-#include "passes/read_back.h"
-#include "passes/shade_blended.h"
-#include "passes/shade_forward.h"
-#include "scene/random.h"
 #include "compare/oracle.h"
+#include "passes/read_back.h"
+#include "passes/surfaces.h"
+#include "scene/random.h"
 
 namespace lightgrid {
 namespace {
@@ -18,9 +15,9 @@ namespace {
 // than everything.
 class DepthOfBlocks {
  public:
-  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v)) {
+  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v, v)) {
     std::vector<float> masked(whole_.size(), 1.0f);
-    for (const uint32_t pixel : pixels_of(blocks, v.view.width, v.view.height)) masked[pixel] = whole_[pixel];
+    for (const uint32_t pixel : pixels_of(blocks, v.grid())) masked[pixel] = whole_[pixel];
     write(masked);
   }
   ~DepthOfBlocks() { write(whole_); }
@@ -39,22 +36,22 @@ class DepthOfBlocks {
 
 }  // namespace
 
-std::vector<PixelBlock> shuffled_blocks(int width, int height, uint64_t seed) {
+std::vector<PixelBlock> shuffled_blocks(const PixelGrid& grid, uint64_t seed) {
   std::vector<PixelBlock> blocks;
-  for (int y = 0; y < height; y += PixelBlock::side) {
-    for (int x = 0; x < width; x += PixelBlock::side) blocks.push_back({x, y});
+  for (int y = 0; y < grid.height; y += PixelBlock::side) {
+    for (int x = 0; x < grid.width; x += PixelBlock::side) blocks.push_back({x, y});
   }
   Random random(seed);
   for (size_t i = blocks.size(); i > 1; --i) std::swap(blocks[i - 1], blocks[size_t(random.next() % i)]);
   return blocks;
 }
 
-std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width, int height) {
+std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, const PixelGrid& grid) {
   std::vector<uint32_t> pixels;
   for (const PixelBlock& block : blocks) {
-    for (int y = block.y; y < std::min(block.y + PixelBlock::side, height); ++y) {
-      for (int x = block.x; x < std::min(block.x + PixelBlock::side, width); ++x)
-        pixels.push_back(uint32_t(y) * uint32_t(width) + uint32_t(x));
+    for (int y = block.y; y < std::min(block.y + PixelBlock::side, grid.height); ++y) {
+      for (int x = block.x; x < std::min(block.x + PixelBlock::side, grid.width); ++x)
+        pixels.push_back(uint32_t(grid.index(x, y)));
     }
   }
   std::sort(pixels.begin(), pixels.end());
@@ -62,17 +59,16 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width
 }
 
 void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Image& image) {
-  const DepthImage depth = depth_prepass(v);
-  const TileDistances distances = tile_distances(v, depth_bounds(v, depth));
+  const Surfaces surfaces = find_surfaces(v);
   const DepthOfBlocks masked(v, blocks);
   const LightSource lights = every_light(v);
-  const ShadedImage shaded = shade_forward(v, visible_surfaces(v, distances), lights);
-  shade_blended(v, shaded, lights);
-  read_back(v, shaded, image);
+  const ShadedImage shaded = shade(v, surfaces, lights);
+  blend(v, surfaces, lights, shaded);
+  read_back(v, v, shaded, image);
 }
 
 bool is_quick_for_forward(const View& view, size_t lights, double most_ms) {
-  return double(view.width) * view.height * double(lights) < 16e3 * most_ms;
+  return double(view.grid().values()) * double(lights) < 16e3 * most_ms;
 }
 
 double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffled) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/image.h"
 #include "renderer/render_view.h"
 
 namespace lightgrid {
@@ -16,10 +17,10 @@ struct PixelBlock {
 };
 
 // All blocks of an image in an order that depends on the seed alone: every prefix is a sample.
-std::vector<PixelBlock> shuffled_blocks(int width, int height, uint64_t seed);
+std::vector<PixelBlock> shuffled_blocks(const PixelGrid& grid, uint64_t seed);
 
 // The pixels (y * width + x) of the blocks, ascending.
-std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, int width, int height);
+std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, const PixelGrid& grid);
 
 // Renders `forward` into `image` inside the blocks; other pixels get the background. The frame's depth image
 // is complete afterwards.

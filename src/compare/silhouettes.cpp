@@ -11,14 +11,14 @@ namespace lightgrid {
 namespace {
 
 // Blended, or beside a pixel that is: at its edge the two rasterisers may differ too.
-std::vector<bool> near_blended(const std::vector<bool>& blended, int width, int height) {
+std::vector<bool> near_blended(const std::vector<bool>& blended, const PixelGrid& grid) {
   std::vector<bool> near(blended.size(), false);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (!blended[size_t(y) * width + x]) continue;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
-          near[size_t(v) * width + u] = true;
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      if (!blended[grid.index(x, y)]) continue;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, grid.height - 1); ++v) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, grid.width - 1); ++u)
+          near[grid.index(u, v)] = true;
       }
     }
   }
@@ -29,7 +29,7 @@ std::vector<bool> near_blended(const std::vector<bool>& blended, int width, int 
 
 std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
   const RenderView& v = run.view();
-  std::vector<uint32_t> numbers(v.pixels());
+  std::vector<uint32_t> numbers(v.grid().values());
   read_buffer(*v.renderer.cl, "reading triangles", run.frame().triangles->numbers, numbers.data(),
               numbers.size() * 4);
   const std::span<const int> instances = run.frame().triangles->instances;
@@ -54,7 +54,7 @@ std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
 
 SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,
                                  const Image& reference, const ShownTriangles& shown) {
-  const std::vector<bool> left_out = near_blended(shown.blended, image.width, image.height);
+  const std::vector<bool> left_out = near_blended(shown.blended, {image.width, image.height});
   std::vector<uint32_t> inside;
   SilhouetteError error;
   for (uint32_t i = 0; i < own.size(); ++i) {

@@ -6,10 +6,7 @@
 #include "base/error.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
-#include "cl/uploaded_buffer.h"
-#include "culling/bounds_layout.h"
-#include "culling/cull_pipeline.h"
-#include "culling/light_culler.h"
+#include "culling/culler_state.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {
@@ -17,7 +14,7 @@ namespace lightgrid {
 static constexpr uint mask_group = 64, z_bin_group = 64;
 static constexpr size_t most_entries = 0xffffffffu;
 
-CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
+CullPipeline& LightCuller::State::pipeline(DepthBoundsMode mode) {
   PipelineOptions options;
   // Depth bounds alone need no cull kernels: they are built at the first cull.
   options.portable = options_.portable;
@@ -30,13 +27,13 @@ CullPipeline& LightCuller::pipeline(DepthBoundsMode mode) {
                                      options.slices ? " -DSLICES" : "");
   std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
   if (!made || made->options != options) {
-    made = options_.shape == KernelShape::lanes ? make_lanes_pipeline(device_, programs_, options)
-                                                : make_group_pipeline(device_, programs_, options);
+    made = options_.shape == KernelShape::lanes ? make_cull_cpu_pipeline(device_, programs_, options)
+                                                : make_cull_gpu_pipeline(device_, programs_, options);
   }
   return *made;
 }
 
-LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
+LightGrid LightCuller::State::cull(const TileBounds& bounds, GridStorage& storage) {
   require_view("cull");
   require_bounds(bounds, "cull");
   LightGrid grid;
@@ -71,13 +68,13 @@ LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
   return grid;
 }
 
-void LightCuller::set_room(const Room& room) {
+void LightCuller::State::set_room(const Room& room) {
   params_.pool_batches = room.pool_batches, params_.staging_units = room.staging_units;
   params_.index_capacity = room.index_capacity;
 }
 
 // The last grid's sizes, or an estimate.
-LightCuller::Room LightCuller::first_room(size_t index_bytes) const {
+LightCuller::State::Room LightCuller::State::first_room(size_t index_bytes) const {
   const size_t tiles = size_t(params_.tiles_x) * params_.tiles_y;
   const size_t most_indices = std::min(most_entries, device_.info().max_allocation_bytes / index_bytes);
   return {std::max(params_.pool_batches, 2048 + light_stride_ / 4),
@@ -88,8 +85,8 @@ LightCuller::Room LightCuller::first_room(size_t index_bytes) const {
 // The whole chain is enqueued with the last call's sizes, with one wait at its end. If something did not fit,
 // nothing was written out of bounds; the chain runs again with a quarter more than was needed, since lights
 // and views move, or with exactly that if memory does not suffice for more.
-void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
-                            const cl::Buffer& cells) {
+void LightCuller::State::cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
+                                   const cl::Buffer& cells) {
   const size_t index_bytes = grid.index_bits / 8, largest = device_.info().max_allocation_bytes;
   const char* advice =
       !row_of(options_.cull_test).planes
@@ -137,28 +134,28 @@ void LightCuller::cull_into(LightGrid& grid, const TileBounds& bounds, GridStora
   }
 }
 
-void LightCuller::run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
-                              const cl::Buffer& cells, uint32_t (&counters)[counter_count]) {
+void LightCuller::State::run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
+                                     const cl::Buffer& cells, uint32_t (&counters)[counter_count]) {
   const cl::Buffer indices = storage.indices(params_.index_capacity * size_t(grid.index_bits / 8));
   CullPipeline& kernels = pipeline(bounds.mode);
   upload_params();
   if (z_bin_count_ > 1) enqueue_z_bins(grid, storage);
   kernels.prepare(params_);
   kernels.enqueue(
-      {params_, params_upload_->buffer(), lights_->get(), bounds.values, slices_, counters_, cells, indices});
+      {params_, params_upload_.buffer(), lights_.get(), bounds.values, slices_, counters_, cells, indices});
   read_buffer(device_, "light culling", counters_, counters, sizeof counters);
 }
 
-void LightCuller::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
+void LightCuller::State::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
   grid.z_bin_bytes = light_count_ * sizeof(cl_uint);
   if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("culling/light_z_bins", "");
   launch(device_, "light_z_bins", z_bins_kernel_,
          cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group), cl::NDRange(z_bin_group),
-         lights_->get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
-         params_upload_->buffer());
+         lights_.get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
+         params_upload_.buffer());
 }
 
-void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {
+void LightCuller::State::make_masks(LightGrid& grid, GridStorage& storage) {
   const size_t cells = grid.cell_bytes / sizeof(cl_uint2), largest = device_.info().max_allocation_bytes;
   grid.mask_words = (light_count_ + 31) / 32;
   grid.mask_bytes = cells * grid.mask_words * sizeof(cl_uint);

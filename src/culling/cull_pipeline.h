@@ -21,9 +21,9 @@ struct PipelineOptions {
   // Each kernel gets only the defines that it reads, so that none is compiled twice to the same code.
   std::string light_defines;  // cull test, cones
   std::string cell_defines;   // those, depth-bounds mode, slices
-  bool portable = false;  // as in CullerOptions
-  bool slices = false;  // cells a tile: more than one
-  bool cones = false;   // at least one light is a spot
+  bool portable = false;      // as in CullerOptions
+  bool slices = false;        // cells a tile: more than one
+  bool cones = false;         // at least one light is a spot
   int index_bytes = 2;
   int group_size = 0;  // as in CullerOptions
   bool operator==(const PipelineOptions&) const = default;
@@ -49,9 +49,9 @@ class CullPipeline {
   virtual size_t memory_bytes() const = 0;
 };
 
-std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs,
-                                                  const PipelineOptions& options);
-std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs,
-                                                  const PipelineOptions& options);
+std::unique_ptr<CullPipeline> make_cull_cpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                     const PipelineOptions& options);
+std::unique_ptr<CullPipeline> make_cull_gpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                     const PipelineOptions& options);
 
 }  // namespace lightgrid

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "base/error.h"
+#include "culling/depth_ranges.h"
 #include "culling/oblique_view.h"
-#include "culling/two_floats.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {

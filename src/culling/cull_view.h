@@ -21,10 +21,10 @@ struct CullView {
   // 2015) or standard, and whether its far plane is infinite. Off-centre projections are allowed, and oblique
   // near planes (mirrors, portals) in perspective.
   glm::dmat4 clip_from_view{1};
-  glm::dmat4 view_from_world{1};   // rigid; its translation is not used
-  glm::dvec3 eye{0};               // world, metres
-  std::vector<float> slice_edges;  // inner edges of the depth slices, metres, ascending; empty: one slice.
-                                   // The first slice begins at the eye, the last has no end.
+  glm::dmat4 view_from_world{1};     // rigid; its translation is not used
+  glm::dvec3 eye{0};                 // world, metres
+  std::vector<float> slice_edges;    // inner edges of the depth slices, metres, ascending; empty: one slice.
+                                     // The first slice begins at the eye, the last has no end.
   std::vector<float> z_bin_edges{};  // likewise for z-bins, by which shading skips lights; empty: none
 };
 

@@ -7,19 +7,15 @@
 #include "base/error.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
-#include "cl/uploaded_buffer.h"
-#include "culling/bounds_layout.h"
-#include "culling/cull_pipeline.h"
+#include "culling/culler_state.h"
 #include "culling/light_arrays.h"
-#include "culling/light_culler.h"
-#include "culling/oblique_view.h"
 
 namespace lightgrid {
 
 static constexpr uint usual_depth_group = 256, depth_tiles_an_item = 16;
 
 // Slots outside the view stay empty; those inside get `near` and `far`.
-cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
+cl::Buffer LightCuller::State::empty_bounds(int planes, float near, float far) {
   std::vector<float> values(size_t(params_.bins_x) * params_.bins_y * planes * BIN_SIZE);
   for (size_t i = 0; i < values.size(); ++i)
     values[i] = i / BIN_SIZE % planes % 2 == 0 ? far_away : -far_away;
@@ -36,7 +32,7 @@ cl::Buffer LightCuller::empty_bounds(int planes, float near, float far) {
 }
 
 // Where kernels find the view's values in the depth buffer.
-void LightCuller::read_layout(const DepthInput& depth) {
+void LightCuller::State::read_layout(const DepthInput& depth) {
   if (!depth.values()) throw input_error("depth_bounds: the buffer of depth values is missing");
   if (depth.x < 0) throw input_error("depth_bounds: x is {}", depth.x);
   if (depth.y < 0) throw input_error("depth_bounds: y is {}", depth.y);
@@ -62,28 +58,27 @@ void LightCuller::read_layout(const DepthInput& depth) {
   params_.depth_row = uint(row * samples), params_.depth_first = uint(first);
 }
 
-cl::Buffer LightCuller::straight_depth(const DepthInput& depth, uint first, uint row) {
+cl::Buffer LightCuller::State::straight_depth(const DepthInput& depth, uint first, uint row) {
   const StraightView& s = *oblique_;
-  if (!straight_depth_) straight_depth_ = std::make_unique<GrowingBuffer>();
   if (!straighten_kernel_()) straighten_kernel_ = programs_.kernel("culling/straighten_depth", "");
   const size_t width = size_t(params_.width) * options_.samples;
-  const cl::Buffer& straight = straight_depth_->at_least(device_, width * params_.height * sizeof(float));
+  const cl::Buffer& straight = straight_depth_.at_least(device_, width * params_.height * sizeof(float));
   const cl_float4 plane = {{s.tilt_x, s.tilt_y, s.offset, s.scale}};
   launch(device_, "straighten_depth", straighten_kernel_, cl::NDRange(width, params_.height), cl::NullRange,
          depth.values, cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight,
-         params_upload_->buffer());
+         params_upload_.buffer());
   return straight;
 }
 
 // What depth_bounds returns, from its buffers.
-DepthBounds LightCuller::own_bounds(DepthBoundsMode mode, const cl::Buffer& blend) {
+DepthBounds LightCuller::State::own_bounds(DepthBoundsMode mode, const cl::Buffer& blend) {
   if (!bounds_view_) bounds_view_ = std::make_shared<BoundsView>();
   *bounds_view_ = view_;
   return {{opaque_, mode, bounds_view_},
           {options_.blend ? blend : cl::Buffer(), DepthBoundsMode::minmax, bounds_view_}};
 }
 
-DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
+DepthBounds LightCuller::State::depth_bounds(const DepthInput& depth) {
   require_view("depth_bounds");
   if (options_.depth_bounds == DepthBoundsMode::none) {
     const float near = params_.orthographic ? -far_away : 0.0f;
@@ -124,12 +119,12 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
   const uint other = invalid_tiles_counters[0] + invalid_tiles_counters[1] - counter;
   launch(device_, "depth_bounds", bounds_kernel_, cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
          cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other),
-         params_upload_->buffer());
+         params_upload_.buffer());
   invalid_tiles_counter_ = counter;
   return own_bounds(options_.depth_bounds, blend_);
 }
 
-TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
+TileBounds LightCuller::State::bounds_of(std::span<const DepthInterval> intervals) {
   require_view("bounds_of");
   if (const size_t tiles = size_t(params_.tiles_x) * params_.tiles_y; intervals.size() > tiles) {
     throw input_error("bounds_of: {} intervals for {} tiles", intervals.size(), tiles);
@@ -149,7 +144,7 @@ TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
   return {buffer, DepthBoundsMode::minmax, std::make_shared<BoundsView>(view_)};
 }
 
-std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
+std::vector<DepthInterval> LightCuller::State::read_bounds(const TileBounds& bounds) {
   require_view("read_bounds");
   require_bounds(bounds, "read_bounds");
   const int planes = planes_of(bounds.mode);
@@ -167,7 +162,7 @@ std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
   return intervals;
 }
 
-uint32_t LightCuller::invalid_depth_tiles() {
+uint32_t LightCuller::State::invalid_depth_tiles() {
   cl_uint count = 0;
   if (invalid_tiles_counter_ == 0) return count;
   read_buffer(device_, "light culling: counters", counters_, &count, sizeof count,

@@ -22,6 +22,11 @@ float rounded_up(double value) {
   return std::nextafter(float(value), std::numeric_limits<float>::infinity());
 }
 
+TwoFloats two_floats(double number) {
+  const float value = float(number);
+  return {value, float(number - double(value))};
+}
+
 float depth_step(DepthFormat format, bool standard_depth) {
   if (format == DepthFormat::d16) return 1.0f / 65535;
   if (format == DepthFormat::d24) return 1.0f / 16777215;

@@ -1,4 +1,4 @@
-// The distances of a view's slices and z-bins, as conservative as its depth format needs.
+// Numbers of a view as the kernels read them: slices and z-bins as conservative as its depth format needs.
 #pragma once
 
 #include <span>
@@ -10,6 +10,14 @@
 namespace lightgrid {
 
 float rounded_up(double value);
+
+// A number as the sum of two floats, for kernels without double.
+struct TwoFloats {
+  float value, rest;
+};
+// Never inlined: GCC 12.2 at -O2 vectorizes two of these side by side and then computes double(float(x)) as
+// x, which makes the second floats 0 (docs/devices.md#known-faults).
+[[gnu::noinline]] TwoFloats two_floats(double number);
 
 // One step of the stored format if it is coarser than the slack covers, else 0. 32-bit floats near 1, where
 // standard depth stores far surfaces, are up to 2^-24 apart; near 0, where reversed depth stores them, much

@@ -5,12 +5,18 @@
 
 namespace lightgrid {
 
-cl::Buffer& ClGridStorage::grown(cl::Buffer& buffer, size_t& size, size_t bytes) {
-  if (bytes <= size && buffer()) return buffer;
-  buffer = cl::Buffer(), size = 0;  // freed first, so that both need not fit at once
-  buffer = device_buffer(device_, bytes), size = bytes;
-  return buffer;
-}
+struct ClGridStorage::State {
+  ClDevice& device;
+  GrowingBuffer cells{}, indices{}, masks{}, z_bins{};
+};
+
+ClGridStorage::ClGridStorage(ClDevice& device) : state_(new State{device}) {}
+ClGridStorage::~ClGridStorage() = default;
+
+cl::Buffer& ClGridStorage::cells(size_t bytes) { return state_->cells.at_least(state_->device, bytes); }
+cl::Buffer& ClGridStorage::indices(size_t bytes) { return state_->indices.at_least(state_->device, bytes); }
+cl::Buffer& ClGridStorage::masks(size_t bytes) { return state_->masks.at_least(state_->device, bytes); }
+cl::Buffer& ClGridStorage::z_bins(size_t bytes) { return state_->z_bins.at_least(state_->device, bytes); }
 
 HostGrid read_grid(ClDevice& device, const LightGrid& grid, GridStorage& storage) {
   HostGrid host{grid.cells_x, grid.cells_y, grid.slices, {}, {}, {}, {}};

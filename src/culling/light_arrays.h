@@ -1,6 +1,7 @@
 // Lights as the kernels read them: kernels/culling/light_arrays.h.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 

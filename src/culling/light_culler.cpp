@@ -6,14 +6,9 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
-#include "cl/uploaded_buffer.h"
-#include "culling/bounds_layout.h"
-#include "culling/cull_pipeline.h"
-#include "culling/culler_options.h"
+#include "culling/culler_state.h"
 #include "culling/depth_ranges.h"
 #include "culling/light_arrays.h"
-#include "culling/oblique_view.h"
-#include "culling/two_floats.h"
 
 namespace lightgrid {
 namespace {
@@ -23,14 +18,33 @@ constexpr uint most_regions = 64, most_region_bins = 16;
 constexpr size_t most_lights =
     size_t(1) << 30;  // kernels count lights, and a bin's pairs of lights and tiles, in 32 bits
 
+void check_option(const char* name, int value, std::initializer_list<int> allowed) {
+  if (std::ranges::find(allowed, value) != allowed.end()) return;
+  throw input_error("culler options: {} is {}, not one of {}", name, value, fmt::join(allowed, ", "));
+}
+
+void check_row(const char* name, int value, int rows) {
+  if (value < 0 || value >= rows)
+    throw input_error("culler options: {} is {}, not from 0 to {}", name, value, rows - 1);
+}
+
+// Throws Error(input) that names the option, its value and the allowed values.
+void check_options(const CullerOptions& o) {
+  check_row("cull_test", int(o.cull_test), int(std::size(cull_tests)));
+  check_row("depth_bounds", int(o.depth_bounds), int(std::size(depth_bounds_modes)));
+  check_option("shape", int(o.shape), {0, 1, 2});
+  check_option("tile", o.tile, {8, 16, 32, 64});
+  check_option("depth_format", int(o.depth_format), {0, 1, 2});
+  check_option("samples", o.samples, {1, 2, 4, 8});
+  check_option("lists", int(o.lists), {0, 1});
+  check_option("index_bits", o.index_bits, {0, 16, 32});
+  check_option("group_size", o.group_size, {0, 64, 128, 256, 512, 1024});
+}
+
 }  // namespace
 
-LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
-    : device_(device),
-      programs_(programs),
-      options_(options),
-      lights_(std::make_unique<GrowingBuffer>()),
-      params_upload_(std::make_unique<UploadedBuffer>()) {
+LightCuller::State::State(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
+    : device_(device), programs_(programs), options_(options) {
   check_options(options);
   if (options_.shape == KernelShape::automatic) {
     options_.shape = device.info().cpu ? KernelShape::lanes : KernelShape::group;
@@ -40,20 +54,17 @@ LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerO
   slices_ = device_buffer(device_, 0);
 }
 
-LightCuller::~LightCuller() = default;
-LightCuller::LightCuller(LightCuller&&) noexcept = default;
-
-void LightCuller::require_view(const char* call) const {
+void LightCuller::State::require_view(const char* call) const {
   if (params_.tiles_x == 0) throw input_error("light culler: set_view has to come before {}", call);
 }
 
-void LightCuller::require_bounds(const TileBounds& bounds, const char* call) const {
+void LightCuller::State::require_bounds(const TileBounds& bounds, const char* call) const {
   if (!bounds.values() || !bounds.view) throw input_error("light culler: {} was given no bounds", call);
   if (*bounds.view != view_)
     throw input_error("light culler: {} was given bounds of another view; make them after set_view", call);
 }
 
-void LightCuller::set_lights(std::span<const CullLight> lights) {
+void LightCuller::State::set_lights(std::span<const CullLight> lights) {
   if (lights.size() >= most_lights) {
     throw machine_error("light culling: {} lights are more than kernels can count; {} are the most",
                         lights.size(), most_lights - 1);
@@ -70,18 +81,18 @@ void LightCuller::set_lights(std::span<const CullLight> lights) {
   if (fixed_origin_) upload_lights(*fixed_origin_, farthest_surface);
 }
 
-void LightCuller::upload_lights(const glm::dvec3& origin, double eye_reach) {
+void LightCuller::State::upload_lights(const glm::dvec3& origin, double eye_reach) {
   uploaded_origin_.reset();
   if (!host_lights_.empty()) {
     const std::vector<float> values = light_arrays(host_lights_, origin, eye_reach, light_stride_);
     const size_t bytes = values.size() * sizeof(float);
-    write_buffer(device_, "light culling: lights", lights_->at_least(device_, bytes), values.data(), bytes);
+    write_buffer(device_, "light culling: lights", lights_.at_least(device_, bytes), values.data(), bytes);
   }
   uploaded_origin_ = origin;
 }
 
 // Uploads the positions relative to the eye if no fixed origin is accurate enough.
-void LightCuller::follow_eye() {
+void LightCuller::State::follow_eye() {
   const bool fixed =
       fixed_origin_ && glm::length(view_.eye * 0.5 - *fixed_origin_ * 0.5) < farthest_surface / 2;
   const glm::dvec3 origin = fixed ? *fixed_origin_ : view_.eye;
@@ -89,11 +100,11 @@ void LightCuller::follow_eye() {
   if (uploaded_origin_ != origin) upload_lights(origin, fixed ? farthest_surface : 0);
 }
 
-void LightCuller::set_view(const CullView& view) {
+void LightCuller::State::set_view(const CullView& view) {
   check_view(view, options_.tile);
   oblique_.reset();
   if (is_oblique(view)) {
-    oblique_ = std::make_unique<StraightView>(straightened(view, options_.depth_format, options_.samples));
+    oblique_ = straightened(view, options_.depth_format, options_.samples);
   }
   const Room kept = room();
   const bool was_orthographic = params_.orthographic;
@@ -120,7 +131,7 @@ void LightCuller::set_view(const CullView& view) {
   }
 }
 
-void LightCuller::choose_regions() {
+void LightCuller::State::choose_regions() {
   params_.region_bins = 4;
   const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
   while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions &&
@@ -130,7 +141,7 @@ void LightCuller::choose_regions() {
   params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
 }
 
-void LightCuller::upload_params() {
+void LightCuller::State::upload_params() {
   choose_regions();
   params_.light_count = light_count_, params_.light_stride = light_stride_;
   const glm::dvec3 eye = view_.eye - uploaded_origin_.value_or(view_.eye);
@@ -139,11 +150,11 @@ void LightCuller::upload_params() {
   params_.eye_rest_x = x.rest, params_.eye_rest_y = y.rest, params_.eye_rest_z = z.rest;
   if (uploaded_ && std::memcmp(&*uploaded_, &params_, sizeof params_) == 0) return;
   uploaded_.reset();
-  params_upload_->put(device_, "light culling: parameters", std::vector<CullParams>{params_});
+  params_upload_.put(device_, "light culling: parameters", std::vector<CullParams>{params_});
   uploaded_ = params_;
 }
 
-CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
+CullInputs LightCuller::State::read_inputs(const TileBounds& bounds) {
   require_view("read_inputs");
   require_bounds(bounds, "read_inputs");
   follow_eye();
@@ -153,7 +164,7 @@ CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
     values.resize(count);
     read_buffer(device_, "light culling: inputs", buffer, values.data(), count * sizeof values[0]);
   };
-  if (light_count_) read(lights_->get(), in.lights, world_arrays * size_t(light_stride_));
+  if (light_count_) read(lights_.get(), in.lights, world_arrays * size_t(light_stride_));
   read(bounds.values, in.bounds, size_t(params_.bins_x) * params_.bins_y * planes_of(bounds.mode) * BIN_SIZE);
   constexpr float endless = std::numeric_limits<float>::infinity();
   if (params_.slices > 1)
@@ -163,12 +174,35 @@ CullInputs LightCuller::read_inputs(const TileBounds& bounds) {
   return in;
 }
 
-size_t LightCuller::memory_bytes() const {
+size_t LightCuller::State::memory_bytes() const {
   size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) +
                  bounds_bytes_ * (options_.blend ? 2 : 1);
-  if (straight_depth_) bytes += straight_depth_->bytes();
+  bytes += straight_depth_.bytes();
   for (const auto& pipeline : pipelines_) bytes += pipeline ? pipeline->memory_bytes() : 0;
   return bytes;
 }
+
+LightCuller::LightCuller(ClDevice& device, ProgramCache& programs, const CullerOptions& options)
+    : state_(std::make_unique<State>(device, programs, options)) {}
+LightCuller::~LightCuller() = default;
+LightCuller::LightCuller(LightCuller&&) noexcept = default;
+
+void LightCuller::set_lights(std::span<const CullLight> lights) { state_->set_lights(lights); }
+void LightCuller::set_view(const CullView& view) { state_->set_view(view); }
+DepthBounds LightCuller::depth_bounds(const DepthInput& depth) { return state_->depth_bounds(depth); }
+TileBounds LightCuller::bounds_of(std::span<const DepthInterval> intervals) {
+  return state_->bounds_of(intervals);
+}
+std::vector<DepthInterval> LightCuller::read_bounds(const TileBounds& bounds) {
+  return state_->read_bounds(bounds);
+}
+LightGrid LightCuller::cull(const TileBounds& bounds, GridStorage& storage) {
+  return state_->cull(bounds, storage);
+}
+CullInputs LightCuller::read_inputs(const TileBounds& bounds) { return state_->read_inputs(bounds); }
+uint32_t LightCuller::invalid_depth_tiles() { return state_->invalid_depth_tiles(); }
+size_t LightCuller::memory_bytes() const { return state_->memory_bytes(); }
+KernelShape LightCuller::shape() const { return state_->shape(); }
+const CullParams& LightCuller::params() const { return state_->params(); }
 
 }  // namespace lightgrid

@@ -20,7 +20,6 @@
 
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -94,17 +93,16 @@ class GridStorage {
 
 class ClGridStorage : public GridStorage {
  public:
-  explicit ClGridStorage(ClDevice& device) : device_(device) {}
-  cl::Buffer& cells(size_t bytes) override { return grown(cells_, cells_bytes_, bytes); }
-  cl::Buffer& indices(size_t bytes) override { return grown(indices_, indices_bytes_, bytes); }
-  cl::Buffer& masks(size_t bytes) override { return grown(masks_, masks_bytes_, bytes); }
-  cl::Buffer& z_bins(size_t bytes) override { return grown(z_bins_, z_bins_bytes_, bytes); }
+  explicit ClGridStorage(ClDevice& device);  // outlives it
+  ~ClGridStorage() override;
+  cl::Buffer& cells(size_t bytes) override;
+  cl::Buffer& indices(size_t bytes) override;
+  cl::Buffer& masks(size_t bytes) override;
+  cl::Buffer& z_bins(size_t bytes) override;
 
  private:
-  cl::Buffer& grown(cl::Buffer& buffer, size_t& size, size_t bytes);
-  ClDevice& device_;
-  cl::Buffer cells_, indices_, masks_, z_bins_;
-  size_t cells_bytes_ = 0, indices_bytes_ = 0, masks_bytes_ = 0, z_bins_bytes_ = 0;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 // The finished grid in its storage. Cells: uint2(first, count) into the indices, x fastest, then y from the
@@ -165,11 +163,6 @@ struct CullInputs {
   std::vector<glm::vec2> slices;      // near and far of each, metres; a single slice is infinite
 };
 
-class CullPipeline;
-class GrowingBuffer;
-class UploadedBuffer;
-struct StraightView;
-
 class LightCuller {
  public:
   // Device and cache outlive it. Kernels are built at first use or taken from the cache. Throws Error(input)
@@ -207,62 +200,12 @@ class LightCuller {
   uint32_t invalid_depth_tiles();
 
   size_t memory_bytes() const;  // of all buffers except the grid's
-  KernelShape shape() const { return options_.shape; }
-  const CullParams& params() const { return params_; }  // tiles_x, tiles_y and the rest of the kernels' view
+  KernelShape shape() const;
+  const CullParams& params() const;  // tiles_x, tiles_y and the rest of the kernels' view
 
  private:
-  // Sizes of the buffers between kernels, and of the indices; units as in CullParams.
-  struct Room {
-    uint pool_batches = 0, staging_units = 0, index_capacity = 0;
-    bool operator==(const Room&) const = default;
-  };
-  Room room() const { return {params_.pool_batches, params_.staging_units, params_.index_capacity}; }
-  void set_room(const Room& room);
-  Room first_room(size_t index_bytes) const;
-
-  void require_view(const char* call) const;
-  void require_bounds(const TileBounds& bounds, const char* call) const;
-  void read_layout(const DepthInput& depth);
-  CullPipeline& pipeline(DepthBoundsMode mode);
-  void cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells);
-  void run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells,
-                   uint32_t (&counters)[8]);
-  void make_masks(LightGrid& grid, GridStorage& storage);
-  void enqueue_z_bins(LightGrid& grid, GridStorage& storage);
-  cl::Buffer empty_bounds(int planes, float near, float far);
-  DepthBounds own_bounds(DepthBoundsMode mode, const cl::Buffer& blend);
-  void choose_regions();
-  void upload_params();
-  void upload_lights(const glm::dvec3& origin, double eye_reach);
-  void follow_eye();
-  cl::Buffer straight_depth(const DepthInput& depth, uint first, uint row);
-
-  ClDevice& device_;
-  ProgramCache& programs_;
-  CullerOptions options_;
-  bool cones_ = false;
-  std::vector<CullLight> host_lights_;         // to upload again when the origin follows the eye
-  std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
-  std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: not uploaded yet
-  double cone_slack_m_ = 0;
-  CullParams params_{};
-  uint light_count_ = 0, light_stride_ = 0;
-  std::optional<CullParams> uploaded_;     // contents of params_upload_ when the queue is done
-  std::unique_ptr<StraightView> oblique_;  // if the view's near plane is oblique
-  std::unique_ptr<GrowingBuffer> straight_depth_;
-  cl::Kernel straighten_kernel_;
-  cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
-  bool bounds_kernel_standard_ = false;
-  cl::Buffer slices_, z_bins_, opaque_, blend_, counters_;
-  uint z_bin_count_ = 1, depth_group_ = 0;
-  uint invalid_tiles_counter_ = 0;  // index in counters_ that the last depth_bounds counts in; 0: none yet
-  size_t bounds_bytes_ = 0;
-  glm::uvec2 bounds_tiles_{0};
-  BoundsView view_;                          // set_view's
-  std::shared_ptr<BoundsView> bounds_view_;  // of opaque_ and blend_
-  std::unique_ptr<GrowingBuffer> lights_;
-  std::unique_ptr<UploadedBuffer> params_upload_;
-  std::unique_ptr<CullPipeline> pipelines_[5];  // by DepthBoundsMode
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace lightgrid

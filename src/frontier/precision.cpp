@@ -46,9 +46,10 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
   if (!opengl_) return;
   opengl_->look(view);
   opengl_->run_frame(true);
-  const std::vector<float> depth = read_depth(opengl_->view());
-  const SurfaceOracle oracle(opengl_->view(), depth);
-  const size_t lights = std::max<size_t>(opengl_->view().scene.lights.size(), 1);
+  RenderView& v = opengl_->view();
+  const std::vector<float> depth = read_depth(v, v);
+  const SurfaceOracle oracle(v, depth);
+  const size_t lights = std::max<size_t>(v.scene.lights.size(), 1);
   Sample& all = samples_[0];
   all.pixels = random_pixels(oracle.pixels(), std::clamp(pairs_ / lights, least_pixels, most_pixels), seed);
   all.truth = oracle.shade(all.pixels, false);
@@ -56,7 +57,7 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
   brightest_ = opengl.brightest();
   judge(all, opengl, with_ranges);
   if (!own) return;
-  const ShownTriangles shown = read_triangles(opengl_->view());
+  const ShownTriangles shown = read_triangles(v, v);
   visibility_->look(view);
   visibility_->run_frame(true);
   const std::vector<SceneTriangle> triangles = own_triangles(*visibility_);

@@ -2,6 +2,7 @@
 
 #include "base/embedded.h"
 #include "base/error.h"
+#include "gl/bindings.h"
 
 namespace lightgrid {
 namespace {
@@ -65,6 +66,7 @@ void GlProgram::link(const std::string& files) const {
     log.resize(length);
     throw machine_error("OpenGL: linking {} failed on this driver:\n{}", files, log);
   }
+  assign_bindings(name(), files);
 }
 
 GLint GlProgram::uniform(const std::string& uniform_name) const {

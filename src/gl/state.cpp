@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include "gl/gl.h"
+#include "gl/bindings.h"
 
 namespace lightgrid {
 
@@ -21,8 +21,7 @@ void reset_gl_state() {
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindVertexArray(0);
-  constexpr GLuint units = 16;  // texture units that the shaders use
-  for (GLuint unit = 0; unit < units; ++unit) glBindSampler(unit, 0);
+  unbind_sampler_objects();
 }
 
 }  // namespace lightgrid

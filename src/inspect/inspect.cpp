@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "capture/frame_lists.h"
 #include "reference/attenuation.h"
 #include "reference/cone_cell.h"
 #include "reference/lit_set.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
-#include "capture/frame_lists.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {
@@ -42,7 +42,7 @@ double planes_margin(const Cell& cell, const glm::dvec3& p, double radius) {
 }
 
 // Distance from the cone's surface, outside it, to the sphere around the box.
-double cone_margin(const Box& box, const ViewLight& light, double reach) {
+double cone_margin(const Box& box, const LightBounds& light, double reach) {
   glm::dvec3 centre = 0.5 * (box.min + box.max);
   centre.z = -centre.z;
   const glm::dvec3 to_centre = centre - light.position;
@@ -52,7 +52,7 @@ double cone_margin(const Box& box, const ViewLight& light, double reach) {
   return reach - std::max(across * light.cos_outer - along * sine, -along);
 }
 
-TestMargins margins_of(const Cell& cell, const ViewLight& light) {
+TestMargins margins_of(const Cell& cell, const LightBounds& light) {
   const glm::dvec3& p = light.position;
   const double r = light.radius_m;
   const Box box = box_of(cell);
@@ -66,8 +66,7 @@ TestMargins margins_of(const Cell& cell, const ViewLight& light) {
   const bool bounded = std::isfinite(cell.near) && std::isfinite(cell.far);
   m.sphere = bounded ? r + reach - glm::length(place - 0.5 * (box.min + box.max)) : endless;
   m.exact = r - distance_to_cell(cell, p);
-  if (light.type == LightType::spot && light.cos_outer >= 0)
-    m.cone = bounded ? cone_margin(box, light, reach) : endless;
+  if (light.cos_outer >= 0) m.cone = bounded ? cone_margin(box, light, reach) : endless;
   return m;
 }
 
@@ -128,7 +127,7 @@ std::vector<DepthInterval> pieces_of(const Cell& cell, const std::vector<glm::dv
 }
 
 // A mask's slots bound distances only; a half is a cell of its own and tested as one.
-double pieces_margin(const Cell& cell, const std::vector<DepthInterval>& pieces, const ViewLight& light,
+double pieces_margin(const Cell& cell, const std::vector<DepthInterval>& pieces, const LightBounds& light,
                      const Settings& settings) {
   double best = -endless;
   for (const DepthInterval& piece : pieces) {
@@ -145,8 +144,8 @@ double nearness(const TestMargins& m) {
   return std::min({m.exact, m.cone.value_or(m.exact), m.pieces.value_or(m.exact)});
 }
 
-bool touches_cell(const Cell& cell, const ViewLight& light) {
-  if (light.type != LightType::spot) return sphere_touches_cell(cell, light.position, light.radius_m);
+bool touches_cell(const Cell& cell, const LightBounds& light) {
+  if (!light.has_cone()) return sphere_touches_cell(cell, light.position, light.radius_m);
   return cone_touches_cell(cell, light.position, light.direction, light.cos_outer, light.radius_m) !=
          Touch::no;
 }
@@ -159,8 +158,7 @@ std::vector<glm::dvec3> surfaces_of(const CapturedFrame& frame, const FrameGrid&
   for (int y = pixel.y0; y < pixel.y1; ++y) {
     for (int x = pixel.x0; x < pixel.x1; ++x) {
       if (!is_covered(frame, x, y) || cells.slice(x, y) != pixel.slice) continue;
-      surfaces.push_back(
-          position_from_depth(frame.view, x, y, frame.depth[size_t(y) * frame.view.width + x]));
+      surfaces.push_back(position_from_depth(frame.view, x, y, frame.depth[frame.view.grid().index(x, y)]));
     }
   }
   return surfaces;
@@ -171,7 +169,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
   const View& view = frame.view;
   PixelInspection pixel;
   pixel.x = x, pixel.y = y;
-  pixel.depth = frame.depth[size_t(y) * view.width + x];
+  pixel.depth = frame.depth[view.grid().index(x, y)];
   pixel.covered = is_covered(frame, x, y);
   pixel.distance_m = pixel.covered ? -position_from_depth(view, x, y, pixel.depth).z : endless;
   pixel.cell_x = x / grid.tile, pixel.cell_y = y / grid.tile;
@@ -184,7 +182,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
   if (pixel.slice > 0) pixel.near_m = std::max(pixel.near_m, double(grid.slice_edges[pixel.slice - 1]));
   if (pixel.slice < grid.lists.slices - 1)
     pixel.far_m = std::min(pixel.far_m, double(grid.slice_edges[pixel.slice]));
-  for (const Light& light : frame.lights) pixel.directional += light.type == LightType::directional;
+  for (const Light& light : frame.lights) pixel.directional += is_directional(light);
   return pixel;
 }
 
@@ -192,7 +190,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
 std::vector<int> local_numbers(const CapturedFrame& frame) {
   std::vector<int> numbers;
   for (size_t i = 0; i < frame.lights.size(); ++i) {
-    if (frame.lights[i].type != LightType::directional) numbers.push_back(int(i));
+    if (!is_directional(frame.lights[i])) numbers.push_back(int(i));
   }
   return numbers;
 }
@@ -205,7 +203,7 @@ bool stands_in_cell(const HostGrid& lists, size_t cell, uint32_t light) {
 }
 
 // How far the light reaches into the z-bin's range of distances.
-double z_bin_margin(const FrameGrid& grid, uint32_t bin, const ViewLight& light) {
+double z_bin_margin(const FrameGrid& grid, uint32_t bin, const LightBounds& light) {
   const auto& edges = grid.z_bin_edges;
   const double near = bin > 0 ? edges[bin - 1] : -endless, far = bin < edges.size() ? edges[bin] : endless;
   return light.radius_m + std::min(-light.position.z - near, far + light.position.z);
@@ -259,6 +257,7 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   const glm::dvec3 here = pixel.covered ? position_from_depth(frame.view, x, y, pixel.depth) : glm::dvec3(0);
   for (uint32_t i = 0; i < lights.size(); ++i) {
     LightVerdict& v = pixel.lights.emplace_back();
+    const LightBounds bounds = bounds_of(lights[i]);
     v.index = i, v.light = number[i];
     v.listed = stands_in_cell(grid.lists, at, i);
     v.distance_m = pixel.covered ? glm::length(lights[i].position - here) : endless;
@@ -268,13 +267,13 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
       v.test = "empty", v.margin_m = -endless;
       continue;
     }
-    v.margins = margins_of(cell, lights[i]);
-    if (!pieces.empty()) v.margins.pieces = pieces_margin(cell, pieces, lights[i], settings);
+    v.margins = margins_of(cell, bounds);
+    if (!pieces.empty()) v.margins.pieces = pieces_margin(cell, pieces, bounds, settings);
     const NamedMargin decided = deciding(margins_in_use(v.margins, settings.cull_test), v.listed);
     v.test = decided.test, v.margin_m = decided.margin_m;
-    v.touches = touches_cell(cell, lights[i]);
+    v.touches = touches_cell(cell, bounds);
     if (v.listed && !grid.z_bin_edges.empty() && !bins_hold(grid.lists.z_bins[i], bin)) {
-      v.listed = false, v.test = "z-bins", v.margin_m = z_bin_margin(grid, bin, lights[i]);
+      v.listed = false, v.test = "z-bins", v.margin_m = z_bin_margin(grid, bin, bounds);
     }
   }
   std::stable_sort(pixel.lights.begin(), pixel.lights.end(),

@@ -55,9 +55,9 @@ std::string row_text(const CapturedFrame& frame, const LightVerdict& v, size_t c
   const char* verdict = v.listed ? "kept" : v.lit ? "LOST" : "dropped";
   return fmt::format(
       "{:>7}  {:<16.16} {:<5} {:>9} {:>9}  {:<7} {:<8} {:>9}  {:>9} {:>9} {:>9} {:>9} {:>9}  {:<4} {:>9}\n",
-      v.light, light.name, light.type == LightType::spot ? "spot" : "point", metres(v.distance_m),
-      metres(light.radius_m), verdict, v.test, margin(v.margin_m), margin(m.interval), margin(m.planes),
-      margin(m.aabb), margin(m.exact), m.cone && !empty ? metres(*m.cone) : "-", v.lit ? "lit" : "-",
+      v.light, light.name, name_of(light.type), metres(v.distance_m), metres(light.radius_m), verdict, v.test,
+      margin(v.margin_m), margin(m.interval), margin(m.planes), margin(m.aabb), margin(m.exact),
+      m.cone && !empty ? metres(*m.cone) : "-", v.lit ? "lit" : "-",
       fmt::format("{}/{}", v.lit_pixels, cells_pixels));
 }
 
@@ -93,7 +93,7 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
     lights.push_back({{"light", v->light},
                       {"index", v->index},
                       {"name", light.name},
-                      {"type", light.type == LightType::spot ? "spot" : "point"},
+                      {"type", name_of(light.type)},
                       {"distance", number(v->distance_m)},
                       {"radius", number(light.radius_m)},
                       {"listed", v->listed},

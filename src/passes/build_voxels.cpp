@@ -21,11 +21,15 @@ constexpr float largest_float_voxel = 1e15f;  // LARGEST_VOXEL of kernels/voxels
 constexpr float largest_half_voxel = 6e4f;
 constexpr float brightest_half = 1024;  // what the brightest light is stored as, at most: room for sums
 
+}  // namespace
+
 struct FilledWith {
   VoxelGrid grid;
   std::vector<VoxelSlice> slices;
   int lights;
 };
+
+namespace {
 
 bool same(const FilledWith& a, const FilledWith& b) {
   return a.lights == b.lights && std::memcmp(&a.grid, &b.grid, sizeof a.grid) == 0 &&
@@ -45,17 +49,21 @@ GlTexture make_volume(GLenum format, glm::uvec3 size) {
   return texture;
 }
 
-class VoxelBuffers : public PassState {
- public:
-  explicit VoxelBuffers(RenderView& v) : lanes(shades_in_lanes(v)) { follow(v); }
+}  // namespace
 
-  bool follow(RenderView& v) override {
-    axes = voxel_axes(v.view, v.plan.settings.voxel_space);
-    lights.update(v, axes);
-    std::string defines = defines_of(v);
+class VoxelBuffers : public PassCache {
+ public:
+  explicit VoxelBuffers(Work& work, const Seen& seen) : lanes(shades_in_lanes(work, seen)) {
+    follow(work, seen);
+  }
+
+  bool follow(Work& work, const Seen& seen) override {
+    axes = voxel_axes(seen.view, seen.plan.settings.voxel_space);
+    lights.update(work, seen, axes);
+    std::string defines = defines_of(seen);
     if (defines != defines_) {
       defines_ = std::move(defines);
-      kernel_ = cl::Kernel();
+      kernel_ = {};
       filled.reset();
     }
     return true;
@@ -67,15 +75,15 @@ class VoxelBuffers : public PassState {
     return bytes + texture_bytes;
   }
 
-  cl::Kernel& kernel(RenderView& v) {
-    if (!kernel_())
-      kernel_ =
-          v.renderer.kernels->kernel(lanes ? "voxels/cpu/build_voxels" : "voxels/gpu/build_voxels", defines_);
+  NamedKernel& kernel(Work& work) {
+    if (!kernel_)
+      kernel_ = NamedKernel(*work.renderer.kernels,
+                            lanes ? "voxels/cpu/build_voxels" : "voxels/gpu/build_voxels", defines_);
     return kernel_;
   }
 
-  std::string lookup_defines(const RenderView& v) const {
-    return fmt::format(" -DVOXEL_BITS={}{}", v.plan.settings.voxel_bits,
+  std::string lookup_defines(const Seen& seen) const {
+    return fmt::format(" -DVOXEL_BITS={}{}", seen.plan.settings.voxel_bits,
                        axes.log_depth ? " -DVOXELS_LOG" : "");
   }
 
@@ -90,24 +98,26 @@ class VoxelBuffers : public PassState {
   GlTexture irradiance_texture, directions_texture;
   GlBuffer lookup_block;
   bool texture_stale = true;  // the volume was filled since the textures were
+  bool lookup_stale = true;   // it was placed since the uniform block was written
   size_t texture_bytes = 0;
 
  private:
-  std::string defines_of(const RenderView& v) const {
-    std::string defines = lookup_defines(v);
-    if (lanes && v.plan.settings.portable) defines += " -DPORTABLE";
-    if (v.plan.spots) defines += " -DSPOTS";
-    for (const char* define : range_defines(v.plan.settings.ranges)) defines += fmt::format(" -D{}", define);
+  std::string defines_of(const Seen& seen) const {
+    std::string defines = lookup_defines(seen);
+    if (lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
+    for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
 
   std::string defines_;
-  cl::Kernel kernel_;
+  NamedKernel kernel_;
 };
 
-size_t volume_bytes(const RenderView& v) {
-  const glm::uvec3 size = voxel_size(v.plan.settings.voxel_size);
-  return size_t(size.x) * size.y * size.z * 4 * size_t(v.plan.settings.voxel_bits) / 8;
+namespace {
+
+size_t volume_bytes(const Seen& seen) {
+  const glm::uvec3 size = voxel_size(seen.plan.settings.voxel_size);
+  return size_t(size.x) * size.y * size.z * 4 * size_t(seen.plan.settings.voxel_bits) / 8;
 }
 
 // A power of two, so that it rounds nothing. In half precision the brightest light at its core is well below
@@ -120,60 +130,68 @@ float stored_scale(const VoxelBuffers& s, int bits) {
   return float(std::exp2(std::floor(std::log2(brightest_half / most))));
 }
 
-void place(RenderView& v, VoxelBuffers& s, const TileDistances& distances) {
-  auto pass = v.timer.pass("place_voxels", "cl");
-  s.placed = place_voxels(v, s.axes, visible_box(v, distances));
-  const int bits = v.plan.settings.voxel_bits;
+void place(Work& work, const Seen& seen, VoxelBuffers& s, const TileDistances& distances) {
+  auto pass = work.timer.pass("place_voxels", "cl");
+  s.placed = place_voxels(seen, s.axes, visible_box(seen, distances));
+  const int bits = seen.plan.settings.voxel_bits;
   VoxelGrid& grid = s.placed.grid;
   grid.groups = s.lights.groups();
   grid.scale = stored_scale(s, bits);
   grid.largest = bits == 32 ? largest_float_voxel : largest_half_voxel;
   s.placed.lookup.inverse_scale = 1 / grid.scale;
-  ClDevice& device = *v.renderer.cl;
+  ClDevice& device = *work.renderer.cl;
   constexpr const char* what = "placing voxels";
   s.grid.put(device, what, std::vector<VoxelGrid>{grid});
   s.slices.put(device, what, s.placed.slices);
   s.lookup.put(device, what, std::vector<VoxelLookup>{s.placed.lookup});
+  s.lookup_stale = true;
   pass.moves(distances.intervals.size() * sizeof(DepthInterval),
              s.grid.bytes() + s.slices.bytes() + s.lookup.bytes());
 }
 
 }  // namespace
 
-VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const DepthBuffer& depth) {
-  VoxelBuffers& s = v.state<VoxelBuffers>();
+VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache,
+                         const TileDistances& distances, const DepthBuffer& depth) {
+  VoxelBuffers& s = cache.of(work, seen);
   s.shaded_from = depth;
-  cl::Kernel& kernel = s.kernel(v);
-  place(v, s, distances);
-  const size_t bytes = volume_bytes(v);
+  NamedKernel& kernel = s.kernel(work);
+  place(work, seen, s, distances);
+  const size_t bytes = volume_bytes(seen);
   const BridgeKind bridge =
-      v.plan.settings.raster == RasterApi::opencl ? BridgeKind::none : v.renderer.bridge;
-  if (!s.irradiance) s.irradiance.emplace(*v.renderer.cl, bridge, bytes);
-  if (!s.directions) s.directions.emplace(*v.renderer.cl, bridge, bytes);
-  VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(v), 2 * bytes};
+      seen.plan.settings.raster == RasterApi::opencl ? BridgeKind::none : work.renderer.bridge;
+  if (!s.irradiance) s.irradiance.emplace(*work.renderer.cl, bridge, bytes);
+  if (!s.directions) s.directions.emplace(*work.renderer.cl, bridge, bytes);
+  VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(seen), 2 * bytes};
   FilledWith needed{s.placed.grid, s.placed.slices, s.lights.version()};
-  if (v.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
-  auto pass = v.timer.pass("build_voxels", "cl");
+  if (seen.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
+  auto pass = work.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
   const cl::NDRange items(g.size_x / VOXEL_GROUP_X * VOXEL_GROUP_ITEMS, g.size_y / VOXEL_GROUP_Y, g.size_z);
-  launch(*v.renderer.cl, "build_voxels", kernel, s.lanes ? bricks : items,
-         s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1), s.lights.boxes.buffer(),
-         s.lights.places.buffer(), s.lights.colors.buffer(),
-         v.plan.spots ? s.lights.cones.buffer() : cl::Buffer(), s.grid.buffer(), s.slices.buffer(),
-         s.irradiance->cl_buffer(), s.directions->cl_buffer());
+  kernel.launch(*work.renderer.cl, "build_voxels", s.lanes ? bricks : items,
+                s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1),
+                {{"boxes", s.lights.boxes.buffer()},
+                 {"places", s.lights.places.buffer()},
+                 {"colors", s.lights.colors.buffer()},
+                 {"cones", seen.plan.spots ? s.lights.cones.buffer() : cl::Buffer()},
+                 {"grid", s.grid.buffer()},
+                 {"slices", s.slices.buffer()},
+                 {"irradiance", s.irradiance->cl_buffer()},
+                 {"directions", s.directions->cl_buffer()}});
   s.filled = std::move(needed);
   s.texture_stale = true;
   pass.moves(s.lights.memory_bytes(), volume.bytes);
   return volume;
 }
 
-VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
-  VoxelBuffers& s = v.state<VoxelBuffers>();
-  auto pass = v.timer.pass("voxels_to_gl", "gl");
+// Two 3D textures, interpolated between samples, and a uniform block; once a frame.
+static void voxels_to_gl(Work& work, const Seen& seen, const VoxelVolume& volume, VoxelBuffers& s) {
+  if (!s.lookup_stale) return;
+  auto pass = work.timer.pass("voxels_to_gl", "gl");
   const VoxelGrid& g = s.placed.grid;
-  const bool half = v.plan.settings.voxel_bits == 16, first = !s.irradiance_texture;
-  if (first) {
+  const bool half = seen.plan.settings.voxel_bits == 16;
+  if (!s.irradiance_texture) {
     const glm::uvec3 size(g.size_x, g.size_y, g.size_z);
     const GLenum format = half ? GL_RGBA16F : GL_RGBA32F;
     s.irradiance_texture = make_volume(format, size), s.directions_texture = make_volume(format, size);
@@ -181,33 +199,65 @@ VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume) {
     s.texture_bytes = volume.bytes;
   }
   glNamedBufferSubData(s.lookup_block.name(), 0, sizeof(VoxelLookup), &s.placed.lookup);
-  if (s.texture_stale) {
-    const SharedBuffer::Written written[] = {{volume.irradiance, volume.bytes / 2},
-                                             {volume.directions, volume.bytes / 2}};
-    SharedBuffer::hand_to_gl(written);
-    const auto copy = [&](SharedBuffer& from, const GlTexture& to) {
-      v.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
-                                         int(g.size_x), int(g.size_y), to.name(), int(g.size_z));
-    };
-    copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
-    s.texture_stale = false;
-    pass.moves(volume.bytes, volume.bytes);
-  }
-  return {s.irradiance_texture.name(), s.directions_texture.name(), s.lookup_block.name(), s.axes.log_depth,
-          volume.bytes};
+  s.lookup_stale = false;
+  if (!s.texture_stale) return;
+  const SharedBuffer::Written written[] = {{volume.irradiance, volume.bytes / 2},
+                                           {volume.directions, volume.bytes / 2}};
+  SharedBuffer::hand_to_gl(written);
+  const auto copy = [&](SharedBuffer& from, const GlTexture& to) {
+    work.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
+                                          {int(g.size_x), int(g.size_y)}, to.name(), int(g.size_z));
+  };
+  copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
+  s.texture_stale = false;
+  pass.moves(volume.bytes, volume.bytes);
 }
 
-ReadVoxels read_voxels(RenderView& v) {
-  VoxelBuffers& s = v.state<VoxelBuffers>();
+// The lights of any of the eight samples around each pixel of the last frame.
+static ListedLights listed_of_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache) {
+  const VoxelBuffers& s = cache.of(work, seen);
+  return list_voxels(work, seen, {s.axes, s.placed, {}, {}}, s.shaded_from);
+}
+
+LightSource from_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
+                        const LightSource* grid) {
+  const std::string exact = std::to_string(seen.plan.settings.voxel_lights_exact);
+  const auto in_gl = [&work, &seen, &cache, volume, exact,
+                      grid = grid ? std::optional(*grid) : std::nullopt] {
+    VoxelBuffers& s = cache.of(work, seen);
+    voxels_to_gl(work, seen, volume, s);
+    GlLightLoop loop = light_loop(seen);
+    loop.defines.emplace_back("LIGHTS_VOXELS");
+    if (s.axes.log_depth) loop.defines.emplace_back("VOXELS_LOG");
+    loop.textures = {{Sampler::voxel_irradiance, s.irradiance_texture.name()},
+                     {Sampler::voxel_directions, s.directions_texture.name()}};
+    if (grid) {
+      loop.defines.emplace_back("VOXEL_EXACT " + exact);
+      for (const GlLightLoop::Binding& lists : grid->in_gl().textures) loop.textures.push_back(lists);
+    }
+    loop.blocks = {{UniformBlock::VoxelLookupBlock, s.lookup_block.name()}};
+    return loop;
+  };
+  ClLightLoop in_cl = grid ? *grid->in_cl : ClLightLoop();
+  in_cl.defines = " -DLIGHTS_VOXELS" + volume.kernel_defines + (grid ? " -DVOXEL_EXACT=" + exact : "");
+  in_cl.more = {{"irradiance", volume.irradiance->cl_buffer()},
+                {"directions", volume.directions->cl_buffer()},
+                {"voxels", volume.lookup}};
+  return LightSource(in_gl, in_cl, volume.bytes + (grid ? grid->bytes : 0),
+                     [&work, &seen, &cache](auto&) { return listed_of_voxels(work, seen, cache); });
+}
+
+ReadVoxels read_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache) {
+  VoxelBuffers& s = cache.of(work, seen);
   ReadVoxels read{s.axes, s.placed, {}, {}};
   const size_t samples = size_t(s.placed.grid.size_x) * s.placed.grid.size_y * s.placed.grid.size_z;
   const auto values = [&](SharedBuffer& from) {
     std::vector<glm::vec4> all(samples);
-    if (v.plan.settings.voxel_bits == 32) {
-      read_buffer(*v.renderer.cl, "reading voxels", from.cl_buffer(), all.data(), samples * sizeof all[0]);
+    if (seen.plan.settings.voxel_bits == 32) {
+      read_buffer(*work.renderer.cl, "reading voxels", from.cl_buffer(), all.data(), samples * sizeof all[0]);
     } else {
       std::vector<uint64_t> halves(samples);
-      read_buffer(*v.renderer.cl, "reading voxels", from.cl_buffer(), halves.data(),
+      read_buffer(*work.renderer.cl, "reading voxels", from.cl_buffer(), halves.data(),
                   samples * sizeof halves[0]);
       for (size_t i = 0; i < samples; ++i) all[i] = glm::unpackHalf4x16(halves[i]);
     }
@@ -216,12 +266,6 @@ ReadVoxels read_voxels(RenderView& v) {
   };
   read.irradiance = values(*s.irradiance), read.directions = values(*s.directions);
   return read;
-}
-
-ListedLights listed_of_voxels(RenderView& v) {
-  if (!v.plan.local_lights) return list_every_light(0);
-  const VoxelBuffers& s = v.state<VoxelBuffers>();
-  return list_voxels(v, {s.axes, s.placed, {}, {}}, s.shaded_from);
 }
 
 }  // namespace lightgrid

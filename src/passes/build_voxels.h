@@ -1,9 +1,8 @@
 // A voxel light buffer of a view: light at the samples of a volume (docs/techniques/voxel_lights.md).
 #pragma once
 
-#include "passes/common/frame.h"
+#include "passes/common/light_source.h"
 #include "passes/voxels/placed_voxels.h"
-#include "scene/listed_lights.h"
 
 namespace lightgrid {
 
@@ -17,18 +16,16 @@ struct VoxelVolume {
   size_t bytes = 0;            // of both
 };
 
-// The same for OpenGL: two 3D textures, interpolated between samples, and a uniform block.
-struct VoxelTextures {
-  GLuint irradiance = 0, directions = 0, lookup = 0;
-  bool log_depth = false;  // VOXELS_LOG
-  size_t bytes = 0;
-};
-
 // Places the volume around what is visible, and adds up the lights at its samples. Deterministic: a sample is
 // the sum of its lights in an order that depends on the lights alone. `depth`: what the frame shades from, if
 // OpenCL made it.
-VoxelVolume build_voxels(RenderView& v, const TileDistances& distances, const DepthBuffer& depth = {});
-VoxelTextures voxels_to_gl(RenderView& v, const VoxelVolume& volume);
+VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache,
+                         const TileDistances& distances, const DepthBuffer& depth = {});
+
+// The light of the volume. With voxel-lights-exact the lights of the pixel's cell that matter most are taken
+// out of it: `grid` has their lists, else it is null.
+LightSource from_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
+                        const LightSource* grid);
 
 // The last frame's volume on the host, for tests and the oracle.
 struct ReadVoxels {
@@ -36,9 +33,6 @@ struct ReadVoxels {
   PlacedVoxels placed;
   std::vector<glm::vec4> irradiance, directions;  // without the scale by which they are stored; x fastest
 };
-ReadVoxels read_voxels(RenderView& v);
-
-// The lights that each pixel got light of in the last frame: those of any of the eight samples around it.
-ListedLights listed_of_voxels(RenderView& v);
+ReadVoxels read_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache);
 
 }  // namespace lightgrid

@@ -2,29 +2,29 @@
 
 #include <algorithm>
 
+#include "renderer/culler_input.h"
 #include "shared/pixel_position.h"
 
 namespace lightgrid {
-namespace {
 
-class WorldGridOfView : public PassState {
+class ViewOfWorldGrid : public PassCache {
  public:
-  explicit WorldGridOfView(RenderView& v) { follow(v); }
+  explicit ViewOfWorldGrid(Work& work, const Seen& seen) { follow(work, seen); }
 
-  bool follow(RenderView& v) override {
-    const Settings& s = v.plan.settings;
-    const WorldGridKey key{s.world_grid, s.world_cell, v.plan.index_bits, s.ranges,
+  bool follow(Work& work, const Seen& seen) override {
+    const Settings& s = seen.plan.settings;
+    const WorldGridKey key{s.world_grid, s.world_cell, seen.plan.index_bits, s.ranges,
                            s.raster == RasterApi::opengl};
-    if (!grid || key != key_) grid = v.gpu.world_grid(v.renderer, key);
+    if (!grid || key != key_) grid = work.gpu.world_grid(work.renderer, key);
     key_ = key;
     return true;
   }
 
   size_t memory_bytes() const override { return grid->memory_bytes() + 2 * sizeof(WorldViewParams); }
 
-  void put_view(RenderView& v) {
-    params = world_view_params(grid->layout(), v.view);
-    in_cl.put(*v.renderer.cl, "uploading the view", std::vector<WorldViewParams>{params});
+  void put_view(Work& work, const Seen& seen) {
+    params = world_view_params(grid->layout(), seen.view);
+    in_cl.put(*work.renderer.cl, "uploading the view", std::vector<WorldViewParams>{params});
   }
 
   std::shared_ptr<SharedWorldGrid> grid;
@@ -37,20 +37,22 @@ class WorldGridOfView : public PassState {
   WorldGridKey key_{};
 };
 
+namespace {
+
 // As shared/pixel_position.h, which C++ compiles for perspective views alone.
-glm::vec3 pixel_position(const RenderView& v, float x, float y, float depth) {
-  if (!v.view.orthographic) return position_of_pixel(x, y, depth, v.params);
-  const ViewParams& p = v.params;
+glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
+  if (!seen.view.orthographic) return position_of_pixel(x, y, depth, seen.params);
+  const ViewParams& p = seen.params;
   return {x * p.slope_x_scale + p.slope_x_offset, y * p.slope_y_scale + p.slope_y_offset,
           (depth - p.depth_b) * p.depth_a};
 }
 
 // Whether the lists are right now, since few lights moved since they were.
-bool update_world_grid(RenderView& v, SharedWorldGrid& grid) {
-  if (!grid.serves(v.view, grid.lights_version())) return false;
-  const auto changed = v.gpu.lights_changed_since(grid.lights_version());
+bool update_world_grid(Work& work, const Seen& seen, SharedWorldGrid& grid) {
+  if (!grid.serves(seen.view, grid.lights_version())) return false;
+  const auto changed = work.gpu.lights_changed_since(grid.lights_version());
   if (!changed) return false;
-  const std::vector<int>& local = v.plan.local;
+  const std::vector<int>& local = seen.plan.local;
   std::vector<uint32_t> moved;  // numbers in lists
   std::vector<int> of_scene;
   for (const int light : *changed) {
@@ -58,66 +60,58 @@ bool update_world_grid(RenderView& v, SharedWorldGrid& grid) {
     if (found == local.end() || *found != light) continue;
     moved.push_back(uint32_t(found - local.begin())), of_scene.push_back(light);
   }
-  auto pass = v.timer.pass("update_world_grid", "cl");
-  const std::vector<CullLight> lights = cull_lights_of(v.scene, of_scene, v.plan.settings.ranges);
-  if (!grid.update(moved, lights, v.gpu.lights_version())) return false;
+  auto pass = work.timer.pass("update_world_grid", "cl");
+  const std::vector<CullLight> lights = cull_lights_of(seen.scene, of_scene, seen.plan.settings.ranges);
+  if (!grid.update(moved, lights, work.gpu.lights_version())) return false;
   pass.moves(moved.size() * 16 + grid.list_bytes(), grid.list_bytes());
   return true;
 }
 
-}  // namespace
-
-WorldGridInCl build_world_grid(RenderView& v) {
-  WorldGridOfView& state = v.state<WorldGridOfView>();
+GlLightLoop grid_to_gl(Work& work, const Seen& seen, ViewOfWorldGrid& state) {
   SharedWorldGrid& grid = *state.grid;
-  const bool right = grid.serves(v.view, v.gpu.lights_version());
-  // A build has a time where passes are timed.
-  if (v.timer.enabled || (!right && !update_world_grid(v, grid))) {
-    auto pass = v.timer.pass("build_world_grid", "cl");
-    cull_lights_of(v.scene, v.plan.local, v.plan.settings.ranges, state.lights);
-    grid.build(state.lights, world_box(v.scene), v.view, v.gpu.lights_version());
-    pass.moves(v.plan.local.size() * 16, grid.list_bytes());
-  }
-  state.put_view(v);
-  return {&grid, state.in_cl.buffer()};
-}
-
-const SharedWorldGrid& built_world_grid(RenderView& v) { return *v.state<WorldGridOfView>().grid; }
-
-LightSource from_world_grid(RenderView& v) {
-  SharedWorldGrid& grid = *build_world_grid(v).grid;
   {
-    auto pass = v.timer.pass("grid_to_gl", "gl");
+    auto pass = work.timer.pass("grid_to_gl", "gl");
     grid.hand_to_gl();
     pass.moves(grid.list_bytes(), grid.list_bytes());
   }
-  WorldGridOfView& state = v.state<WorldGridOfView>();
   if (!state.in_gl) state.in_gl = make_buffer(sizeof state.params, nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferSubData(state.in_gl.name(), 0, sizeof state.params, &state.params);
-  LightSource source = every_light(v);
-  source.defines.emplace_back("LIGHTS_WORLD");
-  if (!grid.layout().everywhere.empty()) source.defines.emplace_back("WORLD_EVERYWHERE");
-  source.textures = {{12, grid.texture(WorldArray::cells)},
-                     {13, grid.texture(WorldArray::indices)},
-                     {14, grid.texture(WorldArray::buckets)},
-                     {15, grid.texture(WorldArray::keys)}};
-  source.blocks = {{4, grid.block()}, {5, state.in_gl.name()}};
-  source.bytes = grid.list_bytes();
-  return source;
+  GlLightLoop loop = light_loop(seen);
+  loop.defines.emplace_back("LIGHTS_WORLD");
+  if (!grid.layout().everywhere.empty()) loop.defines.emplace_back("WORLD_EVERYWHERE");
+  loop.textures = {{Sampler::world_cells, grid.texture(WorldArray::cells)},
+                   {Sampler::world_indices, grid.texture(WorldArray::indices)},
+                   {Sampler::world_buckets, grid.texture(WorldArray::buckets)},
+                   {Sampler::world_keys, grid.texture(WorldArray::keys)}};
+  loop.blocks = {{UniformBlock::WorldGridBlock, grid.block()},
+                 {UniformBlock::WorldViewBlock, state.in_gl.name()}};
+  return loop;
+}
+
+ClLightLoop grid_in_cl(const ViewOfWorldGrid& state) {
+  SharedWorldGrid& grid = *state.grid;
+  return {.defines = " -DWORLD_GRID",
+          .cells = grid.cells(),
+          .indices = grid.indices(),
+          .more = {{"world_buckets", grid.buckets()},
+                   {"world_keys", grid.keys()},
+                   {"world", grid.params()},
+                   {"world_view", state.in_cl.buffer()}}};
 }
 
 // Rounds as C++ does. A device may round the position differently and then read a neighbouring cell's list,
 // which serves the position as well.
-ListedLights listed_of_world_grid(RenderView& v, const std::vector<float>& depth) {
-  WorldGridOfView& state = v.state<WorldGridOfView>();
+ListedLights listed_of_world_grid(Work& work, const Seen& seen, Cached<ViewOfWorldGrid>& cache,
+                                  const std::vector<float>& depth) {
+  const ViewOfWorldGrid& state = cache.of(work, seen);
   const HostWorldGrid host = state.grid->read();
   ListedLights lists;
   std::map<uint64_t, uint32_t> cell_of_range;
   lists.cell_of_pixel.reserve(depth.size());
-  for (int y = 0; y < v.view.height; ++y) {
-    for (int x = 0; x < v.view.width; ++x) {
+  for (int y = 0; y < seen.view.height; ++y) {
+    for (int x = 0; x < seen.view.width; ++x) {
       const float here = depth[lists.cell_of_pixel.size()];
-      const glm::vec3 position = pixel_position(v, float(x) + 0.5f, float(y) + 0.5f, here > 0 ? here : 1);
+      const glm::vec3 position = pixel_position(seen, float(x) + 0.5f, float(y) + 0.5f, here > 0 ? here : 1);
       const glm::uvec2 range = host.range_at(world_position(position, state.params));
       const auto [found, added] =
           cell_of_range.try_emplace(uint64_t(range.x) << 32 | range.y, uint32_t(cell_of_range.size()));
@@ -131,6 +125,29 @@ ListedLights listed_of_world_grid(RenderView& v, const std::vector<float>& depth
     }
   }
   return lists;
+}
+
+}  // namespace
+
+LightSource build_world_grid(Work& work, const Seen& seen, Cached<ViewOfWorldGrid>& cache) {
+  ViewOfWorldGrid& state = cache.of(work, seen);
+  SharedWorldGrid& grid = *state.grid;
+  const bool right = grid.serves(seen.view, work.gpu.lights_version());
+  // A build has a time where passes are timed.
+  if (work.timer.enabled || (!right && !update_world_grid(work, seen, grid))) {
+    auto pass = work.timer.pass("build_world_grid", "cl");
+    cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges, state.lights);
+    grid.build(state.lights, world_box(seen.scene), seen.view, work.gpu.lights_version());
+    pass.moves(seen.plan.local.size() * 16, grid.list_bytes());
+  }
+  state.put_view(work, seen);
+  return LightSource(
+      [&work, &seen, &state] { return grid_to_gl(work, seen, state); }, grid_in_cl(state), grid.list_bytes(),
+      [&work, &seen, &cache](auto& depth) { return listed_of_world_grid(work, seen, cache, depth); });
+}
+
+const SharedWorldGrid& built_world_grid(Work& work, const Seen& seen, Cached<ViewOfWorldGrid>& cache) {
+  return *cache.of(work, seen).grid;
 }
 
 }  // namespace lightgrid

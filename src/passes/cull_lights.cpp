@@ -1,45 +1,105 @@
 // Culls lights against the cells of the light grid, in OpenCL; hands the grid to OpenGL as buffer textures.
 #include "passes/cull_lights.h"
 
+#include "cl/transfer.h"
+#include "passes/read_outs/cells.h"
+#include "scene/grid_lists.h"
+
 namespace lightgrid {
 namespace {
 
-size_t bytes_of(const LightGrid& grid) {
-  return grid.cell_bytes + grid.index_bytes + grid.mask_bytes + grid.z_bin_bytes;
+ViewGrid cull(Work& work, const Seen& seen, LightCuller& culler, const char* name, const TileBounds& bounds,
+              SharedGridStorage& storage) {
+  auto pass = work.timer.pass(name, "cl");
+  const ViewGrid grid{culler.cull(bounds, storage), &storage};
+  pass.moves(seen.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
+  return grid;
 }
 
-LightGrid cull(RenderView& v, const char* name, const TileBounds& bounds, SharedGridStorage& storage) {
-  auto pass = v.timer.pass(name, "cl");
-  const LightGrid grid = v.culler().cull(bounds, storage);
-  pass.moves(v.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, bytes_of(grid));
-  return grid;
+// As lists, or as masks.
+GlLightLoop grid_to_gl(Work& work, const Seen& seen, const ViewGrid& grid) {
+  auto pass = work.timer.pass("grid_to_gl", "gl");
+  pass.moves(grid.bytes(), grid.bytes());
+  SharedGridStorage& storage = *grid.storage;
+  GlLightLoop loop = light_loop(seen);
+  loop.defines.emplace_back(grid.mask_bytes ? "LIGHTS_MASKS" : "LIGHTS_GRID");
+  if (seen.plan.slices > 1) loop.defines.emplace_back("SLICES");
+  if (seen.plan.z_bins > 1) loop.defines.emplace_back("Z_BINS");
+  if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
+  if (grid.mask_bytes) {
+    storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
+    loop.textures = {{Sampler::grid_masks, storage.masks_.texture.name()}};
+  } else {
+    storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
+    storage.indices_.buffer->hand_to_gl(grid.index_bytes);
+    loop.textures = {{Sampler::grid_cells, storage.cells_.texture.name()},
+                     {Sampler::grid_indices, storage.indices_.texture.name()}};
+  }
+  if (storage.z_bins_.texture)
+    loop.textures.push_back({Sampler::light_z_bins, storage.z_bins_.texture.name()});
+  return loop;
+}
+
+ClLightLoop grid_in_cl(const ViewGrid& grid) {
+  ClLightLoop loop;
+  if (grid.mask_bytes) return loop;
+  loop.cells = grid.storage->cells(grid.cell_bytes), loop.indices = grid.storage->indices(grid.index_bytes);
+  if (grid.z_bin_bytes) loop.z_bins = grid.storage->z_bins(grid.z_bin_bytes);
+  return loop;
+}
+
+template <typename T>
+std::vector<T> read_shared(Work& work, SharedTexture& shared, size_t count) {
+  std::vector<T> values(count);
+  if (count)
+    read_buffer(*work.renderer.cl, "reading the light grid", shared.buffer->cl_buffer(), values.data(),
+                count * sizeof(T));
+  return values;
+}
+
+void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lists) {
+  for (const glm::uvec2& cell : read_shared<glm::uvec2>(work, grid.storage->cells_, cells)) {
+    lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  }
+  if (grid.index_bits == 16) {
+    const auto narrow = read_shared<uint16_t>(work, grid.storage->indices_, grid.index_count);
+    lists.indices.assign(narrow.begin(), narrow.end());
+  } else {
+    lists.indices = read_shared<uint32_t>(work, grid.storage->indices_, grid.index_count);
+  }
+}
+
+ListedLights listed_of_grid(Work& work, const Seen& seen, const ViewGrid& grid,
+                            const std::vector<float>& depth) {
+  ListedLights lists;
+  lists.cell_of_pixel = cells_of_pixels(seen, depth);
+  const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
+  if (seen.plan.settings.grid_lists == GridLists::masks) {
+    add_masks(read_shared<uint32_t>(work, grid.storage->masks_, cells * grid.mask_words), cells, lists);
+  } else {
+    add_lists(work, grid, cells, lists);
+  }
+  if (grid.z_bin_bytes == 0) return lists;
+  return in_z_bins(lists, z_bins_of_pixels(seen, depth),
+                   read_shared<uint32_t>(work, grid.storage->z_bins_, grid.z_bin_bytes / 4));
 }
 
 }  // namespace
 
-LightGrid cull_lights(RenderView& v, const DepthBounds& bounds) {
-  return cull(v, "cull_lights", bounds.opaque, v.opaque_grid());
+ViewGrid cull_lights(Work& work, const Seen& seen, LightCuller& culler, SharedGridStorage& storage,
+                     const DepthBounds& bounds) {
+  return cull(work, seen, culler, "cull_lights", bounds.opaque, storage);
 }
 
-LightGrid cull_lights_for_blended(RenderView& v, const DepthBounds& bounds) {
-  return cull(v, "cull_lights_for_blended", bounds.blend, v.blend_grid());
+ViewGrid cull_lights_for_blended(Work& work, const Seen& seen, LightCuller& culler,
+                                 SharedGridStorage& storage, const DepthBounds& bounds) {
+  return cull(work, seen, culler, "cull_lights_for_blended", bounds.blend, storage);
 }
 
-GridTextures grid_to_gl(RenderView& v, const LightGrid& grid, SharedGridStorage& storage) {
-  auto pass = v.timer.pass("grid_to_gl", "gl");
-  pass.moves(bytes_of(grid), bytes_of(grid));
-  if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
-  GridTextures textures{.z_bins = storage.z_bins_.texture.name(), .bytes = bytes_of(grid)};
-  if (grid.mask_bytes) {
-    storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
-    textures.masks = storage.masks_.texture.name();
-    return textures;
-  }
-  storage.cells_.buffer->hand_to_gl(grid.cell_bytes);
-  storage.indices_.buffer->hand_to_gl(grid.index_bytes);
-  textures.cells = storage.cells_.texture.name();
-  textures.indices = storage.indices_.texture.name();
-  return textures;
+LightSource from_grid(Work& work, const Seen& seen, const ViewGrid& grid) {
+  return LightSource([&work, &seen, grid] { return grid_to_gl(work, seen, grid); }, grid_in_cl(grid),
+                     grid.bytes(),
+                     [&work, &seen, grid](auto& depth) { return listed_of_grid(work, seen, grid, depth); });
 }
 
 }  // namespace lightgrid

@@ -1,16 +1,18 @@
-// The light grid, in OpenCL, and for OpenGL.
+// The light grid, and the lights that it gives to a pixel.
 #pragma once
 
-#include "passes/common/frame.h"
+#include "passes/common/light_source.h"
 
 namespace lightgrid {
 
 // The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane. Kept in the view's
 // storage.
-LightGrid cull_lights(RenderView& v, const DepthBounds& bounds);
-LightGrid cull_lights_for_blended(RenderView& v, const DepthBounds& bounds);
+ViewGrid cull_lights(Work& work, const Seen& seen, LightCuller& culler, SharedGridStorage& storage,
+                     const DepthBounds& bounds);
+ViewGrid cull_lights_for_blended(Work& work, const Seen& seen, LightCuller& culler,
+                                 SharedGridStorage& storage, const DepthBounds& bounds);
 
-// Hands a grid to OpenGL.
-GridTextures grid_to_gl(RenderView& v, const LightGrid& grid, SharedGridStorage& storage);
+// The lights of the pixel's cell.
+LightSource from_grid(Work& work, const Seen& seen, const ViewGrid& grid);
 
 }  // namespace lightgrid

@@ -5,6 +5,6 @@
 
 namespace lightgrid {
 
-DepthImage depth_prepass(RenderView& v);
+DepthImage depth_prepass(Work& work, const Seen& seen);
 
 }  // namespace lightgrid

@@ -12,8 +12,8 @@ size_t written_bytes(const GBuffer& gbuffer) {
   return gbuffer.bytes() + (gbuffer.base_lighting == BaseLighting::in_image ? 16 : 0);
 }
 
-void clear(RenderView& v, const GBuffer& gbuffer) {
-  const float background[4] = {v.scene.background.r, v.scene.background.g, v.scene.background.b, 1};
+void clear(const Seen& seen, const GBuffer& gbuffer) {
+  const float background[4] = {seen.scene.background.r, seen.scene.background.g, seen.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
   if (gbuffer.base_lighting == BaseLighting::in_image)
     glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
@@ -21,44 +21,45 @@ void clear(RenderView& v, const GBuffer& gbuffer) {
     glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.attachment(i), nothing);
 }
 
-void draw_surfaces(RenderView& v, const GBuffer& gbuffer, const DrawList& surfaces) {
+void draw_surfaces(Work& work, const Seen& seen, const GBuffer& gbuffer, const DrawList& surfaces) {
   glBindFramebuffer(GL_FRAMEBUFFER, gbuffer.framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
-  clear(v, gbuffer);
+  glViewport(0, 0, seen.grid().width, seen.grid().height);
+  clear(seen, gbuffer);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  LightSource source = base_lighting(v);
-  if (gbuffer.layout->define) source.defines.emplace_back(gbuffer.layout->define);
-  if (gbuffer.base_lighting == BaseLighting::in_image) source.defines.emplace_back("BASE_LIGHTING");
-  if (gbuffer.textures[gbuffer_coat]) source.defines.emplace_back("COATS");
-  if (gbuffer.textures[gbuffer_specular]) source.defines.emplace_back("SPECULAR_IMAGE");
-  source.bind(v);
-  draw_list(v, surfaces, DrawStreams::all,
-            v.programs({"shaders/scene.vert", "shaders/gbuffer.frag", source.defines}));
+  GlLightLoop loop = base_lighting(seen);
+  if (gbuffer.layout->define) loop.defines.emplace_back(gbuffer.layout->define);
+  if (gbuffer.base_lighting == BaseLighting::in_image) loop.defines.emplace_back("BASE_LIGHTING");
+  if (gbuffer.textures[gbuffer_coat]) loop.defines.emplace_back("COATS");
+  if (gbuffer.textures[gbuffer_specular]) loop.defines.emplace_back("SPECULAR_IMAGE");
+  loop.bind(work);
+  draw_list(work, seen, surfaces, DrawStreams::all,
+            work.programs({"shaders/scene.vert", "shaders/gbuffer.frag", loop.defines}));
 }
 
 }  // namespace
 
-GBuffer fill_gbuffer(RenderView& v, BaseLighting base_lighting) {
-  auto pass = v.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(v, base_lighting);
+GBuffer fill_gbuffer(Work& work, const Seen& seen, BaseLighting base_lighting) {
+  auto pass = work.timer.pass("fill_gbuffer", "gl");
+  const GBuffer gbuffer = gbuffer_of(work, seen, base_lighting);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as in forward shading
   glDepthMask(GL_TRUE);
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
-  draw_surfaces(v, gbuffer, v.opaque);
-  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * (4 + written_bytes(gbuffer)));
+  draw_surfaces(work, seen, gbuffer, seen.opaque);
+  pass.moves(work.gpu.in_gl().geometry_bytes(), seen.grid().values() * (4 + written_bytes(gbuffer)));
   return gbuffer;
 }
 
-GBuffer fill_gbuffer(RenderView& v, const DrawList& surfaces, BaseLighting base_lighting) {
-  auto pass = v.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(v, base_lighting);
+GBuffer fill_gbuffer(Work& work, const Seen& seen, const DrawList& surfaces, BaseLighting base_lighting) {
+  auto pass = work.timer.pass("fill_gbuffer", "gl");
+  const GBuffer gbuffer = gbuffer_of(work, seen, base_lighting);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);
-  draw_surfaces(v, gbuffer, surfaces);
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4, v.pixels() * written_bytes(gbuffer));
+  draw_surfaces(work, seen, gbuffer, surfaces);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + seen.grid().values() * 4,
+             seen.grid().values() * written_bytes(gbuffer));
   return gbuffer;
 }
 

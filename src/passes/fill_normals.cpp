@@ -13,11 +13,11 @@ static uint32_t features_of_normals(uint32_t features) {
   return features & read;
 }
 
-NormalImage fill_normals(RenderView& v) {
-  auto pass = v.timer.pass("fill_normals", "gl");
-  const NormalImage normals = normal_image_of(v);
+NormalImage fill_normals(Work& work, const Seen& seen) {
+  auto pass = work.timer.pass("fill_normals", "gl");
+  const NormalImage normals = normal_image_of(work, seen);
   glBindFramebuffer(GL_FRAMEBUFFER, normals.framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, seen.grid().width, seen.grid().height);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
@@ -28,10 +28,10 @@ NormalImage fill_normals(RenderView& v) {
   glClearNamedFramebufferfv(normals.framebuffer, GL_COLOR, 0, nothing);
   std::vector<std::string> defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
-  draw_list(v, v.opaque, DrawStreams::all,
-            v.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
-                        features_of_normals}));
-  pass.moves(v.gpu.in_gl().geometry_bytes(), v.pixels() * (4 + normals.layout->image.bytes));
+  draw_list(work, seen, seen.opaque, DrawStreams::all,
+            work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
+                           features_of_normals}));
+  pass.moves(work.gpu.in_gl().geometry_bytes(), seen.grid().values() * (4 + normals.layout->image.bytes));
   return normals;
 }
 

@@ -21,33 +21,34 @@ std::vector<uint32_t> lights_reaching(const ViewBox& box, const std::vector<Ligh
 
 }  // namespace
 
-void ObjectLights::update(const RenderView& v, const DrawList& list) {
+void ObjectLights::update(Work& work, const Seen& seen, const DrawList& list) {
   objects_.clear();
   lights_.clear();
   reaches_.clear();
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-  for (const int i : v.plan.local) reaches_.emplace_back(all[size_t(i)]);
+  for (const ViewLight& light :
+       lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local))
+    reaches_.emplace_back(bounds_of(light));
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
   for (const DrawItem& item : list) {
-    const Aabb& bounds = v.scene.meshes[v.scene.instances[item.instance].mesh].bounds;
-    const ViewBox whole = box_in_view(v.transforms[item.instance].view_from_object, bounds);
-    add_item(v, item, lights_reaching(whole, reaches_, every_light));
+    const Aabb& bounds = seen.scene.meshes[seen.scene.instances[item.instance].mesh].bounds;
+    const ViewBox whole = box_in_view(seen.transforms[item.instance].view_from_object, bounds);
+    add_item(work, seen, item, lights_reaching(whole, reaches_, every_light));
   }
   for (Object& object : objects_) {
     object.ranges =
-        index_ranges(v.gpu.in_gl().mesh(v.scene.instances[object.instance].mesh), object.clusters);
+        index_ranges(work.gpu.in_gl().mesh(seen.scene.instances[object.instance].mesh), object.clusters);
   }
   upload_lists();
 }
 
-void ObjectLights::add_item(const RenderView& v, const DrawItem& item,
+void ObjectLights::add_item(Work& work, const Seen& seen, const DrawItem& item,
                             const std::vector<uint32_t>& candidates) {
-  const GlMesh& mesh = v.gpu.in_gl().mesh(v.scene.instances[item.instance].mesh);
+  const GlMesh& mesh = work.gpu.in_gl().mesh(seen.scene.instances[item.instance].mesh);
   const size_t first_object = objects_.size();
   for (const uint32_t cluster : item.clusters) {
     const ViewBox box =
-        box_in_view(v.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
+        box_in_view(seen.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
     const std::vector<uint32_t> lights = lights_reaching(box, reaches_, candidates);
     if (objects_.size() > first_object) {
       Object& last = objects_.back();
@@ -80,25 +81,36 @@ void ObjectLights::upload_lists() {
   }
 }
 
-static void count_bytes(const RenderView& v, const ObjectLights& objects, PassTimer::Scope& pass) {
-  pass.moves(v.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
+LightSource from_objects(Work& work, const Seen& seen, const ObjectLights& objects) {
+  const auto in_gl = [&work, &seen, &objects] {
+    GlLightLoop loop = light_loop(seen);
+    loop.defines.emplace_back("LIGHTS_OBJECT");
+    if (objects.texture()) loop.textures.push_back({Sampler::object_lights, objects.texture()});
+    return loop;
+  };
+  return LightSource(in_gl, {}, objects.lights().size() * sizeof(uint32_t));
+}
+
+static void count_bytes(const Seen& seen, const ObjectLights& objects, PassTimer::Scope& pass) {
+  pass.moves(seen.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
              objects.lights().size() * sizeof(uint32_t));
 }
 
-const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces) {
-  auto pass = v.timer.pass("find_object_lights", "cpu");
-  ObjectLights& objects = v.state<ObjectLights>();
-  objects.update(v, surfaces);
-  count_bytes(v, objects, pass);
+const ObjectLights& find_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache,
+                                       const DrawList& surfaces) {
+  auto pass = work.timer.pass("find_object_lights", "cpu");
+  ObjectLights& objects = cache.of(work, seen);
+  objects.update(work, seen, surfaces);
+  count_bytes(seen, objects, pass);
   return objects;
 }
 
-const ObjectLights& find_blended_object_lights(RenderView& v) {
-  ObjectLights& objects = v.state<BlendedObjectLights>();
-  if (!v.plan.blend) return objects;
-  auto pass = v.timer.pass("find_blended_object_lights", "cpu");
-  objects.update(v, v.blended);
-  count_bytes(v, objects, pass);
+const ObjectLights& find_blended_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache) {
+  ObjectLights& objects = cache.of(work, seen);
+  if (!seen.plan.blend) return objects;
+  auto pass = work.timer.pass("find_blended_object_lights", "cpu");
+  objects.update(work, seen, seen.blended);
+  count_bytes(seen, objects, pass);
   return objects;
 }
 

@@ -2,13 +2,13 @@
 // grid.
 #pragma once
 
-#include "passes/common/frame.h"
+#include "passes/common/light_source.h"
 #include "passes/light_volumes/light_reach.h"
 
 namespace lightgrid {
 
 // Objects are parts of instances: successive clusters that the same lights reach.
-class ObjectLights : public PassState {
+class ObjectLights : public PassCache {
  public:
   struct Object {
     int instance;
@@ -17,20 +17,20 @@ class ObjectLights : public PassState {
     IndexRanges ranges;                         // of these clusters
   };
 
-  explicit ObjectLights(RenderView&) {}
+  explicit ObjectLights(Work&, const Seen&) {}
   size_t memory_bytes() const override { return buffer_bytes_; }
-  bool follow(RenderView&) override { return true; }  // every frame updates it
+  bool follow(Work&, const Seen&) override { return true; }  // every frame updates it
 
   // Finds the objects of a draw list, in its order, and uploads their lights to the buffer that
   // shaders/lights/object.glsl reads.
-  void update(const RenderView& v, const DrawList& list);
+  void update(Work& work, const Seen& seen, const DrawList& list);
 
   const std::vector<Object>& objects() const { return objects_; }
   const std::vector<uint32_t>& lights() const { return lights_; }  // indices into FramePlan::local
   GLuint texture() const { return texture_.name(); }
 
  private:
-  void add_item(const RenderView& v, const DrawItem& item, const std::vector<uint32_t>& candidates);
+  void add_item(Work& work, const Seen& seen, const DrawItem& item, const std::vector<uint32_t>& candidates);
   void upload_lists();
 
   std::vector<LightReach> reaches_;
@@ -46,8 +46,12 @@ class BlendedObjectLights : public ObjectLights {
   using ObjectLights::ObjectLights;
 };
 
+// The lights of the current object (uniform lights_of_draw).
+LightSource from_objects(Work& work, const Seen& seen, const ObjectLights& objects);
+
 // The pass: object-light pairs of opaque or blended surfaces, found on the CPU.
-const ObjectLights& find_object_lights(RenderView& v, const DrawList& surfaces);
-const ObjectLights& find_blended_object_lights(RenderView& v);
+const ObjectLights& find_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache,
+                                       const DrawList& surfaces);
+const ObjectLights& find_blended_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache);
 
 }  // namespace lightgrid

@@ -20,6 +20,8 @@ namespace {
 constexpr GLuint not_inside = 1;
 constexpr GLuint has_room = 128;  // top bit: the count is not exhausted
 
+}  // namespace
+
 // Volumes that one call draws.
 struct Batch {
   size_t first, count;
@@ -31,20 +33,20 @@ struct Order {
   std::vector<Batch> batches;
 };
 
-class LightIndexState : public PassState {
+class LightIndexOrder : public PassCache {
  public:
-  explicit LightIndexState(RenderView& v)
-      : layout(light_index_layout(v.plan.settings, v.plan.local.size())),
-        group_of_light(v.plan.local.size(), no_group) {
-    require_exact_blending(v, layout);
-    find_influence(v);
+  explicit LightIndexOrder(Work& work, const Seen& seen)
+      : layout(light_index_layout(seen.plan.settings, seen.plan.local.size())),
+        group_of_light(seen.plan.local.size(), no_group) {
+    require_exact_blending(work, layout);
+    find_influence(seen);
   }
 
   // Lights that come into view need groups as well.
-  bool follow(RenderView& v) override {
-    if (group_of_light.size() != v.plan.local.size()) return false;
+  bool follow(Work&, const Seen& seen) override {
+    if (group_of_light.size() != seen.plan.local.size()) return false;
     grouped = false;
-    find_influence(v);
+    find_influence(seen);
     return true;
   }
 
@@ -55,20 +57,22 @@ class LightIndexState : public PassState {
   Order order;
 
  private:
-  void find_influence(const RenderView& v) {
+  void find_influence(const Seen& seen) {
     influence.clear();
-    const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-    for (int i : v.plan.local) {
-      const glm::dvec3& i_rgb = lights[i].radiant_intensity;
+    for (const ViewLight& light :
+         lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local)) {
+      const glm::dvec3& i_rgb = light.radiant_intensity;
       // The integral of intensity / distance^2 over the sphere, up to a factor.
-      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * lights[i].radius_m);
+      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * light.radius_m);
     }
   }
 };
 
+namespace {
+
 // Most influence first if lidr-order says so, else scene order.
-void put_in_order(const RenderView& v, const LightIndexState& state, std::vector<LightVolume>& volumes) {
-  if (v.plan.settings.lidr_order == LidrOrder::scene) return;
+void put_in_order(const Seen& seen, const LightIndexOrder& state, std::vector<LightVolume>& volumes) {
+  if (seen.plan.settings.lidr_order == LidrOrder::scene) return;
   std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) {
     return state.influence[a.light] > state.influence[b.light];
   });
@@ -83,8 +87,8 @@ LightExtent extent_on_screen(const LightVolume& v) {
 
 // Sort: lights without a group are left out. With stencil, lights that do not touch in space share no pixel,
 // whatever the camera; with front faces, the rectangles on screen must not touch.
-void put_in_groups(const RenderView& v, LightIndexState& state, std::vector<LightVolume>& volumes) {
-  const bool on_screen = v.plan.settings.lidr_volumes == LidrVolumes::front_faces;
+void put_in_groups(const Seen& seen, LightIndexOrder& state, std::vector<LightVolume>& volumes) {
+  const bool on_screen = seen.plan.settings.lidr_volumes == LidrVolumes::front_faces;
   if (on_screen || !state.grouped) {
     std::vector<LightExtent> extents;
     for (const LightVolume& v : volumes)
@@ -101,21 +105,21 @@ void put_in_groups(const RenderView& v, LightIndexState& state, std::vector<Ligh
 
 // Rounds in which no two volumes share a pixel, because the stencil marks one volume at a time. A single
 // round if nothing is marked and each draw's channels are fixed.
-std::vector<uint32_t> rounds_of(const RenderView& v, const LightIndexLayout& layout,
+std::vector<uint32_t> rounds_of(const Seen& seen, const LightIndexLayout& layout,
                                 const std::vector<LightVolume>& volumes) {
   const bool sorted = layout.packing == LidrPacking::sort,
-             marked = v.plan.settings.lidr_volumes == LidrVolumes::stencil;
+             marked = seen.plan.settings.lidr_volumes == LidrVolumes::stencil;
   if (!marked && (sorted || layout.groups == 1)) return std::vector<uint32_t>(volumes.size(), 0);
   std::vector<LightExtent> extents;
   for (const LightVolume& v : volumes) extents.push_back(extent_on_screen(v));
   return draw_rounds(extents);
 }
 
-Order order_of(const RenderView& v, LightIndexState& state, std::vector<LightVolume> volumes) {
+Order order_of(const Seen& seen, LightIndexOrder& state, std::vector<LightVolume> volumes) {
   const bool sorted = state.layout.packing == LidrPacking::sort;
-  put_in_order(v, state, volumes);
-  if (sorted) put_in_groups(v, state, volumes);
-  const std::vector<uint32_t> rounds = rounds_of(v, state.layout, volumes);
+  put_in_order(seen, state, volumes);
+  if (sorted) put_in_groups(seen, state, volumes);
+  const std::vector<uint32_t> rounds = rounds_of(seen, state.layout, volumes);
   // Within a round of a group any order gives the same image; this one needs few calls. If there is only one
   // round, the order decides which lights are kept when slots run out.
   const auto batch_of = [&](uint32_t i) {
@@ -125,7 +129,7 @@ Order order_of(const RenderView& v, LightIndexState& state, std::vector<LightVol
   std::vector<uint32_t> order(volumes.size());
   std::iota(order.begin(), order.end(), 0u);
   const bool any_order =
-      sorted || v.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
+      sorted || seen.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
   if (any_order)
     std::stable_sort(order.begin(), order.end(),
                      [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
@@ -143,8 +147,10 @@ Order order_of(const RenderView& v, LightIndexState& state, std::vector<LightVol
 
 class Drawing {
  public:
-  Drawing(const RenderView& v, const LightIndexLayout& layout, const LightVolumes& volumes)
-      : layout_(layout), volumes_(volumes), inside_(v.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
+  Drawing(const Seen& seen, const LightIndexLayout& layout, const LightVolumes& volumes)
+      : layout_(layout),
+        volumes_(volumes),
+        inside_(seen.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
 
   void draw(const Batch& batch) const {
     const bool counted = layout_.packing != LidrPacking::sort;
@@ -226,11 +232,11 @@ class Drawing {
   bool inside_;
 };
 
-std::vector<GLuint> index_images(RenderView& v, const LightIndexLayout& layout) {
+std::vector<GLuint> index_images(Work& work, const LightIndexLayout& layout) {
   std::vector<GLuint> images;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
     images.push_back(
-        v.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
+        work.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
   }
   return images;
 }
@@ -243,14 +249,14 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
   glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
 }
 
-void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolumes& volumes,
+void draw_volumes(Work& work, const Seen& seen, const LightIndexOrder& state, const LightVolumes& volumes,
                   const Order& order, GLuint framebuffer) {
   const LightIndexLayout& layout = state.layout;
-  const Drawing drawing(v, layout, volumes);
+  const Drawing drawing(seen, layout, volumes);
   const GlProgram& program =
-      v.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
+      work.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, seen.grid().width, seen.grid().height);
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
   glUseProgram(program.name());
@@ -263,48 +269,58 @@ void draw_volumes(RenderView& v, const LightIndexState& state, const LightVolume
   glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
 }
 
-bool may_repeat(const RenderView& v) { return v.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
+bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
 
-}  // namespace
-
-LightIndexImages light_index(RenderView& v) {
-  LightIndexState& state = v.state<LightIndexState>();
-  LightVolumes& volumes = v.state<LightVolumes>();
-  const std::vector<GLuint> images = index_images(v, state.layout);
-  const GLuint framebuffer = v.targets.framebuffer(images, v.targets.depth());
-  {
-    auto pass = v.timer.pass("light_volumes", "gl");
-    Order order = order_of(v, state, volumes.update(v, v.plan.settings.volume_mesh));
-    volumes.upload_volumes(order.volumes);
-    state.order = std::move(order);
-  }
-  auto pass = v.timer.pass("light_index", "gl");
-  draw_volumes(v, state, volumes, state.order, framebuffer);
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  pass.moves(pixels * 5 + volumes.memory_bytes(), pixels * (state.layout.pixel_bytes() + 1));
-
-  std::vector<std::string> defines = state.layout.defines();
-  defines.emplace_back("LIGHTS_LIDR");
-  if (v.plan.settings.lidr_unpack == LidrUnpack::floats) defines.emplace_back("LIDR_FLOAT");
-  if (may_repeat(v)) defines.emplace_back("LIDR_REPEATS");
-  return {images, std::move(defines), v.targets.bytes(TargetUse::light_index)};
+GlLightLoop index_loop(const Seen& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images) {
+  GlLightLoop loop = light_loop(seen);
+  for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
+  loop.defines.emplace_back("LIGHTS_LIDR");
+  if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
+  if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
+  for (size_t i = 0; i < images.size(); ++i)
+    loop.textures.push_back({Sampler::light_index_images, images[i], i});
+  return loop;
 }
 
-ListedLights read_light_index(RenderView& v) {
-  const LightIndexLayout& layout = v.state<LightIndexState>().layout;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, v.targets.framebuffer(index_images(v, layout), v.targets.depth()));
-  const std::vector<uint16_t> channels = read_channels(layout, v.view.width, v.view.height);
+ListedLights read_light_index(Work& work, const Seen& seen, Cached<LightIndexOrder>& cache) {
+  const LightIndexLayout& layout = cache.of(work, seen).layout;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER,
+                    work.targets.framebuffer(index_images(work, layout), work.targets.depth()));
+  const std::vector<uint16_t> channels = read_channels(layout, seen.grid());
   const size_t stride = layout.targets() * 4;
   ListedLights lists;
   lists.cell_of_pixel.resize(channels.size() / stride);
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   std::vector<uint32_t> lights;
   for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {
-    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(v), lights);
+    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(seen), lights);
     lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(lights.size()));
     lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
   }
   return lists;
+}
+
+}  // namespace
+
+LightSource light_index(Work& work, const Seen& seen, Cached<LightIndexOrder>& cache,
+                        Cached<LightVolumes>& volume_cache) {
+  LightIndexOrder& state = cache.of(work, seen);
+  LightVolumes& volumes = volume_cache.of(work, seen);
+  const std::vector<GLuint> images = index_images(work, state.layout);
+  const GLuint framebuffer = work.targets.framebuffer(images, work.targets.depth());
+  {
+    auto pass = work.timer.pass("light_volumes", "gl");
+    Order order = order_of(seen, state, volumes.update(seen, seen.plan.settings.volume_mesh));
+    volumes.upload_volumes(order.volumes);
+    state.order = std::move(order);
+  }
+  auto pass = work.timer.pass("light_index", "gl");
+  draw_volumes(work, seen, state, volumes, state.order, framebuffer);
+  const size_t values = seen.grid().values();
+  pass.moves(values * 5 + volumes.memory_bytes(), values * (state.layout.pixel_bytes() + 1));
+  return LightSource([&seen, &state, images] { return index_loop(seen, state.layout, images); }, {},
+                     work.targets.bytes(TargetUse::light_index),
+                     [&work, &seen, &cache](auto&) { return read_light_index(work, seen, cache); });
 }
 
 }  // namespace lightgrid

@@ -1,15 +1,14 @@
 // Light volumes drawn into images of light indices (docs/techniques/lidr.md).
 #pragma once
 
-#include "passes/common/frame.h"
-#include "scene/listed_lights.h"
+#include "passes/common/light_source.h"
 
 namespace lightgrid {
 
-// Draws light volumes into light index images, at the prepass' depth. Throws Error(input) if no layout fits
-// the settings, and Error(machine) if this machine's blending would change an index.
-LightIndexImages light_index(RenderView& v);
-// The lists of the last frame, for the oracle.
-ListedLights read_light_index(RenderView& v);
+// The lights in the pixel's light indices. Draws light volumes into light index images, at the prepass'
+// depth. Throws Error(input) if no layout fits the settings, and Error(machine) if this machine's blending
+// would change an index.
+LightSource light_index(Work& work, const Seen& seen, Cached<LightIndexOrder>& cache,
+                        Cached<LightVolumes>& volume_cache);
 
 }  // namespace lightgrid

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cl/uploaded_buffer.h"
-#include "renderer/shown_meshes.h"
 #include "renderer/surface_instances.h"
 
 namespace lightgrid {
@@ -32,112 +31,96 @@ std::vector<int> kept_instances(const Scene& scene) {
   return kept;
 }
 
-// A rasteriser for some of a view's instances, which are drawn in this order.
+}  // namespace
+
+// Draws some of a view's instances, in this order.
 class InstanceRasterizer {
  public:
-  InstanceRasterizer(RenderView& v, bool drawing_order)
-      : rasterizer(*v.renderer.cl, *v.renderer.kernels,
-                   {.shape = v.plan.settings.kernel_shape,
-                    .portable = v.plan.settings.portable,
-                    .drawing_order = drawing_order}) {
-    set_meshes(v);
-  }
+  InstanceRasterizer(Work& work, const Seen& seen, bool drawing_order)
+      : scene(work.gpu.in_raster(seen.plan.settings.texels)),
+        raster(*scene, *work.renderer.kernels,
+               {.shape = seen.plan.settings.kernel_shape,
+                .portable = seen.plan.settings.portable,
+                .drawing_order = drawing_order}) {}
 
   // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
-  void follow(RenderView& v, std::span<const int> listed, std::span<const int> drawn) {
-    if (shape_version_ != v.gpu.shape_version()) set_meshes(v);
-    if (instances_version_ != v.gpu.instances_version() || !std::ranges::equal(listed, known_)) {
-      set_instances(v, listed);
+  void follow(Work& work, const Seen& seen, std::span<const int> listed, std::span<const int> drawn) {
+    work.gpu.in_raster(seen.plan.settings.texels);  // brings `scene` up to date
+    if (shape_version_ != work.gpu.shape_version() || instances_version_ != work.gpu.instances_version() ||
+        !std::ranges::equal(listed, known_)) {
+      set_instances(work, seen, listed);
     }
-    bool masked = false;
     for (size_t i = 0; i < listed.size(); ++i) {
       const bool in_view = !drawn.empty() && drawn.front() == listed[i];
-      rasterizer.set_drawn(i, in_view);
+      raster.set_drawn(i, in_view);
       if (in_view) drawn = drawn.subspan(1);
-      masked |= masked_[i] && in_view;
     }
-    rasterizer.set_view(
-        {v.view.width, v.view.height, v.view.clip_from_view, v.view.view_from_world, v.view.eye});
-    const ClScene* scene = masked ? &v.gpu.in_cl(v.plan.settings.texels) : nullptr;
-    rasterizer.set_masks(scene ? RasterMasks{scene->vertices(), scene->materials(), scene->alphas()}
-                               : RasterMasks{});
+    raster.set_camera({seen.grid(), seen.view.clip_from_view, seen.view.view_from_world, seen.view.eye});
     listed_ = listed, uploaded_ = false;
   }
 
   // `surfaces`, of the instances that follow() was given.
-  void upload_surfaces(RenderView& v) {
+  void upload_surfaces(Work& work, const Seen& seen) {
     if (uploaded_) return;
-    set_surface_instances(v, listed_, records_);
-    surfaces.put(*v.renderer.cl, "uploading instances", records_);
+    set_surface_instances(seen, listed_, records_);
+    surfaces.put(*work.renderer.cl, "uploading instances", records_);
     uploaded_ = true;
   }
 
-  size_t memory_bytes() const { return rasterizer.memory_bytes() + surfaces.bytes(); }
-  size_t geometry_bytes() const { return geometry_bytes_; }  // positions and indices of the scene
+  size_t memory_bytes() const { return raster.memory_bytes() + surfaces.bytes(); }  // without the scene's
 
-  Rasterizer rasterizer;
+  const std::shared_ptr<RasterScene> scene;
+  RasterView raster;
   UploadedBuffer surfaces;
 
  private:
-  void set_instances(RenderView& v, std::span<const int> listed) {
+  void set_instances(Work& work, const Seen& seen, std::span<const int> listed) {
     std::vector<RasterInstance> instances;
-    masked_.clear();
     for (const int i : listed) {
-      const Instance& instance = v.scene.instances[i];
-      const Material& m = material_of(v.scene, i);
-      masked_.push_back(m.alpha_mode == AlphaMode::mask);
+      const Instance& instance = seen.scene.instances[i];
+      const Material& m = material_of(seen.scene, i);
+      const bool masked = m.alpha_mode == AlphaMode::mask;
       instances.push_back({instance.mesh, instance.world_from_object, m.double_sided,
-                           masked_.back() ? v.scene.meshes[instance.mesh].material : -1});
+                           masked ? seen.scene.meshes[instance.mesh].material : -1});
     }
-    rasterizer.set_instances(instances);
+    raster.set_instances(instances);
     known_.assign(listed.begin(), listed.end());
-    instances_version_ = v.gpu.instances_version();
+    shape_version_ = work.gpu.shape_version(), instances_version_ = work.gpu.instances_version();
   }
 
-  void set_meshes(RenderView& v) {
-    const std::vector<bool> shown = shown_meshes(v.scene);
-    std::vector<RasterMesh> meshes;
-    geometry_bytes_ = 0;
-    for (size_t i = 0; i < shown.size(); ++i) {
-      const Mesh& mesh = v.scene.meshes[i];
-      meshes.push_back(shown[i] ? RasterMesh{mesh.positions, mesh.indices}
-                                : RasterMesh{});  // as ClScene leaves them out
-      if (shown[i]) geometry_bytes_ += mesh.positions.size() * sizeof(glm::vec3) + mesh.indices.size() * 4;
-    }
-    rasterizer.set_meshes(meshes);
-    shape_version_ = v.gpu.shape_version();
-    instances_version_ = -1;
-  }
-
-  int shape_version_ = 0, instances_version_ = -1;  // -1: the rasteriser has no instances
-  size_t geometry_bytes_ = 0;
-  std::vector<int> known_;    // to the rasteriser
-  std::vector<bool> masked_;  // of those
+  int shape_version_ = -1, instances_version_ = -1;  // when the instances were set; -1: never
+  std::vector<int> known_;                           // the instances that were set
   std::vector<SurfaceInstance> records_;
   std::span<const int> listed_;
   bool uploaded_ = false;
 };
 
-struct OpaqueRasterizer : PassState {
-  explicit OpaqueRasterizer(RenderView& v) : of(v, false), kept(kept_instances(v.scene)) { follow(v); }
-  bool follow(RenderView& v) override {
-    of.follow(v, instances(v), v.plan.opaque);
+class OpaqueTriangles : public PassCache {
+ public:
+  explicit OpaqueTriangles(Work& work, const Seen& seen)
+      : of(work, seen, false), kept(kept_instances(seen.scene)) {
+    follow(work, seen);
+  }
+  bool follow(Work& work, const Seen& seen) override {
+    of.follow(work, seen, instances(seen), seen.plan.opaque);
     return true;
   }
-  void upload(RenderView& v) override { of.upload_surfaces(v); }
-  size_t memory_bytes() const override { return of.memory_bytes(); }
-  std::span<const int> instances(const RenderView& v) const { return kept.empty() ? v.plan.opaque : kept; }
+  void upload(Work& work, const Seen& seen) override { of.upload_surfaces(work, seen); }
+  size_t memory_bytes() const override { return of.memory_bytes() + of.scene->memory_bytes(); }
+  std::span<const int> instances(const Seen& seen) const { return kept.empty() ? seen.plan.opaque : kept; }
 
   InstanceRasterizer of;
   const std::vector<int> kept;
 };
 
-struct BlendedRasterizer : PassState {
-  explicit BlendedRasterizer(RenderView& v) : of(v, true) { upload(v); }
-  bool follow(RenderView&) override { return followed = false, true; }
-  void upload(RenderView& v) override {
-    if (!followed) of.follow(v, v.plan.blended, v.plan.blended), of.upload_surfaces(v);
+class BlendedTriangleLists : public PassCache {
+ public:
+  explicit BlendedTriangleLists(Work& work, const Seen& seen) : of(work, seen, true) { upload(work, seen); }
+  bool follow(Work&, const Seen&) override { return followed = false, true; }
+  void upload(Work& work, const Seen& seen) override {
+    if (!followed)
+      of.follow(work, seen, seen.plan.blended, seen.plan.blended), of.upload_surfaces(work, seen);
     followed = true;
   }
   size_t memory_bytes() const override { return of.memory_bytes(); }
@@ -145,25 +128,23 @@ struct BlendedRasterizer : PassState {
   bool followed = false;
 };
 
-}  // namespace
-
-VisibilityBuffer rasterize(RenderView& v) {
-  auto pass = v.timer.pass("rasterize", "cl");
-  OpaqueRasterizer& opaque = v.state<OpaqueRasterizer>();
+VisibilityBuffer rasterize(Work& work, const Seen& seen, PassCaches& caches) {
+  auto pass = work.timer.pass("rasterize", "cl");
+  OpaqueTriangles& opaque = caches.opaque_triangles.of(work, seen);
   InstanceRasterizer& r = opaque.of;
-  const Visibility image = r.rasterizer.draw([&v] { v.upload_states(); });
-  pass.moves(r.geometry_bytes(), v.pixels() * 8);
-  return {image, r.rasterizer.buffers(), r.surfaces.buffer(), opaque.instances(v)};
+  const Visibility image = r.raster.draw([&] { caches.upload(work, seen); });
+  pass.moves(r.scene->geometry_bytes(), seen.grid().values() * 8);
+  return {image, r.raster.buffers(), r.surfaces.buffer(), opaque.instances(seen)};
 }
 
-BlendedTriangles list_blended(RenderView& v) {
-  auto pass = v.timer.pass("list_blended", "cl");
-  BlendedRasterizer& blended = v.state<BlendedRasterizer>();
-  blended.upload(v);
+BlendedTriangles list_blended(Work& work, const Seen& seen, Cached<BlendedTriangleLists>& cache) {
+  auto pass = work.timer.pass("list_blended", "cl");
+  BlendedTriangleLists& blended = cache.of(work, seen);
+  blended.upload(work, seen);
   InstanceRasterizer& r = blended.of;
-  const RasterLists lists = r.rasterizer.list();
-  pass.moves(r.geometry_bytes(), r.rasterizer.counts().tile_entries * 4);
-  return {lists, r.rasterizer.buffers(), r.surfaces.buffer()};
+  const RasterLists lists = r.raster.list();
+  pass.moves(r.scene->geometry_bytes(), r.raster.counts().tile_entries * 4);
+  return {lists, r.raster.buffers(), r.surfaces.buffer()};
 }
 
 }  // namespace lightgrid

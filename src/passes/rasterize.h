@@ -4,11 +4,11 @@
 #include <span>
 
 #include "passes/common/frame.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 namespace lightgrid {
 
-// The nearest opaque or masked triangle at each pixel, and what its number leads to. The rasteriser's own
+// The nearest opaque or masked triangle at each pixel, and what its number leads to. The view's own
 // buffers: until the view's next rasterize().
 struct VisibilityBuffer {
   Visibility image;
@@ -20,7 +20,7 @@ struct VisibilityBuffer {
   TriangleBuffer triangles() const { return {image.triangle, instances}; }
 };
 
-VisibilityBuffer rasterize(RenderView& v);
+VisibilityBuffer rasterize(Work& work, const Seen& seen, PassCaches& caches);
 
 // The blended triangles of each tile in drawing order, and what their numbers lead to: until the view's next
 // list_blended().
@@ -30,6 +30,6 @@ struct BlendedTriangles {
   cl::Buffer surfaces;
 };
 
-BlendedTriangles list_blended(RenderView& v);
+BlendedTriangles list_blended(Work& work, const Seen& seen, Cached<BlendedTriangleLists>& cache);
 
 }  // namespace lightgrid

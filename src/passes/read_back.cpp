@@ -4,19 +4,20 @@
 
 namespace lightgrid {
 
-HostImage::HostImage(RenderView& v, const ShadedImage& shaded, Image& copy) : copy_(copy) {
-  auto pass = v.timer.pass("read_back", shaded.in_cl ? "cl" : "gl");
-  if (copy.width != v.view.width || copy.height != v.view.height || copy.pixels.size() != v.pixels()) {
-    copy = Image(v.view.width, v.view.height);
+HostImage::HostImage(Work& work, const Seen& seen, const ShadedImage& shaded, Image& copy) : copy_(copy) {
+  auto pass = work.timer.pass("read_back", shaded.in_cl ? "cl" : "gl");
+  if (copy.width != seen.view.width || copy.height != seen.view.height ||
+      copy.pixels.size() != seen.grid().pixels()) {
+    copy = Image(seen.view.width, seen.view.height);
   }
   const char* what = "reading the image back";
   const size_t bytes = copy.pixels.size() * 16;
-  if (shaded.in_cl && v.renderer.cl->info().cpu) {
-    mapped_.emplace(*v.renderer.cl, what, shaded.in_cl->cl_buffer(), bytes);
+  if (shaded.in_cl && work.renderer.cl->info().cpu) {
+    mapped_.emplace(*work.renderer.cl, what, shaded.in_cl->cl_buffer(), bytes);
     return;
   }
   if (shaded.in_cl) {
-    read_buffer(*v.renderer.cl, what, shaded.in_cl->cl_buffer(), copy.pixels.data(), bytes);
+    read_buffer(*work.renderer.cl, what, shaded.in_cl->cl_buffer(), copy.pixels.data(), bytes);
   } else {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -31,6 +32,8 @@ void HostImage::keep() {
   mapped_.reset();
 }
 
-void read_back(RenderView& v, const ShadedImage& shaded, Image& image) { HostImage(v, shaded, image).keep(); }
+void read_back(Work& work, const Seen& seen, const ShadedImage& shaded, Image& image) {
+  HostImage(work, seen, shaded, image).keep();
+}
 
 }  // namespace lightgrid

@@ -5,11 +5,13 @@
 
 namespace lightgrid {
 
+class ObjectLights;
+
 // Blends blended surfaces over the image, back to front.
-void shade_blended(RenderView& v, const ShadedImage& image, const LightSource& lights);
+void shade_blended(Work& work, const Seen& seen, const ShadedImage& image, const LightSource& lights);
 
 // The same with lights by object, each object in one draw with all of its lights: a second draw would blend
 // the surface over itself.
-void shade_blended(RenderView& v, const ShadedImage& image, const ObjectLights& objects);
+void shade_blended(Work& work, const Seen& seen, const ShadedImage& image, const ObjectLights& objects);
 
 }  // namespace lightgrid

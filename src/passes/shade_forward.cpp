@@ -6,14 +6,16 @@
 
 namespace lightgrid {
 
-ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSource& lights) {
-  auto pass = v.timer.pass("shade_forward", "gl");
-  const ShadedImage image = begin_shading(v);
+ShadedImage shade_forward(Work& work, const Seen& seen, const DrawList& surfaces, const LightSource& lights) {
+  const GlLightLoop& loop = lights.in_gl();
+  auto pass = work.timer.pass("shade_forward", "gl");
+  const ShadedImage image = begin_shading(work, seen);
   glDisable(GL_BLEND);
-  lights.bind(v);
-  draw_list(v, surfaces, DrawStreams::all,
-            v.programs({"shaders/scene.vert", "shaders/forward.frag", lights.defines}));
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + lights.bytes, v.pixels() * 16);
+  loop.bind(work);
+  draw_list(work, seen, surfaces, DrawStreams::all,
+            work.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
+  pass.moves(work.gpu.in_gl().geometry_bytes() + seen.grid().values() * 4 + lights.bytes,
+             seen.grid().values() * 16);
   return image;
 }
 

@@ -6,6 +6,6 @@
 namespace lightgrid {
 
 // Shades opaque surfaces with each pixel's lights, at the prepass' depth.
-ShadedImage shade_forward(RenderView& v, const DrawList& surfaces, const LightSource& lights);
+ShadedImage shade_forward(Work& work, const Seen& seen, const DrawList& surfaces, const LightSource& lights);
 
 }  // namespace lightgrid

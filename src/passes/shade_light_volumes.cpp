@@ -15,21 +15,21 @@ constexpr uint32_t lights_a_mark = 48;
 
 // Draws the marks of all lights in batches, and calls visit(pixel, light) for each shader invocation.
 template <typename Visit>
-void visit_pairs(RenderView& v, const Visit& visit) {
-  const GLuint depth = v.targets.depth();
-  const int width = v.view.width, height = v.view.height;
+void visit_pairs(Work& work, const Seen& seen, Cached<LightVolumes>& cache, const Visit& visit) {
+  const GLuint depth = work.targets.depth();
+  const int width = seen.view.width, height = seen.view.height;
   const GlTexture target = make_texture_2d(GL_RGBA32F, width, height);
   const GlFramebuffer framebuffer = make_framebuffer({target.name()}, depth);
-  const std::vector<LightVolume>& volumes = v.state<LightVolumes>().volumes();
-  VolumeDraws draws(v, "shaders/deferred_light.frag", {"MARK"});
+  const std::vector<LightVolume>& volumes = cache.of(work, seen).volumes();
+  VolumeDraws draws(work, seen, cache.of(work, seen), "shaders/deferred_light.frag", {"MARK"});
   Image marks(width, height);
   for (size_t first = 0, end = 0; first < volumes.size(); first = end) {
     const uint32_t first_light = volumes[first].light;
     while (end < volumes.size() && volumes[end].light - first_light < lights_a_mark) ++end;
     const float nothing[4] = {0, 0, 0, 0};
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, nothing);
-    begin_adding_lights(v, framebuffer.name());
-    glBindTextureUnit(2, depth);
+    begin_adding_lights(work, seen, framebuffer.name());
+    bind_texture(Sampler::depth_image, depth);
     glUseProgram(draws.program().name());
     glUniform1ui(draws.program().uniform("first_light"), first_light);
     draws.draw(first, end);
@@ -47,35 +47,39 @@ void visit_pairs(RenderView& v, const Visit& visit) {
   glDisable(GL_BLEND);
 }
 
-}  // namespace
-
-void shade_light_volumes(RenderView& v, const GBuffer& gbuffer) {
-  if (!v.plan.local_lights) return;
-  auto pass = v.timer.pass("shade_light_volumes", "gl");
-  LightVolumes& volumes = v.state<LightVolumes>();
-  volumes.update(v, v.plan.settings.volume_mesh);
-  std::vector<std::string> defines = base_lighting(v).defines;
-  if (v.plan.spots) defines.emplace_back("SPOTS");
-  for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
-  begin_adding_lights(v, gbuffer.image.framebuffer);
-  bind_gbuffer(gbuffer);
-  VolumeDraws(v, "shaders/deferred_light.frag", std::move(defines)).draw(0, volumes.volumes().size());
-  glDisable(GL_BLEND);
-  const size_t pixels = size_t(v.view.width) * v.view.height;
-  pass.moves(pixels * (4 + 16 + gbuffer.bytes()), pixels * 16);
-}
-
-ListedLights listed_of_light_volumes(RenderView& v) {
+ListedLights read_pairs(Work& work, const Seen& seen, Cached<LightVolumes>& cache) {
   ListedLights lists;
-  const size_t pixels = size_t(v.view.width) * v.view.height;
+  const size_t pixels = seen.grid().pixels();
   lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
-  if (!v.plan.local_lights) return list_every_light(0);
-  visit_pairs(v, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
+  if (!seen.plan.local_lights) return list_every_light(0);
+  visit_pairs(work, seen, cache, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   place_lists(lists);
   std::vector<uint64_t> next = lists.first;
-  visit_pairs(v, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
+  visit_pairs(work, seen, cache, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
   return lists;
+}
+
+}  // namespace
+
+void shade_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
+  if (!seen.plan.local_lights) return;
+  auto pass = work.timer.pass("shade_light_volumes", "gl");
+  LightVolumes& volumes = cache.of(work, seen);
+  volumes.update(seen, seen.plan.settings.volume_mesh);
+  std::vector<std::string> defines = light_loop(seen).defines;
+  for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
+  begin_adding_lights(work, seen, gbuffer.image.framebuffer);
+  bind_gbuffer(gbuffer);
+  VolumeDraws(work, seen, cache.of(work, seen), "shaders/deferred_light.frag", std::move(defines))
+      .draw(0, volumes.volumes().size());
+  glDisable(GL_BLEND);
+  const size_t values = seen.grid().values();
+  pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
+}
+
+HostLists listed_of_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cache) {
+  return [&work, &seen, &cache](auto&) { return read_pairs(work, seen, cache); };
 }
 
 }  // namespace lightgrid

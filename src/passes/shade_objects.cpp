@@ -26,23 +26,24 @@ struct ObjectPrograms {
   ScenePrograms& base_and_lights;  // with the first of the object's
   ScenePrograms& lights;           // with further ones alone
 
-  static ScenePrograms& of(RenderView& v, const LightSource& source, const char* define) {
-    std::vector<std::string> defines = source.defines;
+  static ScenePrograms& of(Work& work, const GlLightLoop& loop, const char* define) {
+    std::vector<std::string> defines = loop.defines;
     defines.emplace_back(define);
-    return v.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines)});
+    return work.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines)});
   }
-  ObjectPrograms(RenderView& v, const LightSource& source)
-      : base(of(v, base_lighting(v), "FIRST_OF_DRAWS")),
-        base_and_lights(of(v, source, "FIRST_OF_DRAWS")),
-        lights(of(v, source, "ADDED")) {}
+  ObjectPrograms(Work& work, const Seen& seen, const GlLightLoop& loop)
+      : base(of(work, base_lighting(seen), "FIRST_OF_DRAWS")),
+        base_and_lights(of(work, loop, "FIRST_OF_DRAWS")),
+        lights(of(work, loop, "ADDED")) {}
 };
 
 // Draws one object. Alpha is 0 or 1.
 class ObjectDraws {
  public:
-  ObjectDraws(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object,
+  ObjectDraws(Work& work, const Seen& seen, ObjectPrograms& programs, const ObjectLights::Object& object,
               InstanceDrawer& drawer, PendingDraws& pending)
-      : v_(v),
+      : work_(work),
+        seen_(seen),
         programs_(programs),
         object_(object),
         drawer_(drawer),
@@ -62,7 +63,7 @@ class ObjectDraws {
   // Adds the lights [first, first + count) of the object.
   void add(uint32_t first, uint32_t count) {
     bind(programs_.lights, first, count);
-    if (reversed_.counts.empty()) reversed_ = in_reverse(object_.ranges, v_.gpu.in_gl());
+    if (reversed_.counts.empty()) reversed_ = in_reverse(object_.ranges, work_.gpu.in_gl());
     glEnable(GL_BLEND);
     glBlendFuncSeparate(alpha_ ? GL_DST_ALPHA : GL_ONE_MINUS_DST_ALPHA, GL_ONE, alpha_ ? GL_ZERO : GL_ONE,
                         GL_ZERO);
@@ -73,14 +74,15 @@ class ObjectDraws {
 
  private:
   const SceneProgram& bind(ScenePrograms& programs, uint32_t first, uint32_t count) {
-    const SceneProgram& program = programs.of(v_.plan.features_of_instance[object_.instance]);
+    const SceneProgram& program = programs.of(seen_.plan.features_of_instance[object_.instance]);
     drawer_.bind(object_.instance, program);
     if (program.lights_of_draw >= 0)
       glUniform2i(program.lights_of_draw, GLint(object_.first_light + first), GLint(count));
     return program;
   }
 
-  RenderView& v_;
+  Work& work_;
+  const Seen& seen_;
   ObjectPrograms& programs_;
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
@@ -90,11 +92,11 @@ class ObjectDraws {
   int alpha_ = 1;
 };
 
-void draw_object(RenderView& v, ObjectPrograms& programs, const ObjectLights::Object& object,
+void draw_object(Work& work, const Seen& seen, ObjectPrograms& programs, const ObjectLights::Object& object,
                  uint32_t lights_a_draw, bool own_apart, InstanceDrawer& drawer, PendingDraws& pending) {
-  ObjectDraws draws(v, programs, object, drawer, pending);
+  ObjectDraws draws(work, seen, programs, object, drawer, pending);
   const bool unlit =
-      v.scene.materials[v.scene.meshes[v.scene.instances[object.instance].mesh].material].unlit;
+      seen.scene.materials[seen.scene.meshes[seen.scene.instances[object.instance].mesh].material].unlit;
   const uint32_t count = unlit ? 0 : object.light_count;
   uint32_t done = own_apart ? 0 : std::min(count, lights_a_draw);
   const uint32_t further = (count - done + lights_a_draw - 1) / lights_a_draw;
@@ -104,36 +106,37 @@ void draw_object(RenderView& v, ObjectPrograms& programs, const ObjectLights::Ob
 
 }  // namespace
 
-ShadedImage shade_objects(RenderView& v, const ObjectLights& objects, uint32_t lights_a_draw,
+ShadedImage shade_objects(Work& work, const Seen& seen, const ObjectLights& objects, uint32_t lights_a_draw,
                           bool own_apart) {
-  auto pass = v.timer.pass("shade_objects", "gl");
-  const ShadedImage image = begin_shading(v);
+  auto pass = work.timer.pass("shade_objects", "gl");
+  const ShadedImage image = begin_shading(work, seen);
   glBlendEquation(GL_FUNC_ADD);
-  const LightSource source = from_objects(v, objects);
-  source.bind(v);
-  ObjectPrograms programs(v, source);
-  InstanceDrawer drawer(v, DrawStreams::all);
+  const LightSource source = from_objects(work, seen, objects);
+  source.in_gl().bind(work);
+  ObjectPrograms programs(work, seen, source.in_gl());
+  InstanceDrawer drawer(work, seen, DrawStreams::all);
   PendingDraws pending;
   for (const ObjectLights::Object& object : objects.objects()) {
-    draw_object(v, programs, object, lights_a_draw, own_apart, drawer, pending);
+    draw_object(work, seen, programs, object, lights_a_draw, own_apart, drawer, pending);
   }
   glDisable(GL_BLEND);
-  pass.moves(v.gpu.in_gl().geometry_bytes() + v.pixels() * 4 + source.bytes, v.pixels() * 16);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + seen.grid().values() * 4 + source.bytes,
+             seen.grid().values() * 16);
   return image;
 }
 
-ListedLights listed_of_objects(RenderView& v) {
-  const ObjectLights& objects = v.state<ObjectLights>();
+ListedLights listed_of_objects(Work& work, const Seen& seen, Cached<ObjectLights>& cache) {
+  const ObjectLights& objects = cache.of(work, seen);
   ListedLights lists{.indices = objects.lights()};
   for (const ObjectLights::Object& object : objects.objects()) {
     lists.first.push_back(object.first_light);
     lists.count.push_back(object.light_count);
   }
-  lists.cell_of_pixel = indices_drawn(v, [&] {
+  lists.cell_of_pixel = indices_drawn(work, seen, [&] {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
-    InstanceDrawer drawer(v, DrawStreams::all);
-    const SceneProgram& program = v.programs({"shaders/scene.vert", "shaders/object.frag", {}}).of(0);
+    InstanceDrawer drawer(work, seen, DrawStreams::all);
+    const SceneProgram& program = work.programs({"shaders/scene.vert", "shaders/object.frag", {}}).of(0);
     for (size_t i = 0; i < objects.objects().size(); ++i) {
       const ObjectLights::Object& object = objects.objects()[i];
       drawer.bind(object.instance, program);

@@ -2,16 +2,13 @@
 #pragma once
 
 #include "passes/common/gbuffer.h"
+#include "passes/common/light_source.h"
 
 namespace lightgrid {
 
-// Adds the lights of the grid's lists (in the view's storage of opaque surfaces) to the geometry buffer's
-// image. If blended surfaces follow, the image is copied back to OpenGL; else it stays in OpenCL's buffer.
-ShadedImage shade_tiles(RenderView& v, const GBuffer& gbuffer, const DepthBuffer& depth,
-                        const LightGrid& grid);
-
-// The same from OpenCL's memory; the image stays there.
-ShadedImage shade_tiles(RenderView& v, const GBufferInCl& gbuffer, const DepthBuffer& depth,
-                        const LightGrid& grid);
+// Adds the lights of the pixel's cell to the geometry buffer's image. Where OpenGL drew that and blends
+// surfaces over it, the image is copied back; else it stays in OpenCL's buffer.
+ShadedImage shade_tiles(Work& work, const Seen& seen, Cached<TileShading>& cache, const GBuffer& gbuffer,
+                        const DepthBuffer& depth, const LightSource& lights);
 
 }  // namespace lightgrid

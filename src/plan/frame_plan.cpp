@@ -143,12 +143,12 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
   int first_spot = -1;
   for (int i = 0; i < int(lights.size()); ++i) {
-    const bool directional = lights[i].type == LightType::directional;
+    const bool directional = is_directional(lights[i]);
     (directional ? plan.directional_lights : plan.local).push_back(i);
     const bool seen = directional || may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
     plan.lights_in_view += seen;
     // A spot out of view still needs its cone: the cone makes its contribution zero in view.
-    if (lights[i].type == LightType::spot && first_spot < 0) first_spot = i;
+    if (has_cone(lights[i]) && first_spot < 0) first_spot = i;
   }
   plan.local_lights = !plan.local.empty();
   plan.spots = first_spot >= 0;
@@ -200,6 +200,7 @@ void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = reads_light_grid(needs, plan.settings);
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
+  plan.light_reaches = true;
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;
@@ -270,6 +271,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
                      const TechniqueNeeds& needs, PlannedInstances instances) {
   FramePlan plan;
   plan.settings = settings;
+  plan.opengl = draws_with_opengl(needs, settings);
   plan.decisions.reserve(std::size(feature_names) + 16);
   plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil ||

@@ -81,6 +81,7 @@ bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);
 
 struct FramePlan {
   Settings settings;
+  bool opengl = true;  // OpenGL draws the surfaces; else OpenCL does
 
   // The instances this view may see (conservative frustum test), in scene order; blended ones back to front.
   std::vector<int> opaque, blended;
@@ -90,6 +91,8 @@ struct FramePlan {
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light
   bool spots = false;         // compile cone code
+  // Light loops ask what else keeps a light from a point (shared/light_table.h); no effect needs it yet.
+  bool light_reaches = false;
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // a light grid for blended surfaces

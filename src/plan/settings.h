@@ -24,7 +24,7 @@ enum class LidrVolumes { stencil, front_faces };
 enum class LidrUnpack { integers, floats };
 enum class LidrOrder { priority, scene };
 
-// Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/rasterizer.h), which then
+// Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/raster_view.h), which then
 // needs no OpenGL.
 enum class RasterApi { opengl, opencl };
 

@@ -1,4 +1,4 @@
-#include "raster/cluster_order.h"
+#include "raster/raster_arrays.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include "cl/growing_buffer.h"
 #include "cl/program_cache.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 #include "shared/raster_params.h"
 
 namespace lightgrid {
@@ -13,9 +13,9 @@ namespace lightgrid {
 struct RasterJob {
   const RasterParams& params;
   cl::Buffer params_buffer;
-  // The scene, as raster_scene.h has it.
+  // The scene, as raster_arrays.h has it.
   cl::Buffer positions, indices, cluster_indices, cluster_triangles, clusters, instances, vertex_runs, pairs;
-  cl::Buffer frame;  // RasterFrameInstance an instance
+  cl::Buffer frame;                              // RasterFrameInstance an instance
   cl::Buffer clip, triangles, depths, counters;  // triangles and depths null: no image is drawn
   const RasterMasks& masks;
 };
@@ -35,10 +35,10 @@ class RasterPipeline {
   virtual size_t memory_bytes() const = 0;
 };
 
-std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs,
-                                                           bool portable);
+std::unique_ptr<RasterPipeline> make_raster_cpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool portable);
 // Without `wide_atomics`, or where the device has none of 64 bits, in two passes.
-std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs,
-                                                           bool wide_atomics);
+std::unique_ptr<RasterPipeline> make_raster_gpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool wide_atomics);
 
 }  // namespace lightgrid

@@ -1,47 +1,54 @@
-// Meshes and instances as the kernels read them: plain arrays, made on the host.
+// The geometry that views of a scene draw (raster/raster_view.h): on the device once, for any number of
+// views. Needs OpenCL only. Errors are of type Error, as raster_view.h has them.
 #pragma once
 
-#include <array>
-#include <vector>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
 
-#include "raster/rasterizer.h"
-#include "shared/raster_params.h"
+#include "cl/device.h"
 
 namespace lightgrid {
 
-// Where a mesh lies in the arrays of all meshes.
-struct RasterMeshPlace {
-  uint32_t first_index = 0, triangles = 0;
-  uint32_t first_vertex = 0, vertices = 0;
-  uint32_t first_position = 0;  // multiple of 16
-  uint32_t first_cluster = 0, clusters = 0;
+// Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front.
+// Both are copied.
+struct RasterMesh {
+  std::span<const glm::vec3> positions;
+  std::span<const uint32_t> indices;
+  // Its triangles are taken in the order of its indices, as views with RasterOptions::drawing_order need;
+  // else in one that leaves out more of those that are out of view or face away. Images are the same.
+  bool drawing_order = false;
 };
 
-struct RasterMeshes {
-  std::vector<RasterMeshPlace> places;
-  std::vector<uint32_t> indices;  // as given, mesh after mesh
-  // The same triangles in the order of clusters: corners, and number within the mesh.
-  std::vector<uint32_t> cluster_indices, cluster_triangles;
-  std::vector<float> positions;  // blocks of 16 vertices: 16 x, 16 y, 16 z; each mesh begins a block
-  std::vector<RasterCluster> clusters;
+// What decides which pixels triangles of instances with an alpha material cover (shared/surface_records.h).
+// The buffers are kept alive, not copied.
+struct RasterMasks {
+  cl::Buffer vertices;   // SurfaceVertex each, of all meshes one after the other
+  cl::Buffer materials;  // SurfaceMaterial each, by alpha_material
+  cl::Buffer alphas;     // chains of alphas, four a texel
 };
 
-// Clusters of triangles that lie together; with `drawing_order` those that follow one another in the mesh.
-// Throws Error(input) that names the mesh.
-RasterMeshes raster_meshes(std::span<const RasterMesh> meshes, bool drawing_order = false);
+class RasterScene {
+ public:
+  // `device` outlives it, and it outlives its views. It may be moved.
+  explicit RasterScene(ClDevice& device);
+  ~RasterScene();
+  RasterScene(RasterScene&&) noexcept;
 
-struct RasterInstances {
-  std::vector<RasterInstanceRecord> records;
-  std::vector<uint32_t> triangle_instance;
-  std::vector<std::array<uint32_t, 2>> vertex_runs;  // instance, first vertex
-  std::vector<std::array<uint32_t, 2>> pairs;        // instance, cluster
-  size_t clip_vertices = 0;
+  // Throws input: an index out of range, a number of indices that is no multiple of 3; machine: 2^32 - 64
+  // indices or vertices, or more. Each view then needs its instances again.
+  void set_meshes(std::span<const RasterMesh> meshes);
+  // From the next frame of each view. Null buffers: masked triangles are drawn whole. Throws input where some
+  // are null and others are not.
+  void set_masks(const RasterMasks& masks);
+
+  size_t geometry_bytes() const;  // of positions and indices as given
+  size_t memory_bytes() const;    // on the device, without the masks'
+
+ private:
+  friend class RasterView;
+  struct State;
+  std::unique_ptr<State> state_;
 };
-
-// Throws Error(input) that names an instance without a mesh or with a matrix that is not finite and affine.
-void check_raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes);
-
-// Of instances that are right. Throws Error(machine) where numbers do not fit 32 bits.
-RasterInstances raster_instances(std::span<const RasterInstance> instances, const RasterMeshes& meshes);
 
 }  // namespace lightgrid

@@ -22,7 +22,7 @@ double probability(const ViewLight& light, double falloff) {
 }  // namespace
 
 double attenuation(const ViewLight& light, const glm::dvec3& position, bool window) {
-  if (light.type == LightType::directional) return 1;
+  if (is_directional(light)) return 1;
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
   double result = 1 / std::max(distance * distance, std::numeric_limits<double>::min());
@@ -30,7 +30,7 @@ double attenuation(const ViewLight& light, const glm::dvec3& position, bool wind
     if (!(distance < light.radius_m)) return 0;  // before the ratio, which is 0 / 0 for a light of radius 0
     result *= window_at(light, distance) / probability(light, result);
   }
-  if (light.type == LightType::spot) {
+  if (has_cone(light)) {
     const double cosine = cos_from_axis(light, offset, distance);
     const double t = std::clamp((cosine - light.cos_outer) / (light.cos_inner - light.cos_outer), 0.0, 1.0);
     result *= t * t;

@@ -26,4 +26,11 @@ inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, do
 // if `window` is set. Finite: at the light itself d^2 is the smallest normal double.
 double attenuation(const ViewLight& light, const glm::dvec3& position, bool window);
 
+// The share of a light that reaches a point of an instance besides that, 0 to 1: the oracle of light_reaches
+// in shared/light_table.h. Nothing keeps a light from a point yet.
+inline double light_reaches(const ViewLight&, const glm::dvec3& /*position*/, uint32_t /*instance*/) {
+  return 1;
+}
+inline constexpr uint32_t no_instance = 0;  // until an effect needs it
+
 }  // namespace lightgrid

@@ -76,20 +76,20 @@ int winding_at(const std::array<SnappedPoint, 3>& triangle, const SnappedPoint& 
   return winding;
 }
 
-SnappedPoint snapped(const glm::vec4& clip, int width, int height) {
+SnappedPoint snapped(const glm::vec4& clip, const PixelGrid& grid) {
   // The quotient of two floats in double, rounded to float, is the float quotient.
   const float per_w = float(1.0 / double(clip.w));
   const auto units = [&](float ndc_w, int size) {
     const float ndc = ndc_w * per_w, half = float(size * (units_a_pixel / 2));
     return int64_t(std::llrint(double(std::fma(ndc, half, half))));
   };
-  return {units(clip.x, width), units(clip.y, height)};
+  return {units(clip.x, grid.width), units(clip.y, grid.height)};
 }
 
-std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width,
-                                                   int height) {
-  const float guard_x = float(guard_units / (units_a_pixel / 2)) / float(width);
-  const float guard_y = float(guard_units / (units_a_pixel / 2)) / float(height);
+std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip,
+                                                   const PixelGrid& grid) {
+  const float guard_x = float(guard_units / (units_a_pixel / 2)) / float(grid.width);
+  const float guard_y = float(guard_units / (units_a_pixel / 2)) / float(grid.height);
   std::vector<glm::vec4> polygon(clip.begin(), clip.end());
   if (!std::all_of(polygon.begin(), polygon.end(), finite_corner)) return {};
   for (const CutPlane plane : cut_planes) polygon = cut_polygon(polygon, plane, guard_x, guard_y);
@@ -100,7 +100,7 @@ std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3
 }
 
 void CoverageOracle::add(const CoverageTriangle& triangle) {
-  const auto polygon = cut_triangle(triangle.clip, width_, height_);
+  const auto polygon = cut_triangle(triangle.clip, grid_);
   if (!polygon) ++invalid_;
   if (polygon) {
     for (size_t i = 2; i < polygon->size(); ++i)
@@ -111,7 +111,7 @@ void CoverageOracle::add(const CoverageTriangle& triangle) {
 
 void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const CoverageTriangle& triangle) {
   std::array<SnappedPoint, 3> p;
-  for (int i = 0; i < 3; ++i) p[i] = snapped(clip[i], width_, height_);
+  for (int i = 0; i < 3; ++i) p[i] = snapped(clip[i], grid_);
   const int64_t twice_area = twice_area_of(p[0], p[1], p[2]);
   const bool front = triangle.mirrored ? twice_area < 0 : twice_area > 0;
   if (twice_area == 0 || (!front && !triangle.two_sided)) return;
@@ -131,8 +131,8 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
   const auto pixel = [](int64_t units, int most) {
     return int(std::clamp<int64_t>(units / units_a_pixel, 0, most));
   };
-  for (int y = pixel(bottom, height_ - 1); y <= pixel(top, height_ - 1); ++y) {
-    for (int x = pixel(left, width_ - 1); x <= pixel(right, width_ - 1); ++x) {
+  for (int y = pixel(bottom, grid_.height - 1); y <= pixel(top, grid_.height - 1); ++y) {
+    for (int x = pixel(left, grid_.width - 1); x <= pixel(right, grid_.width - 1); ++x) {
       const SnappedPoint sample{int64_t(x) * units_a_pixel + sample_.x,
                                 int64_t(y) * units_a_pixel + sample_.y};
       if (winding_at(p, sample) == 0) continue;
@@ -147,7 +147,7 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
       covered.depth = double(weighted / twice_area);
       covered.bound =
           double(std::min(8 * half_ulp_at_one * (slope + size), (most - least) + 4 * half_ulp_at_one * size));
-      std::vector<CoveredPixel>& here = pixels_[size_t(y) * width_ + x];
+      std::vector<CoveredPixel>& here = pixels_[grid_.index(x, y)];
       if (here.empty() || here.back().triangle != count_) {
         here.push_back(covered);
       } else if (covered.depth > here.back().depth) {

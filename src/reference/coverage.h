@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "base/pixel_grid.h"
+
 namespace lightgrid {
 
 struct CoverageTriangle {
@@ -44,30 +46,30 @@ struct SnappedPoint {
 int winding_at(const std::array<SnappedPoint, 3>& triangle, const SnappedPoint& sample);
 
 // Where a vertex in front of the eye and within the guard band is snapped to.
-SnappedPoint snapped(const glm::vec4& clip, int width, int height);
+SnappedPoint snapped(const glm::vec4& clip, const PixelGrid& grid);
 
 // What cutting leaves of a triangle: 0 corners, or 3 and more; nothing where one is not finite, before or
 // after.
-std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip, int width,
-                                                   int height);
+std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip,
+                                                   const PixelGrid& grid);
 
 class CoverageOracle {
  public:
-  // sample: of each pixel, from its lower left corner; less than a pixel.
-  CoverageOracle(int width, int height, const SnappedPoint& sample = {128, 128})
-      : width_(width), height_(height), sample_(sample), pixels_(size_t(width) * height) {}
+  // Judges one sample of each pixel, which lies at `sample` from its lower left corner; less than a pixel.
+  explicit CoverageOracle(const PixelGrid& grid, const SnappedPoint& sample = {128, 128})
+      : grid_{grid.width, grid.height}, sample_(sample), pixels_(grid.pixels()) {}
   // Triangles are numbered in the order of these calls.
   void add(const CoverageTriangle& triangle);
 
   // All that cover the pixel, in the order of their numbers; a triangle once, with its nearest part where it
   // was cut.
-  const std::vector<CoveredPixel>& at(int x, int y) const { return pixels_[size_t(y) * width_ + x]; }
+  const std::vector<CoveredPixel>& at(int x, int y) const { return pixels_[grid_.index(x, y)]; }
   uint32_t invalid_triangles() const { return invalid_; }
 
  private:
   void add_part(const std::array<glm::vec4, 3>& clip, const CoverageTriangle& triangle);
 
-  int width_, height_;
+  PixelGrid grid_;
   SnappedPoint sample_;
   uint32_t count_ = 0, invalid_ = 0;
   std::vector<std::vector<CoveredPixel>> pixels_;

@@ -11,7 +11,7 @@ LightSums light_sums(const glm::dvec3& position, const glm::dvec3& normal, std::
   for (const ViewLight& light : lights) {
     const glm::dvec3 offset = light.position - position;
     const double distance = glm::length(offset);
-    const double arrives = attenuation(light, position, true);
+    const double arrives = attenuation(light, position, true) * light_reaches(light, position, no_instance);
     if (!(distance > 0) || !(arrives > 0)) continue;
     const glm::dvec3 to_light = offset / distance;
     const double arriving = arrives * glm::clamp(glm::dot(normal, to_light), 0.0, 1.0);

@@ -16,7 +16,7 @@ std::vector<glm::dvec3> covered_positions(const View& view, const std::vector<fl
   std::vector<glm::dvec3> positions;
   for (int y = y0; y < std::min(y0 + LitBlocks::side, view.height); ++y) {
     for (int x = x0; x < std::min(x0 + LitBlocks::side, view.width); ++x) {
-      const float d = depth[size_t(y) * view.width + x];
+      const float d = depth[view.grid().index(x, y)];
       if (d > 0) positions.push_back(position_from_depth(view, x, y, d));
     }
   }
@@ -61,7 +61,7 @@ double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, Li
 
 LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth,
                           const std::vector<ViewLight>& lights) {
-  assert(depth.size() == size_t(view.width) * view.height);
+  assert(depth.size() == view.grid().values());
   constexpr int side = LitBlocks::side;
   LitBlocks out{.blocks_x = (view.width + side - 1) / side, .blocks_y = (view.height + side - 1) / side};
   const int count = out.blocks_x * out.blocks_y;

@@ -93,11 +93,12 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
 }  // namespace
 
 bool is_lit(const ViewLight& light, const glm::dvec3& position) {
-  if (light.type == LightType::directional) return true;
+  if (is_directional(light)) return true;
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
   if (!(distance < light.radius_m)) return false;
-  return light.type == LightType::point || cos_from_axis(light, offset, distance) > light.cos_outer;
+  if (has_cone(light) && !(cos_from_axis(light, offset, distance) > light.cos_outer)) return false;
+  return light_reaches(light, position, no_instance) > 0;
 }
 
 std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm::dvec3& position) {
@@ -110,7 +111,7 @@ std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm
 
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
                      const ListedLights& lists) {
-  assert(depth.size() == size_t(view.width) * view.height);
+  assert(depth.size() == view.grid().values());
   assert(lists.cell_of_pixel.empty() || lists.cell_of_pixel.size() == depth.size());
   const std::vector<uint32_t> none(depth.size(), 0);
   LitPairs out{none, none, none};

@@ -35,7 +35,7 @@ struct Box {
     const double x = std::max({low.x - c.x, c.x - high.x, 0.0});
     const double y = std::max({low.y - c.y, c.y - high.y, 0.0});
     const double z = std::max({low.z - c.z, c.z - high.z, 0.0});
-    return light.type == LightType::directional || length_of(x, y, z) < light.radius_m;
+    return is_directional(light) || length_of(x, y, z) < light.radius_m;
   }
 
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;

@@ -109,10 +109,11 @@ double coat_share(const Surface& surface, const dvec3& to_eye, Brdf lobe) {
 
 dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3& to_eye,
                      const ViewLight& light, const ShadeSettings& settings) {
-  const double arriving = attenuation(light, position, settings.window);
+  const double arriving =
+      attenuation(light, position, settings.window) * light_reaches(light, position, no_instance);
   if (arriving == 0) return dvec3(0);
   dvec3 to_light = -light.direction;
-  if (light.type != LightType::directional) {
+  if (!is_directional(light)) {
     to_light = light.position - position;
     to_light /= std::max(length_of(to_light.x, to_light.y, to_light.z), std::numeric_limits<double>::min());
   }
@@ -167,7 +168,7 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
                                 const std::function<Surface(uint32_t pixel)>& surface_at,
                                 const std::vector<ViewLight>& lights, const ShadeSettings& settings,
                                 const std::vector<uint32_t>& pixels) {
-  assert(depth.size() == size_t(view.width) * view.height);
+  assert(depth.size() == view.grid().values());
   std::vector<dvec3> radiance(pixels.size());
   const auto position_of = [&](uint32_t p) {
     return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/attenuation.h"
+
 namespace lightgrid {
 namespace {
 
@@ -13,7 +15,7 @@ double luminance_of_sample(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 *
 
 // The rounded edge of a cone. squared: of the distance.
 double angular_part(const ViewLight& light, const glm::dvec3& to_light, double squared, double grown) {
-  if (light.type != LightType::spot) return 1;
+  if (!has_cone(light)) return 1;
   const double q = std::min(grown / squared, 4.0);
   const double cosine = squared > 0 ? -glm::dot(light.direction, to_light) / std::sqrt(squared) : 0;
   const double x = cosine - light.cos_outer;
@@ -35,7 +37,7 @@ VoxelCell VoxelCell::of(const glm::dvec3& box, double volume) {
 VoxelSample voxel_sample(const glm::dvec3& at, const VoxelCell& cell, std::span<const ViewLight> lights) {
   VoxelSample s;
   for (const ViewLight& light : lights) {
-    if (light.type == LightType::directional || light.radius_m <= 0) continue;
+    if (is_directional(light) || light.radius_m <= 0) continue;
     const double radius = std::min(light.radius_m, longest_radius_m);
     const glm::dvec3 to_light = light.position - at;
     const double squared = glm::dot(to_light, to_light);
@@ -43,8 +45,9 @@ VoxelSample voxel_sample(const glm::dvec3& at, const VoxelCell& cell, std::span<
     if (squared >= reach) continue;
     const double window = 1 - squared / reach * (squared / reach);
     const double falloff = std::min(1 / squared, 1 / cell.core_squared);
-    const double arrives = window * falloff * radius / std::sqrt(reach) *
-                           angular_part(light, to_light, squared, cell.half_diagonal_squared);
+    const double angular = angular_part(light, to_light, squared, cell.half_diagonal_squared);
+    const double arrives =
+        window * falloff * radius / std::sqrt(reach) * angular * light_reaches(light, at, no_instance);
     const glm::dvec3 irradiance = glm::min(arrives * light.radiant_intensity, largest_of_a_light);
     const double weight = luminance_of_sample(irradiance);
     s.irradiance += irradiance;

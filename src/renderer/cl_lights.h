@@ -1,25 +1,37 @@
-// What light loops in OpenCL read of a view besides its grid: lights in view space, the view, z-bin edges.
+// What light loops in OpenCL read of a view besides its lists: the light table, the view, slice and z-bin
+// edges.
 #pragma once
 
+#include "cl/launch.h"
 #include "cl/uploaded_buffer.h"
-#include "renderer/render_view.h"
+#include "renderer/light_table.h"
+#include "shared/view_params.h"
 
 namespace lightgrid {
 
+struct Seen;
+struct Work;
+
 class ClLights {
  public:
-  void upload(RenderView& v);
+  void upload(ClDevice& device, const Scene& scene, const View& view, const FramePlan& plan,
+              const ViewParams& params);
   size_t memory_bytes() const;
 
-  UploadedBuffer positions, colors, cones, directional, view, bin_edges,
-      slice_edges;  // shared/punctual_light.h, shared/slices.h
+  // LIGHT_ARGUMENTS (shared/light_table.h).
+  ClArguments columns() const;
+
+  UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
+
+ private:
+  UploadedBuffer columns_[light_column_count];
 };
 
 // The -D names that light loops in OpenCL take of a view and its plan (kernels/resolve/shade_pixels.h).
 // `lanes`: those of kernels that take a tile. brdf: of the kernel, which may serve several of the setting's.
-std::string light_defines(const RenderView& v, bool lanes, Brdf brdf);
+std::string light_defines(const Seen& seen, bool lanes, Brdf brdf);
 
 // Whether kernels that shade pixels take the shape for CPUs.
-bool shades_in_lanes(const RenderView& v);
+bool shades_in_lanes(Work& work, const Seen& seen);
 
 }  // namespace lightgrid

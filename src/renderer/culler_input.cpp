@@ -20,6 +20,8 @@ CullView cull_view(const View& view, const FramePlan& plan) {
   return culled;
 }
 
+CullLight cull_light(const LightBounds& b) { return {b.position, b.radius_m, b.direction, b.cos_outer}; }
+
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
                                       const LightRanges& ranges) {
   std::vector<CullLight> lights;
@@ -32,10 +34,9 @@ void cull_lights_of(const Scene& scene, std::span<const int> indices, const Ligh
   lights.resize(indices.size());
   const auto convert = [&](size_t begin, size_t end) {
     for (size_t at = begin; at < end; ++at) {
-      const Light& light = scene.lights[size_t(indices[at])];
-      lights[at] = {light.position, range_of(light, size_t(indices[at]), ranges),
-                    glm::normalize(glm::dvec3(light.direction)),
-                    light.type == LightType::spot ? std::cos(double(light.outer_cone_rad)) : -1.0};
+      const size_t index = size_t(indices[at]);
+      const Light& light = scene.lights[index];
+      lights[at] = cull_light(bounds_of(light, range_of(light, index, ranges)));
     }
   };
   // Below that a thread takes longer to start.

@@ -13,6 +13,7 @@ namespace lightgrid {
 CullView cull_view(const View& view);
 CullView cull_view(const View& view, const FramePlan& plan);
 
+CullLight cull_light(const LightBounds& bounds);
 // The lights of a scene at `indices`. World space, metres.
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
                                       const LightRanges& ranges = {});

@@ -12,25 +12,25 @@ static constexpr GLsizei indices_per_flush = 3 * 25'000;
 
 void InstanceDrawer::bind(int index, const SceneProgram& program) {
   if (&program == program_ && index == instance_) return;
-  const int material = v_.scene.meshes[v_.scene.instances[index].mesh].material;
-  const uint32_t features = v_.plan.features_of_instance[index];
+  const int material = seen_.scene.meshes[seen_.scene.instances[index].mesh].material;
+  const uint32_t features = seen_.plan.features_of_instance[index];
   const bool positions_only = streams_ == DrawStreams::positions_where_possible && !(features & feature_mask);
   if (&program != program_) {
     glUseProgram(program.name);
-    glBindVertexArray(positions_only ? v_.gpu.in_gl().positions_only() : v_.gpu.in_gl().all_streams());
+    glBindVertexArray(positions_only ? work_.gpu.in_gl().positions_only() : work_.gpu.in_gl().all_streams());
     material_ = -1;
   }
   if (material != material_ && !positions_only) {
-    v_.gpu.in_gl().bind_material(material, features);
+    work_.gpu.in_gl().bind_material(material, features);
     material_ = material;
   }
-  const InstanceTransform& t = v_.transforms[index];
+  const InstanceTransform& t = seen_.transforms[index];
   glUniformMatrix4fv(program.clip_from_object, 1, GL_FALSE, glm::value_ptr(t.clip_from_object));
   if (program.view_from_object >= 0)
     glUniformMatrix3fv(program.view_from_object, 1, GL_FALSE, glm::value_ptr(t.directions));
   if (program.normal_from_object >= 0)
     glUniformMatrix3fv(program.normal_from_object, 1, GL_FALSE, glm::value_ptr(t.normals));
-  v_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+  seen_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
   glFrontFace(t.mirrored ? GL_CW : GL_CCW);
   program_ = &program;
   instance_ = index;
@@ -40,16 +40,17 @@ void InstanceDrawer::draw(const IndexRanges& ranges) {
   glMultiDrawElementsBaseVertex(GL_TRIANGLES, ranges.counts.data(), GL_UNSIGNED_INT, ranges.offsets.data(),
                                 GLsizei(ranges.counts.size()), ranges.base_vertices.data());
   unflushed_indices_ += std::accumulate(ranges.counts.begin(), ranges.counts.end(), GLsizei(0));
-  if (v_.renderer.gl->software && unflushed_indices_ > indices_per_flush) {
+  if (work_.renderer.gl->software && unflushed_indices_ > indices_per_flush) {
     glFlush();
     unflushed_indices_ = 0;
   }
 }
 
-void draw_list(RenderView& v, const DrawList& list, DrawStreams streams, ScenePrograms& programs) {
-  InstanceDrawer drawer(v, streams);
+void draw_list(Work& work, const Seen& seen, const DrawList& list, DrawStreams streams,
+               ScenePrograms& programs) {
+  InstanceDrawer drawer(work, seen, streams);
   for (const DrawItem& item : list) {
-    drawer.bind(item.instance, programs.of(v.plan.features_of_instance[item.instance]));
+    drawer.bind(item.instance, programs.of(seen.plan.features_of_instance[item.instance]));
     drawer.draw(item.ranges);
   }
 }

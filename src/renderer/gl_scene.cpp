@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gl/bindings.h"
 #include "plan/frame_plan.h"
 #include "renderer/clusters.h"
 #include "renderer/model_records.h"
@@ -17,24 +18,25 @@ namespace {
 struct MaterialMap {
   uint32_t feature, flag;
   TextureSlot Material::*slot;
+  Sampler sampler;
 };
 
 constexpr MaterialMap material_maps[MATERIAL_MAPS] = {
-    {feature_base_color_map, MATERIAL_BASE_COLOR_MAP, &Material::base_color_map},
-    {feature_metallic_roughness_map, MATERIAL_METALLIC_ROUGHNESS_MAP, &Material::metallic_roughness_map},
-    {feature_normal_map, MATERIAL_NORMAL_MAP, &Material::normal_map},
-    {feature_occlusion_map, MATERIAL_OCCLUSION_MAP, &Material::occlusion_map},
-    {feature_emissive_map, MATERIAL_EMISSIVE_MAP, &Material::emissive_map},
-    {feature_clearcoat_map, MATERIAL_CLEARCOAT_MAP, &Material::clearcoat_map},
-    {feature_clearcoat_roughness_map, MATERIAL_CLEARCOAT_ROUGHNESS_MAP, &Material::clearcoat_roughness_map},
-    {feature_clearcoat_normal_map, MATERIAL_CLEARCOAT_NORMAL_MAP, &Material::clearcoat_normal_map},
-    {feature_specular_map, MATERIAL_SPECULAR_MAP, &Material::specular_map},
-    {feature_specular_color_map, MATERIAL_SPECULAR_COLOR_MAP, &Material::specular_color_map},
+    {feature_base_color_map, MATERIAL_BASE_COLOR_MAP, &Material::base_color_map, Sampler::base_color_map},
+    {feature_metallic_roughness_map, MATERIAL_METALLIC_ROUGHNESS_MAP, &Material::metallic_roughness_map,
+     Sampler::metallic_roughness_map},
+    {feature_normal_map, MATERIAL_NORMAL_MAP, &Material::normal_map, Sampler::normal_map},
+    {feature_occlusion_map, MATERIAL_OCCLUSION_MAP, &Material::occlusion_map, Sampler::occlusion_map},
+    {feature_emissive_map, MATERIAL_EMISSIVE_MAP, &Material::emissive_map, Sampler::emissive_map},
+    {feature_clearcoat_map, MATERIAL_CLEARCOAT_MAP, &Material::clearcoat_map, Sampler::clearcoat_map},
+    {feature_clearcoat_roughness_map, MATERIAL_CLEARCOAT_ROUGHNESS_MAP, &Material::clearcoat_roughness_map,
+     Sampler::clearcoat_roughness_map},
+    {feature_clearcoat_normal_map, MATERIAL_CLEARCOAT_NORMAL_MAP, &Material::clearcoat_normal_map,
+     Sampler::clearcoat_normal_map},
+    {feature_specular_map, MATERIAL_SPECULAR_MAP, &Material::specular_map, Sampler::specular_map},
+    {feature_specular_color_map, MATERIAL_SPECULAR_COLOR_MAP, &Material::specular_color_map,
+     Sampler::specular_color_map},
 };
-
-// Units 8 to 15 are those of lights. OpenGL 4.5 guarantees 80 units, of which a shader may use 16: one more
-// than that only if a material has all ten maps and the scene all kinds of lights. Drivers have 32.
-GLuint unit_of(int slot) { return GLuint(slot < 8 ? slot : slot + 8); }
 
 MaterialParams material_params(const Material& m, int model) {
   MaterialParams p{};
@@ -292,13 +294,13 @@ void GlScene::upload_texture(int index) {
 }
 
 void GlScene::bind_material(int material, uint32_t features) const {
-  glBindBufferRange(GL_UNIFORM_BUFFER, 1, materials_.name(), GLintptr(material * material_stride_),
-                    sizeof(MaterialParams));
+  glBindBufferRange(GL_UNIFORM_BUFFER, GLuint(UniformBlock::MaterialParamsBlock), materials_.name(),
+                    GLintptr(material * material_stride_), sizeof(MaterialParams));
   for (int s = 0; s < MATERIAL_MAPS; ++s) {
     const int texture = slots_[material].texture[s];
     if (!(features & material_maps[s].feature) || texture < 0 || !textures_[texture]) continue;
-    glBindTextureUnit(unit_of(s), textures_[texture].name());
-    glBindSampler(unit_of(s), samplers_[texture].name());
+    bind_texture(material_maps[s].sampler, textures_[texture].name());
+    bind_sampler_object(material_maps[s].sampler, samplers_[texture].name());
   }
 }
 

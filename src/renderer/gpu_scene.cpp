@@ -2,7 +2,31 @@
 
 #include <algorithm>
 
+#include "renderer/shown_meshes.h"
+
 namespace lightgrid {
+namespace {
+
+// Meshes that no instance shows are empty, as ClScene leaves them out. Blended ones keep their drawing order.
+void set_raster_meshes(const Scene& scene, RasterScene& raster) {
+  const std::vector<bool> shown = shown_meshes(scene);
+  std::vector<RasterMesh> meshes;
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    const bool blended = scene.materials[mesh.material].alpha_mode == AlphaMode::blend;
+    meshes.push_back(shown[i] ? RasterMesh{mesh.positions, mesh.indices, blended}
+                              : RasterMesh{{}, {}, blended});
+  }
+  raster.set_meshes(meshes);
+}
+
+bool shows_masks(const Scene& scene) {
+  return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+    return scene.materials[scene.meshes[instance.mesh].material].alpha_mode == AlphaMode::mask;
+  });
+}
+
+}  // namespace
 
 void GpuScene::update(const SceneChanges& changes) {
   if (in_gl_) in_gl_->update(changes);
@@ -25,6 +49,20 @@ std::optional<std::vector<int>> GpuScene::lights_changed_since(int version) cons
   std::ranges::sort(changed);
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   return changed;
+}
+
+std::shared_ptr<RasterScene> GpuScene::in_raster(TexelLayout layout) {
+  std::shared_ptr<RasterScene> held = in_raster_.lock();
+  if (!held || in_raster_version_ != shape_version_) {
+    if (!held) in_raster_ = held = std::make_shared<RasterScene>(*renderer_.cl);
+    set_raster_meshes(scene_, *held);
+    in_raster_version_ = shape_version_, in_raster_has_masks_ = shows_masks(scene_);
+  }
+  if (in_raster_has_masks_) {
+    const ClScene& scene = in_cl(layout);
+    held->set_masks({scene.vertices(), scene.materials(), scene.alphas()});
+  }
+  return held;
 }
 
 std::shared_ptr<SharedWorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldGridKey& key) {

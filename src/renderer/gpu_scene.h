@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "raster/raster_scene.h"
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
 #include "renderer/world_grid.h"
@@ -30,6 +31,10 @@ class GpuScene {
   // Frees the copies in OpenCL's memory: in_cl() then makes them again. No view may hold it.
   void free_in_cl() { in_cl_.clear(); }
 
+  // Positions and triangles for the views of the OpenCL rasteriser, of the scene as it is now, with masks
+  // from in_cl(layout), which are alike in each layout. One for all views; freed with the last that holds it.
+  std::shared_ptr<RasterScene> in_raster(TexelLayout layout);
+
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
   std::shared_ptr<SharedWorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
 
@@ -46,6 +51,9 @@ class GpuScene {
   const Scene& scene_;
   std::unique_ptr<GlScene> in_gl_;
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
+  std::weak_ptr<RasterScene> in_raster_;
+  int in_raster_version_ = 0;  // shape_version() of its meshes
+  bool in_raster_has_masks_ = false;
   std::vector<std::pair<WorldGridKey, std::weak_ptr<SharedWorldGrid>>> world_grids_;
   int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
   std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any

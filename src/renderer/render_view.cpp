@@ -1,32 +1,9 @@
 #include "renderer/render_view.h"
 
-#include <fmt/format.h>
-
-#include "cl/transfer.h"
 #include "plan/settings.h"
 
 namespace lightgrid {
 namespace {
-
-PassTimer::Clock clock_of(Renderer& renderer) {
-  PassTimer::Clock clock;
-  clock.start = [&renderer](const std::string& on) {
-    if (on == "cl") renderer.cl->profiler().time_launches(true);
-  };
-  clock.stop = [&renderer](const std::string& on) {
-    std::vector<KernelTime> kernels;
-    if (on != "cl") {
-      glFinish();
-      return kernels;
-    }
-    finish_queue(*renderer.cl, "timing a pass");
-    ClProfiler& profiler = renderer.cl->profiler();
-    for (const ClProfiler::Row& row : profiler.collect()) kernels.push_back({row.label, row.ms});
-    profiler.time_launches(false);
-    return kernels;
-  };
-  return clock;
-}
 
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
   ViewParams p = view_params(cull_view(view), plan.settings.tile);
@@ -42,31 +19,30 @@ bool same_culler(const FramePlan& a, const FramePlan& b) {
   return a.blend_grid == b.blend_grid && a.index_bits == b.index_bits && a.light_grid == b.light_grid;
 }
 
+Seen seen_by(const View& view, const Scene& scene, const Settings& settings, const TechniqueNeeds& needs) {
+  FramePlan plan = plan_frame(scene, view, settings, needs);
+  const ViewParams params = params_of(view, plan, scene.ambient);
+  return {scene, view, std::move(plan), params, {}, {}, {}};
+}
+
 }  // namespace
 
 RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                        const TechniqueNeeds& needs, std::shared_ptr<TargetPool> pool)
-    : renderer(renderer),
-      gpu(gpu),
-      scene(gpu.scene()),
-      view(view),
-      plan(plan_frame(scene, view, with_tuned(settings, renderer.tuned), needs)),
-      params(params_of(view, plan, scene.ambient)),
-      timer(clock_of(renderer)),
-      targets(pool ? pool : std::make_shared<TargetPool>(), view.width, view.height, plan.stencil),
+    : Seen(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned), needs)),
+      Work(renderer, gpu, *this, pool ? pool : std::make_shared<TargetPool>()),
       settings_(with_tuned(settings, renderer.tuned)),
       needs_(needs),
-      opengl_(draws_with_opengl(needs, settings)),
       shared_pool_(std::move(pool)) {
-  if (opengl_) renderer.require_gl();
-  if (opengl_ && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
+  if (plan.opengl) renderer.require_gl();
+  if (plan.opengl && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();
   follow_view();
 }
 
 void RenderView::look(const View& next) { look(next, PlannedInstances::in_view); }
 
 void RenderView::look(const View& next, PlannedInstances instances) {
-  const bool resized = next.width != view.width || next.height != view.height;
+  const bool resized = next.grid() != view.grid();
   const FramePlan before = std::move(plan);
   if (next.orthographic != view.orthographic) programs_.clear();
   view = next;
@@ -74,8 +50,8 @@ void RenderView::look(const View& next, PlannedInstances instances) {
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
-    targets = Targets(pool, view.width, view.height, plan.stencil);
-    states_.clear();
+    targets = Targets(pool, view.grid(), plan.stencil);
+    caches.clear();
   }
   follow_view();
   follow_plan(before);
@@ -100,17 +76,18 @@ void RenderView::prepare(const std::function<void()>& draw) {
     throw;
   }
   preparing_ = false;
-  drop_states();
+  drop_caches();
   look(here);
 }
 
 void RenderView::release() {
-  drop_states();
+  drop_caches();
   targets.clear();
 }
 
-void RenderView::drop_states() {
-  states_.clear();
+void RenderView::drop_caches() {
+  caches.clear();
+  cl_lights_.reset();
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
 }
@@ -131,7 +108,8 @@ void RenderView::follow_view() {
   for (const auto* instances : {&plan.opaque, &plan.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
-  if (!opengl_) return;
+  cl_lights_stale_ = true;
+  if (!plan.opengl) return;
   lights.update(scene, view, plan, params);
   if (preparing_) {
     opaque.clear(), blended.clear();
@@ -150,45 +128,7 @@ void RenderView::follow_plan(const FramePlan& before) {
   }
   if (!plan.blend_grid) grids_[1].reset();
   if (culler_) culler_->set_view(cull_view(view, plan));
-  std::erase_if(states_, [&](const auto& entry) { return !entry.second->follow(*this); });
-}
-
-std::vector<std::string> RenderView::view_defines(std::vector<std::string> defines) const {
-  if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
-  if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
-  return defines;
-}
-
-ScenePrograms& RenderView::programs(SurfaceShaders shaders) {
-  std::string key = fmt::format("{} {}", shaders.vertex, shaders.fragment);
-  for (const std::string& name : shaders.defines) key += " " + name;
-  auto found = programs_.find(key);
-  if (found == programs_.end()) {
-    shaders.defines = view_defines(std::move(shaders.defines));
-    found = programs_.try_emplace(key, renderer, shaders).first;
-  }
-  if (preparing_) {
-    for (const int i : shaders.blended ? plan.blended : plan.opaque)
-      found->second.of(plan.features_of_instance[i]);
-  }
-  return found->second;
-}
-
-const GlProgram& RenderView::program(const std::string& vertex, const std::string& fragment,
-                                     std::vector<std::string> defines) {
-  return renderer.program(vertex, fragment, view_defines(std::move(defines)));
-}
-
-GLuint RenderView::color_framebuffer() {
-  return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
-}
-
-SharedBuffer& RenderView::shared_pixels(const std::string& name, size_t pixel_bytes, TargetUse use) {
-  return targets.buffer(*renderer.cl, renderer.bridge, name, (pixels() + spare_pixels) * pixel_bytes, use);
-}
-
-void RenderView::upload_states() {
-  for (auto& [type, state] : states_) state->upload(*this);
+  caches.follow(*this, *this);
 }
 
 LightCuller& RenderView::culler() {
@@ -211,10 +151,10 @@ SharedGridStorage& RenderView::blend_grid() {
 }
 
 size_t RenderView::memory_bytes() const {
-  size_t bytes = targets.bytes() + lights.light_bytes();
-  if (opengl_) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
-  if (opengl_ && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
-  for (const auto& [type, state] : states_) bytes += state->memory_bytes();
+  size_t bytes = targets.bytes() + lights.light_bytes() + caches.memory_bytes();
+  bytes += cl_lights_ ? cl_lights_->memory_bytes() : 0;
+  if (plan.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
+  if (plan.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();
   for (const auto& grid : grids_) bytes += grid ? grid->allocated_bytes() : 0;
   if (culler_) bytes += culler_->memory_bytes();
   return bytes;

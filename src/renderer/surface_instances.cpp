@@ -2,12 +2,12 @@
 
 namespace lightgrid {
 
-void set_surface_instances(const RenderView& v, std::span<const int> instances,
+void set_surface_instances(const Seen& seen, std::span<const int> instances,
                            std::vector<SurfaceInstance>& records) {
   records.resize(instances.size());
   for (size_t k = 0; k < instances.size(); ++k) {
-    const Mesh& mesh = v.scene.meshes[v.scene.instances[instances[k]].mesh];
-    const InstanceTransform& t = v.transforms[instances[k]];
+    const Mesh& mesh = seen.scene.meshes[seen.scene.instances[instances[k]].mesh];
+    const InstanceTransform& t = seen.transforms[instances[k]];
     SurfaceInstance& record = records[k];
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {

@@ -3,13 +3,13 @@
 
 #include <span>
 
-#include "renderer/render_view.h"
+#include "renderer/pass_caches.h"
 #include "shared/surface_records.h"
 
 namespace lightgrid {
 
 // Of these instances of the scene, in their order. Replaces `records`, whose memory is used again.
-void set_surface_instances(const RenderView& v, std::span<const int> instances,
+void set_surface_instances(const Seen& seen, std::span<const int> instances,
                            std::vector<SurfaceInstance>& records);
 
 }  // namespace lightgrid

@@ -17,12 +17,12 @@ size_t bits_of_pixel(GLuint texture) {
 
 }  // namespace
 
-const TargetPool::Image& TargetPool::image(const std::string& name, GLenum format, int width, int height) {
-  const Key key{name, format, width, height};
+const TargetPool::Image& TargetPool::image(const std::string& name, GLenum format, const PixelGrid& grid) {
+  const Key key{name, format, grid};
   const auto found = images_.find(key);
   if (found != images_.end()) return found->second;
-  GlTexture texture = make_texture_2d(format, width, height);
-  const size_t bytes = size_t(width) * size_t(height) * bits_of_pixel(texture.name()) / 8;
+  GlTexture texture = make_texture_2d(format, grid.width, grid.height);
+  const size_t bytes = grid.values() * bits_of_pixel(texture.name()) / 8;
   return images_.try_emplace(key, Image{std::move(texture), bytes}).first->second;
 }
 
@@ -47,7 +47,7 @@ void TargetPool::clear() {
 GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
   const auto found = targets_.find(name);
   if (found != targets_.end()) return found->second.texture;
-  const TargetPool::Image& image = pool_->image(name, format, width_, height_);
+  const TargetPool::Image& image = pool_->image(name, format, grid_);
   return targets_.try_emplace(name, Target{image.texture.name(), use, image.bytes}).first->second.texture;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/pixel_grid.h"
 #include "bridge/shared_buffer.h"
 #include "gl/objects.h"
 
@@ -26,7 +27,7 @@ class TargetPool {
     GlTexture texture;
     size_t bytes;
   };
-  const Image& image(const std::string& name, GLenum format, int width, int height);
+  const Image& image(const std::string& name, GLenum format, const PixelGrid& grid);
   GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth);  // depth 0: none
   SharedBuffer& buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes);
   // Frees all of them.
@@ -36,7 +37,7 @@ class TargetPool {
   struct Key {
     std::string name;
     GLenum format;
-    int width, height;
+    PixelGrid grid;
     auto operator<=>(const Key&) const = default;
   };
   std::map<Key, Image> images_;
@@ -48,8 +49,10 @@ class TargetPool {
 class Targets {
  public:
   // stencil: the depth image has 8 stencil bits.
-  Targets(std::shared_ptr<TargetPool> pool, int width, int height, bool stencil)
-      : pool_(std::move(pool)), width_(width), height_(height), stencil_(stencil) {}
+  Targets(std::shared_ptr<TargetPool> pool, const PixelGrid& grid, bool stencil)
+      : pool_(std::move(pool)), grid_(grid), stencil_(stencil) {}
+
+  const PixelGrid& grid() const { return grid_; }
 
   // The image of this name. The first call fixes format and use.
   GLuint texture(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
@@ -79,7 +82,7 @@ class Targets {
   };
 
   std::shared_ptr<TargetPool> pool_;
-  int width_, height_;
+  PixelGrid grid_;
   bool stencil_;
   std::map<std::string, Target> targets_;
   struct Buffer {

@@ -40,31 +40,34 @@ void ViewLightBuffers::update(const Scene& scene, const View& view, const FrameP
   };
   put_keys(slice_block_, plan.light_grid && plan.slices > 1, slice_keys(culled));
   put_keys(z_bin_block_, plan.z_bins > 1, z_bin_keys(culled));
-  const LightTexels texels = light_texels(scene, view, plan);
-  const std::vector<glm::vec4>* arrays[4] = {&texels.positions, &texels.colors, &texels.cones,
-                                             &texels.directional};
-  const bool needed[4] = {plan.local_lights, plan.local_lights, plan.spots, plan.directional};
+  const LightTable table = light_table(scene, view, plan);
   light_bytes_ = 0;
-  for (int i = 0; i < 4; ++i) {
-    if (!needed[i]) {
-      light_textures_[i] = {};
-      light_buffers_[i] = {};
-      continue;
+  const auto put_lights = [&](Lights& lights, bool needed, Sampler sampler, GLenum format,
+                              const auto& values) {
+    if (!needed) {
+      lights = {};
+      return;
     }
-    const size_t bytes = arrays[i]->size() * sizeof(glm::vec4);
-    if (light_buffers_[i].put(bytes, arrays[i]->data())) {
-      light_textures_[i] = make_buffer_texture(GL_RGBA32F, light_buffers_[i].buffer.name());
-    }
+    const size_t bytes = values.size() * sizeof values[0];
+    lights.sampler = sampler;
+    if (lights.buffer.put(bytes, values.data()))
+      lights.texture = make_buffer_texture(format, lights.buffer.buffer.name());
     light_bytes_ += bytes;
+  };
+  for (size_t i = 0; i < light_column_count; ++i) {
+    const LightColumn& column = table.columns[i];
+    put_lights(lights_[i], column.needed, column.sampler, column.format, column.values);
   }
+  put_lights(lights_[light_column_count], plan.directional, Sampler::directional_lights, GL_RGBA32F,
+             table.directional);
 }
 
 void ViewLightBuffers::bind() const {
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_block_.buffer.name());
-  if (slice_block_.buffer) glBindBufferBase(GL_UNIFORM_BUFFER, 2, slice_block_.buffer.name());
-  if (z_bin_block_.buffer) glBindBufferBase(GL_UNIFORM_BUFFER, 3, z_bin_block_.buffer.name());
-  for (int i = 0; i < 4; ++i) {
-    if (light_textures_[i]) glBindTextureUnit(8 + i, light_textures_[i].name());
+  bind_block(UniformBlock::ViewParamsBlock, view_block_.buffer.name());
+  if (slice_block_.buffer) bind_block(UniformBlock::SliceEdgesBlock, slice_block_.buffer.name());
+  if (z_bin_block_.buffer) bind_block(UniformBlock::ZBinEdgesBlock, z_bin_block_.buffer.name());
+  for (const Lights& lights : lights_) {
+    if (lights.texture) bind_texture(lights.sampler, lights.texture.name());
   }
 }
 

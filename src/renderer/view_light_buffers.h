@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gl/objects.h"
-#include "renderer/light_texels.h"
+#include "renderer/light_table.h"
 #include "shared/view_params.h"
 
 namespace lightgrid {
@@ -21,8 +21,12 @@ class ViewLightBuffers {
     bool put(size_t size, const void* data);  // true: a new buffer was created
   };
   Sized view_block_, slice_block_, z_bin_block_;
-  Sized light_buffers_[4];
-  GlTexture light_textures_[4];
+  struct Lights {
+    Sampler sampler{};
+    Sized buffer;
+    GlTexture texture;
+  };
+  Lights lights_[light_column_count + 1];  // the light table's columns, and directional lights
   size_t light_bytes_ = 0;
 };
 

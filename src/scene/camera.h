@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/pixel_grid.h"
 #include "scene/scene.h"
 
 namespace lightgrid {
@@ -18,6 +19,8 @@ struct View {
   double near_m = 0.1;
   double far_m = std::numeric_limits<double>::infinity();
   bool orthographic = false;
+
+  PixelGrid grid() const { return {width, height}; }
 };
 
 // The camera's vertical field is kept and the image's own aspect used (Camera::aspect and half_width_m are

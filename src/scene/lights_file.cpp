@@ -201,10 +201,9 @@ double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str
 Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 
 nlohmann::ordered_json to_json(const Light& light) {
-  static constexpr const char* names[] = {"point", "spot", "directional"};
   nlohmann::ordered_json json;
   if (!light.name.empty()) json["name"] = light.name;
-  json["type"] = names[int(light.type)];
+  json["type"] = name_of(light.type);
   if (light.type != LightType::directional) {
     json["position"] = {light.position.x, light.position.y, light.position.z};
     if (std::isfinite(light.radius_m)) json["radius"] = shortest(light.radius_m);

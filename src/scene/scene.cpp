@@ -15,6 +15,11 @@ bool has_specular(const Material& m) {
          m.specular_color_map.texture >= 0;
 }
 
+const char* name_of(LightType type) {
+  static constexpr const char* names[] = {"point", "spot", "directional"};
+  return names[int(type)];
+}
+
 bool intensity_overflows(const Light& light) {
   const glm::dvec3 intensity = glm::dvec3(light.color) * double(light.intensity);
   const double largest = std::max({intensity.r, intensity.g, intensity.b});

@@ -89,7 +89,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
-  bool unlit = false;  // KHR_materials_unlit
+  bool unlit = false;   // KHR_materials_unlit
   MaterialModel model;  // of the diffuse part; an unlit material has none
 };
 
@@ -124,6 +124,13 @@ struct Light {
   int node = -1;  // of the rig, which moves it; -1: static
 };
 
+// Of Light and ViewLight. Directional lights have no place: they reach every surface, and are in no list.
+inline bool is_directional(const auto& light) { return light.type == LightType::directional; }
+inline bool has_cone(const auto& light) { return light.type == LightType::spot; }
+
+// As files have it: "point", "spot" or "directional".
+const char* name_of(LightType type);
+
 // Whether colour times intensity exceeds the largest float in any channel. Shaders cannot represent such a
 // light, so all readers of lights reject it.
 bool intensity_overflows(const Light& light);
@@ -151,8 +158,8 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  glm::vec3 ambient{0.02f};  // constant radiance from all sides; occlusion maps darken it
-  glm::vec3 background{0};   // radiance without any surface
+  glm::vec3 ambient{0.02f};        // constant radiance from all sides; occlusion maps darken it
+  glm::vec3 background{0};         // radiance without any surface
   std::shared_ptr<const Rig> rig;  // moving parts; null: none. Copies of a scene share it
   std::optional<double> time_s;    // of the pose, as last given to set_time; empty: at rest
   int animation = -1;              // the posed animation; -1: all animations

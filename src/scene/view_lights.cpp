@@ -33,4 +33,24 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
   return lights;
 }
 
+std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges,
+                                      const std::vector<int>& indices) {
+  const std::vector<ViewLight> all = lights_in_view(scene, view, ranges);
+  std::vector<ViewLight> lights;
+  lights.reserve(indices.size());
+  for (const int i : indices) lights.push_back(all[size_t(i)]);
+  return lights;
+}
+
+double LightBounds::widened_angle_rad() const { return std::acos(std::clamp(cos_outer - 1e-6, -1.0, 1.0)); }
+
+LightBounds bounds_of(const Light& light, double range_m) {
+  return {light.position, range_m, glm::normalize(glm::dvec3(light.direction)),
+          has_cone(light) ? std::cos(double(light.outer_cone_rad)) : -1.0};
+}
+
+LightBounds bounds_of(const ViewLight& light) {
+  return {light.position, light.radius_m, light.direction, has_cone(light) ? light.cos_outer : -1.0};
+}
+
 }  // namespace lightgrid

@@ -23,7 +23,7 @@
 #define MATERIAL_MAPS 10
 
 #ifdef LIGHTGRID_GLSL
-layout(std140, binding = 1) uniform MaterialParamsBlock {
+layout(std140) uniform MaterialParamsBlock {
   vec4 base_color;
   vec4 emissive;
   vec4 subsurface;  // colour; roll-off, 0: no skin

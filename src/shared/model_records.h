@@ -11,7 +11,7 @@ struct MaterialModelRecord {
   vec4 subsurface;  // colour; roll-off
   vec4 minnaert;    // k; three unused
 };
-layout(std140, binding = 5) uniform MaterialModelsBlock { MaterialModelRecord of[MOST_MODELS + 1]; }
+layout(std140) uniform MaterialModelsBlock { MaterialModelRecord of[MOST_MODELS + 1]; }
 material_models;
 #else
 #if !defined(__OPENCL_VERSION__)

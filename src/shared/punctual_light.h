@@ -1,11 +1,12 @@
 // One point or spot light's contribution at a point (KHR_lights_punctual). Exactly zero at and past its
 // range. Never NaN: attenuation and BRDF are finite, and their product with the intensity may overflow to
-// infinity. SPOTS: at least one light has a cone. WINDOW_SMOOTH, WINDOW_NONE: how lights fade towards their
+// infinity. WINDOW_SMOOTH, WINDOW_NONE: how lights fade towards their
 // range (scene/light_ranges.h), if not as in KHR_lights_punctual. LEAST_FALLOFF: inside its range a light
 // counts as if it were no farther than where 1 / distance^2 is color.w.
 #pragma once
 
 #include "shared/brdf.h"
+#include "shared/light_table.h"
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 namespace lightgrid {
@@ -15,14 +16,6 @@ namespace lightgrid {
 // are listed (docs/hard_cases.md). Larger values could make the product with the BRDF infinite: GGX reaches
 // 2e7 at the roughness floor, and infinity times a colour or cosine of 0 is NaN.
 #define LARGEST_ATTENUATION 1e31f
-
-SHARED_STRUCT(PunctualLight) {
-  Float4 position;  // view space, and 1 / radius^2 (next to 0: no range)
-  Float4 color;  // radiant intensity, and the least 1 / distance^2
-#ifdef SPOTS
-  Float4 cone;   // axis times scale, and offset: 1 inside, 0 outside
-#endif
-};
 
 // The part of a light that arrives at a point.
 SHARED_STRUCT(Arrival) {
@@ -72,7 +65,9 @@ SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight
 }
 
 SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {
-  return radiance_of(p, arrival_at(p.position, light), light);
+  Arrival arrival = arrival_at(p.position, light);
+  arrival.attenuation = arrival.attenuation * light_reaches(light, p.position, NO_INSTANCE);
+  return radiance_of(p, arrival, light);
 }
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

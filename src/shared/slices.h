@@ -13,10 +13,10 @@
 // Inner edges, ascending, padded with infinity.
 #ifdef LIGHTGRID_GLSL
 #ifdef SLICES
-layout(std140, binding = 2) uniform SliceEdgesBlock { float keys[MOST_SLICES]; } slice_edges;
+layout(std140) uniform SliceEdgesBlock { float keys[MOST_SLICES]; } slice_edges;
 #endif
 #ifdef Z_BINS
-layout(std140, binding = 3) uniform ZBinEdgesBlock { float keys[MOST_Z_BINS]; } z_bin_edges;
+layout(std140) uniform ZBinEdgesBlock { float keys[MOST_Z_BINS]; } z_bin_edges;
 #endif
 #define SLICE_EDGE(i) slice_edges.keys[i]
 #define Z_BIN_EDGE(i) z_bin_edges.keys[i]

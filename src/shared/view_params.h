@@ -14,7 +14,7 @@ namespace lightgrid {
 #ifndef VIEW_PARAMS_MEMBERS_ONLY
 typedef struct ViewParams {
 #else
-layout(std140, binding = 0) uniform ViewParamsBlock {
+layout(std140) uniform ViewParamsBlock {
 #endif
   // Slope x / distance or y / distance at pixel coordinate p (0 at the left or bottom edge of the image,
   // pixel centres at .5); orthographic views: x or y itself, in metres.

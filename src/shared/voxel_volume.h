@@ -55,7 +55,7 @@ typedef struct VoxelSlice {
 
 // From view space to the volume. A place is counted in samples: 0 is the first one.
 #ifdef LIGHTGRID_GLSL
-layout(std140, binding = 4) uniform VoxelLookupBlock {
+layout(std140) uniform VoxelLookupBlock {
 #else
 typedef struct VoxelLookup {
 #endif

@@ -66,7 +66,7 @@ inline float world_floor(float x) {  // of less than 2^31; std::floor is a call
 #ifndef LIGHTGRID_GLSL
 typedef struct WorldGridParams {
 #else
-layout(std140, binding = 4) uniform WorldGridBlock {
+layout(std140) uniform WorldGridBlock {
 #endif
   uint cells_x, cells_y, cells_z;  // of level 0: 1, or even
   // The lower edges of the first and of the last cell, were they as long as the others.
@@ -88,7 +88,7 @@ layout(std140, binding = 4) uniform WorldGridBlock {
 #ifndef LIGHTGRID_GLSL
 typedef struct WorldViewParams {
 #else
-layout(std140, binding = 5) uniform WorldViewBlock {
+layout(std140) uniform WorldViewBlock {
 #endif
   float x_x, x_y, x_z, x_offset;
   float y_x, y_y, y_z, y_offset;

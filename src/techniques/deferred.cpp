@@ -9,10 +9,10 @@
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  const GBuffer gbuffer = fill_gbuffer(v);
-  shade_light_volumes(v, gbuffer);
-  shade_blended(v, gbuffer.image, find_blended_object_lights(v));
-  return {gbuffer.image};
+  const GBuffer gbuffer = fill_gbuffer(v, v);
+  shade_light_volumes(v, v, v.caches.light_volumes, gbuffer);
+  shade_blended(v, v, gbuffer.image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
+  return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v, v.caches.light_volumes)};
 }
 
 extern const Technique deferred{.name = "deferred",
@@ -21,6 +21,6 @@ extern const Technique deferred{.name = "deferred",
                                 .needs = {.light_volumes = true},
                                 .settings = {"brdf", "buffer-bits", "volume-culling", "volume-mesh"},
                                 .render = render,
-                                .listed = listed_of_light_volumes};
+                                .listed_by = ListedBy::pixel};
 
 }  // namespace lightgrid

@@ -1,16 +1,10 @@
 // Tiled deferred shading: geometry once, then every pixel's lights from its tile's list, in OpenCL.
-#include "passes/depth_bounds.h"
-#include "passes/fill_gbuffer.h"
-#include "techniques/add_tiled_light.h"
+#include "techniques/shade_tiled.h"
 
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  if (v.plan.settings.raster == RasterApi::opencl) return tiled_light_in_cl(v);
-  const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
-  if (!v.plan.light_grid) return without_tiled_light(v, gbuffer);
-  const DepthBuffer depth = depth_to_cl(v, gbuffer.depth_image);
-  return add_tiled_light(v, gbuffer, depth, depth_bounds(v, depth));
+  return shade_tiled(v, v.plan.opengl ? std::nullopt : std::optional(find_surfaces(v)));
 }
 
 extern const Technique deferred_tiled{

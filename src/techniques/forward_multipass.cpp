@@ -1,5 +1,4 @@
 // Each object once for base lighting, then once more for each light that reaches it, added up.
-#include "passes/shade_objects.h"
 #include "techniques/shade_by_objects.h"
 
 namespace lightgrid {
@@ -13,6 +12,6 @@ extern const Technique forward_multipass{
     .needs = {.reversed_triangles = true},
     .settings = {"brdf", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
-    .listed = listed_of_objects};
+    .listed_by = ListedBy::object};
 
 }  // namespace lightgrid

@@ -1,19 +1,10 @@
 // Forward+ with its light loop in OpenCL, 16 pixels at once on a CPU: a depth prepass, culling, then only the
 // visible surfaces go through memory to the loop.
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
-#include "passes/fill_gbuffer.h"
-#include "techniques/add_tiled_light.h"
+#include "techniques/shade_tiled.h"
 
 namespace lightgrid {
 
-static Frame render(RenderView& v) {
-  if (v.plan.settings.raster == RasterApi::opencl) return tiled_light_in_cl(v);
-  const DepthBuffer depth = depth_to_cl(v, depth_prepass(v));
-  const DepthBounds bounds = depth_bounds(v, depth);
-  const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
-  return add_tiled_light(v, fill_gbuffer(v, surfaces, base_lighting_of(v)), depth, bounds);
-}
+static Frame render(RenderView& v) { return shade_tiled(v, find_surfaces(v, true)); }
 
 extern const Technique forward_plus_compute{
     .name = "forward_plus_compute",

@@ -1,5 +1,4 @@
 // Each object with up to eight of its lights in a draw; the other lights in further draws, added up.
-#include "passes/shade_objects.h"
 #include "techniques/shade_by_objects.h"
 
 namespace lightgrid {
@@ -13,6 +12,6 @@ extern const Technique forward_zprepass{
     .needs = {.reversed_triangles = true},
     .settings = {"brdf", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
-    .listed = listed_of_objects};
+    .listed_by = ListedBy::object};
 
 }  // namespace lightgrid

@@ -1,37 +1,24 @@
 // Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of
 // the lights that a pixel's indices name (docs/techniques/lidr.md).
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
 #include "passes/shade_blended.h"
-#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  const DepthImage depth = depth_prepass(v);
-  const DrawList surfaces = visible_surfaces(v, tile_distances(v, depth_bounds(v, depth)));
-  if (v.plan.local.empty()) {
-    const ShadedImage image = shade_forward(v, surfaces, every_light(v));
-    shade_blended(v, image, every_light(v));
-    return {image};
-  }
-  const LightIndexImages index = light_index(v);
-  const LightSource lights = from_light_index(v, index);
-  const ShadedImage image = shade_forward(v, surfaces, lights);
+  const Surfaces surfaces = find_surfaces(v);
+  if (v.plan.local.empty()) return shade_every_light(v, surfaces);
+  const LightSource lights = light_index(v, v, v.caches.light_index, v.caches.light_volumes);
+  const ShadedImage image = shade(v, surfaces, lights);
   // Stencil marks opaque surfaces only.
   if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
-    shade_blended(v, image, lights);
+    blend(v, surfaces, lights, image);
   } else {
-    shade_blended(v, image, find_blended_object_lights(v));
+    shade_blended(v, v, image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
   }
-  return {.image = image, .light_index_bytes = index.bytes};
-}
-
-static ListedLights listed(RenderView& v) {
-  return v.plan.local.empty() ? list_every_light(0) : read_light_index(v);
+  return {.image = image, .listed = lights.listed, .light_index_bytes = lights.bytes};
 }
 
 extern const Technique lidr{
@@ -42,7 +29,7 @@ extern const Technique lidr{
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
                  "lidr-order", "volume-mesh", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
-    .listed = listed,
+    .listed_by = ListedBy::pixel,
     .limited_lists = true};
 
 }  // namespace lightgrid

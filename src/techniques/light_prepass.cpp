@@ -2,8 +2,6 @@
 // its pixel's sums (docs/techniques/light_prepass.md).
 #include "base/error.h"
 #include "passes/cull_lights.h"
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
 #include "passes/draw_light_buffer.h"
 #include "passes/fill_light_buffer.h"
 #include "passes/fill_normals.h"
@@ -16,62 +14,47 @@
 
 namespace lightgrid {
 
-static Frame without_lights(RenderView& v) {
-  const DepthImage depth = depth_prepass(v);
-  const DrawList surfaces = visible_surfaces(v, tile_distances(v, depth_bounds(v, depth)));
-  const ShadedImage image = shade_forward(v, surfaces, every_light(v));
-  shade_blended(v, image, every_light(v));
-  return {image};
+static Frame from_volumes(RenderView& v) {
+  const NormalImage normals = fill_normals(v, v);
+  const LightBuffer lights = draw_light_buffer(v, v, v.caches.light_volumes, normals);
+  const ShadedImage image = shade_forward(v, v, v.opaque, from_light_buffer(v, lights));
+  shade_blended(v, v, image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
+  return {.image = image, .listed = listed_of_light_volumes(v, v, v.caches.light_volumes)};
 }
 
-static Frame from_volumes(RenderView& v) {
-  const NormalImage normals = fill_normals(v);
-  const LightBuffer lights = draw_light_buffer(v, normals);
-  const ShadedImage image = shade_forward(v, v.opaque, from_light_buffer(v, lights));
-  shade_blended(v, image, find_blended_object_lights(v));
-  return {image};
+static ShadedImage shade_materials(RenderView& v, const Surfaces& surfaces, const LightBufferInCl& sums) {
+  if (surfaces.visible) return resolve_materials(v, v, v.caches.resolver, *surfaces.visible, sums);
+  return shade(v, surfaces, from_light_buffer(v, light_buffer_to_gl(v, v, sums)));
 }
 
 static Frame from_tiles(RenderView& v) {
-  Frame frame;
-  const NormalImage normals = fill_normals(v);
-  const DepthBuffer depth = depth_to_cl(v, normals.depth);
-  const DepthBounds bounds = depth_bounds(v, depth);
-  const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
-  const NormalsInCl in_cl = normals_to_cl(v, normals);
-  frame.grid = cull_lights(v, bounds);
-  const LightBufferInCl sums = fill_light_buffer(v, in_cl, depth, *frame.grid, TargetUse::image);
-  frame.image = shade_forward(v, surfaces, from_light_buffer(v, light_buffer_to_gl(v, sums)));
-  shade_blended_from_grid(v, bounds, frame);
-  return frame;
-}
-
-static Frame in_cl(RenderView& v) {
-  if (v.plan.settings.prepass_lights == PrepassLights::volumes)
-    throw input_error(
-        "light_prepass: OpenGL draws light volumes, so prepass-lights=volumes needs raster=opengl");
-  Frame frame;
-  const VisibilityBuffer visible = rasterize(v);
-  frame.depth = visible.depth();
-  frame.triangles = visible.triangles();
-  DepthBounds bounds;
-  if (v.plan.light_grid) {
-    const NormalsInCl normals = resolve_normals(v, visible);
-    bounds = depth_bounds(v, *frame.depth);
-    frame.grid = cull_lights(v, bounds);
-    frame.image = resolve_materials(
-        v, visible, fill_light_buffer(v, normals, *frame.depth, *frame.grid, TargetUse::gbuffer));
+  Surfaces surfaces;
+  NormalsInCl normals;
+  if (v.plan.opengl) {
+    const NormalImage drawn = fill_normals(v, v);
+    surfaces = surfaces_of(v, drawn.depth, true);
+    normals = normals_to_cl(v, v, drawn);
   } else {
-    frame.image = resolve(v, visible, {});
+    surfaces = find_surfaces(v);
+    normals = resolve_normals(v, v, v.caches.resolver, *surfaces.visible);
   }
-  blend_resolved_from_grid(v, bounds, frame);
+  Frame frame = frame_of(surfaces);
+  frame.grid = cull_lights(v, v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  const LightSource lights = from_grid(v, v, *frame.grid);
+  const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;
+  frame.image = shade_materials(
+      v, surfaces, fill_light_buffer(v, v, v.caches.light_sums, normals, depth_of(v, surfaces), lights, use));
+  blend_from_grid(v, surfaces, lights, frame);
   return frame;
 }
 
 static Frame render(RenderView& v) {
-  if (v.plan.settings.raster == RasterApi::opencl) return in_cl(v);
-  if (!v.plan.local_lights) return without_lights(v);
-  return v.plan.settings.prepass_lights == PrepassLights::volumes ? from_volumes(v) : from_tiles(v);
+  const bool volumes = v.plan.settings.prepass_lights == PrepassLights::volumes;
+  if (volumes && !v.plan.opengl)
+    throw input_error(
+        "light_prepass: OpenGL draws light volumes, so prepass-lights=volumes needs raster=opengl");
+  if (!v.plan.local_lights) return shade_every_light(v, find_surfaces(v));
+  return volumes ? from_volumes(v) : from_tiles(v);
 }
 
 extern const Technique light_prepass{
@@ -84,7 +67,7 @@ extern const Technique light_prepass{
                  "volume-culling", "volume-mesh", "cull-test", "depth-bounds", "tile", "slice-spacing",
                  "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},
     .render = render,
-    .listed = listed_of_light_volumes,
+    .listed_by = ListedBy::pixel,
     .approximate = true};
 
 }  // namespace lightgrid

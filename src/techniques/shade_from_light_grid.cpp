@@ -1,35 +1,35 @@
-// The part that forward_plus and clustered share; the plan's slices make the difference.
+// The recipe that forward_plus, clustered and visibility share; the plan's slices, and who draws surfaces,
+// make the difference.
 #include "passes/cull_lights.h"
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
-#include "passes/shade_blended.h"
-#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
 
 Frame shade_from_light_grid(RenderView& v) {
-  const DepthImage depth = depth_prepass(v);
-  const DepthBounds bounds = depth_bounds(v, depth);
-  const DrawList surfaces = visible_surfaces(v, tile_distances(v, bounds));
-  Frame frame;
-  if (!v.plan.light_grid) {  // no light has a position: nothing to list
-    frame.image = shade_forward(v, surfaces, every_light(v));
-    shade_blended(v, frame.image, every_light(v));
-    return frame;
-  }
-  frame.grid = cull_lights(v, bounds);
-  frame.image = shade_forward(v, surfaces, from_grid(v, grid_to_gl(v, *frame.grid, v.opaque_grid())));
-  shade_blended_from_grid(v, bounds, frame);
+  Surfaces surfaces = find_surfaces(v);
+  if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
+  Frame frame = frame_of(surfaces);
+  frame.grid = cull_lights(v, v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  const LightSource lights = from_grid(v, v, *frame.grid);
+  frame.image = shade(v, surfaces, lights);
+  blend_from_grid(v, surfaces, lights, frame);
   return frame;
 }
 
-void shade_blended_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame) {
-  if (!v.plan.blend) return;
-  if (v.plan.blend_grid) frame.blend_grid = cull_lights_for_blended(v, bounds);
-  const GridTextures lists = v.plan.blend_grid ? grid_to_gl(v, *frame.blend_grid, v.blend_grid())
-                                               : grid_to_gl(v, *frame.grid, v.opaque_grid());
-  shade_blended(v, frame.image, from_grid(v, lists));
+Frame shade_every_light(RenderView& v, const Surfaces& surfaces) {
+  Frame frame = frame_of(surfaces);
+  const LightSource lights = every_light(v);
+  frame.image = shade(v, surfaces, lights);
+  blend(v, surfaces, lights, frame.image);
+  return frame;
+}
+
+void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame) {
+  frame.listed = opaque.listed;
+  if (surfaces.visible ? v.plan.blended.empty() : !v.plan.blend) return;
+  if (!v.plan.blend_grid) return blend(v, surfaces, opaque, frame.image);
+  frame.blend_grid = cull_lights_for_blended(v, v, v.culler(), v.blend_grid(), bounds_of(v, surfaces));
+  blend(v, surfaces, from_grid(v, v, *frame.blend_grid), frame.image);
 }
 
 }  // namespace lightgrid

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "passes/common/frame.h"
-#include "scene/listed_lights.h"
+#include "passes/surfaces.h"
 
 namespace lightgrid {
+
+// What Frame::listed has a list for each of: an estimate of its memory. cell: or fewer.
+enum class ListedBy { cell, object, pixel };
 
 struct Technique {
   const char* name;
@@ -17,12 +19,7 @@ struct Technique {
   TechniqueNeeds needs;
   std::vector<const char*> settings;  // keys of the settings that it reads (plan/settings.h)
   Frame (*render)(RenderView& v);
-  // The lights that the last frame used at each pixel of opaque surfaces, if the frame has no light grid.
-  // Null: every light.
-  ListedLights (*listed)(RenderView& v) = nullptr;
-  // The same for techniques whose lists follow from a pixel's depth: that of the frame's surfaces, row 0 at
-  // the bottom.
-  ListedLights (*listed_at)(RenderView& v, const std::vector<float>& depth) = nullptr;
+  ListedBy listed_by = ListedBy::cell;
   // A pixel holds a limited number of lights; further ones are left out.
   bool limited_lists = false;
   // Its picture is not forward's, by nature: lists and images need not be exact.
@@ -36,16 +33,17 @@ inline bool own_surfaces(const Technique& technique, const Settings& settings) {
   return !draws_with_opengl(technique.needs, settings);
 }
 
-// The frame of techniques that shade from a light grid: depth prepass, depth bounds, cull, shade, blended
+// The frame of techniques that shade from a light grid: surfaces, depth bounds, cull, shade, blended
 // surfaces.
 Frame shade_from_light_grid(RenderView& v);
 
-// Blends blended surfaces over the frame's image. With depth bounds, they get a grid of their own, stored in
-// the frame; without, they use that of opaque surfaces.
-void shade_blended_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame);
+// The frame without lists.
+Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
 
-// The same over an image in OpenCL, from triangles that OpenCL rasterises.
-void blend_resolved_from_grid(RenderView& v, const DepthBounds& bounds, Frame& frame);
+// Blends blended surfaces over the frame's image, whose opaque ones have the lights of a grid. With depth
+// bounds, they get a grid of their own, stored in the frame; without, they use that of opaque surfaces, whose
+// lists become the frame's.
+void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
 
 const std::vector<const Technique*>& techniques();
 

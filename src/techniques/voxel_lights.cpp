@@ -1,69 +1,31 @@
 // Lights are added up at the samples of a volume; surfaces read the volume, however many lights there are.
 #include "passes/build_voxels.h"
 #include "passes/cull_lights.h"
-#include "passes/depth_bounds.h"
-#include "passes/depth_prepass.h"
-#include "passes/resolve.h"
-#include "passes/shade_blended.h"
-#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
-namespace {
-
-// Without voxel-lights-exact there is no grid.
-void cull_exact(RenderView& v, const DepthBounds& bounds, Frame& frame) {
-  if (!v.plan.light_grid) return;
-  frame.grid = cull_lights(v, bounds);
-  if (v.plan.blend_grid) frame.blend_grid = cull_lights_for_blended(v, bounds);
-}
-
-GridTextures textures_of(RenderView& v, const std::optional<LightGrid>& grid, bool blended) {
-  return grid ? grid_to_gl(v, *grid, blended ? v.blend_grid() : v.opaque_grid()) : GridTextures();
-}
-
-Frame with_opengl(RenderView& v) {
-  Frame frame;
-  const DepthImage depth = depth_prepass(v);
-  const DepthBounds bounds = depth_bounds(v, depth);
-  const TileDistances distances = tile_distances(v, bounds);
-  LightSource lights = every_light(v), blended = lights;
-  if (v.plan.local_lights) {
-    cull_exact(v, bounds, frame);
-    const VoxelTextures voxels = voxels_to_gl(v, build_voxels(v, distances));
-    lights = from_voxels(v, voxels, textures_of(v, frame.grid, false));
-    blended = frame.blend_grid ? from_voxels(v, voxels, textures_of(v, frame.blend_grid, true)) : lights;
-  }
-  frame.image = shade_forward(v, visible_surfaces(v, distances), lights);
-  shade_blended(v, frame.image, blended);
-  return frame;
-}
-
-Frame with_opencl(RenderView& v) {
-  Frame frame;
-  const VisibilityBuffer visible = rasterize(v);
-  frame.depth = visible.depth();
-  frame.triangles = visible.triangles();
-  GridInCl lights, blended;
-  VoxelVolume voxels;
-  if (v.plan.local_lights) {
-    const DepthBounds bounds = depth_bounds(v, *frame.depth);
-    cull_exact(v, bounds, frame);
-    voxels = build_voxels(v, tile_distances(v, bounds), *frame.depth);
-    lights.voxels = &voxels;
-    if (frame.grid) lights.grid = &*frame.grid, lights.storage = &v.opaque_grid();
-    blended = lights;
-    if (frame.blend_grid) blended.grid = &*frame.blend_grid, blended.storage = &v.blend_grid();
-  }
-  frame.image = resolve(v, visible, lights);
-  if (!v.plan.blended.empty()) blend_resolved(v, list_blended(v), *frame.depth, blended);
-  return frame;
-}
-
-}  // namespace
 
 static Frame render(RenderView& v) {
-  return v.plan.settings.raster == RasterApi::opencl ? with_opencl(v) : with_opengl(v);
+  Surfaces surfaces = find_surfaces(v);
+  if (!v.plan.local_lights) return shade_every_light(v, surfaces);
+  Frame frame = frame_of(surfaces);
+  std::optional<LightSource> exact, exact_blended;  // without voxel-lights-exact there is no grid
+  if (v.plan.light_grid) {
+    const DepthBounds& bounds = bounds_of(v, surfaces);
+    exact = from_grid(v, v, frame.grid.emplace(cull_lights(v, v, v.culler(), v.opaque_grid(), bounds)));
+    if (v.plan.blend_grid)
+      exact_blended = from_grid(
+          v, v, frame.blend_grid.emplace(cull_lights_for_blended(v, v, v.culler(), v.blend_grid(), bounds)));
+  }
+  const TileDistances& distances = distances_of(v, surfaces);
+  const VoxelVolume voxels =
+      build_voxels(v, v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
+  const LightSource lights = from_voxels(v, v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
+  frame.listed = exact ? exact->listed : lights.listed;
+  frame.image = shade(v, surfaces, lights);
+  blend(v, surfaces, exact_blended ? from_voxels(v, v, v.caches.voxels, voxels, &*exact_blended) : lights,
+        frame.image);
+  return frame;
 }
 
 extern const Technique voxel_lights{
@@ -75,7 +37,7 @@ extern const Technique voxel_lights{
                  "cull-test", "depth-bounds", "tile", "raster", "texels", "kernel-shape", "portable",
                  "group-size"},
     .render = render,
-    .listed = listed_of_voxels,
+    .listed_by = ListedBy::pixel,
     .approximate = true};
 
 }  // namespace lightgrid

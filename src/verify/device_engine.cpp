@@ -77,29 +77,29 @@ class DeviceEngine : public CullEngine {
   }
 
   std::optional<RasterImage> rasterize(const RasterOptions& options, const RasterInput& input) override {
-    Rasterizer& rasterizer = rasterizer_of(options);
+    auto& [scene, raster] = raster_of(options);
     std::vector<RasterMesh> meshes;
     for (const RasterInputMesh& mesh : input.meshes) meshes.push_back({mesh.positions, mesh.indices});
-    rasterizer.set_meshes(meshes);
-    rasterizer.set_instances(input.instances);
-    rasterizer.set_view(input.view);
-    const Visibility visibility = rasterizer.draw();
+    scene.set_meshes(meshes);
+    raster.set_instances(input.instances);
+    raster.set_camera(input.camera);
+    const Visibility visibility = raster.draw();
     RasterImage image;
-    image.triangles.resize(size_t(visibility.width) * visibility.height);
+    image.triangles.resize(visibility.grid.values());
     image.depths.resize(image.triangles.size());
     read_buffer(device_, "triangles", visibility.triangle, image.triangles.data(),
                 image.triangles.size() * sizeof(uint32_t));
     read_buffer(device_, "depths", visibility.depth, image.depths.data(),
                 image.depths.size() * sizeof(float));
     std::vector<RasterInstanceRecord> records(input.instances.size());
-    read_buffer(device_, "instances", rasterizer.buffers().instances, records.data(),
+    read_buffer(device_, "instances", raster.buffers().instances, records.data(),
                 records.size() * sizeof records[0]);
     for (const RasterInstanceRecord& record : records) {
       std::vector<glm::vec4>& clip = image.clip.emplace_back(record.vertex_count);
-      read_buffer(device_, "positions in clip space", rasterizer.buffers().clip, clip.data(),
+      read_buffer(device_, "positions in clip space", raster.buffers().clip, clip.data(),
                   clip.size() * sizeof clip[0], record.first_clip_vertex * sizeof clip[0]);
     }
-    image.invalid_triangles = rasterizer.counts().invalid_triangles;
+    image.invalid_triangles = raster.counts().invalid_triangles;
     return image;
   }
 
@@ -119,10 +119,18 @@ class DeviceEngine : public CullEngine {
     return *culler;
   }
 
-  Rasterizer& rasterizer_of(const RasterOptions& o) {
-    auto& rasterizer = rasterizers_[{o.shape, o.portable, o.cluster_cones, o.wide_atomics}];
-    if (!rasterizer) rasterizer = std::make_unique<Rasterizer>(device_, programs_, o);
-    return *rasterizer;
+  struct Raster {
+    RasterScene scene;
+    RasterView view;
+  };
+  Raster& raster_of(const RasterOptions& o) {
+    auto& made = rasters_[{o.shape, o.portable, o.cluster_cones, o.wide_atomics}];
+    if (!made) {
+      RasterScene scene(device_);
+      RasterView view(scene, programs_, o);
+      made = std::make_unique<Raster>(std::move(scene), std::move(view));
+    }
+    return *made;
   }
 
   TileBounds bounds_from(LightCuller& culler, const DepthImage& depth, bool blend) {
@@ -140,7 +148,7 @@ class DeviceEngine : public CullEngine {
   ClGridStorage storage_;
   std::string name_;
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
-  std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Rasterizer>> rasterizers_;
+  std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Raster>> rasters_;
   std::unique_ptr<Renderer> renderer_;  // without OpenGL
   std::map<WorldListsOf, std::unique_ptr<SharedWorldGrid>> world_grids_;
   int world_lights_ = 0;  // lists built so far

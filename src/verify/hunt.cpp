@@ -129,8 +129,8 @@ class Hunt {
     return fmt::format(
         "seed {}, {}: pixel {},{} at {:.9g} {:.9g} {:.9g} lost from its {} the {} at {:.9g} {:.9g} {:.9g} "
         "radius {:.9g}",
-        seed, to_string(setting), c.x, c.y, p.x, p.y, p.z, name_of(loss.from),
-        light.type == LightType::spot ? "spot" : "point", l.x, l.y, l.z, light.radius_m);
+        seed, to_string(setting), c.x, c.y, p.x, p.y, p.z, name_of(loss.from), name_of(light.type), l.x, l.y,
+        l.z, light.radius_m);
   }
 
   CullEngine& engine_;

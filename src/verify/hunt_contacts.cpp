@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
+#include "renderer/culler_input.h"
 #include "verify/hunt_depth.h"
 #include "verify/views.h"
 
@@ -215,12 +216,7 @@ HuntLights random_contacts(const HuntView& view, const HuntSetting& setting, siz
 std::vector<CullLight> cull_lights(std::span<const Light> lights) {
   std::vector<CullLight> made;
   made.reserve(lights.size());
-  for (const Light& light : lights) {
-    const bool spot = light.type == LightType::spot;
-    made.push_back({light.position, light.radius_m,
-                    spot ? glm::normalize(glm::dvec3(light.direction)) : glm::dvec3(0, 0, -1),
-                    spot ? std::cos(double(light.outer_cone_rad)) : -1.0});
-  }
+  for (const Light& light : lights) made.push_back(cull_light(bounds_of(light, light.radius_m)));
   return made;
 }
 
@@ -242,7 +238,7 @@ bool is_lit_there(const HuntView& h, const Light& light, const glm::dvec3& posit
   seen.type = light.type;
   seen.position = turn * (light.position - h.view.eye);
   seen.radius_m = light.radius_m;
-  if (light.type == LightType::spot) {
+  if (has_cone(light)) {
     seen.direction = glm::normalize(turn * glm::dvec3(light.direction));
     seen.cos_outer = std::cos(double(light.outer_cone_rad));
   }

@@ -10,6 +10,7 @@
 #include "reference/attenuation.h"
 #include "reference/light_sums.h"
 #include "reference/position.h"
+#include "renderer/render_view.h"
 #include "scene/random.h"
 #include "verify/check.h"
 #include "verify/light_passes.h"
@@ -35,7 +36,7 @@ struct SixSums {
 PrepassInput wall_input(const View& view, const glm::vec3& normal = {0, 0, 1}) {
   PrepassInput input;
   const glm::dvec4 clip = view.clip_from_view * glm::dvec4(0, 0, -4, 1);
-  input.depth.assign(size_t(view.width) * view.height, float(clip.z / clip.w));
+  input.depth.assign(view.grid().values(), float(clip.z / clip.w));
   input.normals.assign(input.depth.size(), glm::vec4(normal, 0));
   if (input.depth.size() > 1) input.depth[0] = 0;
   return input;
@@ -50,21 +51,24 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
   RenderView v(
       renderer, gpu, view, settings,
       {.light_grid = true, .lists = true, .z_bins = true, .prepass_lights = true, .chosen_raster = true});
-  if (!v.plan.light_grid) return std::vector<SixSums>(v.pixels(), SixSums{});
+  if (!v.plan.light_grid) return std::vector<SixSums>(v.grid().values(), SixSums{});
   ClDevice& device = *renderer.cl;
   SharedBuffer& depth = v.shared_pixels("depth", 4);
-  write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.pixels() * 4);
-  const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
-  write_buffer(device, "writing normals", normals.image->cl_buffer(), input.normals.data(), v.pixels() * 16);
+  write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.grid().values() * 4);
+  const NormalsInCl normals = normals_in_cl_of(v, v, TargetUse::gbuffer);
+  write_buffer(device, "writing normals", normals.image->cl_buffer(), input.normals.data(),
+               v.grid().values() * 16);
   const DepthBuffer in_cl{depth.cl_buffer()};
-  const LightGrid grid = cull_lights(v, depth_bounds(v, in_cl));
-  const LightBufferInCl sums = fill_light_buffer(v, normals, in_cl, grid, TargetUse::gbuffer);
-  std::vector<glm::vec4> first(v.pixels());
-  std::vector<glm::vec2> second(v.pixels());
+  const LightSource lights =
+      from_grid(v, v, cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), in_cl)));
+  const LightBufferInCl sums =
+      fill_light_buffer(v, v, v.caches.light_sums, normals, in_cl, lights, TargetUse::gbuffer);
+  std::vector<glm::vec4> first(v.grid().values());
+  std::vector<glm::vec2> second(v.grid().values());
   read_buffer(device, "reading sums", sums.first->cl_buffer(), first.data(), first.size() * 16);
   read_buffer(device, "reading sums", sums.second->cl_buffer(), second.data(), second.size() * 8);
   std::vector<SixSums> all;
-  all.reserve(v.pixels());
+  all.reserve(v.grid().values());
   for (size_t i = 0; i < first.size(); ++i)
     all.push_back({{first[i].x, first[i].y, first[i].z, first[i].w, second[i].x, second[i].y}});
   return all;
@@ -79,7 +83,7 @@ double rounding_of(const ViewLight& light, const glm::dvec3& position, double br
   const double size = glm::length(position) + std::min(glm::length(light.position), light.radius_m);
   const double turned = 16 * float_step * (size / std::max(distance, 1e-30) + 1);
   if (!(distance < light.radius_m * (1 + turned))) return 0;
-  const double cone = light.type == LightType::spot ? 2 / (light.cos_inner - light.cos_outer) : 0;
+  const double cone = has_cone(light) ? 2 / (light.cos_inner - light.cos_outer) : 0;
   return brightest / (distance * distance) * (turned * (16 + cone) + 64 * float_step);
 }
 

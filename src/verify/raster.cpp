@@ -14,8 +14,8 @@ namespace {
 // A view from the origin whose clip space is (x, y, 0.1, -z): x = y = -z is the image's upper right corner.
 RasterInput raster_scene(int width, int height) {
   RasterInput input;
-  input.view = {.width = width, .height = height, .clip_from_view = glm::dmat4(0)};
-  glm::dmat4& m = input.view.clip_from_view;
+  input.camera = {.grid = {width, height}, .clip_from_view = glm::dmat4(0)};
+  glm::dmat4& m = input.camera.clip_from_view;
   m[0][0] = m[1][1] = 1, m[2][3] = -1, m[3][2] = 0.1;
   input.meshes.resize(1);
   input.instances.resize(1);
@@ -24,7 +24,8 @@ RasterInput raster_scene(int width, int height) {
 
 // Where the view shows pixel (x, y) at distance d.
 glm::vec3 raster_position(const RasterInput& input, double x, double y, double d) {
-  return {float((2 * x / input.view.width - 1) * d), float((2 * y / input.view.height - 1) * d), float(-d)};
+  return {float((2 * x / input.camera.grid.width - 1) * d), float((2 * y / input.camera.grid.height - 1) * d),
+          float(-d)};
 }
 
 void add_raster_triangle(RasterInput& input, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -36,7 +37,7 @@ void add_raster_triangle(RasterInput& input, const glm::vec3& a, const glm::vec3
 }
 
 CoverageOracle raster_oracle(const RasterInput& input, const RasterImage& image) {
-  CoverageOracle oracle(input.view.width, input.view.height);
+  CoverageOracle oracle(input.camera.grid);
   for (size_t i = 0; i < input.instances.size(); ++i) {
     const RasterInstance& instance = input.instances[i];
     const std::vector<uint32_t>& indices = input.meshes[instance.mesh].indices;
@@ -53,9 +54,9 @@ CoverageOracle raster_oracle(const RasterInput& input, const RasterImage& image)
 // One trial and one contact a pixel; a hole is a lost pixel.
 void compare_raster(Check& c, const RasterInput& input, const RasterImage& image) {
   const CoverageOracle oracle = raster_oracle(input, image);
-  for (int y = 0; y < input.view.height; ++y) {
-    for (int x = 0; x < input.view.width; ++x) {
-      const size_t i = size_t(y) * input.view.width + x;
+  for (int y = 0; y < input.camera.grid.height; ++y) {
+    for (int x = 0; x < input.camera.grid.width; ++x) {
+      const size_t i = input.camera.grid.index(x, y);
       const std::string why = wrong_at(oracle.at(x, y), image.triangles[i], image.depths[i]);
       c.trials(1);
       c.contacts(!oracle.at(x, y).empty());
@@ -102,8 +103,10 @@ RasterInput raster_sheet(int cells, bool on_centres) {
   RasterInputMesh& mesh = input.meshes[0];
   for (int y = 0; y <= cells; ++y) {
     for (int x = 0; x <= cells; ++x) {
-      double px = (double(x) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * input.view.width;
-      double py = (double(y) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * input.view.height;
+      double px =
+          (double(x) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * input.camera.grid.width;
+      double py =
+          (double(y) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * input.camera.grid.height;
       if (on_centres) px = std::floor(px) + 0.5, py = std::floor(py) + 0.5;
       mesh.positions.push_back(
           raster_position(input, px, py, on_centres ? 1.0 : double(random.uniform(1, 1.1f))));

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 namespace lightgrid::verify {
 
@@ -14,7 +14,7 @@ struct RasterInputMesh {
 };
 
 struct RasterInput {
-  RasterView view;
+  RasterCamera camera;
   std::vector<RasterInputMesh> meshes;
   std::vector<RasterInstance> instances;
 };

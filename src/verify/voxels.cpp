@@ -6,6 +6,7 @@
 
 #include "passes/build_voxels.h"
 #include "reference/voxel_sample.h"
+#include "renderer/render_view.h"
 #include "scene/random.h"
 #include "verify/check.h"
 #include "verify/light_passes.h"
@@ -76,8 +77,8 @@ FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace s
   GpuScene gpu(renderer, scene);
   RenderView v(renderer, gpu, of.view, settings,
                {.light_grid = true, .lists = true, .chosen_raster = true, .exact_lights = true});
-  build_voxels(v, {});
-  FilledVoxels filled{read_voxels(v), {}, most_slope(of.view)};
+  build_voxels(v, v, v.caches.voxels, {});
+  FilledVoxels filled{read_voxels(v, v, v.caches.voxels), {}, most_slope(of.view)};
   View along;
   along.view_from_world = glm::dmat4(filled.read.axes.from_world);
   along.eye = filled.read.axes.origin;
@@ -139,7 +140,7 @@ void expect_nothing_lost(Check& c, const FilledVoxels& filled, size_t points, co
     if (!(light.radius_m > 0)) continue;
     for (size_t i = 0; i < points; ++i) {
       glm::dvec3 away = any_direction(random);
-      if (light.type == LightType::spot) {
+      if (has_cone(light)) {
         const glm::dvec3 across = glm::normalize(away - light.direction * glm::dot(away, light.direction));
         const double angle = std::acos(light.cos_outer) * (1 - 1e-6 * double(random.uniform()));
         away = light.direction * std::cos(angle) + across * std::sin(angle);

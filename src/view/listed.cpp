@@ -20,11 +20,8 @@ ListedFrame read_listed_frame(TechniqueRun& run) {
   frame.view = v.view;
   frame.depth = read_depth(run);
   frame.lists = listed_lights(run, frame.depth);
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-  for (const int light : v.plan.local) {
-    frame.lights.push_back(all[light]);
-    frame.scene_lights.push_back(light);
-  }
+  frame.lights = lights_in_view(v.scene, v.view, v.plan.settings.ranges, v.plan.local);
+  frame.scene_lights = v.plan.local;
   return frame;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/image.h"
 #include "base/write_file.h"
+#include "gl/bindings.h"
 #include "gl/state.h"
 #include "renderer/draw.h"
 
@@ -35,15 +36,14 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
   glUniform1f(program.uniform("line"), float(line * picture_width));
   glUniform1i(program.uniform("mapped_left"), left.is_map);
   glUniform1i(program.uniform("mapped_right"), right.is_map);
-  const GLuint textures[] = {left.texture, right.texture};
-  for (GLuint unit = 0; unit < 2; ++unit) {
-    glBindTextureUnit(unit, textures[unit]);
-    glBindSampler(unit, sampler_.name());
-  }
+  bind_texture(Sampler::left_image, left.texture);
+  bind_texture(Sampler::right_image, right.texture);
+  for (const Sampler side : {Sampler::left_image, Sampler::right_image})
+    bind_sampler_object(side, sampler_.name());
   glViewport(0, 0, picture_width, height_);
   draw_screen(program);
   glViewport(0, 0, width_, height_);
-  for (GLuint unit = 0; unit < 2; ++unit) glBindSampler(unit, 0);
+  unbind_sampler_objects();
 }
 
 // Mesa gives framebuffer 0 the window's new size when a bound one is drawn into after glViewport.

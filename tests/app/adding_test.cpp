@@ -1,5 +1,5 @@
-// The places that a technique, a cull test and an error measure need: the source files that name them are
-// counted (docs/overview.md#how-to-add).
+// The places that a technique, a light source, a cull test, an error measure, a column of the light table and
+// an answer of light_reaches need: the source files that name them are counted (docs/overview.md#how-to-add).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -102,6 +102,31 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
 }
 
+// Its builder, which makes the LightSource, and the choice of a loop in forward.frag; and that of kernels
+// where they read it too. The loop's own text names nothing.
+TEST(Adding, ALightSourceTakesItsBuilderAndTheChoiceOfItsLoop) {
+  std::map<std::string, std::vector<std::string>> texts = {
+      {"-DWORLD_GRID", {"-DWORLD_GRID\"", "#ifdef WORLD_GRID", "defined(WORLD_GRID)"}}};
+  std::set<std::string> in_glsl;
+  const std::string choice = code_of(text_at("shaders/forward.frag"));
+  const std::regex define("defined\\((LIGHTS_\\w+)\\)");
+  for (std::sregex_iterator at(choice.begin(), choice.end(), define), end; at != end; ++at) {
+    in_glsl.insert((*at)[1]);
+    texts[(*at)[1]] = {(*at)[1]};
+  }
+  const Naming expected = {
+      {"shaders/forward.frag", in_glsl},
+      {"kernels/resolve/resolve_light.h", {"-DWORLD_GRID", "LIGHTS_VOXELS"}},
+      {"src/passes/build_voxels.cpp", {"LIGHTS_VOXELS"}},
+      {"src/passes/build_world_grid.cpp", {"-DWORLD_GRID", "LIGHTS_WORLD"}},
+      {"src/passes/common/light_buffer.cpp", {"LIGHTS_BUFFER"}},
+      {"src/passes/cull_lights.cpp", {"LIGHTS_GRID", "LIGHTS_MASKS"}},
+      {"src/passes/find_object_lights.cpp", {"LIGHTS_OBJECT"}},
+      {"src/passes/light_index.cpp", {"LIGHTS_LIDR"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "shaders", "kernels"}, texts), expected), IsEmpty());
+}
+
 // Its row with its number, and its function in light_cell_tests.h, where tests of planes share one.
 TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   std::map<std::string, std::vector<std::string>> texts;
@@ -159,6 +184,64 @@ TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
       {"src/frontier/page/figures.js", {"max_rel"}},
   };
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+// Its row and its values, and each that computes with it; a fourth is the member of Light that it is made of.
+// Neither kernels' arguments, nor shaders' textures, nor uploads name a column.
+TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
+  const std::string table = text_at("src/shared/light_table.h");
+  const std::regex row(R"(ROW\(IF_\w+, \w+, (\w+), (\w+), \w+\))");
+  std::map<std::string, std::vector<std::string>> texts;
+  std::set<std::string> all;
+  for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at) {
+    const std::string member = (*at)[1], array = (*at)[2];
+    all.insert(member);
+    texts[member] = {array, "glm::vec4 " + member + "("};
+  }
+  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone"}));
+  // All that names the newest column. The others are read by every light loop.
+  for (const char* text : {"light.cone.", "light.cone = (float4)"}) texts["cone"].push_back(text);
+  const Naming expected = {
+      {"src/shared/light_table.h", all},
+      {"src/renderer/light_table.cpp", all},
+      // Readers: the range alone; a cone's part in what arrives, also at samples of voxel light buffers.
+      {"shaders/lights/blocks.glsl", {"position"}},
+      {"src/shared/punctual_light.h", {"cone"}},
+      {"src/shared/voxel_exact.h", {"cone"}},
+      {"kernels/voxels/voxel_light.h", {"cone"}},
+      // A record of the culler's own, from LightBounds.
+      {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
+}
+
+// Its text for all three languages, the same in double, and the effect of the plan that asks for it. No light
+// loop: each asks already, and a new one that computes what arrives without asking fails here.
+TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
+  const std::map<std::string, std::vector<std::string>> texts = {
+      {"answers", {"real light_reaches(", "double light_reaches(", "plan.light_reaches = "}},
+      {"asks", {"* light_reaches(", "*= light_reaches(", "return light_reaches("}},
+      {"arrives", {" arrival_at(", " voxel_arrival(", " attenuation(light", " arrival_at_sample("}},
+  };
+  const Naming expected = {
+      {"src/shared/light_table.h", {"answers"}},
+      {"src/reference/attenuation.h", {"answers"}},
+      {"src/plan/frame_plan.cpp", {"answers"}},
+      // radiance_from, with which shaders/lights and voxel-lights-exact end.
+      {"src/shared/punctual_light.h", {"arrives", "asks"}},
+      {"src/shared/voxel_exact.h", {"arrives", "asks"}},
+      {"shaders/deferred_light.frag", {"arrives", "asks"}},
+      {"shaders/light_buffer.frag", {"arrives", "asks"}},
+      {"kernels/resolve/shade_pixels.h", {"arrives", "asks"}},
+      {"kernels/resolve/light_buffer.h", {"arrives", "asks"}},
+      {"kernels/voxels/voxel_light.h", {"arrives", "asks"}},
+      {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},  // voxel_arrival asks
+      {"src/reference/shading.cpp", {"arrives", "asks"}},
+      {"src/reference/light_sums.cpp", {"arrives", "asks"}},
+      {"src/reference/lit_set.cpp", {"asks"}},
+      {"src/reference/voxel_sample.cpp", {"asks"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 #include "scene/camera.h"
 #include "scene/load_gltf.h"
 
@@ -29,7 +29,8 @@ void measure(const char* path, int width, int height, int runs, const RasterOpti
   const Scene scene = load_gltf(path);
   ClDevice device;
   ProgramCache programs(device);
-  Rasterizer rasterizer(device, programs, options);
+  RasterScene geometry(device);
+  RasterView raster(geometry, programs, options);
   std::vector<RasterMesh> meshes;
   for (const Mesh& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
   std::vector<RasterInstance> instances;
@@ -40,12 +41,12 @@ void measure(const char* path, int width, int height, int runs, const RasterOpti
                          .world_from_object = instance.world_from_object,
                          .two_sided = material.double_sided});
   }
-  rasterizer.set_meshes(meshes);
-  rasterizer.set_instances(instances);
+  geometry.set_meshes(meshes);
+  raster.set_instances(instances);
   const View view = make_view(look_at({-10, 2, 0}, {10, 3, 0}), width, height);
-  rasterizer.set_view({width, height, view.clip_from_view, view.view_from_world, view.eye, samples});
-  rasterizer.draw();
-  rasterizer.draw();
+  raster.set_camera({{width, height, samples}, view.clip_from_view, view.view_from_world, view.eye});
+  raster.draw();
+  raster.draw();
 
   device.profiler().time_launches(true);
   std::map<std::string, std::vector<double>> kernels;
@@ -53,17 +54,17 @@ void measure(const char* path, int width, int height, int runs, const RasterOpti
   std::vector<double> frames;
   for (int run = 0; run < runs; ++run) {
     const Timer timer;
-    rasterizer.draw();
+    raster.draw();
     frames.push_back(timer.elapsed_ms());
     for (const ClProfiler::Row& row : device.profiler().collect()) {
       if (run == 0) order.push_back(row.label);
       kernels[row.label].push_back(row.ms);
     }
   }
-  const RasterCounts& counts = rasterizer.counts();
+  const RasterCounts& counts = raster.counts();
   fmt::print("{}: {} triangles, {} clusters in view, {} records, {} tile entries, {:.1f} MB\n",
              device.info().name, counts.triangles, counts.clusters, counts.records, counts.tile_entries,
-             double(rasterizer.memory_bytes()) * 1e-6);
+             double(geometry.memory_bytes() + raster.memory_bytes()) * 1e-6);
   for (const std::string& name : order) print_times(name, kernels[name]);
   print_times("frame", frames);
 }

@@ -15,11 +15,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "capture/grid_lists.h"
 #include "compare/oracle.h"
 #include "compare/run_technique.h"
 #include "renderer/culler_input.h"
 #include "scene/builtin.h"
+#include "scene/grid_lists.h"
 #include "scene/light_rigs.h"
 #include "world_grid/world_cell.h"
 

@@ -137,12 +137,12 @@ struct Slot {
 cl_uint write_through_image(SharedBuffer& buffer, cl_uint words, cl_uint seed, int width, int height,
                             PixelCopies& copies, const GlObject<GlKind::program>& write) {
   const GlTexture image = make_texture_2d(GL_RGBA32F, width, height);
-  copies.to_texture(buffer.gl_buffer(), GL_RGBA, GL_FLOAT, width, height, image.name());
+  copies.to_texture(buffer.gl_buffer(), GL_RGBA, GL_FLOAT, {width, height}, image.name());
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.gl_buffer());
   dispatch_words(write, words, ~seed);  // a word that no texel replaces is then wrong
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  copies.to_buffer({0, GL_COLOR_ATTACHMENT0, image.name()}, GL_RGBA, GL_FLOAT, width, height,
+  copies.to_buffer({0, GL_COLOR_ATTACHMENT0, image.name()}, GL_RGBA, GL_FLOAT, {width, height},
                    buffer.gl_buffer());
   return cl_uint(width) * cl_uint(height) * 4;
 }

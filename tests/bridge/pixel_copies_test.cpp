@@ -79,7 +79,7 @@ TEST_F(PixelCopiesOfContext, WriteTheBytesOfTheImageByShaderAndByDriver) {
       for (PixelCopies* copies : {&by_shader, &by_driver}) {
         const Bytes before(expected.size(), 0xab);
         const GlBuffer buffer = make_buffer(before.size(), before.data());
-        copies->to_buffer(source, pixels.format, pixels.type, width, height, buffer.name());
+        copies->to_buffer(source, pixels.format, pixels.type, {width, height}, buffer.name());
         EXPECT_EQ(contents(buffer.name(), before.size()), expected)
             << pixels.name << ", " << width << "x" << height
             << (copies == &by_shader ? " by shader" : " by driver");
@@ -122,7 +122,7 @@ TEST_F(PixelCopiesOfContext, FillATextureByShaderAndByDriver) {
       for (PixelCopies* copies : {&by_shader, &by_driver}) {
         const GlTexture texture = depth > 0 ? make_volume(pixels.internal, width, height, depth)
                                             : make_texture_2d(pixels.internal, width, height);
-        copies->to_texture(buffer.name(), pixels.format, pixels.type, width, height, texture.name(), depth);
+        copies->to_texture(buffer.name(), pixels.format, pixels.type, {width, height}, texture.name(), depth);
         Bytes read(bytes);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
         glGetTextureImage(texture.name(), 0, pixels.format, pixels.type, GLsizei(bytes), read.data());
@@ -145,7 +145,7 @@ TEST_F(PixelCopiesOfContext, KeepEachBitByShader) {
   const auto written = [&](const Pixels& pixels, const auto& values) {
     const GlBuffer buffer = make_buffer(sizeof values, values);
     const GlTexture texture = make_texture_2d(pixels.internal, 1, 1);
-    by_shader.to_texture(buffer.name(), pixels.format, pixels.type, 1, 1, texture.name());
+    by_shader.to_texture(buffer.name(), pixels.format, pixels.type, {1, 1}, texture.name());
     std::vector<uint32_t> read(std::size(values));
     glGetTextureImage(texture.name(), 0, pixels.format, pixels.type, GLsizei(sizeof values), read.data());
     EXPECT_EQ(read, std::vector<uint32_t>(std::begin(values), std::end(values))) << pixels.name;

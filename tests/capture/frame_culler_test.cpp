@@ -5,13 +5,13 @@
 
 #include <gmock/gmock.h>
 
-#include "reference/position.h"
 #include "base/error.h"
 #include "capture/capture.h"
 #include "capture/captured_frame.h"
 #include "capture/frame_lists.h"
-#include "inspect/inspect_maps.h"
 #include "compare/oracle.h"
+#include "inspect/inspect_maps.h"
+#include "reference/position.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 #include "support/temp_folder.h"
@@ -252,7 +252,7 @@ TEST_P(CaptureOf, HasTheGridThatTheRendererShadesFrom) {
       ASSERT_EQ(list_at(captured, pixel), list_at(shaded, pixel)) << pixel;
     }
   }
-  EXPECT_EQ(frame.depth, read_depth(run.view()));
+  EXPECT_EQ(frame.depth, read_depth(run));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -67,5 +67,45 @@ TEST_F(Launch, ThatFailsSaysWhichLabelAndCode) {
   EXPECT_TRUE(device.profiler().collect().empty());
 }
 
+// kernels/world_grid/world_scan.cl has the parameters values, count and total.
+struct NamedLaunch : Launch {
+  std::string refusal(const std::string& defines, const ClArguments& arguments) {
+    NamedKernel kernel(programs, "world_grid/world_scan", defines);
+    try {
+      kernel.launch(device, "scan", cl::NDRange(1), cl::NDRange(1), arguments);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const cl_uint count = 3;
+  const ClArguments whole = {{"values", buffer}, {"count", count}, {"total", buffer}};
+};
+
+TEST_F(NamedLaunch, ArgumentsReachTheParametersOfTheirNames) {
+  cl::Buffer total(device.context(), CL_MEM_READ_WRITE, 8);
+  EXPECT_EQ(refusal("", {{"values", buffer}, {"count", count}, {"total", total}}), "");
+  cl_uint sum[2];
+  device.queue().enqueueReadBuffer(total, CL_TRUE, 0, sizeof sum, sum);
+  EXPECT_EQ(sum[0], 0u + 1 + 2);
+}
+
+std::string mismatch(int index, const std::string& parameter, const std::string& argument) {
+  return fmt::format("kernels/world_grid/world_scan.cl: its parameter {} is \"{}\", the argument is \"{}\"",
+                     index, parameter, argument);
+}
+
+TEST_F(NamedLaunch, ARenamedParameterIsNamed) {
+  EXPECT_EQ(refusal("-Dtotal=sum_of_all", whole), mismatch(2, "sum_of_all", "total"));
+}
+
+TEST_F(NamedLaunch, AMissingAnExcessOrAMisplacedArgumentIsNamed) {
+  EXPECT_EQ(refusal("", {{"values", buffer}, {"total", buffer}}), mismatch(1, "count", "total"));
+  EXPECT_EQ(refusal("", {{"values", buffer}, {"count", count}}), mismatch(2, "total", ""));
+  EXPECT_EQ(refusal("", whole + ClArguments{{"scale", 1.0f}}), mismatch(3, "", "scale"));
+  EXPECT_EQ(refusal("", {{"total", buffer}, {"count", count}, {"values", buffer}}),
+            mismatch(0, "values", "total"));
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -73,11 +73,15 @@ TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
 }
 
 // The picture is rendered, then memory runs out while its lists are read.
-ListedLights out_of_memory(RenderView&) { throw std::bad_alloc(); }
+Frame without_memory_for_lists(RenderView& v) {
+  Frame frame = find_technique("forward").render(v);
+  frame.listed = [](auto&) -> ListedLights { throw std::bad_alloc(); };
+  return frame;
+}
 
 TEST(CompareTechniques, MakesARefusedRowOfListsThatMemoryDoesNotHold) {
   Technique many = find_technique("forward");  // the reference, too
-  many.listed = out_of_memory;
+  many.render = without_memory_for_lists;
   const CompareReport report = compared({{&many, {}}, {&find_technique("forward_plus"), {}}});
   ASSERT_EQ(report.rows.size(), 2u);
   EXPECT_EQ(report.rows[0].refused, "out of memory");

@@ -14,13 +14,13 @@ namespace {
 
 TEST(ReferenceSample, BlocksCoverEachPixelOnceInAnOrderOfTheSeed) {
   for (const auto& [width, height] : {std::pair(17, 9), {1, 1}, {64, 36}, {3, 40}}) {
-    const std::vector<PixelBlock> blocks = shuffled_blocks(width, height, 1);
-    const std::vector<uint32_t> pixels = pixels_of(blocks, width, height);
+    const std::vector<PixelBlock> blocks = shuffled_blocks({width, height}, 1);
+    const std::vector<uint32_t> pixels = pixels_of(blocks, {width, height});
     ASSERT_EQ(pixels.size(), size_t(width) * size_t(height));
     for (uint32_t i = 0; i < pixels.size(); ++i) ASSERT_EQ(pixels[i], i);
   }
   const auto first_of = [](uint64_t seed) {
-    const PixelBlock block = shuffled_blocks(640, 360, seed).front();
+    const PixelBlock block = shuffled_blocks({640, 360}, seed).front();
     return std::pair(block.x, block.y);
   };
   EXPECT_EQ(first_of(1), first_of(1));
@@ -31,7 +31,7 @@ TEST(ReferenceSample, BlocksCoverEachPixelOnceInAnOrderOfTheSeed) {
 
 // A wrong shuffle would cluster: of a tenth of the blocks, each quarter of the image has about a quarter.
 TEST(ReferenceSample, IsSpreadOverTheImage) {
-  std::vector<PixelBlock> blocks = shuffled_blocks(640, 360, 7);
+  std::vector<PixelBlock> blocks = shuffled_blocks({640, 360}, 7);
   blocks.resize(blocks.size() / 10);
   int quarters[4] = {};
   for (const PixelBlock& block : blocks) ++quarters[(block.x >= 320) + 2 * (block.y >= 180)];
@@ -46,12 +46,12 @@ TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("forward"));
   run.run_frame();
   const Image whole = run.image();
-  const std::vector<float> depth = read_depth(run.view());
-  std::vector<PixelBlock> blocks = shuffled_blocks(127, 73, 3);
+  const std::vector<float> depth = read_depth(run);
+  std::vector<PixelBlock> blocks = shuffled_blocks({127, 73}, 3);
   blocks.resize(60);
   Image sampled;
   render_forward_at(run.view(), blocks, sampled);
-  const std::vector<uint32_t> pixels = pixels_of(blocks, 127, 73);
+  const std::vector<uint32_t> pixels = pixels_of(blocks, {127, 73});
   size_t shaded = 0, lit = 0;
   for (const uint32_t pixel : pixels) ASSERT_EQ(sampled.pixels[pixel], whole.pixels[pixel]) << pixel;
   const glm::vec4 background(s.scene.background, 1);
@@ -59,7 +59,7 @@ TEST(ReferenceSample, IsTheImageOfForwardAtItsPixels) {
   for (const uint32_t pixel : pixels) lit += whole.pixels[pixel] != background;
   EXPECT_GT(lit, 0u);
   EXPECT_EQ(shaded, lit) << "pixels outside the sample are shaded";
-  EXPECT_EQ(read_depth(run.view()), depth) << "the depth image is not restored";
+  EXPECT_EQ(read_depth(run), depth) << "the depth image is not restored";
 }
 
 TEST(ReferenceSample, HasFewerPixelsTheMoreLightsThereAre) {
@@ -104,7 +104,7 @@ TEST(ReferenceSample, EstimatesTheTimeOfAFrame) {
   for (int i = 0; i < 2000; ++i) add_point(scene, "lamp", {0.001f * float(i) - 1, 0, -3}, {1, 1, 1}, 1, 3);
   const View view = small_view(640, 360);
   TechniqueRun run(software_devices(), scene, view, {}, find_technique("forward"));
-  const double estimate_ms = estimate_forward_ms(run.view(), shuffled_blocks(640, 360, 1));
+  const double estimate_ms = estimate_forward_ms(run.view(), shuffled_blocks({640, 360}, 1));
   const Timer timer;
   run.run_frame();
   const double ms = timer.elapsed_ms();

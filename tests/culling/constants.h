@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "culling/culler_options.h"
 #include "culling/light_arrays.h"  // far_away
+#include "culling/light_culler.h"
 
 namespace lightgrid {
 

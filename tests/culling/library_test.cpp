@@ -118,14 +118,15 @@ TEST(Library, LinksIntoAPluginOfAnEngineThatHasABaseFolderOfItsOwn) {
 #include "base/error.h"
 #include <lightgrid/base/error.h>
 #include <lightgrid/culling/light_culler.h>
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 extern "C" int cull_nothing() {
   try {
     lightgrid::ClDevice device;
     lightgrid::ProgramCache programs(device);
     lightgrid::LightCuller culler(device, programs, {});
-    lightgrid::Rasterizer rasterizer(device, programs, {});
+    lightgrid::RasterScene scene(device);
+    lightgrid::RasterView view(scene, programs, {});
     return 0;
   } catch (const lightgrid::Error& error) {
     return error.exit_code();

@@ -17,7 +17,7 @@ namespace lightgrid::verify {
 class NaiveRasterizer {
  public:
   NaiveRasterizer(const RasterInput& input, Fault fault) : input_(input), fault_(fault) {
-    const size_t pixels = size_t(input.view.width) * input.view.height;
+    const size_t pixels = input.camera.grid.pixels();
     image_.triangles.assign(pixels, no_triangle);
     image_.depths.assign(pixels, 0.0f);
   }
@@ -39,7 +39,7 @@ class NaiveRasterizer {
  private:
   std::vector<glm::vec4> clip_positions(const RasterInstance& instance, const RasterInputMesh& mesh) const {
     const glm::dmat4 clip_from_object =
-        input_.view.clip_from_view * input_.view.view_from_world * instance.world_from_object;
+        input_.camera.clip_from_view * input_.camera.view_from_world * instance.world_from_object;
     std::vector<glm::vec4> clip;
     for (const glm::vec3& p : mesh.positions)
       clip.push_back(glm::vec4(glm::mat4(clip_from_object) * glm::vec4(p, 1)));
@@ -53,7 +53,7 @@ class NaiveRasterizer {
       }
     }
     if (fault_ == Fault::no_near_cut) return draw_part(instance, corners);
-    const auto polygon = cut_triangle(corners, input_.view.width, input_.view.height);
+    const auto polygon = cut_triangle(corners, input_.camera.grid);
     if (!polygon) ++image_.invalid_triangles;
     for (size_t i = 2; polygon && i < polygon->size(); ++i)
       draw_part(instance, {(*polygon)[0], (*polygon)[i - 1], (*polygon)[i]});
@@ -73,11 +73,11 @@ class NaiveRasterizer {
   }
 
   void draw_part(const RasterInstance& instance, const std::array<glm::vec4, 3>& corners) {
-    const int width = input_.view.width, height = input_.view.height;
+    const int width = input_.camera.grid.width, height = input_.camera.grid.height;
     std::array<SnappedPoint, 3> p;
     std::array<double, 3> z;
     for (int k = 0; k < 3; ++k) {
-      p[k] = snapped(corners[k], width, height);
+      p[k] = snapped(corners[k], input_.camera.grid);
       z[k] = std::min(double(corners[k].z) / corners[k].w, 1.0);
       const int64_t most = 1 << 24;
       if (p[k].x < -most || p[k].x > most || p[k].y < -most || p[k].y > most) return;

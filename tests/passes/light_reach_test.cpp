@@ -51,7 +51,7 @@ TEST(LightReach, KeepsEveryBoxWithAPointThatTheLightReaches) {
         p[axis] = random.uniform() < 0.6f ? (p[axis] < 0 ? -1 : 1) : p[axis];
       some = reaches(light, box.center + p * box.half);
     }
-    const bool may = LightReach(light).may_reach(box);
+    const bool may = LightReach(bounds_of(light)).may_reach(box);
     ASSERT_TRUE(may || !some) << trial;
     kept += may, reached += some;
   }
@@ -68,7 +68,7 @@ TEST(LightReach, OfTangentBallsAndOfLightsWithoutEndOrExtent) {
         std::pair(0.0, false), std::pair(-1.0, false), std::pair(1e20, true),
         std::pair(std::numeric_limits<double>::infinity(), true)}) {
     light.radius_m = radius;
-    EXPECT_EQ(LightReach(light).may_reach(box), expected) << radius;
+    EXPECT_EQ(LightReach(bounds_of(light)).may_reach(box), expected) << radius;
   }
 }
 

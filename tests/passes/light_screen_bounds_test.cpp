@@ -46,9 +46,10 @@ Trial random_trial(Random& random) {
   t.light.position = {random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-12, 2)};
   t.light.radius_m = random.uniform(0.05f, 3);
   LightVolume volume{};
+  volume.bounds = bounds_of(t.light);
   volume.center = t.light.position, volume.radius = 1e9;
   volume.first = {0, 0}, volume.end = {width, height};
-  t.bounds = screen_bounds(t.view, t.light, volume);
+  t.bounds = screen_bounds(t.view, volume);
   return t;
 }
 
@@ -107,9 +108,10 @@ TEST(LightScreenBounds, OfALightWithoutEndAreTheVolumes) {
   ViewLight light;
   light.radius_m = std::numeric_limits<double>::infinity();
   LightVolume volume{};
+  volume.bounds = bounds_of(light);
   volume.first = {3, 4}, volume.end = {50, 60};
   Random random(5);
-  const ScreenBounds bounds = screen_bounds(random_view(random), light, volume);
+  const ScreenBounds bounds = screen_bounds(random_view(random), volume);
   EXPECT_EQ(bounds.first, volume.first);
   EXPECT_EQ(bounds.end, volume.end);
   EXPECT_EQ(bounds.depth, glm::vec2(0, 1));

@@ -6,6 +6,7 @@
 #include "cl/transfer.h"
 #include "passes/read_back.h"
 #include "passes/resolve.h"
+#include "renderer/render_view.h"
 #include "results/metrics.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"
@@ -33,17 +34,17 @@ struct Filled {
 Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, settings, gbuffer_needs);
-  const VisibilityBuffer visible = rasterize(v);
-  const GBufferInCl g = resolve_gbuffer(v, visible, BaseLighting::in_image);
+  const VisibilityBuffer visible = rasterize(v, v, v.caches);
+  const GBufferInCl g = resolve_gbuffer(v, v, v.caches.resolver, visible, BaseLighting::in_image);
   EXPECT_EQ(g.layout->bits, settings.buffer_bits);
   Filled f;
   for (const size_t i : g.images) {
-    f.bytes[i].resize(v.pixels() * g.layout->images[i].bytes);
+    f.bytes[i].resize(v.grid().values() * g.layout->images[i].bytes);
     read_buffer(*v.renderer.cl, "reading surfaces", g.surfaces[i]->cl_buffer(), f.bytes[i].data(),
                 f.bytes[i].size());
   }
-  read_back(v, {0, g.image}, f.image);
-  f.depth.resize(v.pixels());
+  read_back(v, v, {0, g.image}, f.image);
+  f.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading depth", visible.image.depth, f.depth.data(), f.depth.size() * 4);
   f.opaque = v.plan.opaque;
   return f;

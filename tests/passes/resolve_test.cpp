@@ -9,6 +9,7 @@
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/read_back.h"
+#include "renderer/render_view.h"
 #include "results/metrics.h"
 #include "scene/builtin.h"
 #include "support/devices.h"
@@ -47,13 +48,15 @@ std::vector<double_surfaces::Hit> hits_of(const RenderView& v, const std::vector
 Resolved resolved(const Scene& scene, const View& view, const Settings& settings = {}) {
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, settings, needs);
-  const VisibilityBuffer visible = rasterize(v);
-  std::optional<LightGrid> grid;
-  if (v.plan.light_grid) grid = cull_lights(v, depth_bounds(v, visible.depth()));
+  const VisibilityBuffer visible = rasterize(v, v, v.caches);
+  std::optional<ViewGrid> grid;
+  if (v.plan.light_grid)
+    grid = cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), visible.depth()));
   Resolved r;
-  read_back(v, resolve(v, visible, grid ? GridInCl{&*grid, &v.opaque_grid()} : GridInCl{}), r.image);
-  std::vector<uint32_t> triangles(v.pixels());
-  r.depth.resize(v.pixels());
+  read_back(v, v, resolve(v, v, v.caches.resolver, visible, grid ? from_grid(v, v, *grid) : every_light(v)),
+            r.image);
+  std::vector<uint32_t> triangles(v.grid().values());
+  r.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading triangles", visible.image.triangle, triangles.data(),
               triangles.size() * 4);
   read_buffer(*v.renderer.cl, "reading depth", visible.image.depth, r.depth.data(), r.depth.size() * 4);
@@ -230,7 +233,7 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
   const View view = small_view(71, 37);
   GpuScene gpu(test_devices(), scene);
   RenderView drawn(test_devices(), gpu, view, {}, needs);
-  const VisibilityBuffer visible = rasterize(drawn);
+  const VisibilityBuffer visible = rasterize(drawn, drawn, drawn.caches);
   std::vector<Image> images;
   for (const Settings& settings :
        {Settings{}, Settings{.portable = true}, Settings{.tile = 8},
@@ -239,9 +242,10 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
         Settings{.slices = 8, .kernel_shape = KernelShape::group, .given = {"slices"}},
         Settings{.tile = 64, .lights = ShadedLights::all}}) {
     RenderView v(test_devices(), gpu, view, settings, needs);
-    std::optional<LightGrid> grid;
-    if (v.plan.light_grid) grid = cull_lights(v, depth_bounds(v, visible.depth()));
-    read_back(v, resolve(v, visible, grid ? GridInCl{&*grid, &v.opaque_grid()} : GridInCl{}),
+    std::optional<ViewGrid> grid;
+    if (v.plan.light_grid)
+      grid = cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), visible.depth()));
+    read_back(v, v, resolve(v, v, v.caches.resolver, visible, grid ? from_grid(v, v, *grid) : every_light(v)),
               images.emplace_back());
     EXPECT_TRUE(compare_images(images.back(), images.front()).bit_identical) << images.size();
   }

@@ -23,7 +23,7 @@ TEST_P(RasterCoverage, RandomTrianglesOfEachKind) {
       SCOPED_TRACE(fmt::format("kind {}, {} x {}", kind, width, height));
       RandomNumbers random(uint32_t(100 * kind + width));
       for (const bool two_sided : {false, true}) {
-        RasterScene scene = scene_of(plain_view(width, height));
+        TriangleScene scene = scene_of(plain_view(width, height));
         scene.instances[0].two_sided = two_sided;
         for (int i = 0; i < 150; ++i) add_random_triangle(random, kind, scene);
         const Drawn result = drawn(scene, options());
@@ -38,7 +38,7 @@ TEST_P(RasterCoverage, RandomTrianglesOfEachKind) {
 TEST_P(RasterCoverage, OneTriangleAtATimeHasExactlyItsPixels) {
   RandomNumbers random(7);
   for (int i = 0; i < 200; ++i) {
-    RasterScene scene = scene_of(i % 2 ? plain_view(70, 66) : plain_view(33, 130));
+    TriangleScene scene = scene_of(i % 2 ? plain_view(70, 66) : plain_view(33, 130));
     scene.instances[0].two_sided = true;
     add_random_triangle(random, i % 6, scene);
     SCOPED_TRACE(i);
@@ -49,14 +49,14 @@ TEST_P(RasterCoverage, OneTriangleAtATimeHasExactlyItsPixels) {
 
 TEST_P(RasterCoverage, LargerView) {
   RandomNumbers random(3);
-  RasterScene scene = scene_of(plain_view(1279, 721));
+  TriangleScene scene = scene_of(plain_view(1279, 721));
   for (int i = 0; i < 60; ++i) add_random_triangle(random, i % 6, scene);
   expect_right(scene, options());
 }
 
 TEST_P(RasterCoverage, OrthographicViewsWithANearAndAFarPlane) {
   RandomNumbers random(5);
-  RasterScene scene = scene_of(flat_view(100, 75));
+  TriangleScene scene = scene_of(flat_view(100, 75));
   scene.instances[0].two_sided = true;
   for (int i = 0; i < 200; ++i) {
     const auto corner = [&] {
@@ -71,15 +71,15 @@ TEST_P(RasterCoverage, OrthographicViewsWithANearAndAFarPlane) {
 // Corners up to 3e38 depth ranges behind the far plane: what of their triangles is before it is at most an
 // edge.
 TEST_P(RasterCoverage, CornersFarBehindTheFarPlane) {
-  RasterView steep = plain_view(90, 70, 1e30);  // its far plane is at 1 m, its near plane 1e-30 m before
+  RasterCamera steep = plain_view(90, 70, 1e30);  // its far plane is at 1 m, its near plane 1e-30 m before
   steep.clip_from_view[2][2] = 1e30;
   RandomNumbers random(6);
   size_t covered = 0;
-  for (const RasterView& view : {flat_view(100, 75), flat_view(33, 130), steep}) {
+  for (const RasterCamera& view : {flat_view(100, 75), flat_view(33, 130), steep}) {
     const bool flat = view.clip_from_view[2][3] == 0;
     for (const double deepest : {1e5, 1e16, 1e20, 1e25, 1e32, 3e38}) {
-      SCOPED_TRACE(fmt::format("{} x {}, {:g}", view.width, view.height, deepest));
-      RasterScene scene = scene_of(view);
+      SCOPED_TRACE(fmt::format("{} x {}, {:g}", view.grid.width, view.grid.height, deepest));
+      TriangleScene scene = scene_of(view);
       scene.instances[0].two_sided = true;
       for (int i = 0; i < 150; ++i) {
         // One in three is in view whole, the others have one corner or two behind it.
@@ -108,9 +108,9 @@ TEST_P(RasterCoverage, CornersFarBehindTheFarPlane) {
 
 TEST_P(RasterCoverage, TurnedMovedScaledAndMirroredInstances) {
   RandomNumbers random(11);
-  RasterScene scene;
-  scene.view = plain_view(160, 90);
-  scene.view.eye = {1e5, -3, 7};
+  TriangleScene scene;
+  scene.camera = plain_view(160, 90);
+  scene.camera.eye = {1e5, -3, 7};
   for (int m = 0; m < 3; ++m) {
     scene.meshes.emplace_back();
     for (int i = 0; i < 20 + 33 * m; ++i) {
@@ -135,16 +135,16 @@ TEST_P(RasterCoverage, TurnedMovedScaledAndMirroredInstances) {
 }
 
 // A mesh of triangles over the whole image and beyond, its inner vertices anywhere near their place.
-RasterScene sheet(const RasterView& view, int cells, uint32_t seed, bool on_centres) {
+TriangleScene sheet(const RasterCamera& view, int cells, uint32_t seed, bool on_centres) {
   RandomNumbers random(seed);
-  RasterScene scene = scene_of(view);
-  RasterScene::MeshData& mesh = scene.meshes[0];
+  TriangleScene scene = scene_of(view);
+  TriangleScene::MeshData& mesh = scene.meshes[0];
   for (int y = 0; y <= cells; ++y) {
     for (int x = 0; x <= cells; ++x) {
       // A little more than the image; vertices move by less than a quarter of a cell, so that no triangle
       // turns over.
-      double px = (double(x) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.width;
-      double py = (double(y) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.height;
+      double px = (double(x) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.grid.width;
+      double py = (double(y) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.grid.height;
       if (on_centres) px = std::floor(px) + 0.5, py = std::floor(py) + 0.5;
       mesh.positions.push_back(at(view, px, py, on_centres ? 1.0 : random.between(1, 1.1)));
     }
@@ -159,8 +159,8 @@ RasterScene sheet(const RasterView& view, int cells, uint32_t seed, bool on_cent
 }
 
 // Every triangle of `scene` in one of `count` scenes of its own.
-std::vector<RasterScene> dealt_out(const RasterScene& scene, size_t count) {
-  std::vector<RasterScene> parts(count, scene);
+std::vector<TriangleScene> dealt_out(const TriangleScene& scene, size_t count) {
+  std::vector<TriangleScene> parts(count, scene);
   for (size_t part = 0; part < count; ++part) {
     std::vector<uint32_t>& indices = parts[part].meshes[0].indices;
     indices.clear();
@@ -173,13 +173,13 @@ std::vector<RasterScene> dealt_out(const RasterScene& scene, size_t count) {
 
 TEST_P(RasterCoverage, TrianglesThatShareEdgesLeaveNoPixelOutAndClaimNoneTwice) {
   for (const bool on_centres : {false, true}) {
-    const RasterScene scene = sheet(plain_view(150, 140), 23, 5, on_centres);
+    const TriangleScene scene = sheet(plain_view(150, 140), 23, 5, on_centres);
     const Drawn whole = drawn(scene, options());
     EXPECT_EQ(whole.covered(), whole.triangles.size());
     EXPECT_EQ(count_wrong(whole, oracle_of(whole, scene)), 0);
     // Two triangles that share an edge or a corner are never in one of 11 parts, so that claims add up.
     size_t claims = 0;
-    for (const RasterScene& part : dealt_out(scene, 11)) claims += drawn(part, options()).covered();
+    for (const TriangleScene& part : dealt_out(scene, 11)) claims += drawn(part, options()).covered();
     EXPECT_EQ(claims, whole.triangles.size());
   }
 }
@@ -188,8 +188,8 @@ TEST_P(RasterCoverage, TrianglesThatShareEdgesLeaveNoPixelOutAndClaimNoneTwice) 
 // lower half of the image. One step of a float at the far end is half a pixel there.
 TEST_P(RasterCoverage, CutTrianglesMeetTheirNeighbours) {
   RandomNumbers random(2);
-  RasterScene scene = scene_of(plain_view(223, 240, 0.01));
-  RasterScene::MeshData& mesh = scene.meshes[0];
+  TriangleScene scene = scene_of(plain_view(223, 240, 0.01));
+  TriangleScene::MeshData& mesh = scene.meshes[0];
   constexpr int planks = 2000;
   for (int i = 0; i <= planks; ++i) {
     const double across = 0.0004 * (i - planks / 2 + random.between(-0.2, 0.2));
@@ -203,14 +203,14 @@ TEST_P(RasterCoverage, CutTrianglesMeetTheirNeighbours) {
   const Drawn whole = drawn(scene, options());
   EXPECT_EQ(count_wrong(whole, oracle_of(whole, scene)), 0);
   std::vector<int> claims(whole.triangles.size(), 0);
-  for (const RasterScene& part : dealt_out(scene, 11)) {
+  for (const TriangleScene& part : dealt_out(scene, 11)) {
     const Drawn some = drawn(part, options());
     for (size_t i = 0; i < claims.size(); ++i) claims[i] += some.triangles[i] != no_triangle;
   }
   // The near plane is met at row 60; the planks begin at row 115.
   for (int y = 0; y < 112; ++y) {
-    for (int x = 0; x < whole.width; ++x) {
-      const size_t i = size_t(y) * whole.width + x;
+    for (int x = 0; x < whole.grid.width; ++x) {
+      const size_t i = whole.grid.index(x, y);
       ASSERT_EQ(claims[i], whole.triangles[i] != no_triangle) << x << " " << y;
       if (y < 58 || y > 62) {
         ASSERT_EQ(whole.triangles[i] != no_triangle, y > 60) << x << " " << y;
@@ -220,33 +220,34 @@ TEST_P(RasterCoverage, CutTrianglesMeetTheirNeighbours) {
 }
 
 TEST_P(RasterCoverage, AFanOfAThousandSliversAroundAPixelsCentre) {
-  RasterScene scene = scene_of(plain_view(131, 127));
-  RasterScene::MeshData& mesh = scene.meshes[0];
+  TriangleScene scene = scene_of(plain_view(131, 127));
+  TriangleScene::MeshData& mesh = scene.meshes[0];
   constexpr int count = 1000;
-  mesh.positions.push_back(at(scene.view, 65.5, 60.5, 2));
+  mesh.positions.push_back(at(scene.camera, 65.5, 60.5, 2));
   for (int i = 0; i < count; ++i) {
     const double angle = i * 6.283185307179586 / count;
-    mesh.positions.push_back(at(scene.view, 65.5 + 300 * std::cos(angle), 60.5 + 300 * std::sin(angle), 3));
+    mesh.positions.push_back(at(scene.camera, 65.5 + 300 * std::cos(angle), 60.5 + 300 * std::sin(angle), 3));
     for (const int k : {0, 1 + i, 1 + (i + 1) % count}) mesh.indices.push_back(uint32_t(k));
   }
   const Drawn whole = drawn(scene, options());
   EXPECT_EQ(whole.covered(), whole.triangles.size());
   const CoverageOracle oracle = oracle_of(whole, scene);
   EXPECT_EQ(count_wrong(whole, oracle), 0);
-  for (int y = 0; y < whole.height; ++y) {
-    for (int x = 0; x < whole.width; ++x) ASSERT_EQ(oracle.at(x, y).size(), 1u) << x << " " << y;
+  for (int y = 0; y < whole.grid.height; ++y) {
+    for (int x = 0; x < whole.grid.width; ++x) ASSERT_EQ(oracle.at(x, y).size(), 1u) << x << " " << y;
   }
 }
 
 TEST_P(RasterCoverage, CornersThatAreNoNumbersOrFarTooLarge) {
   constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN(),
                   most = std::numeric_limits<float>::max();
-  RasterScene scene = scene_of(plain_view(50, 40));
+  TriangleScene scene = scene_of(plain_view(50, 40));
   scene.instances[0].two_sided = true;
   for (const float strange : {inf, -inf, nan, most, -most, 1e30f, -1e30f, 1e-40f, 0.0f}) {
     for (int part = 0; part < 3; ++part) {
       for (int corner = 0; corner < 3; ++corner) {
-        glm::vec3 corners[3] = {at(scene.view, 5, 4, 3), at(scene.view, 45, 8, 4), at(scene.view, 20, 35, 5)};
+        glm::vec3 corners[3] = {at(scene.camera, 5, 4, 3), at(scene.camera, 45, 8, 4),
+                                at(scene.camera, 20, 35, 5)};
         corners[corner][part] = strange;
         add_triangle(scene.meshes[0], corners[0], corners[1], corners[2]);
       }
@@ -261,7 +262,7 @@ TEST_P(RasterCoverage, CornersThatAreNoNumbersOrFarTooLarge) {
 
 TEST_P(RasterCoverage, TrianglesThroughTheEye) {
   RandomNumbers random(9);
-  RasterScene scene = scene_of(plain_view(90, 70));
+  TriangleScene scene = scene_of(plain_view(90, 70));
   scene.instances[0].two_sided = true;
   for (int i = 0; i < 200; ++i) {
     const auto corner = [&] {

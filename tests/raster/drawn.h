@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cl/transfer.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 #include "reference/coverage.h"
 
 namespace lightgrid {
@@ -23,20 +23,20 @@ inline ProgramCache& raster_programs() {
   return *programs;
 }
 
-struct RasterScene {
+struct TriangleScene {
   struct MeshData {
     std::vector<glm::vec3> positions;
     std::vector<uint32_t> indices;
   };
   std::vector<MeshData> meshes;
   std::vector<RasterInstance> instances;
-  RasterView view;
+  RasterCamera camera;
 };
 
 // A view with its eye at the origin, whose clip space is (x, y, near, -z) of the position: x = y = -z are the
 // image's corner.
-inline RasterView plain_view(int width, int height, double near = 0.1) {
-  RasterView view{width, height, glm::dmat4(0), glm::dmat4(1), glm::dvec3(0)};
+inline RasterCamera plain_view(int width, int height, double near = 0.1) {
+  RasterCamera view{{width, height}, glm::dmat4(0), glm::dmat4(1), glm::dvec3(0)};
   view.clip_from_view[0][0] = view.clip_from_view[1][1] = 1;
   view.clip_from_view[2][3] = -1;
   view.clip_from_view[3][2] = near;
@@ -44,19 +44,19 @@ inline RasterView plain_view(int width, int height, double near = 0.1) {
 }
 
 // Orthographic: clip space is (x, y, z + 1, 1), for z from -1 to 0.
-inline RasterView flat_view(int width, int height) {
-  RasterView view{width, height, glm::dmat4(1), glm::dmat4(1), glm::dvec3(0)};
+inline RasterCamera flat_view(int width, int height) {
+  RasterCamera view{{width, height}, glm::dmat4(1), glm::dmat4(1), glm::dvec3(0)};
   view.clip_from_view[3][2] = 1;
   return view;
 }
 
 // Where plain_view has pixel (x, y) at distance w.
-inline glm::vec3 at(const RasterView& view, double x, double y, double w) {
-  return glm::vec3((2 * x / view.width - 1) * w, (2 * y / view.height - 1) * w, -w);
+inline glm::vec3 at(const RasterCamera& view, double x, double y, double w) {
+  return glm::vec3((2 * x / view.grid.width - 1) * w, (2 * y / view.grid.height - 1) * w, -w);
 }
 
 struct Drawn {
-  int width = 0, height = 0;
+  PixelGrid grid;
   std::vector<uint32_t> triangles;
   std::vector<float> depths;
   std::vector<glm::vec4> clip;
@@ -80,20 +80,31 @@ std::vector<T> read_all(const cl::Buffer& from, size_t count, ClDevice& device =
   return values;
 }
 
-inline void set_scene(Rasterizer& rasterizer, const RasterScene& scene) {
+// A scene with one view.
+struct Rasterizer : RasterScene, RasterView {
+  Rasterizer(ClDevice& device, ProgramCache& programs, const RasterOptions& options = {})
+      : RasterScene(device), RasterView(*this, programs, options) {}
+};
+
+inline std::vector<RasterMesh> meshes_of(const TriangleScene& scene) {
   std::vector<RasterMesh> meshes;
-  for (const RasterScene::MeshData& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
-  rasterizer.set_meshes(meshes);
-  rasterizer.set_instances(scene.instances);
-  rasterizer.set_view(scene.view);
+  for (const TriangleScene::MeshData& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
+  return meshes;
 }
 
-inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene, ClDevice& device = raster_device()) {
+inline void set_scene(Rasterizer& rasterizer, const TriangleScene& scene) {
+  rasterizer.set_meshes(meshes_of(scene));
+  rasterizer.set_instances(scene.instances);
+  rasterizer.set_camera(scene.camera);
+}
+
+inline Drawn drawn_by(RasterView& rasterizer, const TriangleScene& scene,
+                      ClDevice& device = raster_device()) {
   const Visibility visibility = rasterizer.draw();
-  Drawn drawn{visibility.width, visibility.height, {}, {}, {}, {}, rasterizer.counts()};
-  const size_t pixels = size_t(drawn.width) * drawn.height * visibility.samples;
-  drawn.triangles = read_all<uint32_t>(visibility.triangle, pixels, device);
-  drawn.depths = read_all<float>(visibility.depth, pixels, device);
+  Drawn drawn{visibility.grid, {}, {}, {}, {}, rasterizer.counts()};
+  const size_t values = drawn.grid.values();
+  drawn.triangles = read_all<uint32_t>(visibility.triangle, values, device);
+  drawn.depths = read_all<float>(visibility.depth, values, device);
   drawn.instances =
       read_all<RasterInstanceRecord>(rasterizer.buffers().instances, scene.instances.size(), device);
   size_t vertices = 0;
@@ -103,16 +114,16 @@ inline Drawn drawn_by(Rasterizer& rasterizer, const RasterScene& scene, ClDevice
   return drawn;
 }
 
-inline Drawn drawn(const RasterScene& scene, const RasterOptions& options = {}) {
+inline Drawn drawn(const TriangleScene& scene, const RasterOptions& options = {}) {
   Rasterizer rasterizer(raster_device(), raster_programs(), options);
   set_scene(rasterizer, scene);
   return drawn_by(rasterizer, scene);
 }
 
 // The oracle on the clip-space positions that the kernels made. sample: as CoverageOracle has it.
-inline CoverageOracle oracle_of(const Drawn& drawn, const RasterScene& scene,
+inline CoverageOracle oracle_of(const Drawn& drawn, const TriangleScene& scene,
                                 const SnappedPoint& sample = {128, 128}) {
-  CoverageOracle oracle(drawn.width, drawn.height, sample);
+  CoverageOracle oracle(drawn.grid, sample);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const std::vector<uint32_t>& indices = scene.meshes[scene.instances[i].mesh].indices;
     const glm::vec4* const clip = drawn.clip.data() + drawn.instances[i].first_clip_vertex;
@@ -137,6 +148,7 @@ inline constexpr SnappedPoint standard_locations[4] = {
 // One of an image's 4 samples a pixel.
 inline Drawn sample_of(const Drawn& all, int sample) {
   Drawn one = all;
+  one.grid.samples = 1;
   one.triangles.clear(), one.depths.clear();
   for (size_t i = size_t(sample); i < all.triangles.size(); i += 4) {
     one.triangles.push_back(all.triangles[i]);
@@ -148,9 +160,9 @@ inline Drawn sample_of(const Drawn& all, int sample) {
 // Every pixel against the oracle; says the first few that are wrong.
 inline int count_wrong(const Drawn& drawn, const CoverageOracle& oracle) {
   int wrong = 0;
-  for (int y = 0; y < drawn.height; ++y) {
-    for (int x = 0; x < drawn.width; ++x) {
-      const size_t i = size_t(y) * drawn.width + x;
+  for (int y = 0; y < drawn.grid.height; ++y) {
+    for (int x = 0; x < drawn.grid.width; ++x) {
+      const size_t i = drawn.grid.index(x, y);
       const std::string why = wrong_at(oracle.at(x, y), drawn.triangles[i], drawn.depths[i]);
       if (!why.empty() && ++wrong <= 5) ADD_FAILURE() << "pixel " << x << " " << y << ": " << why;
     }
@@ -158,13 +170,13 @@ inline int count_wrong(const Drawn& drawn, const CoverageOracle& oracle) {
   return wrong;
 }
 
-inline void expect_right(const RasterScene& scene, const RasterOptions& options = {}) {
+inline void expect_right(const TriangleScene& scene, const RasterOptions& options = {}) {
   const Drawn result = drawn(scene, options);
   EXPECT_EQ(count_wrong(result, oracle_of(result, scene)), 0);
 }
 
 // A mesh whose triangles share no vertex.
-inline void add_triangle(RasterScene::MeshData& mesh, const glm::vec3& a, const glm::vec3& b,
+inline void add_triangle(TriangleScene::MeshData& mesh, const glm::vec3& a, const glm::vec3& b,
                          const glm::vec3& c) {
   for (const glm::vec3& p : {a, b, c}) {
     mesh.indices.push_back(uint32_t(mesh.positions.size()));

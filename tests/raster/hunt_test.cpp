@@ -29,15 +29,15 @@ glm::dmat3 random_turn(RandomNumbers& random) {
 }
 
 // Perspective, finite or not, or orthographic; off-centre.
-RasterView random_view(RandomNumbers& random) {
-  RasterView view;
-  view.width = 1 + random.below(130), view.height = 1 + random.below(130);
+RasterCamera random_view(RandomNumbers& random) {
+  RasterCamera view;
+  view.grid.width = 1 + random.below(130), view.grid.height = 1 + random.below(130);
   view.view_from_world = glm::dmat4(random_turn(random));
   view.eye = random_direction(random) * log_between(random, 0.01, 1e6);
   glm::dmat4& m = view.clip_from_view = glm::dmat4(0);
   const double scale = log_between(random, 0.05, 20), near = log_between(random, 1e-3, 10),
                far = near * log_between(random, 2, 1e5);
-  m[0][0] = scale, m[1][1] = scale * view.width / view.height;
+  m[0][0] = scale, m[1][1] = scale * view.grid.width / view.grid.height;
   if (random.below(4) == 0) {
     m[2][2] = 1 / (far - near), m[3][2] = far / (far - near), m[3][3] = 1;
     m[3][0] = random.between(-1, 1);
@@ -50,12 +50,12 @@ RasterView random_view(RandomNumbers& random) {
 }
 
 // Triangles around the eye and before it, of every size and shape, some with corners in common.
-RasterScene random_scene(RandomNumbers& random) {
-  RasterScene scene;
-  scene.view = random_view(random);
+TriangleScene random_scene(RandomNumbers& random) {
+  TriangleScene scene;
+  scene.camera = random_view(random);
   const double size = log_between(random, 0.1, 1000);
   scene.meshes.resize(1 + size_t(random.below(2)));
-  for (RasterScene::MeshData& mesh : scene.meshes) {
+  for (TriangleScene::MeshData& mesh : scene.meshes) {
     const int vertices = 3 + random.below(120), triangles = 1 + random.below(150), kind = random.below(4);
     for (int i = 0; i < vertices; ++i) {
       glm::vec3 p(random.between(-1, 1) * size, random.between(-1, 1) * size, random.between(-1, 1) * size);
@@ -81,7 +81,7 @@ RasterScene random_scene(RandomNumbers& random) {
           glm::dvec4(turn[c] * log_between(random, 0.3, 3) * (random.below(4) ? 1.0 : -1.0), 0);
     }
     instance.world_from_object[3] =
-        glm::dvec4(random_direction(random) * size * random.between(0, 1.5) + scene.view.eye, 1);
+        glm::dvec4(random_direction(random) * size * random.between(0, 1.5) + scene.camera.eye, 1);
     scene.instances.push_back(instance);
   }
   return scene;
@@ -100,16 +100,16 @@ TEST(RasterHunt, FindsNoWrongPixel) {
       Rasterizer(raster_device(), raster_programs(), {.shape = KernelShape::group, .cluster_cones = false})};
   const size_t count = scenes_to_draw();
   for (size_t i = 0; i < count; ++i) {
-    RasterScene scene = random_scene(random);
-    scene.view.samples = i % 8 < 6 ? 1 : 4;
+    TriangleScene scene = random_scene(random);
+    scene.camera.grid.samples = i % 8 < 6 ? 1 : 4;
     if (i % 3 == 0) scene.instances.push_back(scene.instances[0]);  // of equal depths the last is shown
     Rasterizer& rasterizer = shapes[i % 2];
     set_scene(rasterizer, scene);
     const Drawn result = drawn_by(rasterizer, scene);
-    if (scene.view.samples == 1) {
+    if (scene.camera.grid.samples == 1) {
       ASSERT_EQ(count_wrong(result, oracle_of(result, scene)), 0) << "scene " << i;
     }
-    for (int s = 0; s < scene.view.samples && scene.view.samples > 1; ++s) {
+    for (int s = 0; s < scene.camera.grid.samples && scene.camera.grid.samples > 1; ++s) {
       const Drawn one = sample_of(result, s);
       ASSERT_EQ(count_wrong(one, oracle_of(one, scene, standard_locations[s])), 0)
           << "scene " << i << ", sample " << s;

@@ -19,7 +19,7 @@ namespace {
 
 // What a ray through a pixel's centre meets first: by slabs for boxes, by its height for the floor.
 char letter_at(int x, int y) {
-  const RasterView view = make_view();
+  const RasterCamera view = make_camera();
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   const glm::dvec3 ray = world_from_view * glm::dvec3(slope_x * ((x + 0.5) * 2 / width - 1),
                                                       slope_y * ((y + 0.5) * 2 / height - 1), -1);

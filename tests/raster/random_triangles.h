@@ -7,9 +7,9 @@
 
 namespace lightgrid {
 
-inline RasterScene scene_of(const RasterView& view) {
-  RasterScene scene;
-  scene.view = view;
+inline TriangleScene scene_of(const RasterCamera& view) {
+  TriangleScene scene;
+  scene.camera = view;
   scene.meshes.resize(1);
   scene.instances.push_back({.mesh = 0});
   return scene;
@@ -17,10 +17,11 @@ inline RasterScene scene_of(const RasterView& view) {
 
 // `kind` 0: any; 1: small; 2: slivers; 3: corners on pixel centres and corners; 4: across the near plane; 5:
 // huge.
-inline void add_random_triangle(RandomNumbers& random, int kind, RasterScene& scene) {
-  const RasterView& view = scene.view;
-  const double x = random.between(-0.3, 1.3) * view.width, y = random.between(-0.3, 1.3) * view.height;
-  const double reach = kind == 1 ? 3 : kind == 5 ? 1e6 : 0.6 * std::max(view.width, view.height);
+inline void add_random_triangle(RandomNumbers& random, int kind, TriangleScene& scene) {
+  const RasterCamera& view = scene.camera;
+  const double x = random.between(-0.3, 1.3) * view.grid.width,
+               y = random.between(-0.3, 1.3) * view.grid.height;
+  const double reach = kind == 1 ? 3 : kind == 5 ? 1e6 : 0.6 * std::max(view.grid.width, view.grid.height);
   glm::vec3 corners[3];
   for (int k = 0; k < 3; ++k) {
     double px = x + random.between(-reach, reach), py = y + random.between(-reach, reach);

@@ -1,5 +1,5 @@
 // The scan of counts, as places in the lists of the rasteriser: the same from both kernel shapes.
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Clusters that the rasteriser skips: they face away or are out of view.
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 namespace lightgrid {
 namespace {
 
-RasterScene sphere(const RasterView& view, int rings, double radius, const glm::dvec3& center) {
-  RasterScene scene;
-  scene.view = view;
+TriangleScene sphere(const RasterCamera& view, int rings, double radius, const glm::dvec3& center) {
+  TriangleScene scene;
+  scene.camera = view;
   scene.meshes.resize(1);
-  RasterScene::MeshData& mesh = scene.meshes[0];
+  TriangleScene::MeshData& mesh = scene.meshes[0];
   const int around = 2 * rings;
   for (int y = 0; y <= rings; ++y) {
     for (int x = 0; x < around; ++x) {
@@ -38,7 +38,7 @@ RasterScene sphere(const RasterView& view, int rings, double radius, const glm::
 TEST(Rasterizer, ClustersThatFaceAwayAreLeftOutAndDoNotShow) {
   for (const double distance : {1.5, 4.0, 40.0}) {
     for (const bool mirrored : {false, true}) {
-      RasterScene scene = sphere(plain_view(300, 260, 0.01), 60, 1, {0.3, 0.1, -distance});
+      TriangleScene scene = sphere(plain_view(300, 260, 0.01), 60, 1, {0.3, 0.1, -distance});
       if (mirrored) scene.instances[0].world_from_object[0][0] = -1;
       const Drawn with = drawn(scene), without = drawn(scene, {.cluster_cones = false});
       EXPECT_LT(with.counts.clusters, without.counts.clusters * 4 / 5);
@@ -47,7 +47,7 @@ TEST(Rasterizer, ClustersThatFaceAwayAreLeftOutAndDoNotShow) {
       EXPECT_GT(with.covered(), distance > 10 ? 20u : 3000u);
     }
   }
-  RasterScene inside = sphere(plain_view(300, 260, 0.01), 60, 1, {0, 0, 0});
+  TriangleScene inside = sphere(plain_view(300, 260, 0.01), 60, 1, {0, 0, 0});
   EXPECT_EQ(drawn(inside).covered(), 0u);
   inside.instances[0].two_sided = true;
   const Drawn seen = drawn(inside);
@@ -56,7 +56,7 @@ TEST(Rasterizer, ClustersThatFaceAwayAreLeftOutAndDoNotShow) {
 }
 
 TEST(Rasterizer, ClustersOutOfViewAreLeftOut) {
-  RasterScene scene = sphere(plain_view(100, 100), 30, 1, {0, 0, 0});
+  TriangleScene scene = sphere(plain_view(100, 100), 30, 1, {0, 0, 0});
   for (const glm::dvec3& place :
        {glm::dvec3{0, 0, 5}, {20, 0, -5}, {-20, 0, -5}, {0, 20, -5}, {0, -20, -5}}) {
     scene.instances[0].world_from_object[3] = glm::dvec4(place, 1);

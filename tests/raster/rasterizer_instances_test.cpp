@@ -7,7 +7,7 @@ namespace lightgrid {
 namespace {
 
 TEST(Rasterizer, InstancesThatMoveKeepTheirNumbers) {
-  RasterScene scene = many_triangles(300, 120, 100, 5);
+  TriangleScene scene = many_triangles(300, 120, 100, 5);
   Rasterizer rasterizer(raster_device(), raster_programs());
   set_scene(rasterizer, scene);
   drawn_by(rasterizer, scene);
@@ -27,7 +27,7 @@ class InstancesNotDrawn : public testing::TestWithParam<KernelShape> {
 
   // Draws instances 0 and 2, and moves the numbers of a scene that has them alone to where theirs are.
   void expect_instance_1_left_out() {
-    RasterScene others = scene;
+    TriangleScene others = scene;
     const uint32_t first = uint32_t(scene.meshes[0].indices.size() / 3),
                    left_out = uint32_t(scene.meshes[1].indices.size() / 3);
     others.instances.erase(others.instances.begin() + 1);
@@ -42,7 +42,7 @@ class InstancesNotDrawn : public testing::TestWithParam<KernelShape> {
     EXPECT_EQ(image.counts.records, expected.counts.records);
   }
 
-  RasterScene scene = many_triangles(900, 121, 99, 6);
+  TriangleScene scene = many_triangles(900, 121, 99, 6);
   const RasterOptions options{.shape = GetParam()};
   Rasterizer rasterizer{raster_device(), raster_programs(), options};
 };
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, InstancesNotDrawn, testing::Values(KernelShape:
                          });
 
 TEST(Rasterizer, CallsMeanwhileOnceAFrame) {
-  const RasterScene scene = many_triangles(30000, 300, 200, 2);
+  const TriangleScene scene = many_triangles(30000, 300, 200, 2);
   Rasterizer rasterizer(raster_device(), raster_programs());
   set_scene(rasterizer, scene);
   int calls = 0;

@@ -18,7 +18,7 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
   ClDevice single(parts[0], context, cl::CommandQueue(context, parts[0]));
   ASSERT_EQ(single.info().compute_units, 1);
   ProgramCache programs(single);
-  const RasterScene scene = many_triangles(5000, 500, 300, 8);
+  const TriangleScene scene = many_triangles(5000, 500, 300, 8);
   const Drawn expected = drawn(scene);
   Rasterizer rasterizer(single, programs);
   set_scene(rasterizer, scene);
@@ -28,7 +28,7 @@ TEST(Rasterizer, TheSameBytesWithOneThread) {
 TEST(RasterizerOnDevices, HasTheSameBytes) {
   const std::vector<ClDeviceInfo> devices = list_cl_devices();
   if (devices.size() < 2) GTEST_SKIP() << "there is one device";
-  const RasterScene scene = many_triangles(5000, 501, 299, 8);
+  const TriangleScene scene = many_triangles(5000, 501, 299, 8);
   const Drawn expected = drawn(scene);
   for (size_t i = 0; i < devices.size(); ++i) {
     if (!why_not_the_same_bytes(devices[i]).empty()) continue;
@@ -41,7 +41,7 @@ TEST(RasterizerOnDevices, HasTheSameBytes) {
 }
 
 TEST(Rasterizer, TheSameBytesInEveryShape) {
-  for (const RasterScene& scene :
+  for (const TriangleScene& scene :
        {many_triangles(5000, 501, 299, 8), many_triangles(300, 130, 70, 9), many_triangles(400, 1, 1, 10)}) {
     const Drawn lanes = drawn(scene, {.shape = KernelShape::lanes});
     EXPECT_GT(lanes.covered(), lanes.triangles.size() / 5);
@@ -58,10 +58,10 @@ TEST(Rasterizer, TheSameBytesInEveryShape) {
 
 // A scene and an eye that move together by an exact amount give the same bits.
 TEST(Rasterizer, TheSameBytesFarFromTheOrigin) {
-  RasterScene scene = many_triangles(500, 200, 150, 3);
+  TriangleScene scene = many_triangles(500, 200, 150, 3);
   const Drawn here = drawn(scene);
   const glm::dvec3 far(double(1 << 22), -double(1 << 21), double(1 << 23));
-  scene.view.eye = far;
+  scene.camera.eye = far;
   for (RasterInstance& i : scene.instances) i.world_from_object[3] = glm::dvec4(far, 1);
   EXPECT_TRUE(drawn(scene).same_image(here));
 }

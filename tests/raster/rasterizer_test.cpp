@@ -1,5 +1,5 @@
 // What the rasteriser promises beside coverage: order, room, errors.
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 #include <gmock/gmock.h>
 
@@ -25,17 +25,17 @@ namespace {
 using testing::HasSubstr;
 
 // A rectangle of pixels at distance w, as two triangles.
-RasterScene::MeshData rectangle(const RasterView& view, double x0, double y0, double x1, double y1,
-                                double w) {
+TriangleScene::MeshData rectangle(const RasterCamera& view, double x0, double y0, double x1, double y1,
+                                  double w) {
   return {{at(view, x0, y0, w), at(view, x1, y0, w), at(view, x1, y1, w), at(view, x0, y1, w)},
           {0, 1, 2, 0, 2, 3}};
 }
 
 TEST(Rasterizer, DrawsNothingWhereThereIsNothing) {
-  RasterScene scene;
-  scene.view = plain_view(17, 9);
+  TriangleScene scene;
+  scene.camera = plain_view(17, 9);
   Rasterizer rasterizer(raster_device(), raster_programs());
-  rasterizer.set_view(scene.view);
+  rasterizer.set_camera(scene.camera);
   Drawn nothing = drawn_by(rasterizer, scene);
   EXPECT_THAT(nothing.triangles, testing::Each(no_triangle));
   EXPECT_THAT(nothing.depths, testing::Each(0.0f));
@@ -46,11 +46,11 @@ TEST(Rasterizer, DrawsNothingWhereThereIsNothing) {
 }
 
 TEST(Rasterizer, NumbersTrianglesInDrawingOrderAndSaysWhatTheyBelongTo) {
-  RasterScene scene;
-  scene.view = plain_view(40, 20);
-  scene.meshes = {rectangle(scene.view, 0, 0, 10, 20, 2), rectangle(scene.view, 10, 0, 20, 20, 3)};
+  TriangleScene scene;
+  scene.camera = plain_view(40, 20);
+  scene.meshes = {rectangle(scene.camera, 0, 0, 10, 20, 2), rectangle(scene.camera, 10, 0, 20, 20, 3)};
   glm::dmat4 right(1);
-  right[3].x = at(scene.view, 40, 0, 2).x - at(scene.view, 20, 0, 2).x;
+  right[3].x = at(scene.camera, 40, 0, 2).x - at(scene.camera, 20, 0, 2).x;
   scene.instances = {{.mesh = 1},
                      {.mesh = 0, .alpha_material = 7},
                      {.mesh = 0, .world_from_object = right, .two_sided = true}};
@@ -98,19 +98,19 @@ class RasterizerShapes : public testing::TestWithParam<KernelShape> {
 TEST_P(RasterizerShapes, OfEqualDepthsTheHighestNumberIsShown) {
   // The same triangles over and over, in clusters of different distance, so that a later one is drawn first.
   RandomNumbers random(4);
-  RasterScene scene;
-  scene.view = plain_view(150, 80);
-  RasterScene::MeshData one;
+  TriangleScene scene;
+  scene.camera = plain_view(150, 80);
+  TriangleScene::MeshData one;
   for (int i = 0; i < 40; ++i) {
     const auto corner = [&] {
-      return at(scene.view, random.between(-20, 170), random.between(-20, 100), random.between(1, 4));
+      return at(scene.camera, random.between(-20, 170), random.between(-20, 100), random.between(1, 4));
     };
     const glm::vec3 a = corner(), b = corner(), c = corner();
     add_triangle(one, a, b, c);
   }
-  RasterScene::MeshData nearer = one;
-  add_triangle(nearer, at(scene.view, -50, -50, 0.2), at(scene.view, -49, -50, 0.2),
-               at(scene.view, -50, -49, 0.2));
+  TriangleScene::MeshData nearer = one;
+  add_triangle(nearer, at(scene.camera, -50, -50, 0.2), at(scene.camera, -49, -50, 0.2),
+               at(scene.camera, -50, -49, 0.2));
   scene.meshes = {one, nearer};
   scene.instances = {{.mesh = 0}};
   const Drawn alone = drawn(scene, options());
@@ -122,7 +122,7 @@ TEST_P(RasterizerShapes, OfEqualDepthsTheHighestNumberIsShown) {
 }
 
 TEST_P(RasterizerShapes, RoomThatIsShortGrowsAndNothingIsLost) {
-  const RasterScene few = many_triangles(10, 300, 200, 1), many = many_triangles(30000, 300, 200, 2);
+  const TriangleScene few = many_triangles(10, 300, 200, 1), many = many_triangles(30000, 300, 200, 2);
   Rasterizer rasterizer(raster_device(), raster_programs(), options());
   set_scene(rasterizer, few);
   EXPECT_EQ(drawn_by(rasterizer, few).counts.redone, 0);
@@ -148,7 +148,7 @@ std::string refusal(ErrorKind kind, auto&& call) {
 }
 
 TEST_P(RasterizerShapes, ListsAreRefusedWithoutDrawingOrder) {
-  const RasterScene scene = many_triangles(30, 70, 50, 3);
+  const TriangleScene scene = many_triangles(30, 70, 50, 3);
   Rasterizer rasterizer(raster_device(), raster_programs(), options());
   EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.list(); }), HasSubstr("drawing_order"));
   set_scene(rasterizer, scene);
@@ -158,12 +158,12 @@ TEST_P(RasterizerShapes, ListsAreRefusedWithoutDrawingOrder) {
 
 // Kernels would read where there is nothing.
 TEST_P(RasterizerShapes, MasksThatDoNotServeTheSceneAreRefused) {
-  RasterScene scene = many_triangles(30, 70, 50, 3);
+  TriangleScene scene = many_triangles(30, 70, 50, 3);
   scene.instances[2].alpha_material = 4;
   Rasterizer rasterizer(raster_device(), raster_programs(), options());
   set_scene(rasterizer, scene);
   size_t vertices = 0;
-  for (const RasterScene::MeshData& mesh : scene.meshes) vertices += mesh.positions.size();
+  for (const TriangleScene::MeshData& mesh : scene.meshes) vertices += mesh.positions.size();
   const auto buffer = [](size_t bytes) { return device_buffer(raster_device(), bytes); };
   const RasterMasks enough{buffer(vertices * sizeof(SurfaceVertex)), buffer(5 * sizeof(SurfaceMaterial)),
                            buffer(4096)};
@@ -190,11 +190,11 @@ INSTANTIATE_TEST_SUITE_P(Shapes, RasterizerShapes, testing::Values(KernelShape::
 // The widest and the highest view; 16,384 x 16,384 takes 2 GB and was tried by hand.
 TEST(Rasterizer, LargestViews) {
   for (const auto& [width, height] : {std::pair{16384, 70}, std::pair{70, 16384}}) {
-    RasterScene scene;
-    scene.view = plain_view(width, height);
+    TriangleScene scene;
+    scene.camera = plain_view(width, height);
     scene.meshes.resize(1);
     scene.instances.resize(1);
-    const RasterView& view = scene.view;
+    const RasterCamera& view = scene.camera;
     add_triangle(scene.meshes[0], at(view, -3e6, -2e6, 5), at(view, 2.1e6, -1e6, 4), at(view, 1e4, 9e6, 3));
     add_triangle(scene.meshes[0], at(view, 0, 0, 2), at(view, width, height - 0.5, 2),
                  at(view, width - 1, height, 2));
@@ -211,7 +211,7 @@ TEST(Rasterizer, LargestViews) {
 TEST(Rasterizer, RefusesWhatItCannotDraw) {
   Rasterizer rasterizer(raster_device(), raster_programs());
   const auto message = [](auto&& call) { return refusal(ErrorKind::input, call); };
-  EXPECT_THAT(message([&] { rasterizer.draw(); }), HasSubstr("set_view has to come before"));
+  EXPECT_THAT(message([&] { rasterizer.draw(); }), HasSubstr("set_camera has to come before"));
   const std::vector<glm::vec3> positions(3);
   const std::vector<uint32_t> two = {0, 1}, past = {0, 1, 3};
   EXPECT_THAT(message([&] {
@@ -235,20 +235,20 @@ TEST(Rasterizer, RefusesWhatItCannotDraw) {
   EXPECT_THAT(message([&] { rasterizer.set_instances(instances); }), HasSubstr("not affine"));
 
   const auto refused = [&](auto&& change) {
-    RasterView view = plain_view(10, 10);
+    RasterCamera view = plain_view(10, 10);
     change(view);
-    return message([&] { rasterizer.set_view(view); });
+    return message([&] { rasterizer.set_camera(view); });
   };
-  EXPECT_THAT(refused([](RasterView& v) { v.width = 0; }), HasSubstr("0 pixels"));
-  EXPECT_THAT(refused([](RasterView& v) { v.height = 16385; }), HasSubstr("16385 pixels"));
-  EXPECT_THAT(refused([](RasterView& v) { v.eye.y = HUGE_VAL; }), HasSubstr("eye"));
-  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = NAN; }),
+  EXPECT_THAT(refused([](RasterCamera& v) { v.grid.width = 0; }), HasSubstr("0 pixels"));
+  EXPECT_THAT(refused([](RasterCamera& v) { v.grid.height = 16385; }), HasSubstr("16385 pixels"));
+  EXPECT_THAT(refused([](RasterCamera& v) { v.eye.y = HUGE_VAL; }), HasSubstr("eye"));
+  EXPECT_THAT(refused([](RasterCamera& v) { v.clip_from_view[0][0] = NAN; }),
               HasSubstr("clip_from_view holds nan"));
-  EXPECT_THAT(refused([](RasterView& v) { v.view_from_world[0][0] = 2; }), HasSubstr("rigid"));
-  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][0] = -1; }), HasSubstr("mirrors"));
-  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[3][2] = -0.1; }), HasSubstr("reversed"));
-  EXPECT_THAT(refused([](RasterView& v) { v.clip_from_view[0][3] = 0.1; }), HasSubstr("along -z"));
-  EXPECT_EQ(refused([](RasterView&) {}), "no error");
+  EXPECT_THAT(refused([](RasterCamera& v) { v.view_from_world[0][0] = 2; }), HasSubstr("rigid"));
+  EXPECT_THAT(refused([](RasterCamera& v) { v.clip_from_view[0][0] = -1; }), HasSubstr("mirrors"));
+  EXPECT_THAT(refused([](RasterCamera& v) { v.clip_from_view[3][2] = -0.1; }), HasSubstr("reversed"));
+  EXPECT_THAT(refused([](RasterCamera& v) { v.clip_from_view[0][3] = 0.1; }), HasSubstr("along -z"));
+  EXPECT_EQ(refused([](RasterCamera&) {}), "no error");
 }
 
 // The process may take only this much more memory while it lives.

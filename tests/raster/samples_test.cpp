@@ -10,7 +10,7 @@ namespace {
 class RasterSamples : public testing::TestWithParam<KernelShape> {
  protected:
   // An image of 4 samples a pixel.
-  Drawn image_of(const RasterScene& scene) const { return drawn(scene, {.shape = GetParam()}); }
+  Drawn image_of(const TriangleScene& scene) const { return drawn(scene, {.shape = GetParam()}); }
 };
 
 TEST_P(RasterSamples, EachShowsWhatCoversItsPlaceInThePixel) {
@@ -18,8 +18,8 @@ TEST_P(RasterSamples, EachShowsWhatCoversItsPlaceInThePixel) {
   for (int kind = 0; kind < 6; ++kind) {
     SCOPED_TRACE(kind);
     RandomNumbers random(uint32_t(40 + kind));
-    RasterScene scene = scene_of(plain_view(130, 71));
-    scene.view.samples = 4;
+    TriangleScene scene = scene_of(plain_view(130, 71));
+    scene.camera.grid.samples = 4;
     scene.instances[0].two_sided = kind % 2;
     for (int i = 0; i < 150; ++i) add_random_triangle(random, kind, scene);
     const Drawn image = image_of(scene);
@@ -40,11 +40,11 @@ TEST_P(RasterSamples, EachShowsWhatCoversItsPlaceInThePixel) {
 // What only one sample of a pixel meets: a triangle smaller than the distance between them.
 TEST_P(RasterSamples, ATinyTriangleCoversTheSampleThatItHolds) {
   for (int s = 0; s < 4; ++s) {
-    RasterScene scene = scene_of(plain_view(16, 16));
-    scene.view.samples = 4;
+    TriangleScene scene = scene_of(plain_view(16, 16));
+    scene.camera.grid.samples = 4;
     const double x = 5 + double(standard_locations[s].x) / 256, y = 9 + double(standard_locations[s].y) / 256;
-    add_triangle(scene.meshes[0], at(scene.view, x - 0.1, y - 0.1, 1), at(scene.view, x + 0.1, y - 0.1, 1),
-                 at(scene.view, x, y + 0.1, 1));
+    add_triangle(scene.meshes[0], at(scene.camera, x - 0.1, y - 0.1, 1),
+                 at(scene.camera, x + 0.1, y - 0.1, 1), at(scene.camera, x, y + 0.1, 1));
     const Drawn image = image_of(scene);
     std::vector<size_t> shown;
     for (size_t i = 0; i < image.triangles.size(); ++i) {
@@ -57,8 +57,8 @@ TEST_P(RasterSamples, ATinyTriangleCoversTheSampleThatItHolds) {
 // The image is what depth bounds of as many samples read.
 TEST_P(RasterSamples, AreTheCullersDepths) {
   RandomNumbers random(9);
-  RasterScene scene = scene_of(plain_view(120, 72));
-  scene.view.samples = 4;
+  TriangleScene scene = scene_of(plain_view(120, 72));
+  scene.camera.grid.samples = 4;
   scene.instances[0].two_sided = true;
   for (int i = 0; i < 200; ++i) add_random_triangle(random, 1, scene);
   Rasterizer rasterizer(raster_device(), raster_programs(), {.shape = GetParam()});
@@ -66,8 +66,9 @@ TEST_P(RasterSamples, AreTheCullersDepths) {
   const Visibility image = rasterizer.draw();
   const std::vector<float> depths = read_all<float>(image.depth, size_t(4 * 120 * 72));
   LightCuller culler(raster_device(), raster_programs(), {.tile = 8, .samples = 4});
-  const RasterView& view = scene.view;
-  culler.set_view({view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}, {}});
+  const RasterCamera& view = scene.camera;
+  culler.set_view(
+      {view.grid.width, view.grid.height, view.clip_from_view, view.view_from_world, view.eye, {}, {}});
   const std::vector<DepthInterval> bounds = culler.read_bounds(culler.depth_bounds({image.depth}).opaque);
   int with_surface = 0;
   for (int tile = 0; tile < 15 * 9; ++tile) {
@@ -94,9 +95,9 @@ TEST_P(RasterSamples, AreTheCullersDepths) {
 
 TEST(RasterSampleCounts, OthersAreRefused) {
   Rasterizer rasterizer(raster_device(), raster_programs());
-  RasterView view = plain_view(8, 8);
-  view.samples = 2;
-  EXPECT_THROW(rasterizer.set_view(view), Error);
+  RasterCamera view = plain_view(8, 8);
+  view.grid.samples = 2;
+  EXPECT_THROW(rasterizer.set_camera(view), Error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, RasterSamples, testing::Values(KernelShape::lanes, KernelShape::group),

@@ -24,7 +24,7 @@ CoverageTriangle triangle_4x4(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, double d
 }
 
 Pixels covered_4x4(const CoverageTriangle& triangle) {
-  CoverageOracle oracle(4, 4);
+  CoverageOracle oracle({4, 4});
   oracle.add(triangle);
   Pixels pixels;
   for (int y = 0; y < 4; ++y) {
@@ -68,15 +68,15 @@ TEST(Coverage, ATriangleWithoutAnAreaCoversNothing) {
 }
 
 TEST(Coverage, CornersAreSnappedToTheNearestOf256PartsOfAPixelTiesToEven) {
-  EXPECT_EQ(snapped(at_pixel(1, 2, 0, 4), 4, 4), (SnappedPoint{256, 512}));
-  EXPECT_EQ(snapped(at_pixel(1 + 0.6 / 256, 2 - 0.6 / 256, 0, 4), 4, 4), (SnappedPoint{257, 511}));
-  EXPECT_EQ(snapped(at_pixel(1 + 0.5 / 256, 1 + 1.5 / 256, 0, 4), 4, 4), (SnappedPoint{256, 258}));
-  EXPECT_EQ(snapped({3, -3, 0, 6}, 4, 4), (SnappedPoint{768, 256}));
+  EXPECT_EQ(snapped(at_pixel(1, 2, 0, 4), {4, 4}), (SnappedPoint{256, 512}));
+  EXPECT_EQ(snapped(at_pixel(1 + 0.6 / 256, 2 - 0.6 / 256, 0, 4), {4, 4}), (SnappedPoint{257, 511}));
+  EXPECT_EQ(snapped(at_pixel(1 + 0.5 / 256, 1 + 1.5 / 256, 0, 4), {4, 4}), (SnappedPoint{256, 258}));
+  EXPECT_EQ(snapped({3, -3, 0, 6}, {4, 4}), (SnappedPoint{768, 256}));
 }
 
 // Corners on the corners of the image with depths 0.25, 0.5 and 0.75: depth = 0.25 + x / 16 + y / 8 (pixels).
 TEST(Coverage, DepthIsThePlaneThroughTheCorners) {
-  CoverageOracle oracle(4, 4);
+  CoverageOracle oracle({4, 4});
   oracle.add({{at_pixel(0, 0, 0.25, 4), at_pixel(4, 0, 0.5, 4), at_pixel(0, 4, 0.75, 4)}, false, false});
   EXPECT_DOUBLE_EQ(oracle.at(0, 0).at(0).depth, 0.25 + 0.5 / 16 + 0.5 / 8);
   EXPECT_DOUBLE_EQ(oracle.at(1, 1).at(0).depth, 0.25 + 1.5 / 16 + 1.5 / 8);
@@ -88,19 +88,19 @@ TEST(Coverage, DepthIsThePlaneThroughTheCorners) {
 // inside.
 TEST(Coverage, ATriangleIsCutWhereItsEdgesMeetTheNearPlane) {
   const auto polygon =
-      cut_triangle({glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{0, 4, 1, 0}}, 4, 4);
+      cut_triangle({glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{0, 4, 1, 0}}, {4, 4});
   ASSERT_TRUE(polygon);
   EXPECT_THAT(*polygon, ElementsAre(glm::vec4{-2, -2, 1, 2}, glm::vec4{2, -2, 1, 2}, glm::vec4{1, 1, 1, 1},
                                     glm::vec4{-1, 1, 1, 1}));
-  EXPECT_THAT(
-      *cut_triangle({glm::vec4{-2, -2, 1, 0.5f}, glm::vec4{2, -2, 1, 0.5f}, glm::vec4{0, 4, 1, 0.5f}}, 4, 4),
-      testing::IsEmpty());
+  EXPECT_THAT(*cut_triangle({glm::vec4{-2, -2, 1, 0.5f}, glm::vec4{2, -2, 1, 0.5f}, glm::vec4{0, 4, 1, 0.5f}},
+                            {4, 4}),
+              testing::IsEmpty());
 }
 
 TEST(Coverage, TheGuardBandIsCutAt16368PixelsFromTheCentre) {
   // Of 4 pixels: x / w = 8184.
-  const auto polygon =
-      cut_triangle({glm::vec4{0, 0, 0.5f, 1}, glm::vec4{16368, 0, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}}, 4, 4);
+  const auto polygon = cut_triangle(
+      {glm::vec4{0, 0, 0.5f, 1}, glm::vec4{16368, 0, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}}, {4, 4});
   ASSERT_TRUE(polygon);
   EXPECT_THAT(*polygon, ElementsAre(glm::vec4{0, 0, 0.5f, 1}, glm::vec4{8184, 0, 0.5f, 1},
                                     glm::vec4{8184, 0.5f, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}));
@@ -111,7 +111,7 @@ TEST(Coverage, ATriangleWithACornerThatIsNotFiniteIsCountedAndCoversNothing) {
     for (int part = 0; part < 4; ++part) {
       CoverageTriangle triangle = triangle_4x4({0, 0}, {4, 0}, {0, 4});
       triangle.clip[1][part] = none;
-      CoverageOracle oracle(4, 4);
+      CoverageOracle oracle({4, 4});
       oracle.add(triangle);
       oracle.add(triangle_4x4({0, 0}, {4, 0}, {0, 4}));
       EXPECT_EQ(oracle.invalid_triangles(), 1u);

@@ -132,7 +132,7 @@ TEST(Clustered, ListsFewerLightsThanTilesWhereDepthHasGaps) {
   for (const int i : {0, 1}) {
     TechniqueRun run(test_devices(), scene, view, {}, find_technique(i ? "clustered" : "forward_plus"));
     run.run_frame();
-    listed[i] = count_listed_pairs(run, read_depth(run.view())).listed;
+    listed[i] = count_listed_pairs(run, read_depth(run)).listed;
   }
   EXPECT_LT(listed[1], 0.9 * double(listed[0]));
 }
@@ -199,12 +199,12 @@ TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
       TechniqueRun run(test_devices(), *scene, view, {.slices = slices}, find_technique("clustered"));
       run.run_frame();
       RenderView& v = run.view();
-      const std::vector<float> depth = read_depth(v);
+      const std::vector<float> depth = read_depth(v, v);
       std::vector<uint32_t> expected = cells_of_pixels(v, depth);
       for (size_t i = 0; i < depth.size(); ++i) expected[i] = depth[i] > 0 ? expected[i] : no_cell;
-      EXPECT_EQ(shaded_cells(v), expected);
+      EXPECT_EQ(shaded_cells(v, v), expected);
       const std::vector<float> telling = telling_depths(v);
-      EXPECT_EQ(cells_at_depths(v, telling), cells_of_pixels(v, telling));
+      EXPECT_EQ(cells_at_depths(v, v, telling), cells_of_pixels(v, telling));
     }
   }
 }

@@ -73,7 +73,7 @@ TEST_P(LidrTable, HasTheBytesInTheScenesOrder) {
 void expect_no_wrong_light(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("lidr"));
   run.run_frame();
-  const std::vector<float> depth = read_depth(run.view());
+  const std::vector<float> depth = read_depth(run);
   const ListedLights lists = listed_lights(run, depth);
   std::vector<ViewLight> lights = lights_in_view(scene, view);
   std::vector<const LightVolume*> volume_of(lights.size(), nullptr);

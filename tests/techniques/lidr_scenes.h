@@ -37,7 +37,7 @@ struct Pairs {
 inline Pairs pairs_of(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("lidr"));
   run.run_frame();
-  Pairs out{count_listed_pairs(run, read_depth(run.view())), 0, 0, run.image()};
+  Pairs out{count_listed_pairs(run, read_depth(run)), 0, 0, run.image()};
   for (uint32_t n : out.pairs.listed_of_pixel) out.most_listed = std::max(out.most_listed, n);
   for (uint32_t n : out.pairs.lit_of_pixel) out.most_lit = std::max(out.most_lit, n);
   return out;

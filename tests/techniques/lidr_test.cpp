@@ -12,7 +12,7 @@ TEST(Lidr, KeepsTheBrightestWhereThereIsNoRoom) {
   TechniqueRun run(test_devices(), s.scene, small_view(32, 32), lidr_settings(LidrPacking::bitshift, 1),
                    find_technique("lidr"));
   run.run_frame();
-  const ListedLights lists = listed_lights(run, read_depth(run.view()));
+  const ListedLights lists = listed_lights(run, read_depth(run));
   ASSERT_GT(lists.indices.size(), 100u);
   for (uint32_t light : lists.indices) ASSERT_EQ(light, 6u);
 }

@@ -170,7 +170,7 @@ TEST(Lidr, LosesNothingOfLightsTangentToTheirMeshes) {
     empty.run_frame();
     const VolumeMeshes meshes = trial % 2 ? VolumeMeshes::icosahedron : VolumeMeshes::box;
     const Scene scene = lights_tangent_to_faces(
-        random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty.view()));
+        random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty));
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
       settings.volume_mesh = meshes;

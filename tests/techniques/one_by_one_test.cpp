@@ -242,8 +242,9 @@ TEST(OneByOne, TakesTheMemoryThatThePagesSay) {
   const size_t pixels = 127 * 73, lights = 6 * 32;
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward_zprepass"));
   run.run_frame();
-  const size_t blended_pairs = run.view().state<BlendedObjectLights>().lights().size();
-  const size_t pairs = run.view().state<ObjectLights>().lights().size() + blended_pairs;
+  RenderView& v = run.view();
+  const size_t blended_pairs = v.caches.blended_object_lights.of(v, v).lights().size();
+  const size_t pairs = v.caches.object_lights.of(v, v).lights().size() + blended_pairs;
   EXPECT_GT(pairs, 6u);
   EXPECT_GT(blended_pairs, 0u);
   for (const char* technique : {"forward_multipass", "forward_zprepass"}) {

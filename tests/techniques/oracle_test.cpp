@@ -1,7 +1,7 @@
 // The shaders against the oracle in double, pixel by pixel.
-#include "scene/random.h"
 #include "compare/oracle_sample.h"
 #include "report/report.h"
+#include "scene/random.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -19,7 +19,7 @@ TEST_P(Shading, InFloatIsTheOraclesWithinItsRounding) {
   const View view = default_view(scene, 320, 180);
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
   run.run_frame();
-  const auto depth = read_depth(run.view());
+  const auto depth = read_depth(run);
   const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), depth, 4000);
   const float brightest = brightest_channel(run.image());
   RecordProperty("max_rel", fmt::format("{}", errors.precision.max_rel));
@@ -39,8 +39,7 @@ TEST(LambertShading, InFloatIsTheOraclesWithinItsRounding) {
   TechniqueRun run(test_devices(), scene, default_view(scene, 160, 90), {.brdf = Brdf::lambert},
                    find_technique("forward"));
   run.run_frame();
-  const ReferenceErrors errors =
-      measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
   EXPECT_LT(errors.precision.max_rel, 5e-5);
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
 }
@@ -50,7 +49,7 @@ TEST(LambertShading, InFloatIsTheOraclesWithinItsRounding) {
 void expect_each_exact(const Scene& scene, const View& view, const Settings& settings = {}) {
   TechniqueRun forward(test_devices(), scene, view, settings, find_technique("forward"));
   forward.run_frame();
-  const auto depth = read_depth(forward.view());
+  const auto depth = read_depth(forward);
   const SurfaceOracle oracle(forward.view(), depth);
   const std::vector<uint32_t> sample = sample_pixels(oracle.pixels(), 4000);
   for (const Technique* technique : techniques()) {
@@ -149,8 +148,7 @@ TEST(CoatShading, InFloatIsTheOraclesWithinItsRounding) {
   TechniqueRun run(test_devices(), scene, view_at(1, 192, 108), {}, find_technique("forward"));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const ReferenceErrors errors =
-      measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
   EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
   Scene bare = scene;
@@ -222,8 +220,7 @@ TEST(ModelShading, InFloatIsTheOraclesWithinItsRounding) {
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const ReferenceErrors errors =
-      measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
   EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
   Scene bare = scene;
@@ -272,8 +269,7 @@ TEST(SpecularShading, InFloatIsTheOraclesWithinItsRounding) {
     TechniqueRun run(test_devices(), scene, view, {.brdf = brdf}, find_technique("forward"));
     run.run_frame();
     EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-    const ReferenceErrors errors =
-        measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000);
+    const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
     EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
     EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
     Scene bare = scene;
@@ -327,8 +323,7 @@ TEST(ModelShading, WithLambertIsTheOraclesInTheShadersOfForwardAndDeferred) {
   const View view = view_at(1, 160, 90);
   TechniqueRun run(test_devices(), scene, view, {.brdf = Brdf::lambert}, find_technique("forward"));
   run.run_frame();
-  EXPECT_LT(measure_reference_errors(run.view(), run.image(), read_depth(run.view()), 4000).precision.max_rel,
-            5e-5);
+  EXPECT_LT(measure_reference_errors(run.view(), run.image(), read_depth(run), 4000).precision.max_rel, 5e-5);
   EXPECT_LT(compare_images(run.image(), render(scene, view, "deferred", {.brdf = Brdf::lambert})).max_rel,
             1e-5);
 }

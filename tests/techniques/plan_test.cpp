@@ -33,19 +33,19 @@ TEST_P(EachEffect, ForwardPlusHasTheBytesOfForward) {
 }
 
 // Objects created and launches made by one frame.
-struct Work {
+struct WorkCounts {
   int buffers = 0, textures = 0, programs = 0, kernels = 0, cl_launches = 0, culls = 0;
-  bool operator==(const Work&) const = default;
+  bool operator==(const WorkCounts&) const = default;
 };
 
-std::ostream& operator<<(std::ostream& out, const Work& w) {
+std::ostream& operator<<(std::ostream& out, const WorkCounts& w) {
   return out << fmt::format("{} buffers, {} textures, {} programs, {} kernels, {} launches, {} of them culls",
                             w.buffers, w.textures, w.programs, w.kernels, w.cl_launches, w.culls);
 }
 
 // In the shape and form whose kernels are the same on every device.
-Work work_of(const Scene& scene,
-             const Settings& settings = {.kernel_shape = KernelShape::lanes, .portable = true}) {
+WorkCounts work_of(const Scene& scene,
+                   const Settings& settings = {.kernel_shape = KernelShape::lanes, .portable = true}) {
   Renderer devices("", GlBackend::automatic);  // with no program compiled yet
   const ClProfiler& profiler = devices.cl->profiler();
   const GlCounts before = gl_counts();
@@ -66,34 +66,35 @@ Work work_of(const Scene& scene,
           kernels_asked() - kernels, launched() - launches, profiler.count("cull_lights") - culls};
 }
 
-constexpr Work operator+(Work a, const Work& b) {
+constexpr WorkCounts operator+(WorkCounts a, const WorkCounts& b) {
   return {a.buffers + b.buffers, a.textures + b.textures,       a.programs + b.programs,
           a.kernels + b.kernels, a.cl_launches + b.cl_launches, a.culls + b.culls};
 }
 
 // Objects and launches of each part of a frame.
-constexpr Work geometry{.buffers = 4};  // positions, normals, indices, a stand-in for absent streams
-constexpr Work vertex_array{.buffers = 1};
-constexpr Work materials{.buffers = 1};
-constexpr Work view_parameters{.buffers = 1};
-constexpr Work targets{.textures = 2};  // depth, colour
-constexpr Work material_map{.textures = 1};
-constexpr Work program{.programs = 1};
-constexpr Work depth_bounds{.kernels = 1, .cl_launches = 1};
-constexpr Work light_array{.buffers = 1, .textures = 1};  // positions, colours, cones or directions
+constexpr WorkCounts geometry{.buffers = 4};  // positions, normals, indices, a stand-in for absent streams
+constexpr WorkCounts vertex_array{.buffers = 1};
+constexpr WorkCounts materials{.buffers = 1};
+constexpr WorkCounts view_parameters{.buffers = 1};
+constexpr WorkCounts targets{.textures = 2};  // depth, colour
+constexpr WorkCounts material_map{.textures = 1};
+constexpr WorkCounts program{.programs = 1};
+constexpr WorkCounts depth_bounds{.kernels = 1, .cl_launches = 1};
+constexpr WorkCounts light_array{.buffers = 1, .textures = 1};  // positions, colours, cones or directions
 // Lights to view space, culled, lists written. The bridge's buffers of cells and indices are read as
 // textures.
-constexpr Work grid{.textures = 2, .cl_launches = 3, .culls = 1};
-constexpr Work grid_kernels{.kernels = 3};  // built once, however many grids there are
+constexpr WorkCounts grid{.textures = 2, .cl_launches = 3, .culls = 1};
+constexpr WorkCounts grid_kernels{.kernels = 3};  // built once, however many grids there are
 
 // One opaque surface without a light: a program for depth and one for shading.
-const Work dark_frame = geometry + materials + view_parameters + targets + program + program + depth_bounds;
-const Work plain_frame = dark_frame + light_array + light_array + grid + grid_kernels;
-const Work mapped_material = program + vertex_array + material_map;  // texture coordinates
+const WorkCounts dark_frame =
+    geometry + materials + view_parameters + targets + program + program + depth_bounds;
+const WorkCounts plain_frame = dark_frame + light_array + light_array + grid + grid_kernels;
+const WorkCounts mapped_material = program + vertex_array + material_map;  // texture coordinates
 
 // The first frame of a size runs once more if the first estimate of memory was too small: not here.
 TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
-  const std::map<std::string, Work> added = {
+  const std::map<std::string, WorkCounts> added = {
       {"blend", program + grid},
       {"mask", mapped_material + program},  // depth has a program of its own too
       {"base_color_map", mapped_material},

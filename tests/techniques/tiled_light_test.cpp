@@ -15,7 +15,7 @@ double error_of(const char* technique, const Scene& scene, const View& view, con
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const LitPairs pairs = count_listed_pairs(run, read_depth(run.view()));
+  const LitPairs pairs = count_listed_pairs(run, read_depth(run));
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
   return compare_images(run.image(), forward).max_rel;

@@ -31,8 +31,8 @@ void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings set
   TechniqueRun off(devices, scene, view, settings, find_technique(technique));
   on.run_frame(), off.run_frame();
   EXPECT_TRUE(identical(on.image(), off.image()));
-  const LitPairs with = count_listed_pairs(on, read_depth(on.view()));
-  const LitPairs without = count_listed_pairs(off, read_depth(off.view()));
+  const LitPairs with = count_listed_pairs(on, read_depth(on));
+  const LitPairs without = count_listed_pairs(off, read_depth(off));
   EXPECT_EQ(with.lost, 0u);
   EXPECT_EQ(with.lit, without.lit);
   EXPECT_LE(with.listed, without.listed);
@@ -113,7 +113,7 @@ TEST(ZBins, LeaveTheLightPassInOpenClItsBytesWithGlassSmallTilesAndNoDepthBounds
 uint64_t listed(const Scene& scene, const View& view, const Settings& settings) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward_plus"));
   run.run_frame();
-  return count_listed_pairs(run, read_depth(run.view())).listed;
+  return count_listed_pairs(run, read_depth(run)).listed;
 }
 
 // Longer than the part of a list that the kernel processes at once.

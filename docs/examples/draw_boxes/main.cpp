@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
-#include "raster/rasterizer.h"
+#include "raster/raster_view.h"
 
 using namespace lightgrid;
 
@@ -18,15 +18,15 @@ constexpr double near_m = 0.1, slope_y = 0.5,
                  slope_x = slope_y * width / height / 2;  // characters are twice as high
 
 // From three metres above the floor, looking 20 degrees down along -z. Depth is reversed: near_m / distance.
-RasterView make_view() {
-  RasterView view{.width = width, .height = height, .eye = {0, 3, 8}};
-  view.clip_from_view = glm::dmat4(0);
-  view.clip_from_view[0][0] = 1 / slope_x, view.clip_from_view[1][1] = 1 / slope_y;
-  view.clip_from_view[3][2] = near_m, view.clip_from_view[2][3] = -1;
+RasterCamera make_camera() {
+  RasterCamera camera{.grid = {width, height}, .eye = {0, 3, 8}};
+  camera.clip_from_view = glm::dmat4(0);
+  camera.clip_from_view[0][0] = 1 / slope_x, camera.clip_from_view[1][1] = 1 / slope_y;
+  camera.clip_from_view[3][2] = near_m, camera.clip_from_view[2][3] = -1;
   const double down = 20 * 3.14159265358979 / 180;
-  view.view_from_world[1] = {0, std::cos(down), std::sin(down), 0};
-  view.view_from_world[2] = {0, -std::sin(down), std::cos(down), 0};
-  return view;
+  camera.view_from_world[1] = {0, std::cos(down), std::sin(down), 0};
+  camera.view_from_world[2] = {0, -std::sin(down), std::cos(down), 0};
+  return camera;
 }
 
 // From (-1, 0, -1) to (1, 2, 1), each side counter-clockwise from without.
@@ -48,20 +48,20 @@ glm::dmat4 placed(double x, double z, double turn) {
 int main() try {
   ClDevice device;  // a GPU if there is one; ClDevice("pthread") takes the one with that in its name
   ProgramCache programs(device);  // compiled kernels are kept in ~/.cache/lightgrid
-  Rasterizer rasterizer(device, programs);
-  rasterizer.set_meshes(std::vector<RasterMesh>{{floor_corners, floor_indices}, {box, box_indices}});
-  rasterizer.set_instances(
-      std::vector<RasterInstance>{{.mesh = 0},
-                                  {.mesh = 1, .world_from_object = placed(-2, 0, 0.4)},
-                                  {.mesh = 1, .world_from_object = placed(0.5, -3, 0.8)}});
-  rasterizer.set_view(make_view());  // again when the camera moves
-  const Visibility seen = rasterizer.draw();
+  RasterScene scene(device);      // the meshes, for any number of views
+  scene.set_meshes(std::vector<RasterMesh>{{floor_corners, floor_indices}, {box, box_indices}});
+  RasterView view(scene, programs);
+  view.set_instances(std::vector<RasterInstance>{{.mesh = 0},
+                                                 {.mesh = 1, .world_from_object = placed(-2, 0, 0.4)},
+                                                 {.mesh = 1, .world_from_object = placed(0.5, -3, 0.8)}});
+  view.set_camera(make_camera());  // again when the camera moves
+  const Visibility seen = view.draw();
 
   // Kernels that shade read these buffers as they are. Triangles are numbered in drawing order, instance by
   // instance.
-  std::vector<uint32_t> triangles(width * height), instance_of(rasterizer.counts().triangles);
+  std::vector<uint32_t> triangles(width * height), instance_of(view.counts().triangles);
   read_buffer(device, "triangles", seen.triangle, triangles.data(), triangles.size() * 4);
-  read_buffer(device, "instances", rasterizer.buffers().triangle_instance, instance_of.data(),
+  read_buffer(device, "instances", view.buffers().triangle_instance, instance_of.data(),
               instance_of.size() * 4);
   for (int y = height - 1; y >= 0; --y) {  // row 0 is the lowest one
     for (int x = 0; x < width; ++x) {

@@ -2,7 +2,7 @@
 // one another in order, 16 triangles at once, and counts its records in each tile.
 //
 // visible, counters           as raster/cpu/raster_order.cl writes them
-// pairs, clusters, instances, clip  as rasterizer.h and raster_params.h have them
+// pairs, clusters, instances, clip  as raster_view.h and raster_params.h have them
 // indices      corners of all meshes' triangles, in the order of clusters; 48 more may be read
 // numbers      of these triangles within their mesh; 16 more may be read
 // records      room, handed out in blocks of RASTER_BLOCK; counters[RASTER_BLOCKS] says how many were asked

@@ -1,7 +1,7 @@
 // Blended surfaces laid over an image in drawing order, for CPUs: a work-item takes a tile of 64 x 64 pixels,
 // record after record, and of each the blocks of 4 x 4 pixels that it covers in front of the opaque surfaces.
 //
-// records, tile_begin, lists  Rasterizer::list(): triangles of each tile, in drawing order
+// records, tile_begin, lists  RasterView::list(): triangles of each tile, in drawing order
 // tiles_x     of these tiles
 // depths      of opaque surfaces, a pixel each, reversed; row 0 at the bottom
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; the grid is that of blended surfaces

@@ -3,7 +3,7 @@
 // Pre-Pass Renderer" (ShaderX7, 2009).
 //
 // normals, depth  a pixel each, row 0 at the bottom (shared/stored_normal.h); reversed depth
-// positions, colors, cones  of lights (shared/punctual_light.h)
+// LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with
 // -DZ_BINS alone first           out: four channels a pixel, diffuse red, green, blue and the specular term
@@ -75,14 +75,13 @@ static inline void store_two(global light_channel_t* to, float8 row, uint column
 }
 
 kernel void light_buffer(global const normal_t* normals, global const float* depth,
-                         global const float4* positions, global const float4* colors,
-                         global const float4* cones, global const uint2* cells, global const index_t* indices,
+                         LIGHT_ARGUMENTS global const uint2* cells, global const index_t* indices,
                          global const uint* light_bins, constant float* bin_edges,
                          global light_channel_t* first, global light_channel_t* second, float exponent,
                          float inverse_scale, constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
-  const Lights lights = {positions, colors, cones, light_bins};
+  const Lights lights = {GIVEN_LIGHTS light_bins};
   const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
   for (uint y = tile_y * TILE; y < y_end; y += 4) {
     for (uint x = tile_x * TILE; x < x_end; x += 4) {

@@ -4,7 +4,7 @@
 //
 // first, second, coats, specular  geometry buffer (coats: with -DCLEARCOAT alone; specular: with -DSPECULAR
 //                       alone), and depth: row 0 at the bottom (kernels/resolve/gbuffer.h)
-// positions, colors, cones  of lights (shared/punctual_light.h)
+// LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // models  of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them
@@ -66,8 +66,7 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
                         global const channel_t* coats, global const channel_t* specular,
                         global const MaterialModelRecord* models,
-                        global const float* depth, global const float4* positions,
-                        global const float4* colors, global const float4* cones, global const uint2* cells,
+                        global const float* depth, LIGHT_ARGUMENTS global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
@@ -76,7 +75,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
 #ifdef BASE_LIGHTING
   if (range.y == 0) return;
 #endif
-  const Lights lights = {positions, colors, cones, light_bins};
+  const Lights lights = {GIVEN_LIGHTS light_bins};
   const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
   for (uint y = tile_y * TILE; y < y_end; y += 1 + HALF_DY) {
     for (uint x = tile_x * TILE; x < x_end; x += 8 + HALF_DX) {

@@ -15,8 +15,7 @@ static inline Real3 normal_at(global const normal_t* normals, size_t at) {
 }
 
 kernel void light_buffer(global const normal_t* normals, global const float* depth,
-                         global const float4* positions, global const float4* colors,
-                         global const float4* cones, global const uint2* cells, global const index_t* indices,
+                         LIGHT_ARGUMENTS global const uint2* cells, global const index_t* indices,
                          global const uint* light_bins, constant float* bin_edges,
                          global light_channel_t* first, global light_channel_t* second, float exponent,
                          float inverse_scale, constant ViewParams* view) {
@@ -24,7 +23,7 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
   if (x >= view->width || y >= view->height) return;
   const size_t at = (size_t)y * view->width + x;
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
-  const Lights lights = {positions, colors, cones, light_bins};
+  const Lights lights = {GIVEN_LIGHTS light_bins};
   const mask_t lit = depth[at] > 0.0f;
   LightTerms t = no_terms();
   if (lit && range.y > 0) {

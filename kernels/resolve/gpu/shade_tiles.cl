@@ -7,8 +7,7 @@
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
                         global const channel_t* coats, global const channel_t* specular,
                         global const MaterialModelRecord* models,
-                        global const float* depth, global const float4* positions,
-                        global const float4* colors, global const float4* cones, global const uint2* cells,
+                        global const float* depth, LIGHT_ARGUMENTS global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
@@ -20,7 +19,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
   const bool lit = depth[at] > 0.0f && color.w > 0.0f;
   Real3 sum = real3(background.x, background.y, background.z);
   if (lit) {
-    const Lights lights = {positions, colors, cones, light_bins};
+    const Lights lights = {GIVEN_LIGHTS light_bins};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const Real3 to_viewer = direction_to_viewer(position);
     ShadingPoint p = point_of_texels(position, to_viewer, normal, color);

@@ -135,8 +135,8 @@ kernel __attribute__((reqd_work_group_size(ITEMS, 1, 1))) void build_voxels(
           const float squared = dot3(d, d);
           float2 b = (float2)(0.0f);
           if (squared < reaches[k].squared) {
-            const VoxelArrival a = voxel_arrival(d, squared, slice, reaches[k], kept_colors[k].w,
-                                                 marked_cone(cones, numbers[k]));
+            const VoxelArrival a = voxel_arrival(position, kept[k].xyz, d, squared, slice, reaches[k],
+                                                 kept_colors[k], marked_cone(cones, numbers[k]));
             b.x = a.attenuation;
             b.y = luminance_of(voxel_irradiance(a.attenuation, kept_colors[k])) * a.inverse;
           }

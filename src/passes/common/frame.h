@@ -1,12 +1,16 @@
 // The values that the passes of one frame pass on to each other, created anew in each frame.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "renderer/render_view.h"
+#include "gl/bindings.h"
+#include "renderer/grid_storage.h"
+#include "renderer/pass_caches.h"
+#include "scene/listed_lights.h"
 
 namespace lightgrid {
 
@@ -27,20 +31,16 @@ struct TriangleBuffer {
   std::span<const int> instances;  // of the scene
 };
 
-// A light grid as OpenGL's shaders read it: as lists, or as masks.
-struct GridTextures {
-  GLuint cells = 0, indices = 0;  // buffer textures
-  GLuint masks = 0;
-  GLuint z_bins = 0;  // a word a light, if the plan has z-bins
-  size_t bytes = 0;
+// A light grid, and where it lies.
+struct ViewGrid : LightGrid {
+  SharedGridStorage* storage = nullptr;
+
+  size_t bytes() const { return cell_bytes + index_bytes + mask_bytes + z_bin_bytes; }
 };
 
-// For each pixel the packed indices of its lights, with the parameters that shaders/lights/lidr.glsl needs.
-struct LightIndexImages {
-  std::vector<GLuint> images;
-  std::vector<std::string> defines;
-  size_t bytes = 0;
-};
+// Reads the lights that a frame used at each pixel of opaque surfaces, for the oracle, from where its passes
+// left them. Null: every light. depth: of the frame's surfaces, row 0 at the bottom.
+using HostLists = std::function<ListedLights(const std::vector<float>& depth)>;
 
 struct ShadedImage {
   GLuint framebuffer = 0;         // linear RGBA, 32-bit float
@@ -51,12 +51,13 @@ struct ShadedImage {
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
-  std::optional<LightGrid> grid;        // of opaque surfaces, in RenderView::opaque_grid()
-  std::optional<LightGrid> blend_grid;  // of blended ones, in RenderView::blend_grid()
-  size_t light_index_bytes = 0;         // of LightIndexImages
-  size_t world_grid_bytes = 0;          // of WorldGrid's lists
-  std::optional<double> world_cell;     // the value of world-cell that they were built with
-  std::optional<DepthBuffer> depth;     // of techniques that rasterise in OpenCL; else the depth image has it
+  std::optional<ViewGrid> grid;        // of opaque surfaces
+  std::optional<ViewGrid> blend_grid;  // of blended ones
+  HostLists listed;                    // of opaque surfaces
+  size_t light_index_bytes = 0;        // of lidr's images
+  size_t world_grid_bytes = 0;         // of WorldGrid's lists
+  std::optional<double> world_cell;    // the value of world-cell that they were built with
+  std::optional<DepthBuffer> depth;    // of techniques that rasterise in OpenCL; else the depth image has it
   std::optional<TriangleBuffer> triangles;  // of the same techniques
 
   size_t light_grid_bytes() const;  // of all these, in use

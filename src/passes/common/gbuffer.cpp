@@ -21,14 +21,14 @@ std::vector<const char*> model_defines(const FramePlan& plan) {
 
 namespace {
 
-void require_numbers(const RenderView& v) {
-  if (!v.plan.skin && !v.plan.minnaert) return;
-  const size_t models = material_models(v.scene).size() - 1;
+void require_numbers(const Seen& seen) {
+  if (!seen.plan.skin && !seen.plan.minnaert) return;
+  const size_t models = material_models(seen.scene).size() - 1;
   if (models <= MOST_MODELS) return;
   throw input_error(
       "scene \"{}\": {} models of skin and Minnaert; a geometry buffer numbers at most {}: forward "
       "techniques and visibility take any number",
-      v.scene.name, models, MOST_MODELS);
+      seen.scene.name, models, MOST_MODELS);
 }
 
 std::vector<size_t> images_of(const FramePlan& plan) {
@@ -40,38 +40,39 @@ std::vector<size_t> images_of(const FramePlan& plan) {
 
 }  // namespace
 
-GBufferInCl gbuffer_in_cl_of(RenderView& v, BaseLighting base_lighting, TargetUse use) {
-  require_numbers(v);
+GBufferInCl gbuffer_in_cl_of(Work& work, const Seen& seen, BaseLighting base_lighting, TargetUse use) {
+  require_numbers(seen);
   constexpr const char* names[gbuffer_most_images] = {"gbuffer 0", "gbuffer 1", "gbuffer 2", "gbuffer 3"};
   GBufferInCl g{.base_lighting = base_lighting,
-                .layout = &gbuffer_layout(v.plan.settings),
-                .images = images_of(v.plan)};
-  for (const size_t i : g.images) g.surfaces[i] = &v.shared_pixels(names[i], g.layout->images[i].bytes, use);
-  g.image = &v.shared_pixels("image", 16);
+                .layout = &gbuffer_layout(seen.plan.settings),
+                .images = images_of(seen.plan)};
+  for (const size_t i : g.images)
+    g.surfaces[i] = &work.shared_pixels(names[i], g.layout->images[i].bytes, use);
+  g.image = &work.shared_pixels("image", 16);
   return g;
 }
 
-GBuffer gbuffer_of(RenderView& v, BaseLighting base_lighting) {
-  require_numbers(v);
+GBuffer gbuffer_of(Work& work, const Seen& seen, BaseLighting base_lighting) {
+  require_numbers(seen);
   GBuffer g;
-  g.models = model_defines(v.plan);
-  if (!g.models.empty()) g.model_records = v.gpu.in_gl().model_records();
+  g.models = model_defines(seen.plan);
+  if (!g.models.empty()) g.model_records = work.gpu.in_gl().model_records();
   g.base_lighting = base_lighting;
-  g.layout = &gbuffer_layout(v.plan.settings);
-  g.images = images_of(v.plan);
+  g.layout = &gbuffer_layout(seen.plan.settings);
+  g.images = images_of(seen.plan);
   for (const size_t i : g.images) {
     g.textures[i] =
-        v.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
+        work.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);
   }
-  g.depth = v.targets.depth();
-  const GLuint image = v.targets.texture("color", GL_RGBA32F);
+  g.depth = work.targets.depth();
+  const GLuint image = work.targets.texture("color", GL_RGBA32F);
   std::vector<GLuint> drawn = {g.textures[0], g.textures[1]};
   if (base_lighting == BaseLighting::in_image) drawn.push_back(image);
   for (const size_t i : g.images)
     if (i >= gbuffer_coat) drawn.push_back(g.textures[i]);
-  g.framebuffer = v.targets.framebuffer(drawn, g.depth);
-  g.depth_image = {v.depth_framebuffer()};
-  g.image = {v.color_framebuffer()};
+  g.framebuffer = work.targets.framebuffer(drawn, g.depth);
+  g.depth_image = {work.depth_framebuffer()};
+  g.image = {work.color_framebuffer()};
   return g;
 }
 
@@ -85,12 +86,12 @@ std::vector<std::string> gbuffer_defines(const GBuffer& gbuffer) {
 }
 
 void bind_gbuffer(const GBuffer& gbuffer) {
-  glBindTextureUnit(0, gbuffer.textures[0]);
-  glBindTextureUnit(1, gbuffer.textures[1]);
-  glBindTextureUnit(2, gbuffer.depth);
-  for (const size_t i : gbuffer.images)
-    if (i >= gbuffer_coat) glBindTextureUnit(GLuint(i) + 1, gbuffer.textures[i]);
-  if (gbuffer.model_records) glBindBufferBase(GL_UNIFORM_BUFFER, 5, gbuffer.model_records);
+  constexpr Sampler samplers[gbuffer_most_images] = {Sampler::gbuffer_normal_roughness_metallic,
+                                                     Sampler::gbuffer_base_color_lit, Sampler::gbuffer_coat,
+                                                     Sampler::gbuffer_specular};
+  for (const size_t i : gbuffer.images) bind_texture(samplers[i], gbuffer.textures[i]);
+  bind_texture(Sampler::depth_image, gbuffer.depth);
+  if (gbuffer.model_records) bind_block(UniformBlock::MaterialModelsBlock, gbuffer.model_records);
 }
 
 }  // namespace lightgrid

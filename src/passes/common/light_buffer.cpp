@@ -49,55 +49,57 @@ double reference_light(const Scene& scene, const FramePlan& plan) {
   return std::clamp(rounded, 0x1p-60, 0x1p60);
 }
 
-double stored_scale(const RenderView& v) {
-  return v.plan.settings.buffer_bits == 32 ? 1 : reference_light(v.scene, v.plan);
+double stored_scale(const Seen& seen) {
+  return seen.plan.settings.buffer_bits == 32 ? 1 : reference_light(seen.scene, seen.plan);
 }
 
-std::vector<std::string> light_buffer_defines(const RenderView& v) {
-  const Settings& s = v.plan.settings;
+std::vector<std::string> light_buffer_defines(const Seen& seen) {
+  const Settings& s = seen.plan.settings;
   std::vector<std::string> defines = {fmt::format("LIGHT_EXPONENT {:.1f}", double(s.prepass_shininess)),
-                                      fmt::format("LIGHT_SCALE {:.17e}", stored_scale(v))};
+                                      fmt::format("LIGHT_SCALE {:.17e}", stored_scale(seen))};
   if (const char* define = prepass_define(s)) defines.emplace_back(define);
   return defines;
 }
 
-NormalImage normal_image_of(RenderView& v) {
+NormalImage normal_image_of(Work& work, const Seen& seen) {
   NormalImage n;
-  n.layout = &normal_layout(v.plan.settings);
-  n.texture = v.targets.texture(n.layout->image.name, n.layout->image.format, TargetUse::gbuffer);
-  n.framebuffer = v.targets.framebuffer({n.texture}, v.targets.depth());
-  n.depth = {v.depth_framebuffer()};
+  n.layout = &normal_layout(seen.plan.settings);
+  n.texture = work.targets.texture(n.layout->image.name, n.layout->image.format, TargetUse::gbuffer);
+  n.framebuffer = work.targets.framebuffer({n.texture}, work.targets.depth());
+  n.depth = {work.depth_framebuffer()};
   return n;
 }
 
-NormalsInCl normals_in_cl_of(RenderView& v, TargetUse use) {
-  const NormalLayout& layout = normal_layout(v.plan.settings);
-  return {&layout, &v.shared_pixels("normals", layout.image.bytes, use)};
+NormalsInCl normals_in_cl_of(Work& work, const Seen& seen, TargetUse use) {
+  const NormalLayout& layout = normal_layout(seen.plan.settings);
+  return {&layout, &work.shared_pixels("normals", layout.image.bytes, use)};
 }
 
-LightBuffer light_buffer_of(RenderView& v) {
+LightBuffer light_buffer_of(Work& work, const Seen& seen) {
   LightBuffer b;
-  b.layout = &light_buffer_layout(v.plan.settings);
-  b.first = v.targets.texture(b.layout->first.name, b.layout->first.format, TargetUse::gbuffer);
-  if (has_fifth_term(v.plan.settings))
-    b.second = v.targets.texture(b.layout->second.name, b.layout->second.format, TargetUse::gbuffer);
+  b.layout = &light_buffer_layout(seen.plan.settings);
+  b.first = work.targets.texture(b.layout->first.name, b.layout->first.format, TargetUse::gbuffer);
+  if (has_fifth_term(seen.plan.settings))
+    b.second = work.targets.texture(b.layout->second.name, b.layout->second.format, TargetUse::gbuffer);
   return b;
 }
 
-LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer) {
-  LightSource source = base_lighting(v);
-  source.defines.emplace_back("LIGHTS");
-  source.defines.emplace_back("LIGHTS_BUFFER");
-  for (std::string& define : light_buffer_defines(v)) source.defines.push_back(std::move(define));
-  // Where nothing reads it, lights of another brightness need no other program.
-  const bool read =
-      v.plan.settings.prepass_specular == PrepassSpecular::bent || v.plan.skin || v.plan.minnaert;
-  source.defines.push_back(
-      fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(v.scene, v.plan) : 1.0));
-  source.textures = {{12, buffer.first}};
-  if (buffer.second) source.textures.push_back({13, buffer.second});
-  source.bytes = v.pixels() * buffer.bytes();
-  return source;
+LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer) {
+  const auto in_gl = [&seen, buffer] {
+    GlLightLoop loop = base_lighting(seen);
+    loop.defines.emplace_back("LIGHTS");
+    loop.defines.emplace_back("LIGHTS_BUFFER");
+    for (std::string& define : light_buffer_defines(seen)) loop.defines.push_back(std::move(define));
+    // Where nothing reads it, lights of another brightness need no other program.
+    const bool read =
+        seen.plan.settings.prepass_specular == PrepassSpecular::bent || seen.plan.skin || seen.plan.minnaert;
+    loop.defines.push_back(
+        fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(seen.scene, seen.plan) : 1.0));
+    loop.textures = {{Sampler::light_buffer, buffer.first}};
+    if (buffer.second) loop.textures.push_back({Sampler::light_buffer_second, buffer.second});
+    return loop;
+  };
+  return LightSource(in_gl, {}, seen.grid().values() * buffer.bytes());
 }
 
 }  // namespace lightgrid

@@ -62,10 +62,10 @@ bool has_fifth_term(const Settings& settings);
 double reference_light(const Scene& scene, const FramePlan& plan);
 
 // Sums are stored divided by this: 1 in 32 bits, in 8 and 16 the reference light.
-double stored_scale(const RenderView& v);
+double stored_scale(const Seen& seen);
 
 // Defines of shaders that write the light buffer and of those that read it.
-std::vector<std::string> light_buffer_defines(const RenderView& v);
+std::vector<std::string> light_buffer_defines(const Seen& seen);
 
 // In OpenGL.
 struct NormalImage {
@@ -82,8 +82,8 @@ struct LightBuffer {
 };
 
 // The view's images, drawn or not.
-NormalImage normal_image_of(RenderView& v);
-LightBuffer light_buffer_of(RenderView& v);
+NormalImage normal_image_of(Work& work, const Seen& seen);
+LightBuffer light_buffer_of(Work& work, const Seen& seen);
 
 // Normals as plain bytes in OpenCL's memory, row 0 at the bottom.
 struct NormalsInCl {
@@ -92,7 +92,7 @@ struct NormalsInCl {
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.
-NormalsInCl normals_in_cl_of(RenderView& v, TargetUse use);
+NormalsInCl normals_in_cl_of(Work& work, const Seen& seen, TargetUse use);
 
 // The sums in OpenCL's memory. second: null without a fifth term.
 struct LightBufferInCl {
@@ -101,7 +101,7 @@ struct LightBufferInCl {
   size_t bytes() const { return layout->first.bytes + (second ? layout->second.bytes : 0); }
 };
 
-// The light of the sums, for forward.frag.
-LightSource from_light_buffer(RenderView& v, const LightBuffer& buffer);
+// The light of the sums.
+LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer);
 
 }  // namespace lightgrid

@@ -1,40 +1,68 @@
-// Where an OpenGL light loop finds a pixel's lights: its shader text and the buffers it reads.
+// Which lights a pixel reads: a light loop's text and input, in GLSL and in OpenCL C, and the same lists for
+// the host. Every builder of lists makes one.
 #pragma once
 
+#include <memory>
+
+#include "cl/launch.h"
 #include "passes/common/frame.h"
 
 namespace lightgrid {
 
-class ObjectLights;
-struct VoxelTextures;
-
-struct LightSource {
-  std::vector<std::string> defines;  // for shaders/forward.frag: which loop, and its input
+// The loop of shaders/forward.frag.
+struct GlLightLoop {
+  std::vector<std::string> defines;  // which loop, and its input
   struct Binding {
-    GLuint unit, texture;
+    Sampler sampler;
+    GLuint texture;
+    size_t element = 0;  // of an array of samplers
   };
   std::vector<Binding> textures;
   struct Block {
-    GLuint binding, buffer;
+    UniformBlock block;
+    GLuint buffer;
   };
   std::vector<Block> blocks;  // uniform blocks besides the view's
-  size_t bytes = 0;           // of the lists, for passes that count bytes read
 
-  void bind(const RenderView& v) const;  // binds these textures, the lights and the view
+  void bind(Work& work) const;  // binds these textures, the lights and the view
+};
+
+// The loop of kernels/resolve/resolve_light.h.
+struct ClLightLoop {
+  std::string defines;                // -D options; none: lists of cells, or every light
+  cl::Buffer cells, indices, z_bins;  // null: every light
+  ClArguments more;                   // what the defines add, in their order
+};
+
+class LightSource {
+ public:
+  // in_gl: hands the lists to OpenGL, in passes of its own. Without in_cl no kernel reads these lists. bytes:
+  // of the lists, for passes that count bytes read.
+  explicit LightSource(std::function<GlLightLoop()> in_gl, std::optional<ClLightLoop> in_cl = {},
+                       size_t bytes = 0, HostLists listed = {})
+      : in_cl(std::move(in_cl)), bytes(bytes), listed(std::move(listed)), make_gl_(std::move(in_gl)) {}
+
+  // Made by the first pass that reads it, for all copies of this source.
+  const GlLightLoop& in_gl() const {
+    if (!*gl_) *gl_ = make_gl_();
+    return **gl_;
+  }
+
+  std::optional<ClLightLoop> in_cl;
+  size_t bytes;
+  HostLists listed;
+
+ private:
+  std::function<GlLightLoop()> make_gl_;
+  std::shared_ptr<std::optional<GlLightLoop>> gl_ = std::make_shared<std::optional<GlLightLoop>>();
 };
 
 // Every light of the scene at every pixel.
-LightSource every_light(const RenderView& v);
-// The lights of the pixel's cell.
-LightSource from_grid(const RenderView& v, const GridTextures& grid);
-// The lights in the pixel's light indices.
-LightSource from_light_index(const RenderView& v, const LightIndexImages& index);
-// The lights of the current object (uniform lights_of_draw).
-LightSource from_objects(const RenderView& v, const ObjectLights& objects);
-// The light of a voxel light buffer (passes/build_voxels.h), and with voxel-lights-exact of lights of the
-// pixel's cell.
-LightSource from_voxels(const RenderView& v, const VoxelTextures& voxels, const GridTextures& grid);
+LightSource every_light(const Seen& seen);
+
+// What every loop over point and spot lights begins with; a source adds its own loop and input.
+GlLightLoop light_loop(const Seen& seen);
 // No point or spot light: ambient, emissive and directional light alone.
-LightSource base_lighting(const RenderView& v);
+GlLightLoop base_lighting(const Seen& seen);
 
 }  // namespace lightgrid

@@ -85,7 +85,7 @@ GlTexture index_image() {
   return image;
 }
 
-std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& layout,
+std::vector<uint16_t> blend_in_opengl(Work& work, const LightIndexLayout& layout,
                                       const std::vector<std::vector<uint32_t>>& rounds) {
   std::vector<GlTexture> images;
   std::vector<GLuint> names;
@@ -103,9 +103,10 @@ std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& lay
   for (uint32_t i = 0; i < layout.targets(); ++i)
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, GLint(i), none);
   begin_light_indices(layout);
-  glUseProgram(v.program("shaders/screen.vert", "shaders/light_index_probe.frag", layout.defines()).name());
+  glUseProgram(
+      work.program("shaders/screen.vert", "shaders/light_index_probe.frag", layout.defines()).name());
   glBindVertexArray(nothing.name());
-  glBindTextureUnit(12, indices.name());  // the units before are used by materials
+  bind_texture(Sampler::indices, indices.name());
   for (size_t r = 0; r < rounds.size(); ++r) {
     glTextureSubImage2D(indices.name(), 0, 0, 0, probe_size, probe_size, GL_RED_INTEGER, GL_UNSIGNED_INT,
                         rounds[r].data());
@@ -114,7 +115,7 @@ std::vector<uint16_t> blend_in_opengl(RenderView& v, const LightIndexLayout& lay
   }
   end_light_indices();
   glBindVertexArray(0);
-  return read_channels(layout, probe_size, probe_size);
+  return read_channels(layout, {probe_size, probe_size});
 }
 
 }  // namespace
@@ -136,14 +137,14 @@ std::string why_blending_fails(const LightIndexLayout& layout, const LightIndexB
   return failed ? fmt::format("{}, and so {} of {} states", first, failed, pixels) : "";
 }
 
-void require_exact_blending(RenderView& v, const LightIndexLayout& layout) {
+void require_exact_blending(Work& work, const LightIndexLayout& layout) {
   static std::map<std::string, std::string> tried;
-  const GlContext& gl = *v.renderer.gl;
+  const GlContext& gl = *work.renderer.gl;
   const auto [found, added] = tried.try_emplace(gl.renderer + gl.version + layout.name());
   if (added) {
     found->second = why_blending_fails(
         layout, [&](const LightIndexLayout& l, const std::vector<std::vector<uint32_t>>& rounds) {
-          return blend_in_opengl(v, l, rounds);
+          return blend_in_opengl(work, l, rounds);
         });
   }
   if (!found->second.empty()) {

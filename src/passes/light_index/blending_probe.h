@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "renderer/render_view.h"
 #include "passes/light_index/layout.h"
+#include "renderer/pass_caches.h"
 
 namespace lightgrid {
 
@@ -22,6 +22,6 @@ using LightIndexBlender = std::function<std::vector<uint16_t>(
 std::string why_blending_fails(const LightIndexLayout& layout, const LightIndexBlender& blend);
 
 // Tests this machine's blending, each layout once a process. Throws Error(machine) if it fails.
-void require_exact_blending(RenderView& v, const LightIndexLayout& layout);
+void require_exact_blending(Work& work, const LightIndexLayout& layout);
 
 }  // namespace lightgrid

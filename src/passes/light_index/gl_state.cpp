@@ -35,16 +35,16 @@ void end_light_indices() {
   glBlendEquation(GL_FUNC_ADD);
 }
 
-std::vector<uint16_t> read_channels(const LightIndexLayout& layout, int width, int height) {
-  const size_t pixels = size_t(width) * size_t(height), stride = layout.targets() * 4;
+std::vector<uint16_t> read_channels(const LightIndexLayout& layout, const PixelGrid& grid) {
+  const size_t pixels = grid.pixels(), stride = layout.targets() * 4;
   std::vector<uint16_t> channels(pixels * stride), image(pixels * 4);
   for (uint32_t target = 0; target < layout.targets(); ++target) {
     glReadBuffer(GL_COLOR_ATTACHMENT0 + target);
     if (layout.channel_bits == 16) {
-      glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_SHORT, image.data());
+      glReadPixels(0, 0, grid.width, grid.height, GL_RGBA, GL_UNSIGNED_SHORT, image.data());
     } else {
       std::vector<uint8_t> bytes(pixels * 4);
-      glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+      glReadPixels(0, 0, grid.width, grid.height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
       image.assign(bytes.begin(), bytes.end());
     }
     for (size_t i = 0; i < pixels; ++i) {

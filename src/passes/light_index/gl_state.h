@@ -16,6 +16,6 @@ void end_light_indices();
 
 // Input of unpack_light_index for each pixel: targets() * 4 values, row 0 at the bottom. Reads the
 // framebuffer that is bound for reading.
-std::vector<uint16_t> read_channels(const LightIndexLayout& layout, int width, int height);
+std::vector<uint16_t> read_channels(const LightIndexLayout& layout, const PixelGrid& grid);
 
 }  // namespace lightgrid

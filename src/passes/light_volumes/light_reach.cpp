@@ -24,11 +24,9 @@ ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box) {
           glm::abs(axes[0]) * half.x + glm::abs(axes[1]) * half.y + glm::abs(axes[2]) * half.z};
 }
 
-LightReach::LightReach(const ViewLight& light)
+LightReach::LightReach(const LightBounds& light)
     : position_(light.position), direction_(light.direction), radius_(light.radius_m) {
-  if (light.type != LightType::spot) return;
-  // Shading rounds the cosine: by less than 10^-6.
-  const double angle = std::acos(std::clamp(light.cos_outer - 1e-6, -1.0, 1.0));
+  const double angle = light.widened_angle_rad();
   cone_ = angle < std::numbers::pi / 2;
   cos_ = std::cos(angle), sin_ = std::sin(angle);
 }

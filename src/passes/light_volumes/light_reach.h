@@ -14,7 +14,7 @@ ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box);
 
 class LightReach {
  public:
-  explicit LightReach(const ViewLight& light);
+  explicit LightReach(const LightBounds& light);
 
   // False only if the light adds nothing to any pixel of a surface in the box.
   bool may_reach(const ViewBox& box) const;
@@ -22,8 +22,8 @@ class LightReach {
  private:
   glm::dvec3 position_, direction_;
   double radius_;
-  double cos_ = -1, sin_ = 0;  // of the cone's half-angle, for cones below 90 degrees
-  bool cone_ = false;
+  double cos_, sin_;  // of the cone's half-angle, widened
+  bool cone_;         // narrower than 90 degrees
 };
 
 }  // namespace lightgrid

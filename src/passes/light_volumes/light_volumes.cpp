@@ -43,7 +43,7 @@ double pixel_size(const View& view, double distance) {
 //   corners snapped to the rasteriser's grid, those of clipped triangles twice: two steps of the grid
 //   depth interpolated across a triangle: 32 roundings of the nearest corner's depth
 //   depth across triangles seen edge-on has no useful bound: 1/256 of the radius
-double slack(const View& view, const ViewLight& light, double reach, int subpixel_bits) {
+double slack(const View& view, const LightBounds& light, double reach, int subpixel_bits) {
   const glm::dvec3 p = light.position;
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
   const double farthest = std::max(-p.z + reach, 0.0), nearest = std::max(-p.z - reach, view.near_m);
@@ -52,14 +52,9 @@ double slack(const View& view, const ViewLight& light, double reach, int subpixe
          32 * u * in_depth + light.radius_m / 256;
 }
 
-// The half-angle, widened for the rounding of the cosine in shading, as in culling: cosine minus 10^-6.
-double widened_angle(const ViewLight& light) {
-  return std::acos(std::clamp(light.cos_outer - 1e-6, -1.0, 1.0));
-}
-
 // Slack that includes its own enlargement; none if that does not converge: a light before the near plane that
 // ends far away.
-std::optional<double> settled_slack(const View& view, const ViewLight& light, double per_slack,
+std::optional<double> settled_slack(const View& view, const LightBounds& light, double per_slack,
                                     int subpixel_bits) {
   double given = 0;
   for (int i = 0; i < 8; ++i) {
@@ -85,7 +80,7 @@ glm::dmat3 axes_along(const glm::dvec3& direction) {
   return {x, glm::cross(direction, x), direction};
 }
 
-uint32_t ball_for(const View& view, const ViewLight& light, VolumeMeshes meshes) {
+uint32_t ball_for(const View& view, const LightBounds& light, VolumeMeshes meshes) {
   if (meshes == VolumeMeshes::box) return box;
   if (meshes == VolumeMeshes::icosahedron) return first_ball;
   const double pixels = light.radius_m / pixel_size(view, -light.position.z - light.radius_m);
@@ -93,9 +88,9 @@ uint32_t ball_for(const View& view, const ViewLight& light, VolumeMeshes meshes)
 }
 
 // Sets mesh and matrix, or mesh `everything`.
-void shape_volume(const View& view, const ViewLight& light, VolumeMeshes meshes, int subpixel_bits,
+void shape_volume(const View& view, const LightBounds& light, VolumeMeshes meshes, int subpixel_bits,
                   LightVolume& volume) {
-  const double angle = light.type == LightType::spot ? widened_angle(light) : pi;
+  const double angle = light.widened_angle_rad();
   const bool cone = angle < pi / 2 && meshes != VolumeMeshes::box;
   // A cone grown by its slack equals the cone moved back by slack / sin(angle).
   const double back = cone ? 1 / std::sin(angle) : 0;
@@ -186,11 +181,12 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
   const Frustum frustum = frustum_of(view);
   std::vector<LightVolume> volumes;
   for (size_t i = 0; i < lights.size(); ++i) {
-    if (!(lights[i].radius_m > 0)) continue;
-    LightVolume volume{.light = uint32_t(i)};
-    shape_volume(view, lights[i], meshes, subpixel_bits, volume);
+    const LightBounds bounds = bounds_of(lights[i]);
+    if (!(bounds.radius_m > 0)) continue;
+    LightVolume volume{.light = uint32_t(i), .bounds = bounds};
+    shape_volume(view, bounds, meshes, subpixel_bits, volume);
     if (volume.mesh == LightVolume::everything) {
-      if (!may_see_sphere(frustum, lights[i].position, lights[i].radius_m)) continue;
+      if (!may_see_sphere(frustum, bounds.position, bounds.radius_m)) continue;
       cover_screen(view, volume);
     } else if (!place_volume(view, frustum, volume)) {
       continue;
@@ -200,7 +196,7 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
   return volumes;
 }
 
-LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
+LightVolumes::LightVolumes(Work&, const Seen& seen) : array_(make_vertex_array()) {
   glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> indices;
@@ -212,7 +208,7 @@ LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
   }
   vertices_ = make_buffer(positions.size() * sizeof(glm::vec3), positions.data());
   indices_ = make_buffer(indices.size() * sizeof(uint16_t), indices.data());
-  instance_bytes_ = v.plan.local.size() * sizeof(VolumeInstance);
+  instance_bytes_ = seen.plan.local.size() * sizeof(VolumeInstance);
   instances_ = make_buffer(instance_bytes_, nullptr);
   mesh_bytes_ = positions.size() * sizeof(glm::vec3) + indices.size() * sizeof(uint16_t);
 
@@ -234,15 +230,14 @@ LightVolumes::LightVolumes(RenderView& v) : array_(make_vertex_array()) {
 
 size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_; }
 
-bool LightVolumes::follow(RenderView& v) {
-  return instance_bytes_ == v.plan.local.size() * sizeof(VolumeInstance);
+bool LightVolumes::follow(Work&, const Seen& seen) {
+  return instance_bytes_ == seen.plan.local.size() * sizeof(VolumeInstance);
 }
 
-const std::vector<LightVolume>& LightVolumes::update(RenderView& v, VolumeMeshes meshes) {
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-  lights_.clear();
-  for (int i : v.plan.local) lights_.push_back(all[i]);
-  upload_volumes(light_volumes(v.view, lights_, meshes, subpixel_bits_));
+const std::vector<LightVolume>& LightVolumes::update(const Seen& seen, VolumeMeshes meshes) {
+  upload_volumes(light_volumes(
+      seen.view, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local), meshes,
+      subpixel_bits_));
   return volumes_;
 }
 

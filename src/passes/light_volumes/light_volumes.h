@@ -7,8 +7,8 @@
 
 #include <span>
 
-#include "renderer/render_view.h"
 #include "passes/light_volumes/light_meshes.h"
+#include "renderer/pass_caches.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {
@@ -18,14 +18,15 @@ struct LightVolume {
                                              // enclose
 
   uint32_t light;             // index into the given lights, which are FramePlan::local's
+  LightBounds bounds;         // of the light
   uint32_t mesh;              // index into light_meshes()
   glm::dmat4 view_from_mesh;  // unused for `everything`
   glm::mat4 clip_from_mesh;
-  glm::dvec3 center;          // a sphere around the mesh, view space; `everything`: infinite radius
+  glm::dvec3 center;  // a sphere around the mesh, view space; `everything`: infinite radius
   double radius;
-  bool crosses_near;          // a part is nearer than the near plane: front faces have a hole there
-  glm::dvec2 low_px, high_px; // bounds on screen, pixels
-  glm::ivec2 first, end;      // pixels with their centre in these bounds: first <= p < end
+  bool crosses_near;           // a part is nearer than the near plane: front faces have a hole there
+  glm::dvec2 low_px, high_px;  // bounds on screen, pixels
+  glm::ivec2 first, end;       // pixels with their centre in these bounds: first <= p < end
 };
 
 // Every mesh that a volume may use.
@@ -38,19 +39,17 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
 
 // Draws volumes with shaders/common/light_volume.glsl. One vertex buffer for all meshes; matrix and light are
 // attributes of an instance.
-class LightVolumes : public PassState {
+class LightVolumes : public PassCache {
  public:
-  explicit LightVolumes(RenderView& v);
+  explicit LightVolumes(Work& work, const Seen& seen);
   size_t memory_bytes() const override;
-  bool follow(RenderView& v) override;
+  bool follow(Work& work, const Seen& seen) override;
 
   // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights.
-  const std::vector<LightVolume>& update(RenderView& v, VolumeMeshes meshes);
+  const std::vector<LightVolume>& update(const Seen& seen, VolumeMeshes meshes);
   // The same in the caller's order, to which the indices of draw() refer.
   void upload_volumes(std::vector<LightVolume> volumes);
   const std::vector<LightVolume>& volumes() const { return volumes_; }
-  // Point and spot lights of the last update, by LightVolume::light.
-  const std::vector<ViewLight>& lights() const { return lights_; }
 
   // Between begin() and end(), the vertex array is bound, only GL_CLIP_DISTANCE0 at the near plane clips in
   // depth, faces are counter-clockwise and none is culled. Stencil, depth test and blending are the caller's.
@@ -62,7 +61,6 @@ class LightVolumes : public PassState {
 
  private:
   std::vector<LightVolume> volumes_;
-  std::vector<ViewLight> lights_;
   GlBuffer vertices_, indices_, instances_;
   GlVertexArray array_;
   struct Range {

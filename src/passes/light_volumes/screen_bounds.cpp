@@ -8,7 +8,7 @@ namespace lightgrid {
 namespace {
 
 // As in light_volumes.cpp: float rounding under 1e-5 of the distances, and 1/256 of the radius.
-double reach(const ViewLight& light) {
+double reach(const LightBounds& light) {
   const glm::dvec3 p = glm::abs(light.position);
   return light.radius_m * (1 + 1.0 / 256) + 1e-5 * (p.x + p.y + p.z + light.radius_m);
 }
@@ -32,7 +32,7 @@ glm::ivec2 pixels_between(const glm::dvec2& slopes, double clip_scale, double cl
       glm::clamp(glm::dvec2(std::floor(pixels.x) - 1, std::ceil(pixels.y) + 1), 0.0, double(size)));
 }
 
-void cut_to_tangents(const View& view, const ViewLight& light, ScreenBounds& bounds) {
+void cut_to_tangents(const View& view, const LightBounds& light, ScreenBounds& bounds) {
   const double r = reach(light), d = -light.position.z;
   const glm::dmat4& clip = view.clip_from_view;
   const int size[2] = {view.width, view.height};
@@ -56,7 +56,8 @@ double depth_at(const View& view, double distance) {
 
 }  // namespace
 
-ScreenBounds screen_bounds(const View& view, const ViewLight& light, const LightVolume& volume) {
+ScreenBounds screen_bounds(const View& view, const LightVolume& volume) {
+  const LightBounds& light = volume.bounds;
   ScreenBounds bounds{volume.first, volume.end};
   if (!(reach(light) < 1e15)) return bounds;
   cut_to_tangents(view, light, bounds);

@@ -12,6 +12,6 @@ struct ScreenBounds {
 
 // The rectangle is bounded by the sphere's tangents, if it has any, and by the volume's rectangle. The
 // interval is that of the sphere along the view axis, within the volume's.
-ScreenBounds screen_bounds(const View& view, const ViewLight& light, const LightVolume& volume);
+ScreenBounds screen_bounds(const View& view, const LightVolume& volume);
 
 }  // namespace lightgrid

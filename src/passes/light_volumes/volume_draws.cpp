@@ -17,14 +17,15 @@
 
 namespace lightgrid {
 
-VolumeDraws::VolumeDraws(RenderView& v, const char* fragment, std::vector<std::string> defines)
-    : v_(v), culling_(v.plan.settings.volume_culling), volumes_(v.state<LightVolumes>()) {
+VolumeDraws::VolumeDraws(Work& work, const Seen& seen, LightVolumes& volumes, const char* fragment,
+                         std::vector<std::string> defines)
+    : seen_(seen), culling_(seen.plan.settings.volume_culling), volumes_(volumes) {
   if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
   if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
-  program_ =
-      &v.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert", fragment, defines);
+  program_ = &work.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert", fragment,
+                           defines);
   if (culling_ == VolumeCulling::stencil)
-    marking_ = &v.program("shaders/light_volume.vert", "shaders/depth.frag", {});
+    marking_ = &work.program("shaders/light_volume.vert", "shaders/depth.frag", {});
 }
 
 void VolumeDraws::draw(size_t first, size_t end) {
@@ -80,7 +81,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
   const GLint light = program_->uniform("light"), depth_bounds = program_->uniform("depth_bounds");
   for (size_t i = first; i < end; ++i) {
     const LightVolume& volume = volumes_.volumes()[i];
-    const ScreenBounds bounds = screen_bounds(v_.view, volumes_.lights()[volume.light], volume);
+    const ScreenBounds bounds = screen_bounds(seen_.view, volume);
     const glm::ivec2 size = bounds.end - bounds.first;
     glScissor(bounds.first.x, bounds.first.y, size.x, size.y);
     glUniform1ui(light, volume.light);
@@ -93,19 +94,19 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
   glBindVertexArray(0);
 }
 
-void begin_adding_lights(RenderView& v, GLuint framebuffer) {
+void begin_adding_lights(Work& work, const Seen& seen, GLuint framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  if (v.plan.stencil) {
+  if (seen.plan.stencil) {
     const GLint nothing = 0;
     glStencilMask(0xff);
     glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &nothing);
   }
-  glViewport(0, 0, v.view.width, v.view.height);
+  glViewport(0, 0, seen.grid().width, seen.grid().height);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_ONE, GL_ONE);
-  v.bind_lights();
+  work.bind_lights();
 }
 
 }  // namespace lightgrid

@@ -11,7 +11,8 @@ class VolumeDraws {
  public:
   // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`) and DEPTH_BOUNDS
   // (the uniform depth_bounds) besides `defines`.
-  VolumeDraws(RenderView& v, const char* fragment, std::vector<std::string> defines);
+  VolumeDraws(Work& work, const Seen& seen, LightVolumes& volumes, const char* fragment,
+              std::vector<std::string> defines);
 
   const GlProgram& program() const { return *program_; }
 
@@ -24,7 +25,7 @@ class VolumeDraws {
   void draw_marked(size_t first, size_t end);
   void draw_rectangles(size_t first, size_t end);
 
-  RenderView& v_;
+  const Seen& seen_;
   VolumeCulling culling_;
   LightVolumes& volumes_;
   const GlProgram *program_ = nullptr, *marking_ = nullptr;
@@ -32,6 +33,6 @@ class VolumeDraws {
 
 // Sets state for lights that add to the images of a framebuffer, which has the frame's depth. If volumes are
 // marked in its stencil, that is cleared.
-void begin_adding_lights(RenderView& v, GLuint framebuffer);
+void begin_adding_lights(Work& work, const Seen& seen, GLuint framebuffer);
 
 }  // namespace lightgrid

@@ -1,21 +1,23 @@
 #include "passes/read_outs/cells.h"
 
+#include "renderer/culler_input.h"
 #include "renderer/draw.h"
+#include "shared/light_grid.h"
 
 namespace lightgrid {
 
-std::vector<uint32_t> indices_drawn(RenderView& v, const std::function<void()>& draw) {
-  const int width = v.view.width, height = v.view.height;
+std::vector<uint32_t> indices_drawn(Work& work, const Seen& seen, const std::function<void()>& draw) {
+  const int width = seen.grid().width, height = seen.grid().height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
-  const GlFramebuffer framebuffer = make_framebuffer({target.name()}, v.targets.depth());
+  const GlFramebuffer framebuffer = make_framebuffer({target.name()}, work.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, width, height);
   glClearNamedFramebufferuiv(framebuffer.name(), GL_COLOR, 0, &no_cell);
   glDepthMask(GL_FALSE);
   glDisable(GL_BLEND);
-  v.bind_lights();
+  work.bind_lights();
   draw();
-  std::vector<uint32_t> cells(size_t(width) * height);
+  std::vector<uint32_t> cells(seen.grid().values());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, cells.data());
   return cells;
@@ -23,32 +25,58 @@ std::vector<uint32_t> indices_drawn(RenderView& v, const std::function<void()>& 
 
 namespace {
 
-std::vector<std::string> slice_defines(const RenderView& v) {
-  return v.plan.slices > 1 ? std::vector<std::string>{"SLICES"} : std::vector<std::string>{};
+std::vector<std::string> slice_defines(const Seen& seen) {
+  return seen.plan.slices > 1 ? std::vector<std::string>{"SLICES"} : std::vector<std::string>{};
 }
 
 }  // namespace
 
-std::vector<uint32_t> shaded_cells(RenderView& v) {
-  return indices_drawn(v, [&] {
+std::vector<uint32_t> shaded_cells(Work& work, const Seen& seen) {
+  return indices_drawn(work, seen, [&] {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     const auto no_features = [](uint32_t) { return 0u; };
-    draw_list(v, v.opaque, DrawStreams::all,
-              v.programs({"shaders/scene.vert", "shaders/cells.frag", slice_defines(v), false, no_features}));
+    draw_list(
+        work, seen, seen.opaque, DrawStreams::all,
+        work.programs({"shaders/scene.vert", "shaders/cells.frag", slice_defines(seen), false, no_features}));
   });
 }
 
-std::vector<uint32_t> cells_at_depths(RenderView& v, const std::vector<float>& depths) {
-  const GlTexture texture = make_texture_2d(GL_R32F, v.view.width, v.view.height);
-  glTextureSubImage2D(texture.name(), 0, 0, 0, v.view.width, v.view.height, GL_RED, GL_FLOAT, depths.data());
-  std::vector<std::string> defines = slice_defines(v);
+std::vector<uint32_t> cells_at_depths(Work& work, const Seen& seen, const std::vector<float>& depths) {
+  const GlTexture texture = make_texture_2d(GL_R32F, seen.grid().width, seen.grid().height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, seen.grid().width, seen.grid().height, GL_RED, GL_FLOAT,
+                      depths.data());
+  std::vector<std::string> defines = slice_defines(seen);
   defines.emplace_back("GIVEN_DEPTH");
-  return indices_drawn(v, [&] {
+  return indices_drawn(work, seen, [&] {
     glDisable(GL_DEPTH_TEST);
-    glBindTextureUnit(0, texture.name());
-    draw_screen(v.program("shaders/screen.vert", "shaders/cells.frag", defines));
+    bind_texture(Sampler::given_depth, texture.name());
+    draw_screen(work.program("shaders/screen.vert", "shaders/cells.frag", defines));
   });
+}
+
+std::vector<uint32_t> cells_of_pixels(const Seen& seen, const std::vector<float>& depth) {
+  const CullView view = cull_view(seen.view, seen.plan);
+  const auto edges = slice_keys(view);
+  std::vector<uint32_t> cells;
+  cells.reserve(depth.size());
+  for (int y = 0; y < seen.view.height; ++y) {
+    for (int x = 0; x < seen.view.width; ++x) {
+      const uint slice = slice_of_key(depth_key(view, depth[cells.size()]), edges.data());
+      const uint first = cell_of_pixel(x, y, seen.params.tile_size, seen.params.tiles_x);
+      cells.push_back(cell_in_slice(first, slice, seen.params.tiles_x, seen.params.tiles_y));
+    }
+  }
+  return cells;
+}
+
+std::vector<uint32_t> z_bins_of_pixels(const Seen& seen, const std::vector<float>& depth) {
+  const CullView view = cull_view(seen.view, seen.plan);
+  const auto edges = z_bin_keys(view);
+  std::vector<uint32_t> bins;
+  bins.reserve(depth.size());
+  for (const float value : depth) bins.push_back(z_bin_of_key(depth_key(view, value), edges.data()));
+  return bins;
 }
 
 }  // namespace lightgrid

@@ -2,10 +2,10 @@
 
 namespace lightgrid {
 
-std::vector<float> read_depth(RenderView& v) {
-  std::vector<float> depth(size_t(v.view.width) * v.view.height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, v.depth_framebuffer());
-  glReadPixels(0, 0, v.view.width, v.view.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+std::vector<float> read_depth(Work& work, const Seen& seen) {
+  std::vector<float> depth(seen.grid().values());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, work.depth_framebuffer());
+  glReadPixels(0, 0, seen.grid().width, seen.grid().height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
   return depth;
 }
 

@@ -8,6 +8,6 @@
 namespace lightgrid {
 
 // The depth image of the last frame: width * height, row 0 at the bottom, 0 for background.
-std::vector<float> read_depth(RenderView& v);
+std::vector<float> read_depth(Work& work, const Seen& seen);
 
 }  // namespace lightgrid

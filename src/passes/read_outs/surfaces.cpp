@@ -20,13 +20,14 @@ struct MoreImages {
 
 // Images over the frame's depth, cleared and bound: three, two of coats, one of models, one of reflectance.
 struct SurfaceTargets {
-  SurfaceTargets(RenderView& v, MoreImages more) : width(v.view.width), height(v.view.height) {
+  SurfaceTargets(Work& work, const Seen& seen, MoreImages more)
+      : width(seen.view.width), height(seen.view.height) {
     std::vector<GLuint> names;
     for (int i = 0; i < 3 + 2 * more.coats + more.models + more.specular; ++i) {
       textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
       names.push_back(textures.back().name());
     }
-    framebuffer = make_framebuffer(names, v.targets.depth());
+    framebuffer = make_framebuffer(names, work.targets.depth());
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glViewport(0, 0, width, height);
     for (size_t i = 0; i < textures.size(); ++i) clear(int(i));
@@ -63,28 +64,28 @@ SurfaceImages surface_images_of(MoreImages more, const Read& read) {
 
 }  // namespace
 
-SurfaceImages read_surfaces(RenderView& v) {
-  const MoreImages more{.coats = (v.plan.features & feature_clearcoat) != 0,
-                        .models = (v.plan.features & (feature_skin | feature_minnaert)) != 0,
-                        .specular = (v.plan.features & feature_specular) != 0};
-  SurfaceTargets targets(v, more);
+SurfaceImages read_surfaces(Work& work, const Seen& seen) {
+  const MoreImages more{.coats = (seen.plan.features & feature_clearcoat) != 0,
+                        .models = (seen.plan.features & (feature_skin | feature_minnaert)) != 0,
+                        .specular = (seen.plan.features & feature_specular) != 0};
+  SurfaceTargets targets(work, seen, more);
   glEnable(GL_DEPTH_TEST);
   std::vector<std::string> defines;
   if (more.coats) defines.emplace_back("COATS");
   if (more.models) defines.emplace_back("MODELS");
   if (more.specular) defines.emplace_back("SPECULAR_IMAGE");
-  ScenePrograms& programs = v.programs({"shaders/scene.vert", "shaders/surfaces.frag", defines});
+  ScenePrograms& programs = work.programs({"shaders/scene.vert", "shaders/surfaces.frag", defines});
   glDepthFunc(GL_EQUAL);
-  draw_list(v, v.opaque, DrawStreams::all, programs);
-  const auto read = [&](size_t i) { return v.plan.blended.empty() ? targets.take(i) : targets.read(i); };
+  draw_list(work, seen, seen.opaque, DrawStreams::all, programs);
+  const auto read = [&](size_t i) { return seen.plan.blended.empty() ? targets.take(i) : targets.read(i); };
   SurfaceImages surfaces = surface_images_of(more, read);
-  surfaces.models = material_models(v.scene);
+  surfaces.models = material_models(seen.scene);
   // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
-  if (!v.plan.blended.empty()) {
+  if (!seen.plan.blended.empty()) {
     targets.clear(0);
     glDepthFunc(GL_GEQUAL);
-    draw_list(v, v.blended, DrawStreams::all, programs);
+    draw_list(work, seen, seen.blended, DrawStreams::all, programs);
     const Image normals = targets.read(0);
     for (size_t i = 0; i < normals.pixels.size(); ++i)
       surfaces.blended[i] = glm::vec3(normals.pixels[i]) != glm::vec3(0);
@@ -92,17 +93,18 @@ SurfaceImages read_surfaces(RenderView& v) {
   return surfaces;
 }
 
-SurfaceImages read_gbuffer_surfaces(RenderView& v) {
-  const MoreImages more{
-      .coats = v.plan.clearcoat, .models = v.plan.skin || v.plan.minnaert, .specular = v.plan.specular};
-  SurfaceTargets targets(v, more);
-  const GBuffer gbuffer = gbuffer_of(v);
-  v.bind_lights();
+SurfaceImages read_gbuffer_surfaces(Work& work, const Seen& seen) {
+  const MoreImages more{.coats = seen.plan.clearcoat,
+                        .models = seen.plan.skin || seen.plan.minnaert,
+                        .specular = seen.plan.specular};
+  SurfaceTargets targets(work, seen, more);
+  const GBuffer gbuffer = gbuffer_of(work, seen);
+  work.bind_lights();
   bind_gbuffer(gbuffer);
   glDisable(GL_DEPTH_TEST);
-  draw_screen(v.program("shaders/screen.vert", "shaders/gbuffer_surfaces.frag", gbuffer_defines(gbuffer)));
+  draw_screen(work.program("shaders/screen.vert", "shaders/gbuffer_surfaces.frag", gbuffer_defines(gbuffer)));
   SurfaceImages surfaces = surface_images_of(more, [&](size_t i) { return targets.read(i); });
-  surfaces.models = material_models(v.scene);
+  surfaces.models = material_models(seen.scene);
   return surfaces;
 }
 

@@ -14,13 +14,13 @@ struct SurfaceImages {
   Image model;  // red: the number. Empty if no material in view has a model but Lambert's
   std::vector<MaterialModel> models;  // by number
   Image specular;  // f0, f90 of the dielectric part. Empty if no material in view has another than 0.04, 1
-  std::vector<bool> blended;          // pixels covered by a blended surface
+  std::vector<bool> blended;  // pixels covered by a blended surface
 };
 
 // Draws and reads them. Uses the depth image of the last frame.
-SurfaceImages read_surfaces(RenderView& v);
+SurfaceImages read_surfaces(Work& work, const Seen& seen);
 
 // The surfaces of the last frame from its geometry buffer; without emission and blended surfaces.
-SurfaceImages read_gbuffer_surfaces(RenderView& v);
+SurfaceImages read_gbuffer_surfaces(Work& work, const Seen& seen);
 
 }  // namespace lightgrid

@@ -8,16 +8,17 @@ namespace {
 // Two numbers a pixel over the frame's depth: the instance, and the triangle's place in the scene's indices.
 class TriangleTarget {
  public:
-  explicit TriangleTarget(RenderView& v)
-      : v_(v),
-        texture_(make_texture_2d(GL_RG32UI, v.view.width, v.view.height)),
-        framebuffer_(make_framebuffer({texture_.name()}, v.targets.depth())),
-        program_(v.programs({"shaders/scene.vert", "shaders/triangles.frag", {}}).of(0)),
+  explicit TriangleTarget(Work& work, const Seen& seen)
+      : work_(work),
+        seen_(seen),
+        texture_(make_texture_2d(GL_RG32UI, seen.grid().width, seen.grid().height)),
+        framebuffer_(make_framebuffer({texture_.name()}, work.targets.depth())),
+        program_(work.programs({"shaders/scene.vert", "shaders/triangles.frag", {}}).of(0)),
         first_triangle_(glGetUniformLocation(program_.name, "first_triangle")) {}
 
   std::vector<glm::uvec2> drawn(const DrawList& list, GLenum depth_test) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    glViewport(0, 0, v_.view.width, v_.view.height);
+    glViewport(0, 0, seen_.grid().width, seen_.grid().height);
     const GLuint nothing[4] = {none, none, none, none};
     glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, nothing);
     glDepthMask(GL_FALSE);
@@ -25,9 +26,9 @@ class TriangleTarget {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth_test);
     for (const DrawItem& item : list) draw(item);
-    std::vector<glm::uvec2> found(v_.pixels());
+    std::vector<glm::uvec2> found(seen_.grid().values());
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, v_.view.width, v_.view.height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
+    glReadPixels(0, 0, seen_.view.width, seen_.view.height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
     return found;
   }
 
@@ -35,7 +36,7 @@ class TriangleTarget {
 
  private:
   void draw(const DrawItem& item) {
-    InstanceDrawer drawer(v_, DrawStreams::all);
+    InstanceDrawer drawer(work_, seen_, DrawStreams::all);
     drawer.bind(item.instance, program_);
     glUniform1ui(program_.object, GLuint(item.instance));
     // gl_PrimitiveID counts from 0 in each range.
@@ -47,7 +48,8 @@ class TriangleTarget {
     }
   }
 
-  RenderView& v_;
+  Work& work_;
+  const Seen& seen_;
   GlTexture texture_;
   GlFramebuffer framebuffer_;
   const SceneProgram& program_;
@@ -56,18 +58,18 @@ class TriangleTarget {
 
 }  // namespace
 
-ShownTriangles read_triangles(RenderView& v) {
-  TriangleTarget target(v);
-  const std::vector<uint32_t> indices = v.gpu.in_gl().read_indices();
+ShownTriangles read_triangles(Work& work, const Seen& seen) {
+  TriangleTarget target(work, seen);
+  const std::vector<uint32_t> indices = work.gpu.in_gl().read_indices();
   ShownTriangles shown;
-  for (const glm::uvec2& found : target.drawn(v.opaque, GL_EQUAL)) {
+  for (const glm::uvec2& found : target.drawn(seen.opaque, GL_EQUAL)) {
     const bool none = found.x == TriangleTarget::none;
     shown.opaque.push_back(none ? SceneTriangle{}
                                 : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
   }
-  shown.blended.assign(v.pixels(), false);
-  if (v.blended.empty()) return shown;
-  const std::vector<glm::uvec2> over = target.drawn(v.blended, GL_GEQUAL);
+  shown.blended.assign(seen.grid().values(), false);
+  if (seen.blended.empty()) return shown;
+  const std::vector<glm::uvec2> over = target.drawn(seen.blended, GL_GEQUAL);
   for (size_t i = 0; i < over.size(); ++i) shown.blended[i] = over[i].x != TriangleTarget::none;
   return shown;
 }

@@ -32,6 +32,6 @@ struct ShownTriangles {
 };
 
 // Draws and reads them. Uses the depth image of the last frame.
-ShownTriangles read_triangles(RenderView& v);
+ShownTriangles read_triangles(Work& work, const Seen& seen);
 
 }  // namespace lightgrid

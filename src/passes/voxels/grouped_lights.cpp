@@ -45,36 +45,36 @@ std::vector<uint32_t> neighbours_first(const std::vector<glm::dvec4>& lights) {
 
 }  // namespace
 
-void GroupedLights::sort(const RenderView& v) {
+void GroupedLights::sort(const Seen& seen) {
   std::vector<glm::dvec4> by;
-  by.reserve(v.plan.local.size());
-  for (const int i : v.plan.local) {
-    const Light& light = v.scene.lights[i];
+  by.reserve(seen.plan.local.size());
+  for (const int i : seen.plan.local) {
+    const Light& light = seen.scene.lights[i];
     by.emplace_back(light.position,
-                    std::min(range_of(light, size_t(i), v.plan.settings.ranges), longest_radius_m));
+                    std::min(range_of(light, size_t(i), seen.plan.settings.ranges), longest_radius_m));
   }
   if (by == sorted_by_) return;
   sorted_by_ = std::move(by);
   order_ = neighbours_first(sorted_by_);
 }
 
-void GroupedLights::update(RenderView& v, const VoxelAxes& axes) {
-  sort(v);
+void GroupedLights::update(Work& work, const Seen& seen, const VoxelAxes& axes) {
+  sort(seen);
   View along;
   along.view_from_world = glm::dmat4(axes.from_world);
   along.eye = axes.origin;
-  const std::vector<ViewLight> lights = lights_in_view(v.scene, along, v.plan.settings.ranges);
+  const std::vector<ViewLight> lights = lights_in_view(seen.scene, along, seen.plan.settings.ranges);
   groups_ = uint32_t((order_.size() + group - 1) / group);
   const size_t padded = (groups_ + group - 1) / group * group;  // boxes are read by as many at once
   std::vector<float> places(4 * group * groups_, far_off), boxes(6 * padded, far_off);
   std::vector<glm::vec4> colors(group * groups_, glm::vec4(0)), cones;
-  if (v.plan.spots) cones.assign(2 * group * groups_, glm::vec4(0));
+  if (seen.plan.spots) cones.assign(2 * group * groups_, glm::vec4(0));
   for (size_t i = 0; i < places.size(); ++i) {
     if (i / group % 4 == 3) places[i] = 0;
   }
   brightest_ = 0;
   for (size_t n = 0; n < order_.size(); ++n) {
-    const ViewLight& light = lights[size_t(v.plan.local[order_[n]])];
+    const ViewLight& light = lights[size_t(seen.plan.local[order_[n]])];
     const size_t g = n / group, lane = n % group;
     const double radius = std::min(light.radius_m, longest_radius_m);
     const glm::vec3 at(glm::clamp(light.position, -double(far_off), double(far_off)));
@@ -93,7 +93,7 @@ void GroupedLights::update(RenderView& v, const VoxelAxes& axes) {
                           float(std::min(light.least_falloff, double(std::numeric_limits<float>::max()))));
     brightest_ = std::max({brightest_, colors[n].x, colors[n].y, colors[n].z});
     if (cones.empty()) continue;
-    const bool spot = light.type == LightType::spot;
+    const bool spot = has_cone(light);
     const double scale = spot ? 1 / (light.cos_inner - light.cos_outer) : 0;
     // Directions are those to the light: the axis is turned around.
     cones[2 * n] = glm::vec4(glm::vec3(-light.direction * scale), spot ? float(-light.cos_outer * scale) : 1);
@@ -106,7 +106,7 @@ void GroupedLights::update(RenderView& v, const VoxelAxes& axes) {
   ++version_;
   places_ = std::move(places), boxes_ = std::move(boxes), colors_ = std::move(colors),
   cones_ = std::move(cones);
-  ClDevice& device = *v.renderer.cl;
+  ClDevice& device = *work.renderer.cl;
   constexpr const char* what = "uploading lights of voxels";
   this->places.put(device, what, places_);
   this->boxes.put(device, what, boxes_);

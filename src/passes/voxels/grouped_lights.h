@@ -10,7 +10,7 @@ namespace lightgrid {
 class GroupedLights {
  public:
   // Places the plan's lights along these axes, and uploads them where they differ from the last ones.
-  void update(RenderView& v, const VoxelAxes& axes);
+  void update(Work& work, const Seen& seen, const VoxelAxes& axes);
 
   uint32_t groups() const { return groups_; }
   // Grows whenever a light changed.
@@ -23,7 +23,7 @@ class GroupedLights {
   UploadedBuffer boxes, places, colors, cones;
 
  private:
-  void sort(const RenderView& v);
+  void sort(const Seen& seen);
 
   std::vector<glm::dvec4>
       sorted_by_;                // world position and radius of the plan's lights, by which order_ was made

@@ -12,15 +12,16 @@ namespace {
 
 class VoxelLister {
  public:
-  VoxelLister(RenderView& v, ReadVoxels read)
-      : v_(v),
+  VoxelLister(const Seen& seen, ReadVoxels read)
+      : seen_(seen),
         r_(std::move(read)),
         size_(r_.placed.grid.size_x, r_.placed.grid.size_y, r_.placed.grid.size_z) {
     View along;
     along.view_from_world = glm::dmat4(r_.axes.from_world);
     along.eye = r_.axes.origin;
-    const std::vector<ViewLight> all = lights_in_view(v.scene, along, v.plan.settings.ranges);
-    for (const int i : v.plan.local) lights_.push_back(all[size_t(i)]);
+    for (const ViewLight& light :
+         lights_in_view(seen.scene, along, seen.plan.settings.ranges, seen.plan.local))
+      lights_.push_back(bounds_of(light));
   }
 
   ListedLights listed(const std::vector<float>& depth) {
@@ -72,7 +73,7 @@ class VoxelLister {
 
   // The cell between samples in which a pixel lies, as kernels/voxels/voxel_lookup.h finds it.
   glm::uvec3 cell_at(size_t pixel, float depth) const {
-    const ViewParams& p = v_.params;
+    const ViewParams& p = seen_.params;
     const double x = double(pixel % p.width) + 0.5, y = double(pixel / p.width) + 0.5;
     const double distance = p.orthographic ? (p.depth_b - double(depth)) * p.depth_a
                                            : double(p.depth_b) / (double(depth) + p.depth_a);
@@ -96,11 +97,11 @@ class VoxelLister {
   }
 
   // Whether add_voxel_light of kernels/voxels/voxel_light.h adds anything of a light.
-  bool reaches(const ViewLight& light, glm::uvec3 i) const {
+  bool reaches(const LightBounds& light, glm::uvec3 i) const {
     const glm::dvec3 d = light.position - sample_at(i);
     const double squared = glm::dot(d, d), grown = r_.placed.slices[i.z].half_diagonal_squared;
     if (light.radius_m <= 0 || squared >= light.radius_m * light.radius_m + grown) return false;
-    if (light.type == LightType::point || squared == 0) return true;
+    if (!light.has_cone() || squared == 0) return true;
     const double past_edge = light.cos_outer + glm::dot(light.direction, d) / std::sqrt(squared);
     return past_edge <= 4 * std::sqrt(std::min(grown / squared, 4.0));
   }
@@ -136,23 +137,24 @@ class VoxelLister {
     return around;
   }
 
-  RenderView& v_;
+  const Seen& seen_;
   ReadVoxels r_;
   glm::uvec3 size_;
-  std::vector<ViewLight> lights_;
+  std::vector<LightBounds> lights_;
 };
 
 }  // namespace
 
-ListedLights list_voxels(RenderView& v, const ReadVoxels& read, const DepthBuffer& shaded_from) {
-  std::vector<float> depth(v.pixels());
+ListedLights list_voxels(Work& work, const Seen& seen, const ReadVoxels& read,
+                         const DepthBuffer& shaded_from) {
+  std::vector<float> depth(seen.grid().values());
   if (shaded_from.values()) {
-    read_buffer(*v.renderer.cl, "reading depth", shaded_from.values, depth.data(),
+    read_buffer(*work.renderer.cl, "reading depth", shaded_from.values, depth.data(),
                 depth.size() * sizeof(float));
   } else {
-    depth = read_depth(v);
+    depth = read_depth(work, seen);
   }
-  return VoxelLister(v, read).listed(depth);
+  return VoxelLister(seen, read).listed(depth);
 }
 
 }  // namespace lightgrid

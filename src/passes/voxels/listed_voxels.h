@@ -7,6 +7,6 @@ namespace lightgrid {
 
 // The lights of any of the eight samples around each pixel, where `read` says that samples lie. depth: what
 // the frame shaded from; null: the depth image.
-ListedLights list_voxels(RenderView& v, const ReadVoxels& read, const DepthBuffer& depth);
+ListedLights list_voxels(Work& work, const Seen& seen, const ReadVoxels& read, const DepthBuffer& depth);
 
 }  // namespace lightgrid

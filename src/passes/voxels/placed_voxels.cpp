@@ -41,10 +41,10 @@ void add_part(VisibleBox& box, const glm::dmat3& world_from_view, const ViewPara
   }
 }
 
-void add_tiles(VisibleBox& box, const RenderView& v, const glm::dmat3& world_from_view,
+void add_tiles(VisibleBox& box, const Seen& seen, const glm::dmat3& world_from_view,
                const TileDistances& distances) {
-  const ViewParams& p = v.params;
-  const double near = v.view.near_m, far = v.plan.slice_far_m;
+  const ViewParams& p = seen.params;
+  const double near = seen.view.near_m, far = seen.plan.slice_far_m;
   for (uint y = 0; y < p.tiles_y; ++y) {
     for (uint x = 0; x < p.tiles_x; ++x) {
       const DepthInterval i = distances.intervals[size_t(y) * p.tiles_x + x];
@@ -58,14 +58,14 @@ void add_tiles(VisibleBox& box, const RenderView& v, const glm::dmat3& world_fro
 }
 
 // The boxes of instances, where they lie in the box of the whole view.
-void add_instances(VisibleBox& box, const RenderView& v, const glm::dmat3& world_from_view,
+void add_instances(VisibleBox& box, const Seen& seen, const glm::dmat3& world_from_view,
                    const std::vector<int>& instances) {
   if (instances.empty()) return;
   constexpr double none = std::numeric_limits<double>::infinity();
   VisibleBox all{glm::dvec3(none), glm::dvec3(-none), none, -none}, view = all;
   for (const int i : instances) {
-    const Aabb& bounds = v.scene.meshes[v.scene.instances[i].mesh].bounds;
-    const glm::dmat4 to_view = view_from_object(v.view, v.scene.instances[i].world_from_object);
+    const Aabb& bounds = seen.scene.meshes[seen.scene.instances[i].mesh].bounds;
+    const glm::dmat4 to_view = view_from_object(seen.view, seen.scene.instances[i].world_from_object);
     for (int corner = 0; corner < 8; ++corner) {
       add(all, world_from_view,
           glm::dvec3(to_view * glm::dvec4(corner & 1 ? bounds.max.x : bounds.min.x,
@@ -73,10 +73,10 @@ void add_instances(VisibleBox& box, const RenderView& v, const glm::dmat3& world
                                           corner & 4 ? bounds.max.z : bounds.min.z, 1)));
     }
   }
-  const double near = std::max(v.view.near_m, all.nearest_m),
-               far = std::min(v.plan.slice_far_m, all.farthest_m);
+  const double near = std::max(seen.view.near_m, all.nearest_m),
+               far = std::min(seen.plan.slice_far_m, all.farthest_m);
   if (!(near < far)) return;
-  add_part(view, world_from_view, v.params, {0, 0, v.params.width, v.params.height}, near, far);
+  add_part(view, world_from_view, seen.params, {0, 0, seen.params.width, seen.params.height}, near, far);
   const glm::dvec3 low = glm::max(all.low, view.low), high = glm::min(all.high, view.high);
   if (glm::any(glm::greaterThan(low, high))) return;
   box.low = glm::min(box.low, low), box.high = glm::max(box.high, high);
@@ -146,18 +146,18 @@ void place_in_world(PlacedVoxels& placed, const VoxelAxes& axes, const View& vie
 }
 
 // Parallel views: the image across and up, distance away.
-void place_in_parallel_view(PlacedVoxels& placed, const VoxelAxes& axes, const RenderView& v,
+void place_in_parallel_view(PlacedVoxels& placed, const VoxelAxes& axes, const Seen& seen,
                             const VisibleBox& box, glm::dvec3 size) {
-  const glm::dvec3 a = at_pixel(v.params, 0, 0, 0),
-                   b = at_pixel(v.params, v.params.width, v.params.height, 0);
+  const glm::dvec3 a = at_pixel(seen.params, 0, 0, 0),
+                   b = at_pixel(seen.params, seen.params.width, seen.params.height, 0);
   const glm::dvec3 low(glm::min(glm::dvec2(a), glm::dvec2(b)), box.nearest_m),
       high(glm::max(glm::dvec2(a), glm::dvec2(b)), box.farthest_m);
-  place_boxes(placed, axes, v.view, low, glm::max((high - low) / (size - 1.0), 1e-6));
+  place_boxes(placed, axes, seen.view, low, glm::max((high - low) / (size - 1.0), 1e-6));
 }
 
-void place_in_projection(PlacedVoxels& placed, const RenderView& v, const VisibleBox& box, glm::dvec3 size) {
-  const glm::dvec3 a = at_pixel(v.params, 0, 0, 1),
-                   b = at_pixel(v.params, v.params.width, v.params.height, 1);
+void place_in_projection(PlacedVoxels& placed, const Seen& seen, const VisibleBox& box, glm::dvec3 size) {
+  const glm::dvec3 a = at_pixel(seen.params, 0, 0, 1),
+                   b = at_pixel(seen.params, seen.params.width, seen.params.height, 1);
   const glm::dvec3 low = glm::min(a, b), spacing = (glm::max(a, b) - low) / (size - 1.0);
   const glm::dvec3 slope = glm::max(glm::abs(a), glm::abs(b));
   const double near = rounded_down(std::max(box.nearest_m, 1e-6)),
@@ -183,18 +183,18 @@ void place_in_projection(PlacedVoxels& placed, const RenderView& v, const Visibl
 
 }  // namespace
 
-VisibleBox visible_box(const RenderView& v, const TileDistances& distances) {
+VisibleBox visible_box(const Seen& seen, const TileDistances& distances) {
   constexpr double none = std::numeric_limits<double>::infinity();
   VisibleBox box{glm::dvec3(none), glm::dvec3(-none), none, -none};
-  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(v.view.view_from_world));
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(seen.view.view_from_world));
   if (distances.intervals.empty()) {
-    add_instances(box, v, world_from_view, v.plan.opaque);
+    add_instances(box, seen, world_from_view, seen.plan.opaque);
   } else {
-    add_tiles(box, v, world_from_view, distances);
+    add_tiles(box, seen, world_from_view, distances);
   }
-  add_instances(box, v, world_from_view, v.plan.blended);
+  add_instances(box, seen, world_from_view, seen.plan.blended);
   if (!(box.low.x <= box.high.x))
-    add_part(box, world_from_view, v.params, glm::dvec4(0), v.view.near_m, v.view.near_m);
+    add_part(box, world_from_view, seen.params, glm::dvec4(0), seen.view.near_m, seen.view.near_m);
   return box;
 }
 
@@ -208,18 +208,18 @@ VoxelAxes voxel_axes(const View& view, VoxelSpace space) {
   return {glm::dmat3(1, 0, 0, 0, 0, 1, 0, 1, 0), glm::round(view.eye / step_m) * step_m, false};
 }
 
-PlacedVoxels place_voxels(const RenderView& v, const VoxelAxes& axes, const VisibleBox& box) {
+PlacedVoxels place_voxels(const Seen& seen, const VoxelAxes& axes, const VisibleBox& box) {
   PlacedVoxels placed{};
-  const glm::uvec3 size = voxel_size(v.plan.settings.voxel_size);
+  const glm::uvec3 size = voxel_size(seen.plan.settings.voxel_size);
   placed.grid.size_x = size.x, placed.grid.size_y = size.y, placed.grid.size_z = size.z;
   placed.lookup.last_x = float(size.x - 1), placed.lookup.last_y = float(size.y - 1),
   placed.lookup.last_z = float(size.z - 1);
-  if (v.plan.settings.voxel_space == VoxelSpace::world) {
-    place_in_world(placed, axes, v.view, box, size);
+  if (seen.plan.settings.voxel_space == VoxelSpace::world) {
+    place_in_world(placed, axes, seen.view, box, size);
   } else if (axes.log_depth) {
-    place_in_projection(placed, v, box, size);
+    place_in_projection(placed, seen, box, size);
   } else {
-    place_in_parallel_view(placed, axes, v, box, size);
+    place_in_parallel_view(placed, axes, seen, box, size);
   }
   return placed;
 }

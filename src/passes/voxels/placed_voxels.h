@@ -1,7 +1,7 @@
 // Where the samples of a voxel light buffer lie in a frame.
 #pragma once
 
-#include "renderer/render_view.h"
+#include "renderer/pass_caches.h"
 #include "shared/voxel_volume.h"
 
 namespace lightgrid {
@@ -14,7 +14,7 @@ struct VisibleBox {
 
 // Of opaque surfaces by the depth bounds of tiles, of blended ones by their boxes. Without depth bounds, of
 // all by their boxes. A view that shows nothing gets a box at the near plane.
-VisibleBox visible_box(const RenderView& v, const TileDistances& distances);
+VisibleBox visible_box(const Seen& seen, const TileDistances& distances);
 
 // The axes of the volume: where lights are for the kernel that fills it.
 struct VoxelAxes {
@@ -36,7 +36,7 @@ struct PlacedVoxels {
 // Samples on the faces of the box too, so that nothing visible lies outside. In the world they lie at whole
 // multiples of their spacing, which is a power of 2^(1/4) metres: while the camera moves little, the same
 // points stay samples. grid.groups, scale and largest are left to the caller.
-PlacedVoxels place_voxels(const RenderView& v, const VoxelAxes& axes, const VisibleBox& box);
+PlacedVoxels place_voxels(const Seen& seen, const VoxelAxes& axes, const VisibleBox& box);
 
 glm::uvec3 voxel_size(VoxelSize size);
 

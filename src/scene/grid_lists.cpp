@@ -1,4 +1,4 @@
-#include "capture/grid_lists.h"
+#include "scene/grid_lists.h"
 
 #include <bit>
 #include <map>

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "reference/lit_set.h"
+#include "scene/listed_lights.h"
 
 namespace lightgrid {
 

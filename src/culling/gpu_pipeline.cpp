@@ -18,9 +18,9 @@ std::string group_define(size_t items) {
   return items == usual_items ? "" : fmt::format(" -DGROUP={}", items);
 }
 
-class GroupPipeline : public CullPipeline {
+class CullGpuPipeline : public CullPipeline {
  public:
-  GroupPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
+  CullGpuPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
     const size_t allowed = device.info().max_group_items;
     if (allowed < project_items) {
@@ -83,9 +83,9 @@ class GroupPipeline : public CullPipeline {
 
 }  // namespace
 
-std::unique_ptr<CullPipeline> make_group_pipeline(ClDevice& device, ProgramCache& programs,
-                                                  const PipelineOptions& options) {
-  return std::make_unique<GroupPipeline>(device, programs, options);
+std::unique_ptr<CullPipeline> make_cull_gpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                     const PipelineOptions& options) {
+  return std::make_unique<CullGpuPipeline>(device, programs, options);
 }
 
 }  // namespace lightgrid

@@ -13,9 +13,9 @@ constexpr uint32_t chunks_a_unit = 8, most_chunks = 64;   // enough to share out
 constexpr uint32_t most_tile_counts = uint32_t(1) << 24;  // of all chunks
 constexpr uint32_t clusters_an_item = 256;
 
-class RasterLanesPipeline : public RasterPipeline {
+class RasterCpuPipeline : public RasterPipeline {
  public:
-  RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable)
+  RasterCpuPipeline(ClDevice& device, ProgramCache& programs, bool portable)
       : device_(device), programs_(programs), defines_(portable ? "-DPORTABLE" : "") {
     transform_ = programs.kernel("raster/cpu/raster_transform", "");
     clusters_ = programs.kernel("raster/cpu/raster_clusters", "");
@@ -103,9 +103,9 @@ class RasterLanesPipeline : public RasterPipeline {
 
 }  // namespace
 
-std::unique_ptr<RasterPipeline> make_raster_lanes_pipeline(ClDevice& device, ProgramCache& programs,
-                                                           bool portable) {
-  return std::make_unique<RasterLanesPipeline>(device, programs, portable);
+std::unique_ptr<RasterPipeline> make_raster_cpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool portable) {
+  return std::make_unique<RasterCpuPipeline>(device, programs, portable);
 }
 
 }  // namespace lightgrid

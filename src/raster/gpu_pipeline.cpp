@@ -24,9 +24,9 @@ cl::NDRange items_for(size_t count, size_t group = group_items) {
 
 size_t pairs_of(size_t pixels) { return (pixels + 1) / 2; }
 
-class RasterGroupPipeline : public RasterPipeline {
+class RasterGpuPipeline : public RasterPipeline {
  public:
-  RasterGroupPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
+  RasterGpuPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
       : device_(device), programs_(programs), wide_(wide_atomics && has_64_bit_atomics(device)) {
     transform_ = programs.kernel("raster/gpu/raster_transform", "");
     clusters_ = programs.kernel("raster/gpu/raster_clusters", "");
@@ -109,9 +109,9 @@ class RasterGroupPipeline : public RasterPipeline {
 
 }  // namespace
 
-std::unique_ptr<RasterPipeline> make_raster_group_pipeline(ClDevice& device, ProgramCache& programs,
-                                                           bool wide_atomics) {
-  return std::make_unique<RasterGroupPipeline>(device, programs, wide_atomics);
+std::unique_ptr<RasterPipeline> make_raster_gpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool wide_atomics) {
+  return std::make_unique<RasterGpuPipeline>(device, programs, wide_atomics);
 }
 
 }  // namespace lightgrid

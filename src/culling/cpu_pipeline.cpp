@@ -14,7 +14,7 @@ namespace {
 constexpr size_t items_a_unit = 16;  // few enough that their buffers stay in the cache, enough to balance
                                      // load
 constexpr size_t most_write_items = 512;  // each adds up the totals of all bins before its own
-constexpr size_t spare = 64;         // values that a vector load or store may access past the last
+constexpr size_t spare = 64;              // values that a vector load or store may access past the last
 
 // Near the golden section of n, and coprime to it: steps of this size visit all of n and are spread evenly
 // from the start.
@@ -24,9 +24,9 @@ size_t spreading_step(size_t n) {
   return step;
 }
 
-class LanesPipeline : public CullPipeline {
+class CullCpuPipeline : public CullPipeline {
  public:
-  LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
+  CullCpuPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
     const std::string form = options.portable ? " -DPORTABLE" : "", index = index_define(options);
     project_ = programs.kernel("culling/cpu/project_lights", options.light_defines + form);
@@ -79,9 +79,9 @@ class LanesPipeline : public CullPipeline {
 
 }  // namespace
 
-std::unique_ptr<CullPipeline> make_lanes_pipeline(ClDevice& device, ProgramCache& programs,
-                                                  const PipelineOptions& options) {
-  return std::make_unique<LanesPipeline>(device, programs, options);
+std::unique_ptr<CullPipeline> make_cull_cpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                     const PipelineOptions& options) {
+  return std::make_unique<CullCpuPipeline>(device, programs, options);
 }
 
 }  // namespace lightgrid

@@ -1,0 +1,42 @@
+// The visible surfaces of a frame, from OpenGL's depth image or from triangles that OpenCL rasterised, and
+// the one way to shade them. The plan says which of the two draws (FramePlan::opengl): a technique has one
+// recipe.
+#pragma once
+
+#include "passes/common/light_source.h"
+#include "passes/rasterize.h"
+#include "renderer/render_view.h"
+
+namespace lightgrid {
+
+struct Surfaces {
+  std::optional<VisibilityBuffer> visible;  // OpenCL's; with OpenGL instead:
+  DepthImage image;
+  DrawList drawn;  // all that no tile's depth hides
+
+  DepthBuffer depth;  // in OpenCL; null: only OpenGL has it so far
+  std::optional<DepthBounds> bounds;
+  std::optional<TileDistances> distances;
+};
+
+// By a depth prepass, or by the rasteriser. depth_in_cl: a later pass in OpenCL reads the depth.
+Surfaces find_surfaces(RenderView& v, bool depth_in_cl = false);
+
+// Those of a depth image that a pass has drawn.
+Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl = false);
+
+// Each is made at its first use in the frame.
+const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces);
+const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces);
+const TileDistances& distances_of(RenderView& v, Surfaces& surfaces);
+
+// A frame of these surfaces, without an image yet.
+Frame frame_of(const Surfaces& surfaces);
+
+// The image of opaque surfaces under these lights.
+ShadedImage shade(RenderView& v, const Surfaces& surfaces, const LightSource& lights);
+
+// Blends blended surfaces over the frame's image.
+void blend(RenderView& v, const Surfaces& surfaces, const LightSource& lights, const ShadedImage& image);
+
+}  // namespace lightgrid

@@ -1,0 +1,69 @@
+// The light table: what shading reads of the point and spot lights, one array a column, lights in the order
+// of FramePlan::local. A row of LIGHT_TABLE is all that shaders, kernels and uploads know of a column; the
+// function of its member's name in renderer/light_table.cpp makes its values.
+//   SPOTS: at least one light has a cone.
+//   LIGHT_REACHES: the frame plan names an effect that asks light_reaches.
+#pragma once
+
+#include "shared/real.h"
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+namespace lightgrid {
+#endif
+
+// Columns that are there only under a condition are written as IF_SPOTS(text).
+#define IF_LIGHTS(text) text
+#ifdef SPOTS
+#define IF_SPOTS(text) text
+#else
+#define IF_SPOTS(text)
+#endif
+
+// ROW(condition, type, member of PunctualLight, array, type of its texture in GLSL)
+//   position  view space, and 1 / radius^2 (next to 0: no range)
+//   color     radiant intensity, and the least 1 / distance^2
+//   cone      axis times scale, and offset: 1 inside, 0 outside
+#define LIGHT_TABLE(ROW)                                           \
+  ROW(IF_LIGHTS, Float4, position, light_positions, samplerBuffer) \
+  ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
+  ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)
+
+#define LIGHT_MEMBER(condition, type, member, array, texels) condition(type member;)
+SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER)};
+
+// The end of every light loop: how much of a light reaches a point of an instance, 0 to 1, besides what
+// distance and cone let through. Nothing keeps a light from a point yet: groups, shadows and cookies will
+// answer here, and in reference/attenuation.h. The plan says whether an effect asks
+// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing.
+//   point: along the axes of light.position. Those are the view's, but a voxel light buffer's where one is
+//   filled. instance: the scene's index. NO_INSTANCE in every loop until an effect needs it. Forward shaders
+//   then get it with each draw, resolve kernels from triangle_instance, both by way of ShadingPoint; the
+//   geometry buffer has no room for it yet, and light_prepass and voxel light buffers light points of no
+//   instance.
+#define NO_INSTANCE WHOLE(0)
+#if defined(LIGHT_REACHES)
+SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) { return REAL(1.0f); }
+#elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
+#define light_reaches(light, point, instance) REAL(1.0f)
+#else
+inline real light_reaches(const PunctualLight&, const Real3&, Whole) { return 1; }
+#endif
+
+#if defined(LIGHTGRID_GLSL)
+#define LIGHT_TEXTURE(condition, type, member, array, texels) condition(uniform texels array;)
+#define LIGHT_TEXEL(condition, type, member, array, texels) \
+  condition(light.member = type(texelFetch(array, index));)
+#elif defined(__OPENCL_VERSION__)
+// Arguments of a kernel, before others; those without their condition are not read. Then the same as members
+// of a struct, and as their first values.
+#define LIGHT_ARGUMENT(condition, type, member, array, texels) global const type *array,
+#define LIGHT_ARGUMENTS LIGHT_TABLE(LIGHT_ARGUMENT)
+#define LIGHT_ARRAY(condition, type, member, array, texels) global const type* array;
+#define LIGHT_GIVEN(condition, type, member, array, texels) array,
+#define GIVEN_LIGHTS LIGHT_TABLE(LIGHT_GIVEN)
+#define LIGHT_ELEMENT(condition, type, member, array, texels) condition(light.member = lights->array[index];)
+#endif
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
+#endif
