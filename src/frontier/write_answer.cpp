@@ -6,7 +6,6 @@
 #include "base/write_file.h"
 #include "frontier/frontier_page.h"
 #include "frontier/page_pictures.h"
-#include "frontier/plots.h"
 
 namespace lightgrid {
 namespace {
@@ -41,7 +40,6 @@ void write_answer(const fs::path& folder, const FrontierAnswer& answer, const st
   write_file(folder / "frontier.csv", csv_text(answer));
   write_file(folder / "samples.csv", samples_csv_text(answer));
   write_file(folder / "culling.csv", cull_csv_text(answer));
-  for (const Plot& plot : plots_of(answer)) write_file(folder / (plot.name + ".svg"), svg_file(plot));
   write_file(folder / "index.html", page_text(answer, folder / "pictures", page_bytes));
 }
 

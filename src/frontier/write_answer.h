@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// frontier.json, frontier.csv, samples.csv, a page index.html that loads nothing, and each plot as SVG.
+// frontier.json, frontier.csv, samples.csv, culling.csv, and a page index.html that loads nothing.
 // Pictures that records name are looked for in `pictures` and copied into DIR/pictures if they are elsewhere;
 // the page holds at most `page_bytes` of them.
 void write_answer(const std::filesystem::path& folder, const FrontierAnswer& answer,

@@ -86,10 +86,9 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       // Messages of its own passes.
       {"src/passes/light_index/blending_probe.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
-      // What is varied, markers of some families, and a sentence about two.
+      // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
        {"deferred_tiled", "forward_plus", "lidr", "visibility", "voxel_lights", "world_grid"}},
-      {"src/frontier/plots.cpp", {"clustered", "deferred", "lidr", "visibility"}},
       {"src/report/overview.cpp", {"clustered", "forward_plus"}},
   };
   const std::string registry = code_of(text_at("src/techniques/registry.cpp"));
@@ -156,7 +155,7 @@ TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
       // The frontier's own records have a max_rel.
       {"src/frontier/answer_csv.cpp", {"max_rel"}},
       {"src/frontier/gate.cpp", {"max_rel"}},
-      {"src/frontier/page/figures.js", {"max_rel"}},
+      {"src/frontier/frontier_page.cpp", {"max_rel"}},
   };
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
 }
