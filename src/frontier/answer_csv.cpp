@@ -22,7 +22,7 @@ std::string settings_text(const std::map<std::string, std::string>& settings) {
   return fmt::format("{}", fmt::join(all, " "));
 }
 
-constexpr std::pair<const char*, ErrorFigures PointErrors::*> kinds_of_error[] = {
+constexpr std::pair<const char*, ImageError PointErrors::*> kinds_of_error[] = {
     {"model", &PointErrors::model},
     {"precision", &PointErrors::precision},
     {"technique", &PointErrors::technique},
@@ -74,7 +74,7 @@ CsvFields times_of(const FrontierRecord& r) {
 void add_errors(CsvFields& fields, const FrontierRecord& r) {
   const bool ran = r.refused.empty();
   for (const auto& [ignored, kind] : kinds_of_error) {
-    const ErrorFigures& e = r.errors.*kind;
+    const ImageError& e = r.errors.*kind;
     for (const double value : {e.max_rel, e.rmse_rel, e.relative_rmse, e.p99_rel})
       fields.push_back(ran ? figure(value) : "");
     fields.push_back(figure(e.flip_mean));
@@ -93,7 +93,7 @@ void add_in_double(CsvFields& fields, const std::optional<SampledErrors>& sample
     return;
   }
   fields.push_back(fmt::format("{}", sampled->pixels));
-  const ErrorFigures &e = sampled->picture, &in_float = sampled->picture_in_float, &truth = sampled->truth;
+  const ImageError &e = sampled->picture, &in_float = sampled->picture_in_float, &truth = sampled->truth;
   for (const double value : {e.max_rel, e.rmse_rel, e.relative_rmse, e.p99_rel, in_float.max_rel,
                              in_float.rmse_rel, truth.max_rel, truth.rmse_rel})
     fields.push_back(figure(value));

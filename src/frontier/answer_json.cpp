@@ -22,7 +22,7 @@ json interval_json(const MedianInterval& interval) {
           {"runs", interval.runs}};
 }
 
-json error_json(const ErrorFigures& e) {
+json error_json(const ImageError& e) {
   return {{"max_rel", finite_number(e.max_rel)},
           {"rmse_rel", finite_number(e.rmse_rel)},
           {"relative_rmse", finite_number(e.relative_rmse)},

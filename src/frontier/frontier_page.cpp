@@ -7,6 +7,7 @@
 #include "frontier/answer_steps.h"
 #include "frontier/page_pictures.h"
 #include "report/page_template.h"
+#include "results/error_measures.h"
 
 namespace lightgrid {
 namespace {
@@ -41,11 +42,9 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
     if (std::find(techniques.begin(), techniques.end(), r.point.technique) == techniques.end())
       techniques.push_back(r.point.technique);
   }
-  data["measures"] = {{{"key", "rmse_rel"}, {"title", "RMSE"}},
-                      {{"key", "max_rel"}, {"title", "largest"}},
-                      {{"key", "relative_rmse"}, {"title", "relative RMSE"}},
-                      {{"key", "p99_rel"}, {"title", "99th percentile"}},
-                      {{"key", "flip_mean"}, {"title", "FLIP, mean"}}};
+  for (const ErrorMeasure& measure : frontier_error_measures())
+    data["measures"].push_back({{"key", measure.key}, {"title", measure.frontier_title}});
+  data["measures"].push_back({{"key", "flip_mean"}, {"title", "FLIP, mean"}});
   return data;
 }
 

@@ -47,13 +47,13 @@ constexpr auto rms_of_views = [](const ViewRecords& views, const auto& figure) {
   return rms_over(views, figure);
 };
 
-// `of` gives a view's figures.
+// `of` gives a view's figures. Over views: the largest maximum, root mean squares, and the mean of percentiles.
 template <typename Of>
-ErrorFigures errors_over(const ViewRecords& views, const Of& of) {
-  ErrorFigures all;
+ImageError errors_over(const ViewRecords& views, const Of& of) {
+  ImageError all;
   for (const FrontierRecord* view : views) all.max_rel = max_or_nan(all.max_rel, of(*view).max_rel);
-  all.rmse_rel = rms_over(views, [&](const FrontierRecord& v) { return of(v).rmse_rel; });
-  all.relative_rmse = rms_over(views, [&](const FrontierRecord& v) { return of(v).relative_rmse; });
+  for (const auto rmse : {&ImageError::rmse_rel, &ImageError::relative_rmse})
+    all.*rmse = rms_over(views, [&](const FrontierRecord& v) { return of(v).*rmse; });
   all.p99_rel = mean_over(views, [&](const FrontierRecord& v) { return of(v).p99_rel; });
   all.flip_mean = over_present(
       views, [&](const FrontierRecord& v) { return of(v).flip_mean; }, mean_of_views);

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "frontier/json_fields.h"
 #include "frontier/record_file.h"
+#include "results/error_measures.h"
 
 namespace lightgrid {
 namespace {
@@ -12,20 +13,19 @@ using nlohmann::json;
 
 json optional_json(const std::optional<double>& value) { return value ? exact_number(*value) : json(); }
 
-json figures_json(const ErrorFigures& e) {
-  return {{"max_rel", exact_number(e.max_rel)},
-          {"rmse_rel", exact_number(e.rmse_rel)},
-          {"relative_rmse", exact_number(e.relative_rmse)},
-          {"p99_rel", exact_number(e.p99_rel)},
-          {"flip_mean", optional_json(e.flip_mean)}};
+json figures_json(const ImageError& e) {
+  json figures = {{"flip_mean", optional_json(e.flip_mean)}};
+  for (const ErrorMeasure& measure : frontier_error_measures())
+    figures[measure.key] = exact_number(e.*measure.value);
+  return figures;
 }
 
-ErrorFigures figures_of(const JsonFields& fields) {
-  return {.max_rel = fields.number("max_rel"),
-          .rmse_rel = fields.number("rmse_rel"),
-          .relative_rmse = fields.number("relative_rmse"),
-          .p99_rel = fields.number("p99_rel"),
-          .flip_mean = fields.optional_number("flip_mean")};
+ImageError figures_of(const JsonFields& fields) {
+  ImageError error;
+  for (const ErrorMeasure& measure : frontier_error_measures())
+    error.*measure.value = fields.number(measure.key);
+  error.flip_mean = fields.optional_number("flip_mean");
+  return error;
 }
 
 json sampled_json(const std::optional<SampledErrors>& sampled) {

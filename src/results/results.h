@@ -69,6 +69,10 @@ struct ImageError {
   // Absent where OpenGL draws the surfaces, and where the reference is a sample.
   std::optional<SilhouetteError> silhouettes;
   std::optional<SurfacesError> surfaces;  // absent if not requested
+  // In the frontier, relative to the truth's brightest channel (frontier_error); otherwise 0.
+  double rmse_rel = 0;
+  double relative_rmse = 0;  // of each channel's error over the truth's channel, at least 1e-3 of the brightest
+  double p99_rel = 0;
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest

@@ -5,7 +5,7 @@
 
 namespace lightgrid {
 
-inline ErrorFigures some_figures(double scale) {
+inline ImageError some_figures(double scale) {
   return {
       .max_rel = 0.1 * scale, .rmse_rel = scale / 3, .relative_rmse = 0.07 * scale, .p99_rel = 0.011 * scale};
 }
