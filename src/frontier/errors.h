@@ -35,8 +35,8 @@ class ChangeOfError {
   size_t channels_ = 0;
 };
 
-// The bias: the root mean square error of a mean of `count` random pictures, less the share of their scatter in it. 0 where the
-// error is no larger than that share.
+// The bias: the root mean square error of a mean of `count` random pictures, less the share of their scatter
+// in it. 0 where the error is no larger than that share.
 double bias_rmse(double rmse_of_mean, double deviation, int count);
 
 }  // namespace lightgrid

@@ -1,11 +1,11 @@
-#include "frontier/frontier_page.h"
+#include "frontier/answer_files.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/embedded.h"
 #include "frontier/answer_steps.h"
-#include "frontier/page_pictures.h"
+#include "frontier/pictures.h"
 #include "report/page_template.h"
 #include "results/error_measures.h"
 
@@ -58,9 +58,9 @@ std::string page_text(const FrontierAnswer& answer, const std::filesystem::path&
   }
   std::string style = embedded_file("report/page/style.css"), script;
   style += embedded_file("frontier/page/frontier.css");
-  for (const char* name : {"report/page/elements.js", "report/page/table.js", "report/page/plot.js",
-                           "frontier/page/figures.js", "frontier/page/front.js", "frontier/page/costs.js",
-                           "frontier/page/frontier.js"}) {
+  for (const char* name :
+       {"report/page/elements.js", "report/page/table.js", "report/page/plot.js", "frontier/page/figures.js",
+        "frontier/page/front.js", "frontier/page/costs.js", "frontier/page/frontier.js"}) {
     script += embedded_file(name);
   }
   const json data = page_data_of(answer, page_pictures(pictures, names, most_picture_bytes));

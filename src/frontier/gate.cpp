@@ -91,7 +91,8 @@ class PointComparison {
   void compare_errors(const char* kind) {
     const JsonFields now = now_.object("error").object(kind), earlier = earlier_.object("error").object(kind);
     for (const ErrorMeasure& measure : frontier_error_measures()) {
-      if (measure.gated) compare_error(fmt::format("{}: {} {}", name_, kind, measure.key), now, earlier, measure.key);
+      if (measure.gated)
+        compare_error(fmt::format("{}: {} {}", name_, kind, measure.key), now, earlier, measure.key);
     }
     const std::string flip = fmt::format("{}: {} flip_mean", name_, kind);
     if (!now.has("flip_mean") && earlier.has("flip_mean")) {

@@ -40,7 +40,8 @@ Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const 
 }
 
 void Precision::judge(Sample& sample, BruteForce& brute, const std::vector<glm::dvec3>& with_ranges) const {
-  sample.precision = frontier_error(at_pixels(brute.picture(common_), sample.pixels), with_ranges, brightest_);
+  sample.precision =
+      frontier_error(at_pixels(brute.picture(common_), sample.pixels), with_ranges, brightest_);
   sample.float_truth = at_pixels(brute.truth(), sample.pixels);
   sample.truth_in_float = frontier_error(sample.float_truth, sample.truth, brightest_);
 }

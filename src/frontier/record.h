@@ -33,8 +33,8 @@ struct SampledErrors {
   ImageError truth;             // that truth against the one in double: how far the two above may be apart
 };
 
-// Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every light, no range
-// window.
+// Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every
+// light, no range window.
 struct PointErrors {
   ImageError model;  // what the settings mean (range, window, BRDF) against the truth, both by brute force
   ImageError precision;  // brute force in float against the oracle in double, at a sample of pixels

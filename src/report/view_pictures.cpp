@@ -7,10 +7,10 @@
 
 #include "base/parallel.h"
 #include "base/write_file.h"
+#include "report/report.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
 #include "results/reduce.h"
-#include "report/report.h"
 
 namespace lightgrid {
 namespace {

@@ -1,5 +1,6 @@
-// The measures of an image's error, one row each. Their readers loop over the rows (results.json, results.csv and the page of
-// `compare`; files, page and gate of `frontier`), so that a measure is a field of ImageError, a row and its function.
+// The measures of an image's error, one row each. Their readers loop over the rows (results.json, results.csv
+// and the page of `compare`; files, page and gate of `frontier`), so that a measure is a field of ImageError,
+// a row and its function.
 #pragma once
 
 #include <algorithm>
@@ -29,13 +30,17 @@ struct ImageDifference {
   double brightest = 0;  // channel that errors are stated over
 };
 
+// One figure for several views: the largest, the root mean square or the mean of theirs.
+enum class OverViews { largest, root_mean_square, mean };
+
 struct ErrorMeasure {
   const char* key;             // in all files
   const char* title;           // of the column in compare's page; empty: no column
   const char* frontier_title;  // in the frontier's page; empty: no measure of the frontier
   double ImageError::*value;
   double (*of)(const ImageDifference& difference);  // infinite if undefined
-  bool of_compare, gated;                           // in results.json; held against an earlier frontier.json
+  OverViews over_views;
+  bool of_compare, gated;  // in results.json; held against an earlier frontier.json
 };
 
 std::span<const ErrorMeasure> error_measures();           // of compare

@@ -1,5 +1,5 @@
 // The frontier's page in a real browser, and its plots as it saves them.
-#include "frontier/frontier_page.h"
+#include "frontier/answer_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "base/image.h"
 #include "base/write_file.h"
-#include "frontier/page_pictures.h"
+#include "frontier/pictures.h"
 #include "frontier/synthetic_records.h"
 #include "support/browser.h"
 #include "support/temp_folder.h"

@@ -14,8 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// Two pixels against black and 4: errors 3 and 4, 0 elsewhere. Relative to the channels, of which black counts as a thousandth
-// of the brightest, 750 and 1.
+// Two pixels against black and 4: errors 3 and 4, 0 elsewhere. Relative to the channels, of which black
+// counts as a thousandth of the brightest, 750 and 1.
 struct Known {
   Image image{2, 1}, reference{2, 1};
   Known() {
@@ -60,7 +60,9 @@ TEST(Percentile99, IsTheSmallestValueThatLeavesAHundredthAbove) {
   for (const size_t count : {1, 2, 99, 100, 101, 150, 199, 200, 201, 1000}) {
     std::vector<int> values(count);
     for (size_t i = 0; i < count; ++i) values[i] = int((i * 7919 + 5) % count);
-    const auto above = [&](int value) { return std::ranges::count_if(values, [&](int v) { return v > value; }); };
+    const auto above = [&](int value) {
+      return std::ranges::count_if(values, [&](int v) { return v > value; });
+    };
     const int found = percentile_99(values);
     EXPECT_LE(100 * size_t(above(found)), count) << count;
     EXPECT_GT(100 * size_t(above(found - 1)), count) << count;
