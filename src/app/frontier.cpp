@@ -15,11 +15,10 @@
 #include "base/timer.h"
 #include "base/version.h"
 #include "base/write_file.h"
+#include "frontier/answer_files.h"
 #include "frontier/gate.h"
 #include "frontier/machine.h"
 #include "frontier/measure.h"
-#include "frontier/parts.h"
-#include "frontier/write_answer.h"
 
 namespace lightgrid {
 namespace {

@@ -18,7 +18,8 @@ struct MedianInterval {
 struct PointFigures {
   FrontierPoint point;
   int views = 0;
-  MedianInterval frame_ms;  // of the sum over views, over their number
+  int width = 0, height = 0;  // pixels
+  MedianInterval frame_ms;    // of the sum over views, over their number
   MedianInterval ratio;
   std::vector<double> ratios;  // one a run
   PointErrors errors;
@@ -85,15 +86,7 @@ struct FrontierAnswer {
   std::vector<std::string> sentences;  // one paragraph, sentence by sentence
 };
 
-// Pure. Parts of one sweep; throws Error(input) if they are of different requests or commits.
+// Pure. Throws Error(input) if the parts are not of one sweep (check_same_sweep).
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
-
-// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row
-// a run of such a row) and culling.csv (one row a round in which its culling was timed):
-// docs/frontier_json.md.
-nlohmann::json to_json(const FrontierAnswer& answer);
-std::string csv_text(const FrontierAnswer& answer);
-std::string samples_csv_text(const FrontierAnswer& answer);
-std::string cull_csv_text(const FrontierAnswer& answer);
 
 }  // namespace lightgrid

@@ -22,6 +22,14 @@ std::string point_key(const FrontierPoint& point, std::span<const std::string> w
 inline constexpr const char* cull_pass = "cull_lights";
 inline const std::vector<std::string> cull_test_alone = {"cull_test"};
 
+// Records whose times may be compared: those of another kind of machine (devices, drivers, processor,
+// threads) are multiplied by how much longer or shorter the same baseline took on the first kind of machine
+// that measured the scene, over the views that both have. Ratios stay as they are. Where no view is on both,
+// pass_ms and cull_ms are emptied. Records of one kind of machine are returned unchanged. `machines`: one a
+// part, by its shard.
+std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
+                                           const std::vector<FrontierMachine>& machines);
+
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
 

@@ -2,67 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lightgrid {
-namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double least_channel = 1e-3;  // of the brightest: denominators of the relative error
-
-double difference_of(double a, double b) {
-  if (a == b) return 0;
-  const double difference = std::abs(a - b);
-  return std::isnan(difference) ? infinite : difference;
-}
-
-double over(double error, double brightest) {
-  return error == 0 ? 0 : brightest > 0 ? error / brightest : infinite;
-}
-
-// `reference_at`: the pixel of that number.
-template <typename ReferenceAt>
-ErrorFigures figures_of_errors(const Image& image, const ReferenceAt& reference_at, double brightest) {
-  std::vector<double> worst;
-  double squares = 0, relative_squares = 0, largest = 0;
-  worst.reserve(image.pixels.size());
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    const glm::dvec3 reference = reference_at(i);
-    double worst_channel = 0;
-    for (int c = 0; c < 3; ++c) {
-      const double error = difference_of(image.pixels[i][c], reference[c]);
-      worst_channel = std::max(worst_channel, error);
-      squares += error * error;
-      const double relative = over(error, std::max(reference[c], least_channel * brightest));
-      relative_squares += relative * relative;
-    }
-    worst.push_back(worst_channel);
-    largest = std::max(largest, worst_channel);
-  }
-  ErrorFigures figures;
-  if (worst.empty()) return figures;
-  const double channels = 3 * double(worst.size());
-  const auto p99 = worst.begin() + std::ptrdiff_t((worst.size() - 1) * 99 / 100);
-  std::ranges::nth_element(worst, p99);
-  figures.max_rel = over(largest, brightest);
-  figures.rmse_rel = over(std::sqrt(squares / channels), brightest);
-  figures.relative_rmse = std::sqrt(relative_squares / channels);
-  figures.p99_rel = over(*p99, brightest);
-  return figures;
-}
-
-}  // namespace
-
-ErrorFigures error_figures(const Image& image, const Image& reference, double brightest) {
-  return figures_of_errors(
-      image, [&](size_t i) { return glm::dvec3(reference.pixels[i]); }, brightest);
-}
-
-ErrorFigures error_figures(const Image& image, const std::vector<glm::dvec3>& reference, double brightest) {
-  return figures_of_errors(
-      image, [&](size_t i) { return reference[i]; }, brightest);
-}
-
 void PictureMoments::add(const Image& image) {
   if (count_ == 0) {
     width_ = image.width, height_ = image.height;

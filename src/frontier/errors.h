@@ -1,18 +1,11 @@
-// Errors of pictures against a truth, in the measures of a frontier.
+// Noise of random ranges, and flicker.
 #pragma once
 
 #include <vector>
 
 #include "base/image.h"
-#include "frontier/record.h"
 
 namespace lightgrid {
-
-// Of one size. `brightest`: the truth's brightest channel, over which errors are stated; 0: a black truth, of
-// which any difference is infinitely far. Without flip_mean.
-ErrorFigures error_figures(const Image& image, const Image& reference, double brightest);
-// The same against pixels in double.
-ErrorFigures error_figures(const Image& image, const std::vector<glm::dvec3>& reference, double brightest);
 
 // The mean of pictures and how far they scatter, per channel.
 class PictureMoments {
@@ -42,8 +35,8 @@ class ChangeOfError {
   size_t channels_ = 0;
 };
 
-// The root mean square of the mean's own error, without what `count` random pictures leave in it: the bias. 0
-// where the difference is no larger than that.
+// The bias: the root mean square error of a mean of `count` random pictures, less the share of their scatter
+// in it. 0 where the error is no larger than that share.
 double bias_rmse(double rmse_of_mean, double deviation, int count);
 
 }  // namespace lightgrid

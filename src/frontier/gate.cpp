@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "frontier/json_fields.h"
+#include "results/error_measures.h"
 
 namespace lightgrid {
 namespace {
@@ -89,17 +90,26 @@ class PointComparison {
  private:
   void compare_errors(const char* kind) {
     const JsonFields now = now_.object("error").object(kind), earlier = earlier_.object("error").object(kind);
-    for (const char* measure : {"max_rel", "rmse_rel", "p99_rel", "flip_mean"}) {
-      const auto value = now.optional_number(measure), before = earlier.optional_number(measure);
-      if (!before) continue;  // was not finite, or not measured
-      const std::string what = fmt::format("{}: {} {}", name_, kind, measure);
-      if (!value && measure == std::string("flip_mean")) {
-        result_.told.push_back(what + " is not measured any more");
-      } else if (!value) {
-        result_.worse.push_back(fmt::format("{} is not finite, earlier {:.3g}", what, *before));
-      } else if (*value > error_factor * *before + error_slack) {
-        result_.worse.push_back(fmt::format("{} grew from {:.4g} to {:.4g}", what, *before, *value));
-      }
+    for (const ErrorMeasure& measure : frontier_error_measures()) {
+      if (measure.gated)
+        compare_error(fmt::format("{}: {} {}", name_, kind, measure.key), now, earlier, measure.key);
+    }
+    const std::string flip = fmt::format("{}: {} flip_mean", name_, kind);
+    if (!now.has("flip_mean") && earlier.has("flip_mean")) {
+      result_.told.push_back(flip + " is not measured any more");
+    } else {
+      compare_error(flip, now, earlier, "flip_mean");
+    }
+  }
+
+  void compare_error(const std::string& what, const JsonFields& now, const JsonFields& earlier,
+                     const char* key) {
+    const auto value = now.optional_number(key), before = earlier.optional_number(key);
+    if (!before) return;  // was not finite, or not measured
+    if (!value) {
+      result_.worse.push_back(fmt::format("{} is not finite, earlier {:.3g}", what, *before));
+    } else if (*value > error_factor * *before + error_slack) {
+      result_.worse.push_back(fmt::format("{} grew from {:.4g} to {:.4g}", what, *before, *value));
     }
   }
 

@@ -1,4 +1,4 @@
-#include "frontier/page_pictures.h"
+#include "frontier/pictures.h"
 
 #include <png.h>
 #include <webp/encode.h>

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "frontier/answer_steps.h"
+#include "frontier/fields.h"
 #include "frontier/statistics.h"
 
 namespace lightgrid {
@@ -49,12 +50,16 @@ constexpr auto rms_of_views = [](const ViewRecords& views, const auto& figure) {
 
 // `of` gives a view's figures.
 template <typename Of>
-ErrorFigures errors_over(const ViewRecords& views, const Of& of) {
-  ErrorFigures all;
-  for (const FrontierRecord* view : views) all.max_rel = max_or_nan(all.max_rel, of(*view).max_rel);
-  all.rmse_rel = rms_over(views, [&](const FrontierRecord& v) { return of(v).rmse_rel; });
-  all.relative_rmse = rms_over(views, [&](const FrontierRecord& v) { return of(v).relative_rmse; });
-  all.p99_rel = mean_over(views, [&](const FrontierRecord& v) { return of(v).p99_rel; });
+ImageError errors_over(const ViewRecords& views, const Of& of) {
+  ImageError all;
+  for (const ErrorMeasure& measure : frontier_error_measures()) {
+    const auto figure = [&](const FrontierRecord& v) { return of(v).*measure.value; };
+    double& joined = all.*measure.value;
+    if (measure.over_views == OverViews::root_mean_square) joined = rms_over(views, figure);
+    if (measure.over_views == OverViews::mean) joined = mean_over(views, figure);
+    if (measure.over_views != OverViews::largest) continue;
+    for (const FrontierRecord* view : views) joined = max_or_nan(joined, figure(*view));
+  }
   all.flip_mean = over_present(
       views, [&](const FrontierRecord& v) { return of(v).flip_mean; }, mean_of_views);
   return all;
@@ -94,6 +99,7 @@ PointFigures over_views(const ViewRecords& views) {
   PointFigures all;
   all.point = views.front()->point;
   all.views = int(views.size());
+  all.width = views.front()->width, all.height = views.front()->height;
   std::vector<double> frame_ms = sums_over(views, &FrontierRecord::frame_ms);
   const std::vector<double> baseline_ms = sums_over(views, &FrontierRecord::baseline_ms);
   for (size_t run = 0; run < frame_ms.size(); ++run) {
@@ -102,9 +108,8 @@ PointFigures over_views(const ViewRecords& views) {
   }
   all.frame_ms = median_interval(frame_ms);
   all.ratio = median_interval(all.ratios);
-  for (const auto kind :
-       {&PointErrors::model, &PointErrors::precision, &PointErrors::technique, &PointErrors::total}) {
-    all.errors.*kind = errors_over(views, [&](const FrontierRecord& v) { return v.errors.*kind; });
+  for (const auto& [key, kind] : kinds_of_error) {
+    all.errors.*kind = errors_over(views, [kind = kind](const FrontierRecord& v) { return v.errors.*kind; });
   }
   all.errors.in_double = in_double_over(views);
   for (const auto spread :

@@ -5,7 +5,8 @@
 
 #include "compare/oracle_sample.h"
 #include "compare/silhouettes.h"
-#include "frontier/errors.h"
+#include "results/error_measures.h"
+#include "results/metrics.h"
 #include "scene/random.h"
 
 namespace lightgrid {
@@ -30,16 +31,19 @@ std::vector<uint32_t> random_pixels(const std::vector<uint32_t>& pixels, size_t 
 Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common,
                      size_t pairs)
     : renderer_(renderer), common_(common), pairs_(pairs) {
-  for (Sample& sample : samples_) sample.precision = {unknown, unknown, unknown, unknown, {}};
+  for (Sample& sample : samples_) {
+    for (const ErrorMeasure& measure : frontier_error_measures()) sample.precision.*measure.value = unknown;
+  }
   if (!renderer_.gl) return;
   opengl_.emplace(renderer, gpu, view, common, find_technique("forward_plus"));
   visibility_.emplace(renderer, gpu, view, common, find_technique("visibility"));
 }
 
 void Precision::judge(Sample& sample, BruteForce& brute, const std::vector<glm::dvec3>& with_ranges) const {
-  sample.precision = error_figures(at_pixels(brute.picture(common_), sample.pixels), with_ranges, brightest_);
+  sample.precision =
+      frontier_error(at_pixels(brute.picture(common_), sample.pixels), with_ranges, brightest_);
   sample.float_truth = at_pixels(brute.truth(), sample.pixels);
-  sample.truth_in_float = error_figures(sample.float_truth, sample.truth, brightest_);
+  sample.truth_in_float = frontier_error(sample.float_truth, sample.truth, brightest_);
 }
 
 void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed) {
@@ -79,8 +83,8 @@ std::optional<SampledErrors> Precision::in_double(const Image& picture, bool own
   const Sample& sample = samples_[own_surfaces];
   if (!opengl_ || sample.pixels.empty()) return {};
   const Image at_sample = at_pixels(picture, sample.pixels);
-  return SampledErrors{int(sample.pixels.size()), error_figures(at_sample, sample.truth, brightest_),
-                       error_figures(at_sample, sample.float_truth, brightest_), sample.truth_in_float};
+  return SampledErrors{int(sample.pixels.size()), frontier_error(at_sample, sample.truth, brightest_),
+                       frontier_error(at_sample, sample.float_truth, brightest_), sample.truth_in_float};
 }
 
 }  // namespace lightgrid

@@ -24,7 +24,7 @@ class Precision {
   void measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed);
 
   // Brute force with the ranges of `common` in float against the same in double.
-  const ErrorFigures& of(bool own_surfaces) const { return samples_[own_surfaces].precision; }
+  const ImageError& of(bool own_surfaces) const { return samples_[own_surfaces].precision; }
   // A picture of that view against the truth in double.
   std::optional<SampledErrors> in_double(const Image& picture, bool own_surfaces) const;
 
@@ -33,7 +33,7 @@ class Precision {
     std::vector<uint32_t> pixels;
     std::vector<glm::dvec3> truth;  // every light, no range
     Image float_truth;              // the same in float
-    ErrorFigures precision, truth_in_float;
+    ImageError precision, truth_in_float;
   };
 
   void judge(Sample& sample, BruteForce& brute, const std::vector<glm::dvec3>& with_ranges) const;

@@ -24,30 +24,22 @@ struct FrontierPoint {
   int frames = 1;     // averaged frames, each with other random ranges (range=stochastic); 1: not averaged
 };
 
-// Errors of a picture relative to the brightest channel of the truth. Linear light.
-struct ErrorFigures {
-  double max_rel = 0, rmse_rel = 0;
-  // Of each channel's difference over the truth's channel (at least 1e-3 of the brightest).
-  double relative_rmse = 0;
-  double p99_rel = 0;               // of each pixel's largest channel error
-  std::optional<double> flip_mean;  // HDR-FLIP
-};
-
 // The picture against the truth in double, at a random pixel of each of `pixels` equal shares of the opaque
-// ones.
+// ones, in the measures of the frontier.
 struct SampledErrors {
   int pixels = 0;
-  ErrorFigures picture;           // without flip_mean
-  ErrorFigures picture_in_float;  // the picture at the same pixels against the truth in float
-  ErrorFigures truth;             // that truth against the one in double: how far the two above may be apart
+  ImageError picture;           // without flip_mean
+  ImageError picture_in_float;  // the picture at the same pixels against the truth in float
+  ImageError truth;             // that truth against the one in double: how far the two above may be apart
 };
 
-// Errors kept apart (docs/frontier.md#errors). Truth: every light, no range window.
+// Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every
+// light, no range window.
 struct PointErrors {
-  ErrorFigures model;  // what the settings mean (range, window, BRDF) against the truth, both by brute force
-  ErrorFigures precision;  // brute force in float against the oracle in double, at a sample of pixels
-  ErrorFigures technique;  // the picture against brute force of the same meaning
-  ErrorFigures total;      // the picture against the truth
+  ImageError model;  // what the settings mean (range, window, BRDF) against the truth, both by brute force
+  ImageError precision;  // brute force in float against the oracle in double, at a sample of pixels
+  ImageError technique;  // the picture against brute force of the same meaning
+  ImageError total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
   // Of random ranges, over at least 16 seeds, relative like the others: root mean square over pixels of the
   // mean's error and of the standard deviation of one frame.

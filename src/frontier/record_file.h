@@ -1,7 +1,6 @@
-// A part as a file: one JSON object a line, append-only. The first line describes the part, each further one
-// is a record, or says that the part is finished. A process that is killed leaves at most one half-written
-// line; opening the file again drops it, with a notice, and tells which records are there. Keys:
-// docs/frontier_json.md#parts.
+// A part of a sweep as a file: one JSON object a line, append-only (docs/frontier_json.md#parts). A process
+// that is killed leaves at most one half-written line; opening the file again drops it, with a notice, and
+// tells which records are there.
 #pragma once
 
 #include <filesystem>
@@ -26,15 +25,38 @@ std::string content_hash(const std::string& text);
 std::string record_key(const FrontierRecord& record);
 
 // A record loses nothing on its way through JSON, except that bytes that are not UTF-8 (possible in a path)
-// become U+FFFD in the file.
+// become U+FFFD in the file. Readers throw Error(input) that names the field.
 nlohmann::json to_json(const FrontierRecord& record);
-FrontierRecord record_of(const nlohmann::json& line);  // throws Error(input) that names the field
-
 nlohmann::json to_json(const FrontierMachine& machine);
-FrontierMachine machine_of(const nlohmann::json& object);  // throws Error(input) that names the field
+nlohmann::json header_json(const FrontierPart& part);  // without records
+FrontierRecord record_of(const nlohmann::json& line);
+FrontierPart part_of(const nlohmann::json& header);
 
 // "records-3-of-16.jsonl", for shard 3 of 16: parts of one sweep may share a folder.
 std::filesystem::path part_path(const std::filesystem::path& folder, int shard, int shards);
+
+// What the lines of a part say. Lines are read in order, both from the file and as they are written to it.
+struct PartLines {
+  FrontierPart part;                           // its records: those that are complete
+  bool described = false;                      // the first line was read
+  std::set<std::string> keys;                  // of the complete records
+  std::map<std::string, FrontierRecord> open;  // by key: figures whose times are being measured
+  uintmax_t whole_bytes = 0;                   // of the complete lines
+  bool half_line = false;
+
+  // Throws Error(input). `place`: for notices, "FILE: line 7".
+  void take(const nlohmann::json& line, const std::string& place, const Notice& notice);
+
+ private:
+  void add_record(FrontierRecord record, const std::string& place, const Notice& notice);
+  FrontierRecord& open_record(const std::string& key);
+};
+
+// Throws Error(input) that names file and line.
+PartLines read_part_lines(const std::filesystem::path& path, const Notice& notice);
+// With a newline. The header begins with the version, so that half of it still shows what the file is.
+std::string line_text(const nlohmann::json& line);
+std::string header_line(const FrontierPart& part);
 
 struct TimeOfRecord {
   std::string key;
@@ -54,7 +76,7 @@ class RecordFile {
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  bool has(const std::string& key) const { return keys_.contains(key); }
+  bool has(const std::string& key) const { return lines_.keys.contains(key); }
   // In the file when it returns, even if the process is killed then. Throws Error(machine) if the disk is
   // full: nothing of the records is in the file then.
   void append(const FrontierRecord& record) { append(std::span(&record, 1)); }
@@ -68,30 +90,36 @@ class RecordFile {
   void add_times(const std::vector<TimeOfRecord>& times);              // of a round
   void add_cull_times(const std::map<std::string, double>& times_ms);  // likewise
   void complete(const std::vector<std::string>& keys);
-  const std::map<std::string, FrontierRecord>& open_records() const { return open_; }
+  const std::map<std::string, FrontierRecord>& open_records() const { return lines_.open; }
 
   // Nothing more is to be measured. `load_at_end`: the system's one-minute load average. Throws like
   // append().
   void finish(double load_at_end);
-  const FrontierPart& part() const { return part_; }  // with all records
+  const FrontierPart& part() const { return lines_.part; }  // with all records
 
  private:
+  void add(const nlohmann::json& line);
   void write_text(const std::string& text);
 
   std::filesystem::path path_;
   int file_ = -1;
-  FrontierPart part_;
-  std::set<std::string> keys_;
-  std::map<std::string, FrontierRecord> open_;
+  PartLines lines_;
 };
 
 // Reads a finished or half-finished part, even while it is written. A half-written last line is left out, a
 // record that is there twice counts once, each with a notice. Throws Error(input) that names file and line.
 FrontierPart read_part(const std::filesystem::path& path, const Notice& notice);
 
-// Throws Error(input), "`path`: ...", if the two parts are not of one sweep: request, commit, seed, baseline,
-// shards. `wanted`: what the other is, for the message: "this program", "records-0-of-2.jsonl".
-void check_same_sweep(const std::filesystem::path& path, const FrontierPart& part, const FrontierPart& other,
+// Reads every part (part_path) of the folders, in the order of shards. `notice` is told of half-written
+// lines, of shards that are missing and of parts that are not finished, whose points are missing from the
+// answer, and of scenes that parts measured on different numbers of views. Throws Error(input) that names the
+// file if a folder is not there or holds no part, if two parts are not of one sweep, and if a shard is there
+// twice.
+std::vector<FrontierPart> read_parts(const std::vector<std::filesystem::path>& folders, const Notice& notice);
+
+// Throws Error(input), "`place`: ...", if two parts are not of one sweep: request, commit, seed, baseline,
+// shards. `wanted`: what the other is, for the message: "this run", "records-0-of-2.jsonl".
+void check_same_sweep(const std::string& place, const FrontierPart& part, const FrontierPart& other,
                       const std::string& wanted);
 
 // Whether point `index` of the request is in shard `shard` of `shards`: every shards-th of them, so that each

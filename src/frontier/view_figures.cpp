@@ -91,7 +91,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   Truths& truths = truths_of(point);
   const Image image = point_run.image();
   const Image& truth = truths.brute.truth();
-  record.errors.total = error_figures(image, truth, brightest_);
+  record.errors.total = frontier_error(image, truth, brightest_);
   const bool own = has_own_surfaces(point);
   record.errors.precision = precision_.of(own);
   record.errors.in_double = precision_.in_double(image, own);
@@ -104,8 +104,8 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
     point_run.draw_first_frame();
   }
   const Image& meant = truths.brute.picture(point.contestant.settings);
-  record.errors.technique = error_figures(point_run.run().image(), meant, brightest_);
-  if (point.frames == 1) record.errors.model = error_figures(meant, truth, brightest_);
+  record.errors.technique = frontier_error(point_run.run().image(), meant, brightest_);
+  if (point.frames == 1) record.errors.model = frontier_error(meant, truth, brightest_);
   const bool as_meant = point.frames == 1 && record.errors.technique.max_rel <= as_brute_force;
   fill_flip(as_meant ? meant : image, truths, record);
 

@@ -132,8 +132,8 @@ json page_data(const std::vector<ReportView>& views) {
 
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
-  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "charts.js", "matrix.js",
-                           "changes.js", "view.js", "report.js"}) {
+  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "plot.js", "charts.js",
+                           "matrix.js", "changes.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
   const json results =

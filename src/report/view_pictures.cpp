@@ -7,9 +7,10 @@
 
 #include "base/parallel.h"
 #include "base/write_file.h"
+#include "report/report.h"
+#include "results/error_measures.h"
 #include "results/metrics.h"
 #include "results/reduce.h"
-#include "report/report.h"
 
 namespace lightgrid {
 namespace {
@@ -25,12 +26,6 @@ bool has_counts(const CompareReport& report, size_t row) {
   return row < report.listed.size() && !report.listed[row].empty();
 }
 
-uint32_t p99_of(std::vector<uint32_t> counts) {
-  const size_t index = (counts.size() * 99 + 99) / 100 - 1;
-  std::nth_element(counts.begin(), counts.begin() + index, counts.end());
-  return counts[index];
-}
-
 // One scale for all heat maps, so that they are comparable: the largest of their 99th percentiles. A
 // technique that lists the same count at every covered pixel (every light, say) is excluded, since its scale
 // would flatten all others.
@@ -42,7 +37,7 @@ uint32_t heat_top(const CompareReport& report) {
       if (count) low = std::min(low, count), high = std::max(high, count);
     }
     if (low >= high) flat_top = std::max(flat_top, high);
-    if (low < high) top = std::max({top, p99_of(counts), 1u});
+    if (low < high) top = std::max({top, percentile_99(counts), 1u});
   };
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (has_counts(report, i)) consider(report.listed[i]);

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "results/error_measures.h"
 #include "results/metrics.h"
 
 namespace lightgrid {
@@ -101,9 +102,7 @@ Image difference_image(const Image& image, const Image& reference) {
 uint32_t top_of_scale(std::vector<uint32_t> counts) {
   std::erase(counts, 0u);
   if (counts.empty()) return 1;
-  const size_t at = (counts.size() * 99 + 99) / 100 - 1;
-  std::nth_element(counts.begin(), counts.begin() + std::ptrdiff_t(at), counts.end());
-  return counts[at];
+  return percentile_99(std::move(counts));
 }
 
 Image heat_map(int width, int height, const std::vector<uint32_t>& counts, uint32_t top) {

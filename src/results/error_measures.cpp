@@ -1,68 +1,60 @@
 #include "results/error_measures.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "results/metrics.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// Equal infinities differ by 0; NaN counts as an infinite error.
-double channel_error(float a, float b) {
-  if (a == b) return 0;
-  const double error = std::abs(double(a) - double(b));
-  return std::isnan(error) ? infinity : error;
+// Any error is infinitely far from black.
+double over(double error, double brightest) {
+  if (error == 0) return 0;
+  return brightest > 0 ? error / brightest : std::numeric_limits<double>::infinity();
 }
 
-double max_abs(const ImageDifference& d) { return d.largest_of_all; }
-
-double max_rel(const ImageDifference& d) {
-  if (d.largest_of_all == 0) return 0;
-  return d.brightest > 0 ? d.largest_of_all / d.brightest : infinity;
+double rmse_of(double sum_of_squares, size_t pixels) {
+  return std::sqrt(sum_of_squares / (3.0 * double(pixels)));
 }
 
-double rmse(const ImageDifference& d) {
-  return std::sqrt(d.sum_of_squares / (3.0 * double(d.largest.size())));
-}
+using Difference = ImageDifference;
 
-// The smallest error that at least 99 of 100 pixels do not exceed.
-double p99(const ImageDifference& d) {
-  std::vector<double> sorted = d.largest;
-  const size_t index = (sorted.size() * 99 + 99) / 100 - 1;
-  std::nth_element(sorted.begin(), sorted.begin() + index, sorted.end());
-  return sorted[index];
-}
+double max_abs(const Difference& d) { return d.largest; }
+double max_rel(const Difference& d) { return over(d.largest, d.brightest); }
+double rmse(const Difference& d) { return rmse_of(d.sum_of_squares, d.pixels); }
+double rmse_rel(const Difference& d) { return over(rmse(d), d.brightest); }
+double relative_rmse(const Difference& d) { return rmse_of(d.sum_of_relative_squares, d.pixels); }
+double p99(const Difference& d) { return d.percentile_99; }
+double p99_rel(const Difference& d) { return over(d.percentile_99, d.brightest); }
 
 constexpr ErrorMeasure measures[] = {
-    {"max_abs", "", &ImageError::max_abs, max_abs},
-    {"max_rel", "Max error, of brightest", &ImageError::max_rel, max_rel},
-    {"rmse", "RMSE", &ImageError::rmse, rmse},
-    {"p99", "", &ImageError::p99, p99},
+    {"max_abs", "", "", &ImageError::max_abs, max_abs, OverViews::largest, true, false},
+    {"max_rel", "Max error, of brightest", "largest", &ImageError::max_rel, max_rel, OverViews::largest, true,
+     true},
+    {"rmse", "RMSE", "", &ImageError::rmse, rmse, OverViews::root_mean_square, true, false},
+    {"p99", "", "", &ImageError::p99, p99, OverViews::mean, true, false},
+    {"rmse_rel", "", "RMSE", &ImageError::rmse_rel, rmse_rel, OverViews::root_mean_square, false, true},
+    {"relative_rmse", "", "relative RMSE", &ImageError::relative_rmse, relative_rmse,
+     OverViews::root_mean_square, false, false},
+    {"p99_rel", "", "99th percentile", &ImageError::p99_rel, p99_rel, OverViews::mean, false, true},
 };
+
+template <typename Chosen>
+std::vector<ErrorMeasure> those(const Chosen& chosen) {
+  std::vector<ErrorMeasure> rows;
+  std::ranges::copy_if(measures, std::back_inserter(rows), chosen);
+  return rows;
+}
 
 }  // namespace
 
-ImageDifference::ImageDifference(const Image& image, const Image& reference)
-    : image(image),
-      reference(reference),
-      largest(image.pixels.size()),
-      brightest(brightest_channel(reference)) {
-  assert(image.width == reference.width && image.height == reference.height);
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const double error = channel_error(image.pixels[i][c], reference.pixels[i][c]);
-      largest[i] = std::max(largest[i], error);
-      sum_of_squares += error * error;
-    }
-    largest_of_all = std::max(largest_of_all, largest[i]);
-  }
+std::span<const ErrorMeasure> error_measures() {
+  static const auto rows = those([](const ErrorMeasure& m) { return m.of_compare; });
+  return rows;
 }
 
-std::span<const ErrorMeasure> error_measures() { return measures; }
+std::span<const ErrorMeasure> frontier_error_measures() {
+  static const auto rows = those([](const ErrorMeasure& m) { return *m.frontier_title != 0; });
+  return rows;
+}
 
 }  // namespace lightgrid

@@ -1,7 +1,9 @@
-// The measures of a technique's error, one row each. results.json, results.csv and the page's table read the
-// rows, so that a measure is a field of ImageError, a row and its function.
+// The measures of an image's error, one row each. Their readers loop over the rows (results.json, results.csv
+// and the page of `compare`; files, page and gate of `frontier`), so that a measure is a field of ImageError,
+// a row and its function.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -10,24 +12,38 @@
 
 namespace lightgrid {
 
-// The input of the measures. Linear light.
-struct ImageDifference {
-  ImageDifference(const Image& image, const Image& reference);
+// The smallest of `values` that at least 99 of 100 of them do not exceed. Not of none.
+template <typename Value>
+Value percentile_99(std::vector<Value> values) {
+  const auto at = values.begin() + std::ptrdiff_t((values.size() * 99 + 99) / 100 - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
-  const Image &image, &reference;
-  std::vector<double> largest;  // by pixel: the largest absolute error of its colour channels
-  double sum_of_squares = 0;    // over all pixels and channels
-  double largest_of_all = 0;
-  double brightest = 0;  // finite channel of the reference
+// The input of the measures, for images of at least one pixel. Linear light.
+struct ImageDifference {
+  size_t pixels = 0;
+  double largest = 0, percentile_99 = 0;  // of each pixel's largest absolute error of a colour channel
+  double sum_of_squares = 0;              // over all pixels and channels
+  // The same of errors over the reference's channel, or over 1e-3 of `brightest` if that is more.
+  double sum_of_relative_squares = 0;
+  double brightest = 0;  // channel that errors are stated over
 };
+
+// One figure for several views: the largest, the root mean square or the mean of theirs.
+enum class OverViews { largest, root_mean_square, mean };
 
 struct ErrorMeasure {
-  const char* key;    // of results.json and results.csv
-  const char* title;  // of the page's column; empty: no column
+  const char* key;             // in all files
+  const char* title;           // of the column in compare's page; empty: no column
+  const char* frontier_title;  // in the frontier's page; empty: no measure of the frontier
   double ImageError::*value;
-  double (*of)(const ImageDifference& difference);  // for images of at least one pixel; infinite if undefined
+  double (*of)(const ImageDifference& difference);  // infinite if undefined
+  OverViews over_views;
+  bool of_compare, gated;  // in results.json; held against an earlier frontier.json
 };
 
-std::span<const ErrorMeasure> error_measures();
+std::span<const ErrorMeasure> error_measures();           // of compare
+std::span<const ErrorMeasure> frontier_error_measures();  // over the truth's brightest channel
 
 }  // namespace lightgrid

@@ -4,13 +4,56 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "results/error_measures.h"
 
 namespace lightgrid {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double least_channel = 1e-3;  // of the brightest: denominators of relative errors
+
 bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
+
+// Equal infinities differ by 0; NaN counts as an infinite error.
+double channel_error(double a, double b) {
+  if (a == b) return 0;
+  const double error = std::abs(a - b);
+  return std::isnan(error) ? infinite : error;
+}
+
+// `reference_at`: the pixel of that number.
+template <typename ReferenceAt>
+ImageDifference difference_of(const Image& image, const ReferenceAt& reference_at, double brightest) {
+  ImageDifference difference{.pixels = image.pixels.size(), .brightest = brightest};
+  std::vector<double> largest(image.pixels.size());
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const glm::dvec3 reference = reference_at(i);
+    for (int c = 0; c < 3; ++c) {
+      const double error = channel_error(image.pixels[i][c], reference[c]);
+      largest[i] = std::max(largest[i], error);
+      difference.sum_of_squares += error * error;
+      if (error == 0) continue;
+      const double over = std::max(reference[c], least_channel * brightest);
+      const double relative = over > 0 ? error / over : infinite;
+      difference.sum_of_relative_squares += relative * relative;
+    }
+    difference.largest = std::max(difference.largest, largest[i]);
+  }
+  difference.percentile_99 = percentile_99(std::move(largest));
+  return difference;
+}
+
+template <typename ReferenceAt>
+ImageError measured(const Image& image, const ReferenceAt& reference_at, double brightest,
+                    std::span<const ErrorMeasure> measures) {
+  ImageError result;
+  if (image.pixels.empty()) return result;
+  const ImageDifference difference = difference_of(image, reference_at, brightest);
+  for (const ErrorMeasure& measure : measures) result.*measure.value = measure.of(difference);
+  return result;
+}
 
 }  // namespace
 
@@ -30,15 +73,23 @@ float brightest_channel(const Image& image) {
 
 ImageError compare_images(const Image& image, const Image& reference) {
   assert(image.width == reference.width && image.height == reference.height);
-  ImageError result;
-  if (image.pixels.empty()) return result;
-
+  ImageError result = measured(
+      image, [&](size_t i) { return glm::dvec3(reference.pixels[i]); }, brightest_channel(reference),
+      error_measures());
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) result.bit_identical &= same_bits(image.pixels[i][c], reference.pixels[i][c]);
   }
-  const ImageDifference difference(image, reference);
-  for (const ErrorMeasure& measure : error_measures()) result.*measure.value = measure.of(difference);
   return result;
+}
+
+ImageError frontier_error(const Image& image, const Image& reference, double brightest) {
+  const auto reference_at = [&](size_t i) { return glm::dvec3(reference.pixels[i]); };
+  return measured(image, reference_at, brightest, frontier_error_measures());
+}
+
+ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& reference, double brightest) {
+  const auto reference_at = [&](size_t i) { return reference[i]; };
+  return measured(image, reference_at, brightest, frontier_error_measures());
 }
 
 uint64_t count_nan_pixels(const Image& image) {

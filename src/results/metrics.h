@@ -10,6 +10,11 @@ namespace lightgrid {
 // counts as an infinite error; so does, for max_rel, any difference from a reference that is entirely black.
 ImageError compare_images(const Image& image, const Image& reference);
 
+// The measures of the frontier alone, over `brightest`, the truth's brightest channel. The reference may be
+// in double.
+ImageError frontier_error(const Image& image, const Image& reference, double brightest);
+ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& reference, double brightest);
+
 bool has_nan(const glm::vec4& pixel);  // in a colour channel
 uint64_t count_nan_pixels(const Image& image);
 

@@ -69,14 +69,18 @@ struct ImageError {
   // Absent where OpenGL draws the surfaces, and where the reference is a sample.
   std::optional<SilhouetteError> silhouettes;
   std::optional<SurfacesError> surfaces;  // absent if not requested
+  // In the frontier, relative to the truth's brightest channel (frontier_error); otherwise 0.
+  double rmse_rel = 0;
+  double relative_rmse = 0;  // over the truth's channel, at least 1e-3 of the brightest
+  double p99_rel = 0;
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest
 // channel of all frames.
 struct MovingResult {
   size_t frames = 0;
-  Spread frame_ms;    // move and frame, without the first two
-  Spread resting_ms;  // the same views again, nothing changed
+  Spread frame_ms;      // move and frame, without the first two
+  Spread resting_ms;    // the same views again, nothing changed
   Spread over_resting;  // frame_ms over resting_ms, view by view
   double max_abs = 0, max_rel = 0, rmse_rel = 0;
   // Change of the difference from the reference between frames: flicker that the scene does not have.

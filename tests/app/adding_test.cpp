@@ -86,10 +86,9 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       // Messages of its own passes.
       {"src/passes/light_index/blending_probe.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
-      // What is varied, markers of some families, and a sentence about two.
+      // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
        {"deferred_tiled", "forward_plus", "lidr", "visibility", "voxel_lights", "world_grid"}},
-      {"src/frontier/plots.cpp", {"clustered", "deferred", "lidr", "visibility"}},
       {"src/report/overview.cpp", {"clustered", "forward_plus"}},
   };
   const std::string registry = code_of(text_at("src/techniques/registry.cpp"));
@@ -167,7 +166,9 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
 TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
   std::map<std::string, std::vector<std::string>> texts;
   std::set<std::string> all;
-  for (const ErrorMeasure& measure : error_measures()) {
+  std::vector<ErrorMeasure> measures(error_measures().begin(), error_measures().end());
+  measures.insert(measures.end(), frontier_error_measures().begin(), frontier_error_measures().end());
+  for (const ErrorMeasure& measure : measures) {
     const std::string key = measure.key;
     all.insert(key);
     texts[key] = {"ImageError::" + key + ",", '"' + key + "\", \""};
@@ -178,10 +179,8 @@ TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
   }
   const Naming expected = {
       {"src/results/error_measures.cpp", all},
-      // The frontier's own records have a max_rel.
-      {"src/frontier/answer_csv.cpp", {"max_rel"}},
-      {"src/frontier/gate.cpp", {"max_rel"}},
-      {"src/frontier/page/figures.js", {"max_rel"}},
+      // What the frontier tells of two pictures beside the one that a sample is of.
+      {"src/frontier/answer_files.cpp", {"max_rel"}},
   };
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
 }

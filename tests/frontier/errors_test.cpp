@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "results/metrics.h"
 #include "scene/random.h"
 
 namespace lightgrid {
@@ -19,7 +20,7 @@ Image picture(std::initializer_list<glm::vec3> colors) {
 
 TEST(FrontierErrors, AreNothingForEqualPictures) {
   const Image image = picture({{1, 2, 3}, {0, 0, 0}});
-  const ErrorFigures e = error_figures(image, image, 3);
+  const ImageError e = frontier_error(image, image, 3);
   EXPECT_EQ(e.max_rel, 0);
   EXPECT_EQ(e.rmse_rel, 0);
   EXPECT_EQ(e.relative_rmse, 0);
@@ -29,7 +30,7 @@ TEST(FrontierErrors, AreNothingForEqualPictures) {
 // Errors 1 and 2 of six channels, over a brightest channel of 4; relative to the channels themselves 1/2 and
 // 2/4.
 TEST(FrontierErrors, HaveTheValuesWorkedOutByHand) {
-  const ErrorFigures e = error_figures(picture({{3, 1, 1}, {1, 1, 6}}), picture({{2, 1, 1}, {1, 1, 4}}), 4);
+  const ImageError e = frontier_error(picture({{3, 1, 1}, {1, 1, 6}}), picture({{2, 1, 1}, {1, 1, 4}}), 4);
   EXPECT_DOUBLE_EQ(e.max_rel, 0.5);
   EXPECT_DOUBLE_EQ(e.rmse_rel, std::sqrt(5.0 / 6) / 4);
   EXPECT_DOUBLE_EQ(e.relative_rmse, std::sqrt((0.25 + 0.25) / 6));
@@ -37,20 +38,20 @@ TEST(FrontierErrors, HaveTheValuesWorkedOutByHand) {
 
 // A dark channel counts as a thousandth of the brightest one, else noise in black would outweigh everything.
 TEST(FrontierErrors, OfBlackChannelsAreRelativeToAThousandthOfTheBrightest) {
-  const ErrorFigures e = error_figures(picture({{0.001f, 0, 0}}), picture({{0, 0, 0}}), 2);
+  const ImageError e = frontier_error(picture({{0.001f, 0, 0}}), picture({{0, 0, 0}}), 2);
   EXPECT_NEAR(e.relative_rmse, 0.5 / std::sqrt(3.0), 1e-7);
 }
 
 TEST(FrontierErrors, OfTheNinetyNinthPercentileLeaveOutTheWorstPixelOfAHundred) {
   Image reference(100, 1), image(100, 1);
   for (int i = 0; i < 100; ++i) image.pixels[size_t(i)].g = float(i + 1);
-  EXPECT_DOUBLE_EQ(error_figures(image, reference, 100).p99_rel, 0.99);
+  EXPECT_DOUBLE_EQ(frontier_error(image, reference, 100).p99_rel, 0.99);
 }
 
 TEST(FrontierErrors, AreInfiniteForNaNAndForAnythingButBlackInABlackPicture) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(std::isinf(error_figures(picture({{nan, 0, 0}}), picture({{1, 1, 1}}), 1).max_rel));
-  EXPECT_TRUE(std::isinf(error_figures(picture({{1, 0, 0}}), picture({{0, 0, 0}}), 0).rmse_rel));
+  EXPECT_TRUE(std::isinf(frontier_error(picture({{nan, 0, 0}}), picture({{1, 1, 1}}), 1).max_rel));
+  EXPECT_TRUE(std::isinf(frontier_error(picture({{1, 0, 0}}), picture({{0, 0, 0}}), 0).rmse_rel));
 }
 
 // Frames scattered by a known deviation around a mean that is off by a known bias.
@@ -68,7 +69,7 @@ TEST(FrontierErrors, SplitNoiseIntoBiasAndDeviation) {
       }
       moments.add(image);
     }
-    const double rmse = error_figures(moments.mean(), truth, 1).rmse_rel;
+    const double rmse = frontier_error(moments.mean(), truth, 1).rmse_rel;
     EXPECT_NEAR(moments.deviation(), 0.2, 0.002);
     EXPECT_NEAR(bias_rmse(rmse, moments.deviation(), count), bias, bias > 0 ? 0.001 : 0.005);
   }

@@ -60,6 +60,8 @@ addEventListener("load", async () => {
   seen.withoutVisibility = { labels: marks().map((mark) => mark.label), pressed: technique.getAttribute("aria-pressed") };
   technique.click();
 
+  seen.saved = { front: svgText(document.querySelector("#front svg")),
+    others: [...document.querySelectorAll("#break-even svg, #growth svg")].map(svgText) };
   seen.bars = texts("#break-even .wins title");
   seen.pairs = texts("#break-even text").filter((text) => text.includes(" over "));
   seen.machine = texts("#break-even .machine-name");

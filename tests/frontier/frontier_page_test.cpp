@@ -1,6 +1,7 @@
-// The frontier's page in a real browser, and its plots as files.
-#include "frontier/frontier_page.h"
+// The frontier's page in a real browser, and its plots as it saves them.
+#include "frontier/answer_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -8,8 +9,7 @@
 
 #include "base/image.h"
 #include "base/write_file.h"
-#include "frontier/page_pictures.h"
-#include "frontier/plots.h"
+#include "frontier/pictures.h"
 #include "frontier/synthetic_records.h"
 #include "support/browser.h"
 #include "support/temp_folder.h"
@@ -163,11 +163,35 @@ void expect_tables_plots_and_another_scene(const json& seen) {
   EXPECT_EQ(seen["followed"]["name"], "visibility:cutoff=0.01,range=cutoff");
 }
 
+// As a user saves it: every point, what it is, and the names of the techniques.
+void expect_saved(const json& seen) {
+  const std::string front = seen["saved"]["front"];
+  const auto times = [&](const std::string& text) {
+    size_t found = 0;
+    for (size_t at = front.find(text); at != front.npos; at = front.find(text, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_THAT(front, testing::AllOf(testing::StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""),
+                                    HasSubstr("<title>deferred: Time, over the baseline's 0.50"),
+                                    HasSubstr("RMSE, whole picture 0</title>")));
+  EXPECT_EQ(times("<title>"), 1u + 8u) << "the plot's own, and points";
+  EXPECT_EQ(times("<path "), 8u + 5u) << "points, and techniques in the legend";
+  EXPECT_EQ(times("NaN"), 0u);
+  EXPECT_EQ(times("var("), 0u) << "colors of its own";
+  // The front: from (0.2, 1e-2) right, down to (0.3, 1e-4), right, down to 0.5 without error: five corners.
+  const size_t begin = front.find("points=\"") + 8;
+  const std::string corners = front.substr(begin, front.find('"', begin) - begin);
+  EXPECT_EQ(std::count(corners.begin(), corners.end(), ','), 5);
+  EXPECT_THAT(texts(seen["saved"]["others"]),
+              ElementsAre(HasSubstr("planes+aabb over sphere: from 0.357 ns"), HasSubstr("exponent 1.00")));
+}
+
 TEST_F(FrontierPage, ShowsTheAnswerAndFollowsItsControls) {
   const json seen = seen_in_browser(folder.path, frontier_controls, "1280,900");
   ASSERT_TRUE(seen.is_object());
   expect_front(seen, answer);
   expect_tables_plots_and_another_scene(seen);
+  expect_saved(seen);
 }
 
 TEST_F(FrontierPage, FitsAPhone) {
@@ -215,28 +239,6 @@ TEST(PagePictures, AreEachOnceAndAsSmallAsAsked) {
   const PagePictures small = page_pictures(folder.path, {"a"}, whole.urls[0].size() / 4);
   EXPECT_GT(small.reduced, 1);
   EXPECT_LE(small.urls[0].size(), whole.urls[0].size() / 4);
-}
-
-TEST(Plots, AreFilesOfTheirOwnWithEveryPoint) {
-  const FrontierAnswer answer = answer_of({synthetic_sweep()});
-  const std::vector<Plot> plots = plots_of(answer);
-  std::vector<std::string> names;
-  for (const Plot& plot : plots) names.push_back(plot.name);
-  EXPECT_THAT(names,
-              ElementsAre("front-hall", "break-even-hall-forward_plus", "growth-lights-hall", "front-terrain",
-                          "break-even-terrain-forward_plus", "growth-lights-terrain"));
-  const std::string front = svg_file(plots[0]);
-  EXPECT_THAT(front, testing::AllOf(HasSubstr("xmlns=\"http://www.w3.org/2000/svg\""),
-                                    HasSubstr("<title>deferred: 0.500 times forward_plus")));
-  size_t marks = 0;
-  for (size_t at = front.find("<title>"); at != front.npos; at = front.find("<title>", at + 1)) ++marks;
-  EXPECT_EQ(marks, 1u + 8u + 5u);  // the plot's own, points, techniques in the legend
-  EXPECT_EQ(front.find("NaN"), front.npos);
-  EXPECT_EQ(front.find("nan"), front.npos);
-  // The front: from (0.2, 1e-2) right, down to (0.3, 1e-4), right, down to 0.5 without error: five corners.
-  const size_t begin = front.find("points=\"") + 8;
-  const std::string corners = front.substr(begin, front.find('"', begin) - begin);
-  EXPECT_EQ(std::count(corners.begin(), corners.end(), ','), 5);
 }
 
 }  // namespace

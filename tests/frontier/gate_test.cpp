@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frontier/answer_files.h"
 #include "frontier/faults.h"
 #include "frontier/some_records.h"
 #include "support/temp_folder.h"

@@ -1,4 +1,4 @@
-#include "frontier/parts.h"
+#include "frontier/record_file.h"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "frontier/errors.h"
+#include "results/metrics.h"
 
 namespace lightgrid {
 namespace {
@@ -55,8 +55,8 @@ TEST(ErrorFigures, AgainstDoubleTellRoundingToFloat) {
   image.pixels[0] = {1.0f / 3, 1.0f / 3, 1.0f / 3, 1};
   const double rounding = std::abs(double(1.0f / 3) - 1.0 / 3);
   ASSERT_GT(rounding, 0);
-  EXPECT_DOUBLE_EQ(error_figures(image, std::vector{glm::dvec3(1.0 / 3)}, 0.5).max_rel, 2 * rounding);
-  EXPECT_DOUBLE_EQ(error_figures(image, std::vector{glm::dvec3(1.0 / 3)}, 0.5).rmse_rel, 2 * rounding);
+  EXPECT_DOUBLE_EQ(frontier_error(image, std::vector{glm::dvec3(1.0 / 3)}, 0.5).max_rel, 2 * rounding);
+  EXPECT_DOUBLE_EQ(frontier_error(image, std::vector{glm::dvec3(1.0 / 3)}, 0.5).rmse_rel, 2 * rounding);
 }
 
 }  // namespace

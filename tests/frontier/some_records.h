@@ -5,7 +5,7 @@
 
 namespace lightgrid {
 
-inline ErrorFigures some_figures(double scale) {
+inline ImageError some_figures(double scale) {
   return {
       .max_rel = 0.1 * scale, .rmse_rel = scale / 3, .relative_rmse = 0.07 * scale, .p99_rel = 0.011 * scale};
 }
@@ -71,6 +71,7 @@ inline PointFigures some_point_figures(int tile) {
   PointFigures p;
   p.point = some_record(tile, 0).point;
   p.views = 2;
+  p.width = 160, p.height = 91;
   p.frame_ms = {2.5, 2.25, 3, 8};
   p.ratio = {0.5, 0.25, 0.75, 8};
   p.errors = some_record(tile, 0).errors;

@@ -20,6 +20,15 @@ inline FrontierPoint synthetic_point(const std::string& scene, const std::string
   return point;
 }
 
+inline ImageError synthetic_error(double max_rel, double rmse_rel, double relative_rmse, double p99_rel,
+                                  std::optional<double> flip_mean = {}) {
+  return {.max_rel = max_rel,
+          .flip_mean = flip_mean,
+          .rmse_rel = rmse_rel,
+          .relative_rmse = relative_rmse,
+          .p99_rel = p99_rel};
+}
+
 // `runs` runs: the baseline takes 100 ms, the point `ratio` times that, alternately 1 % less and more. Its
 // error is all of the model.
 inline FrontierRecord synthetic_record(const FrontierPoint& point, double ratio, double error, int view = 0,
@@ -33,7 +42,7 @@ inline FrontierRecord synthetic_record(const FrontierPoint& point, double ratio,
     record.baseline_ms.push_back(100);
     record.frame_ms.push_back(100 * ratio * (1 + (run % 2 ? 0.01 : -0.01) * (1 + run) / runs));
   }
-  record.errors.total = {2 * error, error, error, error, {}};
+  record.errors.total = synthetic_error(2 * error, error, error, error);
   record.errors.model = record.errors.total;
   record.memory_bytes = 1 << 20;
   record.bytes_moved = 1000;

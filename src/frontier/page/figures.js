@@ -1,8 +1,8 @@
 // The figures of a point, and how they are written.
 
+const page = JSON.parse(byId("page").textContent);
 const ERROR_KINDS = [["total", "whole picture"], ["model", "model"], ["precision", "precision"], ["technique", "technique"]];
-const ERROR_MEASURES = [["rmse_rel", "RMSE"], ["max_rel", "largest"], ["relative_rmse", "relative RMSE"], ["p99_rel", "99th percentile"],
-  ["flip_mean", "FLIP, mean"]];
+const ERROR_MEASURES = page.measures.map(({ key, title }) => [key, title]);
 
 // Three significant digits: 0.310, 31.1, 3,107.
 function threeDigits(value) {
@@ -12,40 +12,60 @@ function threeDigits(value) {
 }
 
 // Below six runs there is no interval: the range of the runs, with their number.
-const intervalInWords = ({ median, low, high, runs }, unit) =>
+const intervalInWords = ({ median, ci95: [low, high], runs }, unit) =>
   `${threeDigits(median)}${unit} (${threeDigits(low)} to ${threeDigits(high)}${runs < 6 ? `, ${runs} run${runs === 1 ? "" : "s"}` : ""})`;
 
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
-  value: (point) => point.errors[kind][measure], text: errorNumber });
+  value: ({ error }) => error[kind][measure], text: errorNumber });
 const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
-  { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: (point) => point.temporal, text: errorNumber }];
+  { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber }];
 const COSTS = [
-  { key: "ratio", title: "Time, over the baseline's", value: (point) => point.ratio?.median ?? null, text: threeDigits, time: true },
-  { key: "ms", title: "Time, ms a frame", value: (point) => point.ms?.median ?? null, text: threeDigits, time: true },
-  { key: "moved", title: "Bytes moved a frame", value: (point) => point.moved, text: byteNumber },
-  { key: "listed", title: "Listed pairs a view", value: (point) => point.listed, text: shortCount },
-  { key: "memory", title: "Memory", value: (point) => point.memory, text: byteNumber },
+  { key: "ratio", title: "Time, over the baseline's", value: (point) => point.ratio.median, text: threeDigits, time: true },
+  { key: "ms", title: "Time, ms a frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },
+  { key: "moved", title: "Bytes moved a frame", value: (point) => point.bytes_moved, text: byteNumber },
+  { key: "listed", title: "Listed pairs a view", value: ({ pairs, views }) => pairs.listed / views, text: shortCount },
+  { key: "memory", title: "Memory", value: (point) => point.memory_bytes, text: byteNumber },
 ];
 const QUANTITIES = [...COSTS, ...ERRORS];
 const quantity = (key) => QUANTITIES.find((q) => q.key === key);
 const TOTAL = quantity("total.rmse_rel");
 
-const styleOf = (technique) => page.styles.find((style) => style.technique === technique);
-
 // Points whose time does not differ from this one's and whose error is no larger: it is not ranked before or after them.
-const tiedNoWorse = (point) => point.tied.map((index) => page.points[index])
-  .filter((other) => other.nan === 0 && TOTAL.value(other) !== null && TOTAL.value(other) <= TOTAL.value(point));
+const tiedNoWorse = (point) => point.tied_with.map((index) => page.points[index])
+  .filter((other) => other.nan_pixels === 0 && TOTAL.value(other) !== null && TOTAL.value(other) <= TOTAL.value(point));
 
-// True for points that no other beats or equals in both while beating it in one.
+// True for points that no other beats or equals in both while beating it in one. On the default axes, with no technique hidden,
+// these are the points with `front`.
 function frontOf(points, x, y) {
-  const places = points.map((point) => (point.nan > 0 ? [null, null] : [x.value(point), y.value(point)]));
+  const places = points.map((point) => (point.nan_pixels > 0 ? [null, null] : [x.value(point), y.value(point)]));
   const better = ([ax, ay], [bx, by]) => ax <= bx && ay <= by && (ax < bx || ay < by);
   const whole = places.filter(([px, py]) => px !== null && py !== null);
   return places.map((place) => place[0] !== null && place[1] !== null && !whole.some((other) => better(other, place)));
 }
 
+// Color by technique, shape by family; a label names its technique before the colon.
+const MARKERS = {
+  deferred: "M-4.5,-4.5h9v9h-9z",
+  clustered: "M0,-5.5L5.2,4.2H-5.2z",
+  lidr: "M0,-6L6,0L0,6L-6,0z",
+  world: "M-6,-2.5h12v5h-12z",
+  voxel: "M-5,-3L0,-6L5,-3V3L0,6L-5,3z",
+  visibility: "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z",
+};
+const CIRCLE = "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z";
+const techniqueOf = (label) => label.split(":")[0];
+const techniqueColor = (technique) => colorNumber(page.techniques.indexOf(technique));
+
 function markerElement(technique, attributes) {
-  const { colour, marker } = styleOf(technique);
-  return make("path", { d: marker, fill: colour, stroke: colour, ...attributes });
+  const color = techniqueColor(technique);
+  return make("path", { d: MARKERS[technique.split("_")[0]] ?? CIRCLE, fill: color, stroke: color, ...attributes });
 }
+
+const moveTo = (x, y) => ({ transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
+
+// Marks with names, `across` of them beside each other.
+const markedNames = (names, left, top, across, width) => names.flatMap(({ technique, text }, i) => {
+  const x = left + (i % across) * width / across, y = top + 20 * Math.floor(i / across);
+  return [markerElement(technique, moveTo(x + 6, y)), make("text", { x: x + 20, y: y + 4 }, text)];
+});

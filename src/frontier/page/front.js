@@ -2,49 +2,12 @@
 // left to right.
 
 const FRONT_MARGIN = { left: 62, right: 18, top: 34, bottom: 52 };
-const ZERO_ROOM = 34;   // pixels between the place of 0 and the axis
 const REACH = 30;       // pixels from which the pointer takes a point
-
-function tickText(value) {
-  if (value >= 1e6) return shortCount(value);
-  return value >= 0.0099 ? String(Number(value.toPrecision(6))) : value.toExponential(0);
-}
-
-// A logarithmic axis from `from` to `to` in pixels. 0 has a place of its own before its begin.
-function logAxis(values, from, to) {
-  const positive = values.filter((value) => value > 0), hasZero = values.includes(0);
-  const low = (positive.length ? Math.min(...positive) : 1) / 1.3, high = (positive.length ? Math.max(...positive) : 1) * 1.3;
-  const begin = hasZero ? from + Math.sign(to - from) * ZERO_ROOM : from;
-  const decades = Math.log10(high / low), ticks = [];
-  const every = Math.ceil(decades / (Math.abs(to - from) / 45));  // a label takes 45 pixels
-  for (let decade = Math.floor(Math.log10(low)); decade <= Math.ceil(Math.log10(high)); ++decade) {
-    for (const digit of decades < 2 ? [1, 2, 5] : [1]) {
-      const value = Number(`${digit}e${decade}`);
-      if (value >= low && value <= high && decade % every === 0) ticks.push(value);
-    }
-  }
-  return { hasZero, ticks, at: (value) => (value === 0 ? from : begin + (Math.log(value / low) / Math.log(high / low)) * (to - begin)) };
-}
-
-function frontAxes(width, height, x, y, xAxis, yAxis) {
-  const { left, right, top, bottom } = FRONT_MARGIN, parts = [];
-  const across = (at, text, kind) => parts.push(make("line", { class: kind, x1: at, x2: at, y1: top, y2: height - bottom }),
-    make("text", { x: at, y: height - bottom + 18, "text-anchor": "middle" }, text));
-  const along = (at, text, kind) => parts.push(make("line", { class: kind, x1: left, x2: width - right, y1: at, y2: at }),
-    make("text", { x: left - 8, y: at, dy: "0.32em", "text-anchor": "end" }, text));
-  for (const value of xAxis.ticks) across(xAxis.at(value), tickText(value), "rule");
-  for (const value of yAxis.ticks) along(yAxis.at(value), tickText(value), "rule");
-  if (xAxis.hasZero) across(xAxis.at(0), "0", "rule zero");
-  if (yAxis.hasZero) along(yAxis.at(0), "0", "rule zero");
-  parts.push(make("text", { x: (left + width - right) / 2, y: height - 10, "text-anchor": "middle" }, x.title),
-    make("text", { x: 8, y: 16 }, y.title));
-  return parts;
-}
 
 function tipOf(point, x, y) {
   const lines = [make("p", {}, make("strong", {}, nameElement(point.label)))];
   const add = (text) => lines.push(make("p", {}, text));
-  if (point.ratio) add(`${intervalInWords(point.ratio, "")} times ${page.baseline}, ${intervalInWords(point.ms, " ms")}`);
+  if (point.ratio.runs > 0) add(`${intervalInWords(point.ratio, "")} times ${page.baseline}, ${intervalInWords(point.frame_ms, " ms")}`);
   for (const q of new Set([TOTAL, y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
   const settings = Object.entries(point.settings).map(([key, value]) => `${key} ${value}`).join(", ");
   if (settings) lines.push(make("p", { class: "quiet" }, settings));
@@ -64,7 +27,7 @@ function startFront(container, state, choose) {
     hovered = entry;
     for (const { element, point } of shown) {
       element.classList.toggle("hovered", entry !== null && point === entry.point);
-      element.classList.toggle("tied", entry !== null && entry.point.tied.includes(page.points.indexOf(point)));
+      element.classList.toggle("tied", entry !== null && entry.point.tied_with.includes(page.points.indexOf(point)));
     }
     tip.hidden = entry === null;
     if (entry === null) return;
@@ -108,8 +71,9 @@ function startFront(container, state, choose) {
   return () => {
     const { x, y } = state, { left, right, top, bottom } = FRONT_MARGIN;
     const width = Math.max(280, container.clientWidth), height = Math.round(Math.min(540, Math.max(340, width * 0.6)));
+    const area = { left, right: width - right, top, bottom: height - bottom };
     const placed = state.points.filter((point) => !state.hidden.has(point.technique) && x.value(point) !== null && y.value(point) !== null);
-    const xAxis = logAxis(placed.map(x.value), left, width - right), yAxis = logAxis(placed.map(y.value), height - bottom, top);
+    const xAxis = logAxis(placed.map(x.value), area.left, area.right), yAxis = logAxis(placed.map(y.value), area.bottom, area.top);
     const onFront = frontOf(placed, x, y);
     shown = placed.map((point, i) => ({ point, onFront: onFront[i], at: [xAxis.at(x.value(point)), yAxis.at(y.value(point))] }));
     const front = shown.filter((entry) => entry.onFront).sort((a, b) => a.at[0] - b.at[0]);
@@ -117,17 +81,20 @@ function startFront(container, state, choose) {
     const ofTies = x.time && y === TOTAL ? front.filter(({ point }) => tiedNoWorse(point).length > 0) : [];
     for (const entry of shown) {
       entry.element = markerElement(entry.point.technique, { class: `point${entry.onFront ? " on-front" : ""}${entry.point === state.selected ? " selected" : ""}`,
-        transform: `translate(${entry.at[0].toFixed(1)} ${entry.at[1].toFixed(1)})`, "data-label": entry.point.label });
+        ...moveTo(...entry.at), "data-label": entry.point.label,
+        "data-title": `${entry.point.label}: ${x.title} ${x.text(x.value(entry.point))}; ${y.title} ${y.text(y.value(entry.point))}` });
     }
     const inFront = [...shown].sort((a, b) => a.onFront - b.onFront);
-    container.replaceChildren(make("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${y.title} against ${x.title}` },
-      ...frontAxes(width, height, x, y, xAxis, yAxis),
-      make("polyline", { class: "step", points: steps.map((at) => at.map((value) => value.toFixed(1)).join(",")).join(" ") }),
-      ...inFront.map(({ element }) => element),
-      ...ofTies.map(({ at }) => make("text", { class: "tie", x: at[0] + 8, y: at[1] - 6 }, "~"))), tip);
+    const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
+    const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
+      polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
+      ...ofTies.map(({ at }) => make("text", { class: "tie", x: at[0] + 8, y: at[1] - 6 }, "~")),
+      make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));
+    svg.dataset.fileHeight = height + 20 * Math.ceil(names.length / 3) + 10;
+    container.replaceChildren(svg, tip);
     const before = hovered?.point;
     hovered = undefined;
     hover(shown.find(({ point }) => point === before) ?? null);
-    return { shown: shown.length, front: front.map(({ point }) => point.label), missing: state.points.length - placed.length };
+    return { shown: shown.length, missing: state.points.length - placed.length };
   };
 }

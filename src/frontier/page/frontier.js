@@ -1,6 +1,5 @@
 // Fills the page from the answer, embedded above.
 
-const page = JSON.parse(byId("page").textContent);
 const state = { scene: page.scenes[0]?.key, points: [], x: quantity("ratio"), y: TOTAL, hidden: new Set(), selected: null };
 let drawFront = null;
 
@@ -32,7 +31,7 @@ function withinCell(best) {
   if (!best) return make("td", { class: "quiet" }, "\u2013");
   const point = page.points[best.point], tied = best.tied.map((index) => page.points[index].label);
   return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
-    make("div", { class: "note" }, `${intervalInWords(point.ratio, "\u00d7")}, ${milliseconds(point.ms.median)}`),
+    make("div", { class: "note" }, `${intervalInWords(point.ratio, "\u00d7")}, ${milliseconds(point.frame_ms.median)}`),
     ...(tied.length ? [make("div", { class: "note" }, `~ ${tied.slice(0, 2).join(", ")}${tied.length > 2 ? ` and ${tied.length - 2} more` : ""}`)] : []));
 }
 
@@ -61,16 +60,6 @@ function showFailures() {
     make("li", {}, make("strong", {}, failure.label), ` in ${sceneTitle(failure.scene)}: ${failure.why}`)));
 }
 
-function showPlots(id) {
-  const plots = page.plots.filter((plot) => plot.kind === id && plot.scene === state.scene);
-  byId(`${id}-part`).hidden = plots.length === 0;
-  byId(id).replaceChildren(...plots.map((plot) => {
-    const card = make("figure", { class: "chart-card" }, make("figcaption", {}, make("strong", {}, plot.title)), make("div", { class: "drawing" }));
-    card.lastChild.innerHTML = plot.svg;
-    return card;
-  }));
-}
-
 function showMachines() {
   byId("errors").replaceChildren(...page.machines.flatMap((machine) => [
     make("dt", {}, page.machines.length > 1 ? `Part ${machine.shard}` : "This machine"),
@@ -97,51 +86,47 @@ function errorTable(point) {
   return make("div", { class: "scrolls" }, make("table", {},
     make("thead", {}, make("tr", {}, make("td", {}, "Error"), ...ERROR_MEASURES.map(([, title]) => make("th", { scope: "col" }, title)))),
     make("tbody", {}, ...ERROR_KINDS.map(([kind, title]) => make("tr", {}, make("th", { scope: "row" }, title),
-      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.errors[kind][measure])))))),
-    ...(point.sampled ? [make("tbody", {}, make("tr", {}, make("th", { scope: "row" }, "whole picture, truth in double"),
-      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.errors.in_double[measure])))))] : [])));
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.error[kind][measure])))))),
+    ...(point.error.in_double ? [make("tbody", {}, make("tr", {}, make("th", { scope: "row" }, "whole picture, truth in double"),
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.error.in_double[measure] ?? null)))))] : [])));
 }
 
 function choosePoint(point) {
   state.selected = point;
   const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
-  const tied = (point?.tied ?? []).map((index) => page.points[index].label);
-  const summary = point && [point.ratio && `${intervalInWords(point.ratio, "")} times ${page.baseline}`, point.ms && `${intervalInWords(point.ms, " ms")} a frame`,
-    `${point.views} view${point.views === 1 ? "" : "s"}`, point.lost > 0 && `${wholeNumber(point.lost)} pairs lost`, point.nan > 0 && `${wholeNumber(point.nan)} NaN pixels`,
-    point.lit > 0 && `${shortNumber(point.listed / point.lit)} listed pairs for each lit one`, point.front && "on the front"];
+  const tied = (point?.tied_with ?? []).map((index) => page.points[index].label), error = point?.error, sampled = error?.in_double;
+  const timed = point?.ratio.runs > 0;
+  const summary = point && [timed && `${intervalInWords(point.ratio, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
+    `${point.views} view${point.views === 1 ? "" : "s"}`, point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
+    point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, point.front && "on the front"];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
     ...(images.length && page.reduced > 1 ? [make("p", { class: "quiet" }, `Shown at 1/${page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] : []),
     errorTable(point),
-    ...(point.sampled ? [make("p", {}, `Truth in double: at ${wholeNumber(point.sampled.pixels)} random pixels of opaque surfaces. There the RMSE is ${errorNumber(point.sampled.in_float.rmse_rel)} against the truth in float, which is within ${errorNumber(point.sampled.truth.max_rel)} of the one in double (RMSE ${errorNumber(point.sampled.truth.rmse_rel)}).`)] : []),
-    ...(point.flip_views > 0 && point.flip_views < point.views ? [make("p", {}, `FLIP on ${point.flip_views} of ${point.views} views, flicker on ${point.temporal_views}.`)] : []),
-    ...(point.deviation !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(point.bias ?? 0)}, standard deviation of a frame ${errorNumber(point.deviation)} (RMSE over the brightest channel).`)] : []),
-    ...(point.temporal !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(point.temporal)} (RMSE over the brightest channel).`)] : []),
+    ...(sampled ? [make("p", {}, `Truth in double: at ${wholeNumber(sampled.pixels)} random pixels of opaque surfaces. There the RMSE is ${errorNumber(sampled.float_total_rmse_rel)} against the truth in float, which is within ${errorNumber(sampled.float_truth_max_rel)} of the one in double (RMSE ${errorNumber(sampled.float_truth_rmse_rel)}).`)] : []),
+    ...(error.flip_views > 0 && error.flip_views < point.views ? [make("p", {}, `FLIP on ${error.flip_views} of ${point.views} views, flicker on ${error.temporal_views}.`)] : []),
+    ...(error.deviation_rmse_rel !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(error.bias_rmse_rel ?? 0)}, standard deviation of a frame ${errorNumber(error.deviation_rmse_rel)} (RMSE over the brightest channel).`)] : []),
+    ...(error.temporal_rmse_rel !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(error.temporal_rmse_rel)} (RMSE over the brightest channel).`)] : []),
     ...(tied.length ? [make("details", {}, make("summary", {}, `~ ${tied.length} point${tied.length === 1 ? "" : "s"} whose time does not differ`), make("p", {}, tied.join(", ")))] : []),
     make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
   redraw();
 }
 
+const column = (title, key) => ({ title, value: quantity(key).value, text: quantity(key).text });
 const FIGURE_COLUMNS = [
   { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
-  { title: "Time, over the baseline's", value: (point) => point.ratio?.median ?? null, text: threeDigits },
-  { title: "Frame, ms", value: (point) => point.ms?.median ?? null, text: threeDigits },
-  { title: "RMSE", value: TOTAL.value, text: errorNumber },
-  { title: "Largest error", value: quantity("total.max_rel").value, text: errorNumber },
-  { title: "FLIP, mean", value: quantity("total.flip_mean").value, text: errorNumber },
-  { title: "Model", value: quantity("model.rmse_rel").value, text: errorNumber },
-  { title: "Precision", value: quantity("precision.rmse_rel").value, text: errorNumber },
-  { title: "Technique", value: quantity("technique.rmse_rel").value, text: errorNumber },
-  { title: "Lost pairs", value: (point) => point.lost, text: wholeNumber, gate: true },
-  { title: "NaN pixels", value: (point) => point.nan, text: wholeNumber, gate: true },
-  { title: "Listed pairs", value: (point) => point.listed, text: shortCount },
-  { title: "Bytes moved", value: (point) => point.moved, text: byteNumber },
-  { title: "Memory", value: (point) => point.memory, text: byteNumber },
+  column("Time, over the baseline's", "ratio"), column("Frame, ms", "ms"), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
+  column("FLIP, mean", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
+  column("Technique", "technique.rmse_rel"),
+  { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
+  { title: "NaN pixels", value: (point) => point.nan_pixels, text: wholeNumber, gate: true },
+  column("Listed pairs", "listed"), column("Bytes moved", "moved"), column("Memory", "memory"),
 ];
 
 function showTechniques() {
-  const names = page.styles.map((style) => style.technique).filter((name) => state.points.some((point) => point.technique === name));
+  const names = page.techniques.filter((name) => state.points.some((point) => point.technique === name));
   byId("techniques").replaceChildren(...names.map((name) => {
     const button = make("button", { type: "button", "aria-pressed": String(!state.hidden.has(name)) },
       make("svg", { viewBox: "-7 -7 14 14", "aria-hidden": "true" }, markerElement(name, {})), name);
@@ -170,8 +155,8 @@ function chooseScene(key) {
   showTechniques();
   const frontTag = (point) => (point.front ? (tiedNoWorse(point).length ? "front ~" : "front") : "");
   showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
-  showPlots("break-even");
-  showPlots("growth");
+  showCosts(key);
+  byId("save-front").replaceChildren(saveButton(byId("front"), `front-${sceneTitle(key)}`));
   choosePoint(state.points.find((point) => point.front && point.pictures) ?? null);
 }
 

@@ -13,17 +13,10 @@ const curveDash = (curve) => (curve.flat ? "2 4" : curveNames.indexOf(curve.name
 
 // 1, 2, 5, 10, … from below `low` to above `high`.
 function roundSteps(low, high) {
-  const steps = [];
-  for (let decade = Math.floor(Math.log10(low)); decade <= Math.ceil(Math.log10(high)); ++decade) {
-    for (const digit of [1, 2, 5]) steps.push(digit * 10 ** decade);
-  }
+  const steps = decadeSteps(low, high, [1, 2, 5]).map(({ value }) => value);
   const first = steps.findLastIndex((step) => step <= low), last = steps.findIndex((step) => step >= high);
   return steps.slice(Math.max(first, 0), last + 1);
 }
-
-// Position of a value between low and high, on a logarithmic axis from `from` to `to` in pixels.
-const onAxis = (value, low, high, from, to) =>
-  from + (high > low ? Math.log(value / low) / Math.log(high / low) : 0.5) * (to - from);
 
 function chartFrame(chart, width, x, y, steps) {
   const { left, right, top, bottom } = CHART_MARGIN;
@@ -68,8 +61,7 @@ function drawChart(chart, width) {
   const marks = chart.crossings.filter((crossing) => crossing.lead).map((crossing) =>
     make("circle", { class: "crossing", cx: x(crossing.x), cy: y(crossing.ms), r: 8 },
       make("title", {}, `${crossing.below} and ${crossing.above} cross at about ${shortNumber(crossing.x)} ${chart.axis}`)));
-  return make("svg", { class: "chart", viewBox: `0 0 ${width} ${CHART_HEIGHT}`, role: "img", "aria-label": `Frame time over ${chart.axis}: ${chart.title}` },
-    ...chartFrame(chart, width, x, y, steps), ...chart.curves.map((curve) => drawCurve(chart, curve, x, y)), ...marks);
+  return drawing(width, CHART_HEIGHT, `Frame time over ${chart.axis}: ${chart.title}`, ...chartFrame(chart, width, x, y, steps), ...chart.curves.map((curve) => drawCurve(chart, curve, x, y)), ...marks);
 }
 
 function crossingTable(chart) {

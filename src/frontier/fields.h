@@ -1,0 +1,179 @@
+// The fields of what a frontier measures, each named once: its key, its member and what a reader demands of
+// it. Parts, the keys of records, frontier.json and frontier.csv are made by visiting them
+// (docs/frontier_json.md).
+#pragma once
+
+#include <concepts>
+#include <nlohmann/json.hpp>
+
+#include "frontier/json_fields.h"
+#include "frontier/record.h"
+#include "results/error_measures.h"
+
+namespace lightgrid {
+
+// What a reader demands: whole numbers are at least `low`, and a field that is not required keeps its value.
+struct FieldRule {
+  int low = 0;
+  bool required = true;
+};
+
+template <typename T, typename U>
+concept Is = std::same_as<std::remove_const_t<T>, U>;
+
+template <Is<FrontierPoint> T, typename Visit>
+void visit_fields(T& p, Visit&& visit) {
+  visit("scene", p.scene);
+  visit("technique", p.technique);
+  visit("settings", p.settings);
+  visit("label", p.label);
+  visit("frames", p.frames, FieldRule{.low = 1});
+}
+
+template <Is<PairCounts> T, typename Visit>
+void visit_fields(T& p, Visit&& visit) {
+  visit("listed", p.listed);
+  visit("lit", p.lit);
+  visit("lost", p.lost);
+  visit("wrong", p.wrong);
+}
+
+template <Is<ImageError> T, typename Visit>
+void visit_fields(T& e, Visit&& visit) {
+  for (const ErrorMeasure& measure : frontier_error_measures()) visit(measure.key, e.*measure.value);
+  visit("flip_mean", e.flip_mean);
+}
+
+template <Is<SampledErrors> T, typename Visit>
+void visit_fields(T& s, Visit&& visit) {
+  visit("pixels", s.pixels);
+  visit("picture", s.picture);
+  visit("picture_in_float", s.picture_in_float);
+  visit("truth", s.truth);
+}
+
+inline constexpr std::pair<const char*, ImageError PointErrors::*> kinds_of_error[] = {
+    {"model", &PointErrors::model},
+    {"precision", &PointErrors::precision},
+    {"technique", &PointErrors::technique},
+    {"total", &PointErrors::total}};
+
+template <Is<PointErrors> T, typename Visit>
+void visit_fields(T& e, Visit&& visit) {
+  for (const auto& [key, kind] : kinds_of_error) visit(key, e.*kind);
+  visit("in_double", e.in_double);
+  visit("bias_rmse_rel", e.bias_rmse_rel);
+  visit("deviation_rmse_rel", e.deviation_rmse_rel);
+  visit("temporal_rmse_rel", e.temporal_rmse_rel);
+}
+
+// What is measured, without what came out.
+template <Is<FrontierRecord> T, typename Visit>
+void visit_identity(T& r, Visit&& visit) {
+  visit_fields(r.point, visit);
+  visit("view", r.view);
+  visit("width", r.width);
+  visit("height", r.height);
+  visit("lights", r.lights);
+  visit("radius_scale", r.radius_scale);
+  visit("series", r.series);
+}
+
+template <Is<FrontierRecord> T, typename Visit>
+void visit_fields(T& r, Visit&& visit) {
+  visit_identity(r, visit);
+  visit("refused", r.refused);
+  visit("frame_ms", r.frame_ms);
+  visit("baseline_ms", r.baseline_ms);
+  visit("pass_ms", r.pass_ms);
+  visit("cull_ms", r.cull_ms);
+  visit("bytes_moved", r.bytes_moved);
+  visit("memory_bytes", r.memory_bytes);
+  visit("covered_pixels", r.covered_pixels);
+  visit("pairs", r.pairs);
+  visit("nan_pixels", r.nan_pixels);
+  visit("overflow", r.overflow);
+  visit("errors", r.errors);
+  visit("flip_exposures", r.flip);
+  visit("image", r.image);
+}
+
+template <Is<FrontierMachine> T, typename Visit>
+void visit_fields(T& m, Visit&& visit) {
+  const FieldRule may_miss{.required = false};
+  visit("cl_device", m.cl_device);
+  visit("gl_device", m.gl_device);
+  visit("cl_driver", m.cl_driver);
+  visit("gl_driver", m.gl_driver);
+  visit("cpu", m.cpu);
+  visit("governor", m.governor);
+  visit("clock_mhz", m.clock_mhz, may_miss);
+  visit("threads", m.threads);
+  visit("load_at_start", m.load_at_start, may_miss);
+  visit("load_at_end", m.load_at_end, may_miss);
+  visit("shard", m.shard, may_miss);
+}
+
+// The first line of a part.
+template <Is<FrontierPart> T, typename Visit>
+void visit_fields(T& p, Visit&& visit) {
+  visit("request", p.request);
+  visit("commit", p.commit);
+  visit("seed", p.seed);
+  visit("shards", p.shards, FieldRule{.low = 1});
+  visit("shard", p.shard);
+  visit("baseline", p.baseline);
+  visit("machine", p.machine);
+}
+
+// Parts lose nothing; what others read has null for what is not finite, and settings as numbers.
+enum class Numbers { exact, finite };
+
+// Collects visited fields as a JSON object.
+struct ToJson {
+  Numbers numbers = Numbers::exact;
+  nlohmann::json object = nlohmann::json::object();
+
+  template <typename T>
+  void operator()(const char* key, const T& value, FieldRule = {}) {
+    object[key] = json_of(value);
+  }
+  nlohmann::json json_of(double value) const {
+    return numbers == Numbers::exact ? exact_number(value) : finite_number(value);
+  }
+  template <typename T>
+  requires std::integral<T> || std::same_as<T, std::string> nlohmann::json json_of(const T& value)
+  const { return value; }
+  template <typename T>
+  nlohmann::json json_of(const std::optional<T>& value) const {
+    return value ? json_of(*value) : nlohmann::json();
+  }
+  nlohmann::json json_of(const std::optional<FlipExposures>& flip) const {
+    if (!flip) return nlohmann::json::array();
+    return {json_of(flip->start), json_of(flip->stop), flip->count};
+  }
+  nlohmann::json json_of(const std::map<std::string, std::string>& settings) const {
+    return numbers == Numbers::exact ? nlohmann::json(settings) : settings_json(settings);
+  }
+  template <typename T>
+  nlohmann::json json_of(const std::map<std::string, T>& values) const {
+    nlohmann::json all = nlohmann::json::object();
+    for (const auto& [key, value] : values) all[key] = json_of(value);
+    return all;
+  }
+  template <typename T>
+  nlohmann::json json_of(const std::vector<T>& values) const {
+    nlohmann::json all = nlohmann::json::array();
+    for (const T& value : values) all.push_back(json_of(value));
+    return all;
+  }
+  template <typename T>
+  requires requires(const T& t, ToJson& v) { visit_fields(t, v); }
+  nlohmann::json json_of(const T& value) const {
+    ToJson inner{numbers};
+    visit_fields(value, inner);
+    return inner.object;
+  }
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,85 @@
+// The shading costs from which tighter cull tests win, and how time grows, as plots of one scene.
+
+const PLOT_WIDTH = 560;
+
+// "exact over sphere, tile=8": labels that differ in the cull test, in short.
+function pairInWords({ scene, tighter, looser }) {
+  const testOf = (label) => page.points.find((point) => point.scene === scene && point.label === label)?.settings.cull_test ?? label;
+  const others = tighter.split(/[:,]/).slice(1).filter((item) => !/^cull[-_]test=/.test(item));
+  return [`${testOf(tighter)} over ${testOf(looser)}`, ...others].join(", ");
+}
+
+// The bar begins where the tighter test begins to win; the thin line through its end is the interval of that place.
+function pairBar(pair, x, y, right) {
+  const { ns_per_pixel_light: cost, ci95: [low, high], rounds } = pair, words = pairInWords(pair);
+  const wins = cost === null ? "never" : cost === 0 ? "always" : `from ${threeDigits(cost)} ns`;
+  const interval = rounds > 0 ? ` (${threeDigits(low)} to ${threeDigits(high)})` : "";
+  const parts = [make("text", { x: x.at(0), y: y + 14 }, `${words}: ${wins}${interval}`)];
+  if (cost === null) return parts;
+  parts.push(make("rect", { class: "wins", x: x.at(cost), y: y + 19, width: right - x.at(cost), height: 9, rx: 2 }, make("title", {},
+    `${words}: ${wins}${interval}. Culling takes ${threeDigits(pair.extra_ms)} ms more a view and lists ${threeDigits(pair.pairs_saved)} fewer pairs`)));
+  if (rounds === 0) return parts;
+  parts.push(make("line", { class: "interval", x1: x.at(low), x2: x.at(high), y1: y + 23.5, y2: y + 23.5 }));
+  for (const end of [low, high]) parts.push(make("line", { class: "interval", x1: x.at(end), x2: x.at(end), y1: y + 19, y2: y + 28 }));
+  return parts;
+}
+
+function breakEvenPlot(scene, technique) {
+  const cheapest = (a, b) => (a.ns_per_pixel_light ?? Infinity) - (b.ns_per_pixel_light ?? Infinity) || 0;
+  const pairs = page.break_even.filter((pair) => pair.scene === scene && techniqueOf(pair.tighter) === technique).sort(cheapest);
+  const costs = page.shading_costs.filter((cost) => cost.scene === scene && cost.technique === technique).sort(cheapest);
+  if (pairs.length === 0) return null;
+  const top = 14 + 16 * costs.length, area = { left: 16, right: PLOT_WIDTH - 16, top, bottom: top + 34 * pairs.length };
+  const x = logAxis([0, ...[...pairs, ...costs].map((cost) => cost.ns_per_pixel_light ?? 0), ...pairs.flatMap((pair) => pair.ci95.map((end) => end ?? 0))],
+    area.left, area.right);
+  const title = `${sceneTitle(scene)}, ${technique}: shading cost from which the tighter cull test wins`;
+  const svg = drawing(PLOT_WIDTH, area.bottom + 50, title, ...acrossAxis(x, "ns a pixel and light", area),
+    ...pairs.flatMap((pair, i) => pairBar(pair, x, area.top + 34 * i, area.right)),
+    ...costs.flatMap(({ ns_per_pixel_light: cost, brdf }, i) => {
+      const at = x.at(cost), words = `${threeDigits(cost)} ns${brdf ? ` with ${brdf}` : ""} on this machine`;
+      return [make("line", { class: "machine", x1: at, x2: at, y1: 16 * i + 16, y2: area.bottom }),
+        make("text", { class: "machine-name", x: at, y: 16 * i + 12, "text-anchor": at + 7 * words.length < area.right ? "start" : "end" }, words)];
+    }));
+  return { title, name: `break-even-${sceneTitle(scene)}-${technique}`, svg };
+}
+
+// Times and the line a x^exponent through their mean in logarithms, as it was fitted.
+function growthCurve({ technique: label, of, exponent, samples }, x, y) {
+  const technique = techniqueOf(label), log = samples.filter((at) => at[0] > 0 && at[1] > 0).map((at) => at.map(Math.log));
+  const mean = (i) => log.reduce((sum, at) => sum + at[i], 0) / log.length;
+  const fitted = (value) => [x.at(value), y.at(Math.exp(mean(1) + exponent * (Math.log(value) - mean(0))))];
+  return [polyline([fitted(samples[0][0]), fitted(samples[samples.length - 1][0])], { stroke: techniqueColor(technique), "stroke-width": 2 }),
+    ...samples.map(([value, ms]) => {
+      const mark = markerElement(technique, moveTo(x.at(value), y.at(ms)));
+      mark.append(make("title", {}, `${label}, ${threeDigits(value)} ${of}: ${threeDigits(ms)} ms`));
+      return mark;
+    })];
+}
+
+function growthPlot(scene, of) {
+  const curves = page.growth.filter((growth) => growth.scene === scene && growth.of === of);
+  if (curves.length === 0) return null;
+  const area = { left: 60, right: PLOT_WIDTH - 20, top: 36, bottom: 320 }, samples = curves.flatMap((curve) => curve.samples);
+  const x = logAxis(samples.map((at) => at[0]), area.left, area.right), y = logAxis(samples.map((at) => at[1]), area.bottom, area.top);
+  const names = curves.map(({ technique, exponent, ci95: [low, high] }) => ({ technique: techniqueOf(technique),
+    text: `${technique}: exponent ${exponent.toFixed(2)}${low === null || high === null ? "" : ` (${low.toFixed(2)} to ${high.toFixed(2)})`}` }));
+  const title = `Time over ${of}: ${sceneTitle(scene)}`;
+  return { title, name: `growth-${of}-${sceneTitle(scene)}`, svg: drawing(PLOT_WIDTH, 390 + 20 * curves.length, title,
+    ...acrossAxis(x, of === "radius" ? "radius, over the scene's" : of, area), ...alongAxis(y, "ms a frame", area),
+    ...curves.flatMap((curve) => growthCurve(curve, x, y)), ...markedNames(names, area.left, area.bottom + 64, 1, 0)) };
+}
+
+// Puts the plots that have anything to show into the element of that id.
+function showPlots(id, plots) {
+  const drawn = plots.filter((plot) => plot !== null);
+  byId(`${id}-part`).hidden = drawn.length === 0;
+  byId(id).replaceChildren(...drawn.map(({ title, name, svg }) => {
+    const plot = make("div", { class: "drawing" }, svg);
+    return make("figure", { class: "chart-card" }, make("figcaption", {}, make("strong", {}, title)), plot, saveButton(plot, name));
+  }));
+}
+
+function showCosts(scene) {
+  showPlots("break-even", page.techniques.map((technique) => breakEvenPlot(scene, technique)));
+  showPlots("growth", ["lights", "pixels", "radius"].map((of) => growthPlot(scene, of)));
+}
