@@ -115,15 +115,15 @@ void other_projections(Check& c) {
 }  // namespace
 
 std::vector<HardCase> projection_cases() {
-  const char* g = "camera";
+  const char* group = "camera";
   return {
-      {g, "fields_to_179_9", "150 … 179.9° across; lights that just reach pixels about the axis",
-       "a side's slope is the difference of two large ones", "nothing lost", fields_to_179_9},
-      {g, "jittered", "six offsets by fractions of a pixel; a tiny light at each pixel's position",
-       "jitter in one pass alone (HDRP #5287)", "nothing lost; the same matrix twice gives the same grid",
-       jittered},
-      {g, "other_projections", "shears, oblique near planes, tilted w, moved images",
-       "only the diagonal is read", "refused by name, or nothing lost", other_projections},
+      CASE(fields_to_179_9, "150 … 179.9° across; lights that just reach pixels about the axis",
+           "a side's slope is the difference of two large ones", "nothing lost"),
+      CASE(jittered, "six offsets by fractions of a pixel; a tiny light at each pixel's position",
+           "jitter in one pass alone (HDRP #5287)",
+           "nothing lost; the same matrix twice gives the same grid"),
+      CASE(other_projections, "shears, oblique near planes, tilted w, moved images",
+           "only the diagonal is read", "refused by name, or nothing lost"),
   };
 }
 
