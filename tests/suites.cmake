@@ -8,12 +8,6 @@ if(NOT status EQUAL 0)
   return()
 endif()
 
-# .ci/run sets LIGHTGRID_CL_QUICK_BUILD=all. Read here, since this runs when ctest starts.
-set(environment LIGHTGRID_TUNED=off)
-if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND folder IN_LIST optimised_folders)
-  list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
-endif()
-
 # Further arguments: NAME=VALUE for the environment.
 function(add_entry name filter)
   add_test(${name} ${program} --gtest_filter=${filter} --gtest_brief=1)
@@ -21,7 +15,16 @@ function(add_entry name filter)
   if(suite IN_LIST of_one_kernel)
     set(lock RESOURCE_LOCK ${folder}_kernel)
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 LABELS ${folder} COST ${cost} ${lock}
+  set(environment LIGHTGRID_TUNED=off)
+  # .ci/run sets LIGHTGRID_CL_QUICK_BUILD=all. Read here, since this runs when ctest starts.
+  if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND (folder IN_LIST optimised_folders OR suite MATCHES "PassCases$"))
+    list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
+  endif()
+  set(labels ${folder})
+  if(ARGN OR suite IN_LIST thorough_suites)
+    list(APPEND labels thorough)  # left to ./lightgrid test --all
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 LABELS "${labels}" COST ${cost} ${lock}
                        ENVIRONMENT "${environment};${ARGN}")
 endfunction()
 

@@ -286,39 +286,38 @@ void slices_and_bounds(Check& c) {
 }  // namespace
 
 std::vector<HardCase> agreement_cases() {
-  const char* g = "agreement";
+  const char* group = "agreement";
   return {
-      {g, "pixel_finds_its_tile", "a tiny light at each pixel's centre, in every tile size",
-       "shading and culling round the tile differently", "the cell that shading finds lists it",
-       pixel_finds_its_tile},
-      {g, "on_slice_edges",
-       "surfaces on slice edges and one step beside, reversed and standard, D32F, D24, D16; lights that just "
-       "reach them",
-       "a second log() in the shader: 0.7 to 85 in a million differ",
-       "the slice that shading finds by the stored depth lists the light", on_slice_edges},
-      {g, "on_z_bin_edges", "the same on the edges of z-bins",
-       "bins of lights and of pixels round differently", "the pixel's bin includes the light",
-       on_z_bin_edges},
-      {g, "z_bins_of_lights",
-       "lights across near, behind, past the last edge, of infinite range, of size 0, in every view",
-       "a light only in the bin of its centre; a last bin with an end",
-       "every lit pixel's bin includes the light, no bin includes a light outside it", z_bins_of_lights},
-      {g, "slices_make_the_whole", "2 to 64 slices against one", "gaps between slices",
-       "nothing lost; no slice lists more than the whole", slices_make_the_whole},
-      {g, "slices_and_bounds", "slices cut by depth bounds", "the slice's end overrides the surface's",
-       "nothing lost", slices_and_bounds},
-      {g, "tests_are_nested", "every cull test over the same cells", "two forms of a shared test diverge",
-       "exact ⊆ planes+aabb ⊆ planes, aabb", tests_are_nested},
-      {g, "bounds_are_nested", "every depth-bounds mode over the same depth", "a mask widens the bounds",
-       "mask, half-z ⊆ min/max ⊆ none", bounds_are_nested},
-      {g, "narrower_intervals_list_less", "intervals within each other", "a reversed comparison",
-       "lists within each other", narrower_intervals_list_less},
-      {g, "larger_lights_list_more", "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone",
-       "lists within each other", larger_lights_list_more},
-      {g, "whole_pixels_hold_centres", "cells to pixels' edges and to their centres",
-       "half a pixel to the wrong side", "centres' lists within whole pixels'", whole_pixels_hold_centres},
-      {g, "portable_form", "with and without CPU-specific builtins", "the faster form rounds differently",
-       "the same bytes", portable_form},
+      CASE(pixel_finds_its_tile, "a tiny light at each pixel's centre, in every tile size",
+           "shading and culling round the tile differently", "the cell that shading finds lists it"),
+      CASE(on_slice_edges,
+           "surfaces on slice edges and one step beside, reversed and standard, D32F, D24, D16; lights that "
+           "just "
+           "reach them",
+           "a second log() in the shader: 0.7 to 85 in a million differ",
+           "the slice that shading finds by the stored depth lists the light"),
+      CASE(on_z_bin_edges, "the same on the edges of z-bins",
+           "bins of lights and of pixels round differently", "the pixel's bin includes the light"),
+      CASE(z_bins_of_lights,
+           "lights across near, behind, past the last edge, of infinite range, of size 0, in every view",
+           "a light only in the bin of its centre; a last bin with an end",
+           "every lit pixel's bin includes the light, no bin includes a light outside it"),
+      CASE(slices_make_the_whole, "2 to 64 slices against one", "gaps between slices",
+           "nothing lost; no slice lists more than the whole"),
+      CASE(slices_and_bounds, "slices cut by depth bounds", "the slice's end overrides the surface's",
+           "nothing lost"),
+      CASE(tests_are_nested, "every cull test over the same cells", "two forms of a shared test diverge",
+           "exact ⊆ planes+aabb ⊆ planes, aabb"),
+      CASE(bounds_are_nested, "every depth-bounds mode over the same depth", "a mask widens the bounds",
+           "mask, half-z ⊆ min/max ⊆ none"),
+      CASE(narrower_intervals_list_less, "intervals within each other", "a reversed comparison",
+           "lists within each other"),
+      CASE(larger_lights_list_more, "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone",
+           "lists within each other"),
+      CASE(whole_pixels_hold_centres, "cells to pixels' edges and to their centres",
+           "half a pixel to the wrong side", "centres' lists within whole pixels'"),
+      CASE(portable_form, "with and without CPU-specific builtins", "the faster form rounds differently",
+           "the same bytes"),
   };
 }
 
@@ -327,8 +326,7 @@ const std::vector<HardCase>& hard_cases() {
     std::vector<HardCase> cases;
     for (const auto& group :
          {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
-          light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases(), world_cases(),
-          prepass_cases(), voxel_cases()})
+          light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases()})
       cases.insert(cases.end(), group.begin(), group.end());
     return cases;
   }();

@@ -159,6 +159,7 @@ void Check::hold_between(const CullView& view, std::span<const OracleLight> ligh
   if (!that(grid.cells.size() == touching.size(), "{}: {} cells for {}", to_string(options),
             grid.cells.size(), touching.size()))
     return;
+  const View seen = oracle_view(view);
   for (size_t i = 0; i < touching.size(); ++i) {
     const auto list = list_of(grid, i);
     const Cell cell = cell_of(view, options.tile, i, bounds[i % bounds.size()], options.pixel_centres);
@@ -170,7 +171,7 @@ void Check::hold_between(const CullView& view, std::span<const OracleLight> ligh
            l.radius);
     }
     for (const uint32_t light : list) {
-      if (possibly_touches(view, options.tile, cell, lights[light], options.cull_test)) continue;
+      if (possibly_touches(seen, options.tile, cell, lights[light], options.cull_test)) continue;
       const OracleLight& l = lights[light];
       fail(fmt::format(
           "{}: cell {} [{:.9g}, {:.9g}] lists light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}, which cannot "

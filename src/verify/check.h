@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "verify/cell_oracle.h"
 #include "verify/hard_case.h"
+#include "verify/views.h"
 
 namespace lightgrid::verify {
 

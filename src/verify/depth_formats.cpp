@@ -141,22 +141,22 @@ void mask_around_the_eye(Check& c) {
 }  // namespace
 
 std::vector<HardCase> depth_format_cases() {
-  const char* g = "depth";
+  const char* group = "depth";
   return {
-      {g, "depth_of_16_bits",
-       "D16, reversed and standard, perspective and orthographic; lights at the surfaces' true positions",
-       "a step is 180 m at 1 km; a mask uses the slot of the rounded depth",
-       "bounds contain the true distance, lists the light, in every mode", depth_of_16_bits},
-      {g, "depth_of_24_bits", "D24, the same", "a step is 0.6 m at 1 km", "the same", depth_of_24_bits},
-      {g, "depth_of_floats", "D32F, the same", "standard depth: as D24", "the same", depth_of_floats},
-      {g, "position_from_depth", "tiles of one surface each, in each format, order and kind of view",
+      CASE(depth_of_16_bits,
+           "D16, reversed and standard, perspective and orthographic; lights at the surfaces' true positions",
+           "a step is 180 m at 1 km; a mask uses the slot of the rounded depth",
+           "bounds contain the true distance, lists the light, in every mode"),
+      CASE(depth_of_24_bits, "D24, the same", "a step is 0.6 m at 1 km", "the same"),
+      CASE(depth_of_floats, "D32F, the same", "standard depth: as D24", "the same"),
+      {group, "position_from_depth", "tiles of one surface each, in each format, order and kind of view",
        "distances from depth off by more than a step of it",
        "the interval contains the surface and at most two steps to either side", position_from_depth_bounded},
-      {g, "mask_around_the_eye",
-       "orthographic, near plane 10³ and 10⁵ m behind the eye, far plane as far in front; surfaces around "
-       "the eye on the mask's edges",
-       "the distance is the difference of two large numbers", "nothing lost in any mode",
-       mask_around_the_eye},
+      CASE(
+          mask_around_the_eye,
+          "orthographic, near plane 10³ and 10⁵ m behind the eye, far plane as far in front; surfaces around "
+          "the eye on the mask's edges",
+          "the distance is the difference of two large numbers", "nothing lost in any mode"),
   };
 }
 

@@ -23,11 +23,7 @@ std::string name_of_device(const std::string& substring) {
 class DeviceEngine : public CullEngine {
  public:
   explicit DeviceEngine(const std::string& substring)
-      : substring_(substring),
-        device_(substring),
-        programs_(device_),
-        storage_(device_),
-        name_(name_of_device(substring)) {}
+      : device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
 
   std::string name() const override { return name_; }
   bool is_the_library() const override { return true; }
@@ -60,20 +56,6 @@ class DeviceEngine : public CullEngine {
     const TileBounds bounds = bounds_from(culler, depth, blend);
     HostGrid grid = read_grid(device_, culler.cull(bounds, storage_), storage_);
     return KernelRun{culler.read_inputs(bounds), std::move(grid)};
-  }
-
-  std::optional<WorldLists> world_lists(const WorldListsOf& of, std::span<const CullLight> lights,
-                                        const WorldBox& bounds, const View& view) override {
-    auto& grid = world_grids_[of];
-    if (!grid) grid = std::make_unique<SharedWorldGrid>(*renderer(), of.shape, of.cell, of.index_bits);
-    // Other lights each time, so that nothing is made for an earlier case's view.
-    grid->build(lights, bounds, view, ++world_lights_);
-    return WorldLists{grid->layout(), grid->read()};
-  }
-
-  Renderer* renderer() override {
-    if (!renderer_) renderer_ = std::make_unique<Renderer>(substring_, GlBackend::none);
-    return renderer_.get();
   }
 
   std::optional<RasterImage> rasterize(const RasterOptions& options, const RasterInput& input) override {
@@ -142,16 +124,12 @@ class DeviceEngine : public CullEngine {
     return blend ? bounds.blend : bounds.opaque;
   }
 
-  std::string substring_;
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;
   std::string name_;
   std::map<Key, std::unique_ptr<LightCuller>> cullers_;
   std::map<std::tuple<KernelShape, bool, bool, bool>, std::unique_ptr<Raster>> rasters_;
-  std::unique_ptr<Renderer> renderer_;  // without OpenGL
-  std::map<WorldListsOf, std::unique_ptr<SharedWorldGrid>> world_grids_;
-  int world_lights_ = 0;  // lists built so far
 };
 
 }  // namespace

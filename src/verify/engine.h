@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "culling/light_culler.h"
-#include "renderer/world_grid.h"
 #include "verify/raster_input.h"
 
 namespace lightgrid::verify {
@@ -24,18 +23,6 @@ struct DepthImage {
   // For each value the surface's true distance along the view axis, before a depth format rounded it. Empty:
   // follows from the values. Never passed to culling.
   std::vector<double> distances{};
-};
-
-// Cells of the world and the list of each (docs/techniques/world_grid.md).
-struct WorldListsOf {
-  WorldGridShape shape;
-  double cell;  // the setting world-cell, 0: auto
-  int index_bits;
-  auto operator<=>(const WorldListsOf&) const = default;
-};
-struct WorldLists {
-  WorldLayout layout;
-  HostWorldGrid grid;
 };
 
 // A cull from depth with all of its inputs, for the float twin.
@@ -70,16 +57,6 @@ class CullEngine {
                                               std::span<const CullLight>, const DepthImage&, bool /*blend*/) {
     return {};
   }
-
-  // Lists of the world grid as WorldGrid::build makes them, in the buffers that the last build of these
-  // settings used. Nothing from an engine that only culls.
-  virtual std::optional<WorldLists> world_lists(const WorldListsOf&, std::span<const CullLight>,
-                                                const WorldBox& /*bounds*/, const View&) {
-    return {};
-  }
-
-  // For passes of OpenCL alone. Null from an engine that only culls.
-  virtual Renderer* renderer() { return nullptr; }
 
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }

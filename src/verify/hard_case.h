@@ -12,13 +12,17 @@ namespace lightgrid::verify {
 class Check;
 
 struct HardCase {
-  const char* group;      // depth, camera, lights, lists, agreement, raster, world, prepass, voxels
+  const char* group;  // depth, camera, lights, lists, agreement, raster
   const char* name;
   const char* input;
   const char* breaks;     // the fault of naive code
   const char* invariant;  // the property that must hold
   void (*run)(Check&);
 };
+
+// A row of a group's table (`group` there is the group's name); a case is named as its function.
+#define CASE(name, input, breaks, invariant) \
+  { group, #name, input, breaks, invariant, name }
 
 // In the order of the groups and of the catalogue.
 const std::vector<HardCase>& hard_cases();
@@ -33,9 +37,6 @@ std::vector<HardCase> light_place_cases();
 std::vector<HardCase> list_cases();
 std::vector<HardCase> agreement_cases();
 std::vector<HardCase> raster_cases();
-std::vector<HardCase> world_cases();
-std::vector<HardCase> prepass_cases();
-std::vector<HardCase> voxel_cases();
 
 enum class Verdict { pass, fail, skip };
 
@@ -47,10 +48,10 @@ struct Outcome {
   // Distinct inputs: (cell, light) pairs that certainly touch and (pixel, light) pairs that are certainly
   // lit, each once for a view, its lights and its depth, independent of the number of settings.
   uint64_t contacts = 0;
-  uint64_t lost = 0;  // certainly in but not listed, over all settings
+  uint64_t lost = 0;                   // certainly in but not listed, over all settings
   std::optional<double> excess_ratio;  // listed / certainly touching, default settings
   Verdict verdict = Verdict::pass;
-  std::string why;      // the first fault, or why it was skipped
+  std::string why;  // the first fault, or why it was skipped
 };
 
 }  // namespace lightgrid::verify

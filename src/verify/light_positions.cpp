@@ -84,19 +84,16 @@ void outside_of_the_domain(Check& c) {
 }  // namespace
 
 std::vector<HardCase> light_place_cases() {
-  const char* g = "lights";
+  const char* group = "lights";
   return {
-      {g, "spread_out", "points and spots that just reach a wall at 3 m, and as many lights 10³ … 10⁹ m away",
-       "positions rounded relative to the lights' median; cones without slack for that", "nothing lost",
-       spread_out},
-      {g, "parked", "1, 2 and 300 lights at 10¹⁹, 10³⁰, 3.4·10³⁸ and 1.8·10³⁰⁸ m",
-       "the others are far from the median, and dropped", "nothing lost; parked lights are in no list",
-       parked},
-      {g, "worlds_of_any_scale", "lights that just reach surfaces, in units of 10⁻¹⁴ … 10¹³ m",
-       "absolute epsilons; finite numbers treated as infinite", "nothing lost", worlds_of_any_scale},
-      {g, "outside_of_the_domain", "units of 10⁻²² … 10⁻¹⁹ and 10¹⁶, 10¹⁷ m",
-       "squares that underflow, 10¹⁸ m treated as infinite", "an input error, or nothing lost",
-       outside_of_the_domain},
+      CASE(spread_out, "points and spots that just reach a wall at 3 m, and as many lights 10³ … 10⁹ m away",
+           "positions rounded relative to the lights' median; cones without slack for that", "nothing lost"),
+      CASE(parked, "1, 2 and 300 lights at 10¹⁹, 10³⁰, 3.4·10³⁸ and 1.8·10³⁰⁸ m",
+           "the others are far from the median, and dropped", "nothing lost; parked lights are in no list"),
+      CASE(worlds_of_any_scale, "lights that just reach surfaces, in units of 10⁻¹⁴ … 10¹³ m",
+           "absolute epsilons; finite numbers treated as infinite", "nothing lost"),
+      CASE(outside_of_the_domain, "units of 10⁻²² … 10⁻¹⁹ and 10¹⁶, 10¹⁷ m",
+           "squares that underflow, 10¹⁸ m treated as infinite", "an input error, or nothing lost"),
   };
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/random.h"
-#include "verify/cell_oracle.h"
+#include "verify/views.h"
 
 namespace lightgrid::verify {
 

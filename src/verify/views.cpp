@@ -1,9 +1,11 @@
 #include "verify/views.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/parallel.h"
 #include "reference/position.h"
 
 namespace lightgrid::verify {
@@ -104,6 +106,67 @@ void move_to_world(const CullView& view, std::vector<CullLight>& lights) {
     light.position = to_world(view, light.position);
     light.direction = glm::transpose(glm::dmat3(view.view_from_world)) * light.direction;
   }
+}
+
+glm::dvec3 median_light(std::span<const CullLight> lights) {
+  glm::dvec3 middle(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const CullLight& light : lights)
+      if (std::isfinite(light.position[axis])) coordinates.push_back(light.position[axis]);
+    if (coordinates.empty()) continue;
+    std::nth_element(coordinates.begin(), coordinates.begin() + coordinates.size() / 2, coordinates.end());
+    middle[axis] = coordinates[coordinates.size() / 2];
+  }
+  return middle;
+}
+
+std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights) {
+  const glm::dvec3 middle = median_light(lights);
+  std::vector<OracleLight> all;
+  for (const CullLight& light : lights) {
+    OracleLight t{to_view(view, light.position),
+                  glm::dmat3(view.view_from_world) * light.direction,
+                  light.radius_m,
+                  light.cos_outer,
+                  0,
+                  0,
+                  false};
+    const glm::dvec3 offset = glm::abs(light.position - middle);
+    t.position_error = 2 * 0x1p-24 * (offset.x + offset.y + offset.z);
+    const double length = glm::length(t.axis);
+    if (length > 0 && std::isfinite(length))
+      t.axis /= length;
+    else
+      t.cos_outer = -1;
+    const double sum = light.position.x + light.position.y + light.position.z;
+    t.lists_nothing = !(light.radius_m >= 0) || !std::isfinite(sum);
+    all.push_back(t);
+  }
+  double cone_error = 0;
+  for (const OracleLight& t : all) {
+    if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.position_error);
+  }
+  for (OracleLight& t : all) t.cone_error = cone_error;
+  return all;
+}
+
+Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres) {
+  return cell_of_grid(oracle_view(view), tile, view.slice_edges, index, bounds.near, bounds.far,
+                      pixel_centres);
+}
+
+Touching touching_lights(const CullView& view, std::span<const OracleLight> lights,
+                         std::span<const DepthInterval> bounds, int tile, bool pixel_centres) {
+  const size_t tiles = bounds.size();
+  Touching touching(tiles * (view.slice_edges.size() + 1));
+  parallel_for(int(touching.size()), [&](int i) {
+    const Cell cell = cell_of(view, tile, size_t(i), bounds[size_t(i) % tiles], pixel_centres);
+    for (uint32_t light = 0; light < lights.size(); ++light) {
+      if (certainly_touches(cell, lights[light])) touching[i].push_back(light);
+    }
+  });
+  return touching;
 }
 
 std::vector<NamedView> hard_views(int width, int height) {

@@ -1,9 +1,9 @@
-// The views of the hard cases.
+// The views of the hard cases, and their cells and lights as the oracle has them.
 #pragma once
 
 #include <string>
 
-#include "scene/camera.h"
+#include "reference/grid_cell.h"
 #include "verify/engine.h"
 
 namespace lightgrid::verify {
@@ -41,6 +41,19 @@ CullView placed(CullView view, const glm::dvec3& eye, double yaw_rad, double pit
 glm::dvec3 to_view(const CullView& view, const glm::dvec3& world);
 glm::dvec3 to_world(const CullView& view, const glm::dvec3& in_view);
 void move_to_world(const CullView& view, std::vector<CullLight>& lights);  // positions and directions
+
+std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights);
+
+// Of the lights' positions, each axis alone; positions that are not finite are left out. World, metres.
+glm::dvec3 median_light(std::span<const CullLight> lights);
+
+// As cell_of_grid.
+Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres);
+
+// The lights that certainly touch each cell, ascending.
+using Touching = std::vector<std::vector<uint32_t>>;
+Touching touching_lights(const CullView& view, std::span<const OracleLight> lights,
+                         std::span<const DepthInterval> bounds, int tile, bool pixel_centres);
 
 struct NamedView {
   std::string name;

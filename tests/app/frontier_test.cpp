@@ -173,7 +173,7 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   EXPECT_THAT(gated.err, HasSubstr("forward_plus"));
 }
 
-TEST(FrontierCommand, IsMeasuredInPartsThatMergeIntoOneAnswer) {
+TEST(FrontierInParts, MergesThemIntoOneAnswer) {
   const TempFolder folder;
   for (const char* shard : {"0/2", "1/2"}) {
     const ProgramRun part = run_program(small_sweep(folder.path / "parts") +

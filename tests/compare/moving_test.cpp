@@ -17,6 +17,7 @@
 #include "scene/rig.h"
 #include "support/render.h"
 #include "support/small_scene.h"
+#include "support/technique_tiers.h"
 
 namespace lightgrid {
 namespace {
@@ -45,8 +46,7 @@ TEST_P(MovedView, DrawsWhatAViewOfItsOwnDraws) {
   EXPECT_TRUE(compare_images(run.image(), own.image()).bit_identical);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, MovedView, testing::ValuesIn(techniques()),
-                         [](const auto& info) { return std::string(info.param->name); });
+LIGHTGRID_TECHNIQUES_OF_BOTH_TIERS(MovedView);
 
 TEST(Moving, BuildsAndUploadsNothingOnceItMoves) {
   const Scene scene = small_scene().scene;

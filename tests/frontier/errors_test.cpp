@@ -37,12 +37,12 @@ TEST(FrontierErrors, HaveTheValuesWorkedOutByHand) {
 }
 
 // A dark channel counts as a thousandth of the brightest one, else noise in black would outweigh everything.
-TEST(FrontierErrors, OfBlackChannelsAreRelativeToAThousandthOfTheBrightest) {
+TEST(FrontierErrors, BlackChannelsAreRelativeToAThousandthOfTheBrightest) {
   const ImageError e = frontier_error(picture({{0.001f, 0, 0}}), picture({{0, 0, 0}}), 2);
   EXPECT_NEAR(e.relative_rmse, 0.5 / std::sqrt(3.0), 1e-7);
 }
 
-TEST(FrontierErrors, OfTheNinetyNinthPercentileLeaveOutTheWorstPixelOfAHundred) {
+TEST(FrontierErrors, The99thPercentileLeavesOutTheWorstPixelOfAHundred) {
   Image reference(100, 1), image(100, 1);
   for (int i = 0; i < 100; ++i) image.pixels[size_t(i)].g = float(i + 1);
   EXPECT_DOUBLE_EQ(frontier_error(image, reference, 100).p99_rel, 0.99);

@@ -105,7 +105,7 @@ TEST_P(GlContextDeathTest, AnErrorInADebugBuildSaysWhichAndAborts) {
 INSTANTIATE_TEST_SUITE_P(Backends, GlContextDeathTest, testing::Values(GlBackend::osmesa, GlBackend::egl));
 #endif
 
-TEST(GlContext, OfBothBackendsLiveSideBySideAndMakeCurrentSwitches) {
+TEST(GlContext, BothBackendsLiveSideBySideAndMakeCurrentSwitches) {
   if (!osmesa_is_installed()) GTEST_SKIP() << "OSMesa is not installed";
   auto osmesa = GlContext::create(GlBackend::osmesa);
   auto egl = GlContext::create(GlBackend::egl);

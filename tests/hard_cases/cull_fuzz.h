@@ -1,5 +1,5 @@
-// Culling inputs from bytes; none may cause a crash, a hang or an out-of-bounds read. Used by libFuzzer and
-// by the deterministic test of ctest.
+// Views of the hunt with strange numbers in them, from bytes; none may cause a crash, a hang or an
+// out-of-bounds read. Used by libFuzzer and by the deterministic test of ctest.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "verify/check.h"
+#include "verify/hunt_contacts.h"
 
 namespace lightgrid::verify {
 
@@ -52,69 +53,98 @@ struct FuzzInput {
   DepthImage depth;
 };
 
-// Sizes and settings in their range; every number may be anything.
-inline FuzzInput fuzz_input(Bytes bytes) {
-  FuzzInput in;
-  // Few settings, because each builds its own kernels: four combinations. Slices and standard depth are
-  // kernels of their own too.
-  constexpr struct {
-    CullTest test;
-    DepthBoundsMode mode;
-    DepthFormat format;
-    int tile, samples, index_bits;
-    GridLists lists;
-    bool portable, blend, sliced;
-    DepthOrder order;
-  } kinds[] = {{CullTest::planes_aabb, DepthBoundsMode::minmax, DepthFormat::d32f, 16, 1, 0, GridLists::lists,
-                false, false, false, DepthOrder::reversed},
-               {CullTest::exact, DepthBoundsMode::mask32, DepthFormat::d16, 8, 1, 32, GridLists::masks, false,
-                true, true, DepthOrder::standard},
-               {CullTest::sphere, DepthBoundsMode::halfz_modified, DepthFormat::d24, 16, 4, 16,
-                GridLists::lists, true, false, true, DepthOrder::reversed},
-               {CullTest::aabb, DepthBoundsMode::halfz, DepthFormat::d32f, 32, 1, 16, GridLists::masks, true,
-                true, false, DepthOrder::standard}};
-  CullerOptions& o = in.options;
-  const auto& kind = kinds[bytes.up_to(3)];
-  o.cull_test = kind.test, o.depth_bounds = kind.mode, o.depth_format = kind.format, o.tile = kind.tile;
-  o.samples = kind.samples, o.index_bits = kind.index_bits, o.lists = kind.lists;
-  o.portable = kind.portable, o.blend = kind.blend;
-  Lens lens;
-  // One special number in a projection is usually refused, and nothing else is then tested.
-  const bool strange_lens = bytes.up_to(3) == 0;
-  const auto number = [&](double low, double high) {
-    return strange_lens ? bytes.number(low, high) : low + (high - low) * (bytes.take<uint16_t>() / 65535.0);
-  };
-  lens.half_x = number(0.01, 3), lens.half_y = number(0.01, 3);
-  lens.near = number(0.01, 1), lens.far = bytes.up_to(1) ? no_end : number(2, 1000);
-  lens.shift_x = number(-1, 1), lens.shift_y = number(-1, 1);
-  lens.orthographic = bytes.up_to(3) == 0, lens.order = kind.order;
-  if (lens.orthographic && std::isinf(lens.far)) lens.far = 1000;
-  in.view = view_through(lens, 1 + bytes.up_to(40), 1 + bytes.up_to(24));
-  if (bytes.up_to(3) == 0)
-    in.view = placed(in.view, {bytes.number(-1e7, 1e7), 0, 1}, bytes.number(-3, 3), bytes.number(-1, 1));
-  float edge = 0;
-  for (int slices = kind.sliced ? 1 + bytes.up_to(3) : 0; slices > 0; --slices)
-    in.view.slice_edges.push_back(edge += float(1 + bytes.up_to(9)));
-  edge = 0;
-  for (int bins = bytes.up_to(7); bins > 0; --bins)
-    in.view.z_bin_edges.push_back(edge += 0.1f * float(1 + bytes.up_to(99)));
-  for (size_t i = tile_count(in.view, o.tile); i > 0; --i)
-    in.bounds.push_back({float(bytes.number(0, 20)), float(bytes.number(5, 100))});
-  in.depth.samples = kind.samples;
-  for (int i = in.view.width * in.view.height * in.depth.samples; i > 0; --i)
-    in.depth.values.push_back(bytes.up_to(7) ? float(bytes.take<uint8_t>()) / 255
-                                             : float(bytes.number(0, 1)));
-  while (!bytes.empty() && in.lights.size() < 100) {
-    CullLight light;
-    for (int axis = 0; axis < 3; ++axis) light.position[axis] = bytes.number(-20, 20);
-    light.radius_m = bytes.number(0, 20);
-    if (bytes.up_to(1)) {
-      for (int axis = 0; axis < 3; ++axis) light.direction[axis] = bytes.number(-1, 1);
-      if (bytes.up_to(7)) light.direction = glm::normalize(light.direction);
-      light.cos_outer = bytes.number(-1, 1);
-    }
-    in.lights.push_back(light);
+// Few settings, because each builds its own kernels; so do slices, blended surfaces and standard depth.
+struct FuzzSetting {
+  CullTest test;
+  DepthBoundsMode mode;
+  int tile, samples, index_bits;
+  GridLists lists;
+  bool portable;
+  int slices;
+  std::vector<HuntClass> classes;
+};
+inline const std::vector<FuzzSetting>& fuzz_settings() {
+  using enum HuntClass;
+  static const std::vector<FuzzSetting> all = {
+      {CullTest::planes_aabb,
+       DepthBoundsMode::minmax,
+       16,
+       1,
+       0,
+       GridLists::lists,
+       false,
+       1,
+       {ordinary, narrowest, wide, off_centre, turned_far, scaled, spread, parked}},
+      {CullTest::exact, DepthBoundsMode::mask32, 8, 1, 32, GridLists::masks, false, 4, {d16, blended}},
+      {CullTest::sphere,
+       DepthBoundsMode::halfz_modified,
+       16,
+       4,
+       16,
+       GridLists::lists,
+       true,
+       4,
+       {d24, standard}},
+      {CullTest::aabb,
+       DepthBoundsMode::halfz,
+       32,
+       1,
+       16,
+       GridLists::masks,
+       true,
+       1,
+       {orthographic, oblique}}};
+  return all;
+}
+
+// Puts any bits in place of one number. of_view: the view's too, most of which is refused.
+inline void make_strange(FuzzInput& in, Bytes& bytes, bool of_view) {
+  const int kind = of_view ? bytes.up_to(15) : 3 + bytes.up_to(12);
+  const auto any_of = [&](auto& items) { return bytes.take<uint16_t>() % items.size(); };
+  if (kind == 0) {
+    in.view.clip_from_view[bytes.up_to(3)][bytes.up_to(3)] = bytes.number(-1, 1);
+  } else if (kind == 1) {
+    in.view.eye[bytes.up_to(2)] = bytes.number(-1e7, 1e7);
+  } else if (kind == 2 && !in.view.slice_edges.empty()) {
+    in.view.slice_edges[any_of(in.view.slice_edges)] = float(bytes.number(0, 100));
+  } else if (kind < 6) {
+    DepthInterval& interval = in.bounds[any_of(in.bounds)];
+    (bytes.up_to(1) ? interval.near : interval.far) = float(bytes.number(0, 100));
+  } else if (kind < 10) {
+    in.depth.values[bytes.take<uint32_t>() % in.depth.values.size()] = float(bytes.number(0, 1));
+  } else {
+    CullLight& light = in.lights[any_of(in.lights)];
+    double* const numbers[] = {&light.position.x,  &light.position.y,  &light.position.z,  &light.radius_m,
+                               &light.direction.x, &light.direction.y, &light.direction.z, &light.cos_outer};
+    *numbers[bytes.up_to(7)] = bytes.number(-20, 20);
   }
+}
+
+// A view of the hunt whose class, setting and seed the first bytes choose, with a strange number for each of
+// the records that follow.
+inline FuzzInput fuzz_input(Bytes bytes) {
+  const FuzzSetting& fuzzed = fuzz_settings()[bytes.up_to(3)];
+  const HuntClass hunted = fuzzed.classes[bytes.take<uint8_t>() % fuzzed.classes.size()];
+  HuntSetting setting{
+      .slices = fuzzed.slices, .z_bins = bytes.up_to(1) ? 16 : 1, .spots = bytes.up_to(1) == 1};
+  CullerOptions& o = setting.options;
+  o.cull_test = fuzzed.test, o.depth_bounds = fuzzed.mode, o.tile = fuzzed.tile, o.samples = fuzzed.samples;
+  o.index_bits = fuzzed.index_bits, o.lists = fuzzed.lists, o.portable = fuzzed.portable;
+  const size_t lights = 1 + bytes.up_to(99);
+  const uint64_t seed = bytes.take<uint64_t>();
+  HuntView hunt = random_view(hunted, setting, seed);
+  o.depth_format = hunt.format, o.blend = hunt.blended;
+  FuzzInput in{o,
+               hunt.view,
+               cull_lights(random_contacts(hunt, setting, lights, Random::mix(seed)).lights),
+               {},
+               std::move(hunt.depth)};
+  Random random(seed);
+  for (size_t i = tile_count(in.view, o.tile); i > 0; --i)
+    in.bounds.push_back(
+        {float(between(random, hunt.near, hunt.far)), float(between(random, hunt.near, hunt.far))});
+  const bool of_view = bytes.up_to(3) == 0;
+  while (!bytes.empty()) make_strange(in, bytes, of_view);
   return in;
 }
 
@@ -145,7 +175,8 @@ inline std::vector<HostGrid> fuzz_grids(CullEngine& engine, const FuzzInput& in,
 }
 
 // Empty, or the fault. `refused`: the input was refused with one line, which is allowed.
-inline std::string fuzz_once(CullEngine& engine, const FuzzInput& in, bool* refused = nullptr) {
+inline std::string fuzz_once(CullEngine& engine, const uint8_t* data, size_t size, bool* refused = nullptr) {
+  const FuzzInput in = fuzz_input(Bytes(data, size));
   try {
     const std::vector<HostGrid> lanes = fuzz_grids(engine, in, KernelShape::lanes);
     const std::vector<HostGrid> group = fuzz_grids(engine, in, KernelShape::group);
@@ -163,10 +194,6 @@ inline std::string fuzz_once(CullEngine& engine, const FuzzInput& in, bool* refu
     if (refused) *refused = true;
   }
   return "";
-}
-
-inline std::string fuzz_once(CullEngine& engine, const uint8_t* data, size_t size, bool* refused = nullptr) {
-  return fuzz_once(engine, fuzz_input(Bytes(data, size)), refused);
 }
 
 }  // namespace lightgrid::verify

@@ -15,7 +15,7 @@
 #include "hard_cases/naive_light_test.h"
 #include "hard_cases/naive_rasterizer.h"
 #include "reference/position.h"
-#include "verify/cell_oracle.h"
+#include "verify/views.h"
 
 namespace lightgrid::verify {
 

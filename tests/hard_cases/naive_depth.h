@@ -9,7 +9,7 @@
 
 #include "culling/cull_view.h"
 #include "hard_cases/faults.h"
-#include "verify/cell_oracle.h"
+#include "verify/views.h"
 
 namespace lightgrid::verify {
 

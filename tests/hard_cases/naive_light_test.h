@@ -7,7 +7,7 @@
 
 #include "hard_cases/faults.h"
 #include "reference/cone_cell.h"
-#include "verify/cell_oracle.h"
+#include "verify/views.h"
 
 namespace lightgrid::verify {
 

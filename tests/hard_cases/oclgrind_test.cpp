@@ -11,7 +11,7 @@ CommandOutcome digest(const std::string& before, const std::string& size = "") {
   return run_command(before + " " + grid_digest_program + " " + size + " 2>&1");
 }
 
-TEST(GridDigest, IsTheSameWithAnyNumberOfThreads) {
+TEST(WholeGridDigest, IsTheSameWithAnyNumberOfThreads) {
   const CommandOutcome first = digest("");
   ASSERT_EQ(first.status, 0) << first.output;
   for (const char* threads : {"1", "2"})
@@ -19,11 +19,12 @@ TEST(GridDigest, IsTheSameWithAnyNumberOfThreads) {
         << threads << " threads";
 }
 
-TEST(GridDigest, IsTheSameInEachFormOfTheKernels) {
+TEST(GridDigest, IsTheSameInEachFormOfTheKernelsAndFromOneThread) {
   const CommandOutcome own = digest("", "lanes");
   ASSERT_EQ(own.status, 0) << own.output;
   for (const char* form : {"avx512", "avx2", "sse2"})  // of PoCL: tests/app/kernel_forms_test.cpp
     EXPECT_EQ(digest(std::string("POCL_KERNELLIB_NAME=") + form, "lanes").output, own.output) << form;
+  EXPECT_EQ(digest("POCL_MAX_PTHREAD_COUNT=1", "lanes").output, own.output) << "one thread";
 }
 
 // Without --uninitialized: Oclgrind 21.10 treats vectors of compared lanes as uninitialized, and stops at

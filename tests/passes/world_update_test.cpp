@@ -7,9 +7,9 @@
 namespace lightgrid {
 namespace {
 
-// Two lights that stay make the lights' box larger than `moving_bounds`, whatever the others do: all builds
+// Two lights that stay make the lights' box larger than `fixed_bounds`, whatever the others do: all builds
 // then lay out the same cells.
-const WorldBox moving_bounds{glm::dvec3(-20), glm::dvec3(20)};
+const WorldBox fixed_bounds{glm::dvec3(-20), glm::dvec3(20)};
 
 std::vector<CullLight> lights_to_move(size_t count, uint64_t seed) {
   Random random(seed);
@@ -65,7 +65,7 @@ TEST_P(WorldUpdates, AreTheListsOfABuild) {
   const View view = view_from({3, 2, 9}, {0, 0, 0});
   SharedWorldGrid grid(test_devices(), shape, cell, index_bits),
       anew(test_devices(), shape, cell, index_bits);
-  grid.build(lights, moving_bounds, view, 0);
+  grid.build(lights, fixed_bounds, view, 0);
   Random random(7);
   uint64_t contacts = 0, lost = 0, changed = 0;
   HostWorldGrid before = grid.read();
@@ -75,7 +75,7 @@ TEST_P(WorldUpdates, AreTheListsOfABuild) {
     EXPECT_TRUE(grid.serves(view, frame));
     EXPECT_FALSE(grid.serves(view, frame - 1));
     const HostWorldGrid updated = grid.read();
-    anew.build(lights, moving_bounds, view, frame);
+    anew.build(lights, fixed_bounds, view, frame);
     ASSERT_TRUE(updated == anew.read()) << "frame " << frame;
     ASSERT_EQ(grid.blocks(), anew.blocks());
     ASSERT_EQ(grid.entries(), anew.entries());
@@ -117,7 +117,7 @@ TEST(WorldUpdate, IsRefusedWhereABuildIsDue) {
   SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16),
       hashed(test_devices(), WorldGridShape::hashed, 1, 16);
   EXPECT_FALSE(grid.update(few, those(lights, few), 1)) << "not built";
-  grid.build(lights, moving_bounds, view, 0), hashed.build(lights, moving_bounds, view, 0);
+  grid.build(lights, fixed_bounds, view, 0), hashed.build(lights, fixed_bounds, view, 0);
   const HostWorldGrid built = grid.read();
   EXPECT_FALSE(hashed.update(few, those(lights, few), 1));
   EXPECT_FALSE(grid.update(many, those(lights, many), 1)) << "more than one in sixteen";

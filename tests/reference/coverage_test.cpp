@@ -35,7 +35,7 @@ Pixels covered_4x4(const CoverageTriangle& triangle) {
   return pixels;
 }
 
-TEST(Coverage, OfTwoTrianglesThatShareADiagonalThroughCentresTheOneThatItIsALeftEdgeOfHasThem) {
+TEST(Coverage, CentresOnASharedDiagonalBelongToTheTriangleOnItsRight) {
   const Pixels below = covered_4x4(triangle_4x4({0, 0}, {4, 0}, {0, 4}));
   EXPECT_EQ(below, (Pixels{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {0, 2}}));
   const Pixels above = covered_4x4(triangle_4x4({4, 0}, {4, 4}, {0, 4}));

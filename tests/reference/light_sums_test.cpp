@@ -34,7 +34,7 @@ TEST(LightSums, OfALightBesideTheEyeByHand) {
   EXPECT_NEAR(s.rim, 0.5 / 4 * 0.75 * 0.75 * schlick, 1e-15);
 }
 
-TEST(LightSums, OfLightsBehindTheSurfaceOrAtItAreNothing) {
+TEST(LightSums, AreZeroForLightsBehindTheSurfaceOrAtIt) {
   const std::vector<ViewLight> lights = {lamp({0, 0, -3}, {1, 1, 1}), lamp({0, 0, -2}, {1, 1, 1})};
   const LightSums s = light_sums({0, 0, -2}, {0, 0, 1}, lights, 32);
   EXPECT_EQ(s.diffuse, glm::dvec3(0));

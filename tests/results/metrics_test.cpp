@@ -31,7 +31,7 @@ std::vector<uint8_t> first_colour(const Image& image) {
 
 std::vector<uint8_t> colour_of(glm::u8vec3 colour) { return {colour.r, colour.g, colour.b}; }
 
-TEST(CompareImages, OfAnImageWithItselfIsZeroAndBitIdentical) {
+TEST(CompareImages, AnImageAndItselfAreBitIdentical) {
   const auto error = compare_images(filled(17, 9, {1, 2, 3}), filled(17, 9, {1, 2, 3}));
   EXPECT_EQ(error.max_abs, 0);
   EXPECT_EQ(error.max_rel, 0);

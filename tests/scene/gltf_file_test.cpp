@@ -46,7 +46,7 @@ TEST(GltfFile, every_cut_of_a_glb_is_an_input_error) {
   }
 }
 
-TEST(GltfFile, a_missing_file_a_folder_an_empty_file_and_a_pipe_are_said_to_be_such) {
+TEST(GltfFile, missing_files_folders_empty_files_and_pipes_are_named_as_such) {
   const ModelFolder folder;
   EXPECT_THAT(refusal_of(folder.path / "none.gltf"),
               AllOf(HasSubstr("none.gltf: cannot be read: "), HasSubstr("No such file")));

@@ -258,7 +258,7 @@ TEST(GltfGeometry, an_index_past_the_vertices_is_refused) {
   EXPECT_THAT(made.refusal(), HasSubstr("indices: 3 is past the last of 3 vertices"));
 }
 
-TEST(GltfGeometry, the_vertex_limit_counts_all_meshes_and_those_made_for_flat_normals) {
+TEST(GltfGeometry, the_vertex_limit_counts_meshes_made_for_flat_normals) {
   GltfBuilder made = GltfBuilder::triangle();
   EXPECT_EQ(made.load({.max_vertices = 3}).meshes.size(), 1u);
   EXPECT_THAT(made.refusal({.max_vertices = 2}), HasSubstr("pass the limit of 2 vertices"));

@@ -44,7 +44,7 @@ TEST(GltfInstancing, the_nodes_transform_applies_after_the_instances_own) {
   expect_near(at(scene.instances[1].world_from_object, {0, 1, 1}), {70, 50, 100}, 1e-6);
 }
 
-TEST(GltfInstancing, each_primitive_of_the_mesh_has_all_instances_and_children_have_none) {
+TEST(GltfInstancing, primitives_have_all_instances_and_children_none) {
   InstancedTriangle made;
   made.root["meshes"][0]["primitives"].push_back(made.primitive());
   made.node()["children"] = {1};

@@ -319,7 +319,7 @@ TEST(GltfMaterial, materials_that_no_mesh_uses_cost_no_image) {
   EXPECT_TRUE(scene.bitmaps.empty());
 }
 
-TEST(GltfMaterial, what_is_wrong_with_a_material_or_an_image_matters_only_if_a_mesh_uses_it) {
+TEST(GltfMaterial, faults_of_unused_materials_and_images_do_not_matter) {
   GltfBuilder made = with_material({{"name", "plain"}});
   made.root["materials"].push_back(
       {{"alphaMode", "SOLID"}, {"pbrMetallicRoughness", {{"metallicFactor", 7}}}});

@@ -65,7 +65,7 @@ TEST(GltfNodes, a_mesh_flattened_to_nothing_is_left_out_with_a_warning) {
   EXPECT_THAT(warning, HasSubstr("node 0: is scaled to no volume"));
 }
 
-TEST(GltfNodes, the_scene_asked_for_is_loaded_else_the_default_else_the_first_else_all_roots) {
+TEST(GltfNodes, the_chosen_scene_comes_before_the_default_the_first_and_all_roots) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["nodes"] = {
       {{"mesh", 0}, {"name", "a"}}, {{"mesh", 0}, {"name", "b"}}, {{"mesh", 0}, {"name", "c"}}};

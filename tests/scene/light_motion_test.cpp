@@ -31,7 +31,7 @@ std::vector<glm::dvec3> positions_of(const Scene& scene) {
   return out;
 }
 
-TEST(LightMotions, at_time_0_all_lights_of_all_builtin_scenes_are_at_their_places_bit_for_bit) {
+TEST(LightMotions, at_time_0_lights_have_the_scenes_own_positions_bit_for_bit) {
   for (const char* name : {"hall", "terrain"}) {
     Scene scene = find_builtin_scene(name)->make();
     const auto places = positions_of(scene);

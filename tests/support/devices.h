@@ -2,14 +2,23 @@
 // be unloaded first.
 #pragma once
 
+#include <cstdlib>
+
 #include "base/error.h"
 #include "renderer/renderer.h"
 
 namespace lightgrid {
 
-// As the program opens them: a graphics card if there is one.
+// LIGHTGRID_TEST_DEVICE: a part of the name of the OpenCL device; without it the program's own choice, a
+// graphics card if there is one.
+inline std::string test_device_name() {
+  const char* given = std::getenv("LIGHTGRID_TEST_DEVICE");
+  return given ? given : "";
+}
+
+// As the program opens them.
 inline Renderer& test_devices() {
-  static Renderer* const devices = new Renderer("", GlBackend::automatic);
+  static Renderer* const devices = new Renderer(test_device_name(), GlBackend::automatic);
   devices->gl->make_current();  // some tests open others
   return *devices;
 }
@@ -23,6 +32,12 @@ inline Renderer& software_devices() {
       return new Renderer("", GlBackend::egl);
     }
   }();
+  return *devices;
+}
+
+// Without OpenGL.
+inline Renderer& opencl_devices() {
+  static Renderer* const devices = new Renderer(test_device_name(), GlBackend::none);
   return *devices;
 }
 

@@ -3,6 +3,7 @@
 // own coordinates. Nor of vertices whose attributes have no direction and no place.
 #include "scene/random.h"
 #include "support/small_scene.h"
+#include "support/technique_tiers.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
@@ -131,8 +132,7 @@ TEST_P(FinitePictures, OfAttributesWithoutDirectionOrPlace) {
   EXPECT_EQ(impossible_pixels(render(s.scene, small_view(63, 37), GetParam()->name)), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, FinitePictures, testing::ValuesIn(techniques()),
-                         [](const auto& info) { return std::string(info.param->name); });
+LIGHTGRID_TECHNIQUES_OF_BOTH_TIERS(FinitePictures);
 
 }  // namespace
 }  // namespace lightgrid

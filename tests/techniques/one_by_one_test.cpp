@@ -55,7 +55,7 @@ TEST_P(BuiltinOneByOne, IsTheImageOfEveryLightAtEveryPixel) {
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinOneByOne, testing::Values("hall", "spheres", "terrain", "street"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST(OneByOne, AtASizeThatNothingDivides) {
+TEST(LargeOneByOne, AtASizeThatNothingDivides) {
   Scene scene = find_builtin_scene("terrain")->make();
   scene.lights.resize(16);
   expect_all_close(scene, default_view(scene, 1279, 721));

@@ -119,7 +119,7 @@ struct Stochastic : testing::Test {
   std::vector<double> truth;
 };
 
-TEST_F(Stochastic, TheMeanOverSeedsIsThePictureWithoutRangesAndTheVarianceFallsWithTheirNumber) {
+TEST_F(Stochastic, MeanOverSeedsConvergesToThePictureWithoutRanges) {
   Moments single(truth.size()), of_16(truth.size());
   std::vector<double> sum(truth.size());
   for (int seed = 1; seed <= seeds; ++seed) {

@@ -5,6 +5,7 @@
 
 #include "support/long_tests.h"
 #include "support/small_scene.h"
+#include "support/technique_tiers.h"
 #include "techniques/observed_run.h"
 #include "techniques/rendering.h"
 
@@ -182,8 +183,7 @@ TEST(SettingsReadPlanted, FindsAKeyTooMuch) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, SettingsRead, testing::ValuesIn(techniques()),
-                         [](const auto& info) { return std::string(info.param->name); });
+LIGHTGRID_TECHNIQUES_OF_BOTH_TIERS(SettingsRead);
 
 }  // namespace
 }  // namespace lightgrid

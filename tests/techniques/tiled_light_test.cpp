@@ -21,7 +21,7 @@ double error_of(const char* technique, const Scene& scene, const View& view, con
   return compare_images(run.image(), forward).max_rel;
 }
 
-TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
+TEST(TiledLightOfScenes, IsForwardsOnEveryBuiltinScene) {
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const Scene scene = builtin.make();
     const View view = default_view(scene, 95, 53);
@@ -32,7 +32,7 @@ TEST(TiledLight, IsForwardsOnEveryBuiltinScene) {
 }
 
 // Narrow highlights in many pixels, the most sensitive to rounding.
-TEST(TiledLight, IsForwardsInTheHighlightsOfALargeImage) {
+TEST(TiledLightOfScenes, IsForwardsInTheHighlightsOfALargeImage) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 1280, 720);
   EXPECT_LT(compare_images(render(scene, view, "deferred_tiled"), render(scene, view, "forward")).max_rel,

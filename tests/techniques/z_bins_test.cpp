@@ -96,7 +96,7 @@ TEST(ZBins, HaveTheBytesWithGlassMasksLinearBinsAndNoDepthBounds) {
   }
 }
 
-TEST(ZBins, LeaveTheLightPassInOpenClItsBytesWithGlassSmallTilesAndNoDepthBounds) {
+TEST(ZBins, KeepOpenClsBytesWithGlassSmallTilesAndNoDepthBounds) {
   const Scene scene = scene_with_glass().scene;
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.orthographic = true;

@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "passes/build_voxels.h"
+#include "passes/pass_cases.h"
 #include "reference/voxel_sample.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
-#include "verify/check.h"
-#include "verify/light_passes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid {
 namespace {
 
 // A volume and its lights, along its axes; lengths in metres from its origin.
@@ -88,7 +87,7 @@ FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace s
 
 // Positions and distances are rounded to some steps of a float, of which 1 / distance^2 makes more near a
 // light; at the rim of a light's reach or of a cone it is a part of the light's greatest value.
-void expect_samples(Check& c, const FilledVoxels& filled, double repeated, const char* name) {
+void expect_samples(PassCheck& c, const FilledVoxels& filled, double repeated, const char* name) {
   const glm::uvec3 size = filled.size();
   double brightest = 0;
   for (const glm::vec4& e : filled.read.irradiance)
@@ -104,7 +103,7 @@ void expect_samples(Check& c, const FilledVoxels& filled, double repeated, const
                              glm::length(directions - repeated * s.directions) +
                              std::abs(double(filled.read.directions[at].w) - repeated * s.weight);
         const double allowed = 1e-5 * brightest + repeated * s.weight * (1e-3 + repeated * 0x1p-24);
-        c.contacts(s.lights);
+        c.contacts += s.lights;
         c.that(apart <= allowed, "{}: sample {} {} {} is apart from the oracle by {} of {}, {} allowed", name,
                x, y, z, apart, repeated * s.weight, allowed);
       }
@@ -134,7 +133,7 @@ PlaceInVolume place_in(const FilledVoxels& filled, const glm::dvec3& p) {
 }
 
 // A light that reaches a point adds to one of the samples around it, by what the library widens lights by.
-void expect_nothing_lost(Check& c, const FilledVoxels& filled, size_t points, const char* name) {
+void expect_nothing_lost(PassCheck& c, const FilledVoxels& filled, size_t points, const char* name) {
   Random random(17);
   for (const ViewLight& light : filled.lights) {
     if (!(light.radius_m > 0)) continue;
@@ -149,7 +148,7 @@ void expect_nothing_lost(Check& c, const FilledVoxels& filled, size_t points, co
       const glm::dvec3 p = light.position + away * distance;
       const auto [cell, inside] = place_in(filled, p);
       if (!inside) continue;
-      c.contacts(1), c.trials(1);
+      ++c.contacts;
       bool reached = false;
       for (uint32_t corner = 0; corner < 8 && !reached; ++corner) {
         const glm::uvec3 sample = cell + glm::uvec3(corner & 1, corner >> 1 & 1, corner >> 2);
@@ -158,63 +157,60 @@ void expect_nothing_lost(Check& c, const FilledVoxels& filled, size_t points, co
                                {&light, 1})
                       .lights > 0;
       }
-      if (!reached)
-        c.lost("{}: a light that reaches ({}, {}, {}) is in none of the samples around it", name, p.x, p.y,
-               p.z);
+      c.that(reached, "{}: a light that reaches ({}, {}, {}) is in none of the samples around it", name, p.x,
+             p.y, p.z);
     }
   }
 }
 
-void hold_voxels(Check& c, const VoxelCase& of, const char* name) {
-  Renderer* renderer = c.engine.renderer();
-  if (!renderer) return c.skip("the engine has no passes");
+void hold_voxels(PassCheck& c, const VoxelCase& of, const char* name) {
   for (const VoxelSpace space : {VoxelSpace::world, VoxelSpace::view}) {
-    const FilledVoxels filled = filled_voxels(*renderer, of, space);
+    const FilledVoxels filled = filled_voxels(opencl_devices(), of, space);
     expect_samples(c, filled, of.repeated, name);
     expect_nothing_lost(c, filled, 50, name);
   }
 }
 
-void hold_lamp(Check& c, const glm::vec3& at, float candela, float radius, const char* name) {
+void hold_lamp(PassCheck& c, const glm::vec3& at, float candela, float radius, const char* name) {
   VoxelCase of;
   add_point(of.scene, "lamp", at, {1, 0.8f, 0.6f}, candela, radius);
   hold_voxels(c, of, name);
 }
 
-void voxels_without_lights(Check& c) { hold_voxels(c, {}, "without lights"); }
-void in_the_eye(Check& c) { hold_lamp(c, {0, 0, 0}, 5, 6, "in the eye"); }
+void without_lights(PassCheck& c) { hold_voxels(c, {}, "without lights"); }
+void in_the_eye(PassCheck& c) { hold_lamp(c, {0, 0, 0}, 5, 6, "in the eye"); }
 
 // Samples of the world lie at multiples of their spacing, a power of 2^(1/4): the origin and whole metres are
 // among them.
-void on_a_sample(Check& c) {
+void on_a_sample(PassCheck& c) {
   hold_lamp(c, {0, 0, -4}, 5, 6, "on a sample");
   hold_lamp(c, {2, -2, -4}, 5, 1, "on a sample");
 }
 
-void larger_than_the_volume(Check& c) {
+void larger_than_the_volume(PassCheck& c) {
   hold_lamp(c, {0, 50, -4}, 9e4f, 1e4f, "larger than the volume");
   hold_lamp(c, {1, 1, -2}, 5, std::numeric_limits<float>::infinity(), "without an end");
 }
 
-void smaller_than_a_voxel(Check& c) {
+void smaller_than_a_voxel(PassCheck& c) {
   hold_lamp(c, {0.301f, 0.011f, -3.999f}, 0.1f, 0.01f, "smaller than a voxel");
   hold_lamp(c, {0, 0, -3}, 5, 0, "of no radius");
 }
 
-void any_voxel_brightness(Check& c) {
+void samples_of_any_brightness(PassCheck& c) {
   hold_lamp(c, {0, 0, -3}, 3e38f, 5, "as bright as floats go");
   hold_lamp(c, {0.3f, -0.2f, -4}, 1e6f, 3, "a million candela on a surface");
   hold_lamp(c, {0.3f, -0.2f, -4}, 0, 3, "dark");
 }
 
-void many_in_one_voxel(Check& c) {
+void many_in_one_voxel(PassCheck& c) {
   VoxelCase of;
   add_point(of.scene, "lamp", {0.5f, 0.4f, -3.3f}, {1, 1, 1}, 1e-4f, 1.5f);
-  of.repeated = double(std::min<uint64_t>(c.adversarial_lights, 1000000));
+  of.repeated = double(c.many);
   hold_voxels(c, of, "many in one voxel");
 }
 
-void voxel_cones(Check& c) {
+void cones(PassCheck& c) {
   VoxelCase of;
   Random random(3);
   for (int i = 0; i < 60; ++i) {
@@ -226,7 +222,7 @@ void voxel_cones(Check& c) {
   hold_voxels(c, of, "cones");
 }
 
-void nothing_in_view(Check& c) {
+void nothing_in_view(PassCheck& c) {
   VoxelCase of;
   of.view = make_view(look_at({0, 0, 2}, {0, 0, 3}), 40, 25);
   add_point(of.scene, "lamp", {0, 0, 2.5f}, {1, 1, 1}, 5, 6);
@@ -234,7 +230,7 @@ void nothing_in_view(Check& c) {
 }
 
 // The eye inside of lights' ranges, turned, near and far: the volume follows.
-void bounds_that_move(Check& c) {
+void bounds_that_move(PassCheck& c) {
   const glm::dvec3 eyes[] = {{0.3, 0.2, 0.5}, {-3, 2, -1}, {0, 0.1, -3.99}, {40, 10, 60}};
   for (const glm::dvec3& eye : eyes) {
     VoxelCase of;
@@ -244,7 +240,7 @@ void bounds_that_move(Check& c) {
   }
 }
 
-void voxels_far_from_the_origin(Check& c) {
+void samples_far_from_the_origin(PassCheck& c) {
   const glm::dvec3 origin(1e6, -2e6, 3e6);
   VoxelCase of{wall_scene(origin), eye_view(40, 25, origin)};
   add_random_lights(of.scene, 60, 5);
@@ -252,7 +248,7 @@ void voxels_far_from_the_origin(Check& c) {
   hold_voxels(c, of, "far from the origin");
 }
 
-void wide_and_narrow_views(Check& c) {
+void wide_and_narrow_views(PassCheck& c) {
   for (const double fov_y_deg : {1.0, 120.0}) {
     VoxelCase of;
     Camera camera = look_at({0, 0, 0}, {0, 0, -1});
@@ -263,7 +259,7 @@ void wide_and_narrow_views(Check& c) {
   }
 }
 
-void voxels_fuzzed(Check& c) {
+void fuzzed_samples(PassCheck& c) {
   for (const uint64_t seed : {31, 32}) {
     VoxelCase of;
     of.view = make_view(look_at({0.3 * double(seed - 30), 0.2, 0.5}, {0, 0, -4}), 31, 23);
@@ -274,34 +270,27 @@ void voxels_fuzzed(Check& c) {
 
 }  // namespace
 
-std::vector<HardCase> voxel_cases() {
-  constexpr const char* g = "voxels";
+std::vector<PassCase> voxel_cases() {
   constexpr const char* samples = "every sample as the oracle's; no light lost";
   return {
-      {g, "without_lights", "0 lights in range", "0 / 0 in a mean direction", "every sample 0",
-       voxels_without_lights},
-      {g, "in_the_eye", "a light at the eye", "x / distance of a light at distance 0", samples, in_the_eye},
-      {g, "on_a_sample", "lights at samples", "1 / 0; normalize(0)", samples, on_a_sample},
-      {g, "larger_than_the_volume", "radii of 10⁴ m and ∞", "bounds of a light in samples; ∞ - ∞", samples,
-       larger_than_the_volume},
-      {g, "smaller_than_a_voxel", "radii of 1 cm and 0", "a light between samples is lost", samples,
-       smaller_than_a_voxel},
-      {g, "samples_of_any_brightness", "0, 10⁶ and 3·10³⁸ candela", "a sum of ∞, a mean of ∞ / ∞", samples,
-       any_voxel_brightness},
-      {g, "many_in_one_voxel", "10⁵ lights in one place (10⁶ with --nightly)", "a limit a voxel or a brick",
-       samples, many_in_one_voxel},
-      {g, "cones", "half-angles of 90 to 6·10⁻⁴ degrees", "a cone between samples is lost", samples,
-       voxel_cones},
-      {g, "nothing_in_view", "the wall behind the eye", "a volume of no size", samples, nothing_in_view},
-      {g, "bounds_that_move", "eyes from 1 cm to 70 m before the wall",
-       "samples of the last volume; a near plane of 0", samples, bounds_that_move},
-      {g, "samples_far_from_the_origin", "the world moved by 3·10⁶ m",
-       "samples from world positions in float", samples, voxels_far_from_the_origin},
-      {g, "wide_and_narrow_views", "fields of 1 and 120 degrees",
-       "cells of the view that are sheared lose lights", samples, wide_and_narrow_views},
-      {g, "fuzzed_samples", "150 lights of 5 cm to 6 m, a quarter spots", "whatever is left", samples,
-       voxels_fuzzed},
+      CASE(without_lights, "0 lights in range", "0 / 0 in a mean direction", "every sample 0"),
+      CASE(in_the_eye, "a light at the eye", "x / distance of a light at distance 0", samples),
+      CASE(on_a_sample, "lights at samples", "1 / 0; normalize(0)", samples),
+      CASE(larger_than_the_volume, "radii of 10⁴ m and ∞", "bounds of a light in samples; ∞ - ∞", samples),
+      CASE(smaller_than_a_voxel, "radii of 1 cm and 0", "a light between samples is lost", samples),
+      CASE(samples_of_any_brightness, "0, 10⁶ and 3·10³⁸ candela", "a sum of ∞, a mean of ∞ / ∞", samples),
+      CASE(many_in_one_voxel, "10⁵ lights in one place (10⁶ with LIGHTGRID_LONG_TESTS)",
+           "a limit a voxel or a brick", samples),
+      CASE(cones, "half-angles of 90 to 6·10⁻⁴ degrees", "a cone between samples is lost", samples),
+      CASE(nothing_in_view, "the wall behind the eye", "a volume of no size", samples),
+      CASE(bounds_that_move, "eyes from 1 cm to 70 m before the wall",
+           "samples of the last volume; a near plane of 0", samples),
+      CASE(samples_far_from_the_origin, "the world moved by 3·10⁶ m", "samples from world positions in float",
+           samples),
+      CASE(wide_and_narrow_views, "fields of 1 and 120 degrees",
+           "cells of the view that are sheared lose lights", samples),
+      CASE(fuzzed_samples, "150 lights of 5 cm to 6 m, a quarter spots", "whatever is left", samples),
   };
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid

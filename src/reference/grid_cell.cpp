@@ -1,17 +1,16 @@
-#include "verify/cell_oracle.h"
+#include "reference/grid_cell.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.h"
 #include "reference/cone_cell.h"
 #include "reference/position.h"
-#include "shared/cull_settings.h"
 
-namespace lightgrid::verify {
+namespace lightgrid {
 namespace {
 
-constexpr double u = 0x1p-24;           // one rounding in float
+constexpr double u = 0x1p-24;  // one rounding in float
+constexpr double no_end = std::numeric_limits<double>::infinity();
 constexpr double far_away = 1e17;       // the kernels' infinity is 1e18
 constexpr double farthest = 1e30;       // end of the boxes of endless cells, past all lights and surfaces
 constexpr double least_radius = 2e-18;  // metres, the least uploaded radius
@@ -21,11 +20,11 @@ constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's c
 double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
 
 // The view-space box around a cell; d = -z.
-struct Box {
+struct CellBox {
   double x0, x1, y0, y1, d0, d1;
 };
 
-Box box_of(const Cell& c) {
+CellBox box_around(const Cell& c) {
   const double s0 = c.scale_at(c.near), s1 = c.scale_at(std::min(c.far, farthest));
   return {std::min(c.x0 * s0, c.x0 * s1),
           std::max(c.x1 * s0, c.x1 * s1),
@@ -35,32 +34,23 @@ Box box_of(const Cell& c) {
           c.far};
 }
 
-double distance_to_box(const Box& b, const glm::dvec3& p) {
+double distance_to_box(const CellBox& b, const glm::dvec3& p) {
   return std::hypot(outside(p.x, b.x0, b.x1), outside(p.y, b.y0, b.y1), outside(-p.z, b.d0, b.d1));
 }
 
-double steepest_slope(const CullView& view) {
-  const View v = oracle_view(view);
+double steepest_slope(const View& v) {
   return std::max({std::abs(view_x_of_pixel(v, 0)), std::abs(view_x_of_pixel(v, v.width)),
                    std::abs(view_y_of_pixel(v, 0)), std::abs(view_y_of_pixel(v, v.height))});
 }
 
-double tile_slope(const CullView& view, int tile) {
+double tile_slope(const View& view, int tile) {
   return tile * 2 *
          std::max(1 / (view.clip_from_view[0][0] * view.width),
                   1 / (view.clip_from_view[1][1] * view.height));
 }
 
-// Signed distances to the cell's side planes, outside positive; the largest.
-double outside_of_sides(const Cell& c, const glm::dvec3& p) {
-  const double d = c.scale_at(-p.z), tip = c.orthographic ? 0 : 1;
-  const auto side = [&](double beyond, double slope) { return beyond / std::sqrt(1 + tip * slope * slope); };
-  return std::max({side(c.x0 * d - p.x, c.x0), side(p.x - c.x1 * d, c.x1), side(c.y0 * d - p.y, c.y0),
-                   side(p.y - c.y1 * d, c.y1)});
-}
-
 // The cone against the sphere around the box, its cosine wider by 1e-6.
-bool cone_possibly_touches(const Box& b, const OracleLight& light, double margin) {
+bool cone_possibly_touches(const CellBox& b, const OracleLight& light, double margin) {
   const glm::dvec3 centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, -(b.d0 + b.d1) / 2);
   const double reach = std::hypot(b.x1 - b.x0, b.y1 - b.y0, b.d1 - b.d0) / 2 + margin;
   if (!(reach < far_away)) return true;
@@ -74,72 +64,41 @@ bool cone_possibly_touches(const Box& b, const OracleLight& light, double margin
 
 }  // namespace
 
-glm::dvec3 median_light(std::span<const CullLight> lights) {
-  glm::dvec3 middle(0);
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> coordinates;
-    for (const CullLight& light : lights)
-      if (std::isfinite(light.position[axis])) coordinates.push_back(light.position[axis]);
-    if (coordinates.empty()) continue;
-    std::nth_element(coordinates.begin(), coordinates.begin() + coordinates.size() / 2, coordinates.end());
-    middle[axis] = coordinates[coordinates.size() / 2];
-  }
-  return middle;
+double outside_of_sides(const Cell& c, const glm::dvec3& p) {
+  const double d = c.scale_at(-p.z), tip = c.orthographic ? 0 : 1;
+  const auto side = [&](double beyond, double slope) { return beyond / std::sqrt(1 + tip * slope * slope); };
+  return std::max({side(c.x0 * d - p.x, c.x0), side(p.x - c.x1 * d, c.x1), side(c.y0 * d - p.y, c.y0),
+                   side(p.y - c.y1 * d, c.y1)});
 }
 
-std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights) {
-  const glm::dvec3 middle = median_light(lights);
-  std::vector<OracleLight> all;
-  for (const CullLight& light : lights) {
-    OracleLight t{to_view(view, light.position),
-                  glm::dmat3(view.view_from_world) * light.direction,
-                  light.radius_m,
-                  light.cos_outer,
-                  0,
-                  0,
-                  false};
-    const glm::dvec3 offset = glm::abs(light.position - middle);
-    t.position_error = 2 * u * (offset.x + offset.y + offset.z);
-    const double length = glm::length(t.axis);
-    if (length > 0 && std::isfinite(length))
-      t.axis /= length;
-    else
-      t.cos_outer = -1;
-    const double sum = light.position.x + light.position.y + light.position.z;
-    t.lists_nothing = !(light.radius_m >= 0) || !std::isfinite(sum);
-    all.push_back(t);
-  }
-  double cone_error = 0;
-  for (const OracleLight& t : all) {
-    if (t.cos_outer >= 0 && !t.lists_nothing) cone_error = std::max(cone_error, t.position_error);
-  }
-  for (OracleLight& t : all) t.cone_error = cone_error;
-  return all;
+double distance_to_box_of(const Cell& cell, const glm::dvec3& p) {
+  return distance_to_box(box_around(cell), p);
 }
 
-Cell cell_of(const CullView& view, int tile, size_t index, const DepthInterval& bounds, bool pixel_centres) {
-  const View v = oracle_view(view);
-  const size_t tiles = tile_count(view, tile), at = index % tiles, slice = index / tiles;
-  const int tx = int(at % tiles_x(view, tile)), ty = int(at / tiles_x(view, tile));
+Cell cell_of_grid(const View& v, int tile, std::span<const float> slice_edges, size_t index, double near,
+                  double far, bool pixel_centres) {
+  const size_t across = size_t((v.width + tile - 1) / tile), tiles = across * ((v.height + tile - 1) / tile);
+  const size_t at = index % tiles, slice = index / tiles;
+  const int tx = int(at % across), ty = int(at / across);
   const double inset = pixel_centres ? 0.5 : 0;
   Cell cell{view_x_of_pixel(v, tx * tile + inset),
             view_x_of_pixel(v, std::min((tx + 1) * tile, v.width) - inset),
             view_y_of_pixel(v, ty * tile + inset),
             view_y_of_pixel(v, std::min((ty + 1) * tile, v.height) - inset),
-            bounds.near,
-            bounds.far,
+            near,
+            far,
             v.orthographic};
-  if (bounds.far >= far_away && bounds.near <= bounds.far) cell.far = no_end;
-  if (v.orthographic && bounds.near <= -far_away) cell.near = endless_near;
-  if (slice > 0) cell.near = std::max(cell.near, double(view.slice_edges[slice - 1]));
-  if (slice < view.slice_edges.size()) cell.far = std::min(cell.far, double(view.slice_edges[slice]));
+  if (far >= far_away && near <= far) cell.far = no_end;
+  if (v.orthographic && near <= -far_away) cell.near = endless_near;
+  if (slice > 0) cell.near = std::max(cell.near, double(slice_edges[slice - 1]));
+  if (slice < slice_edges.size()) cell.far = std::min(cell.far, double(slice_edges[slice]));
   return cell;
 }
 
 bool clearly_apart(const Cell& cell, const OracleLight& light) {
   if (light.lists_nothing || !(cell.near <= cell.far)) return true;
   if (light.radius > far_away) return false;
-  return distance_to_box(box_of(cell), light.position) > light.radius * (1 + 1e-12);
+  return distance_to_box_of(cell, light.position) > light.radius * (1 + 1e-12);
 }
 
 bool certainly_touches(const Cell& cell, const OracleLight& light) {
@@ -148,8 +107,7 @@ bool certainly_touches(const Cell& cell, const OracleLight& light) {
   return cone_touches_cell(cell, light.position, light.axis, light.cos_outer, light.radius) == Touch::yes;
 }
 
-bool possibly_touches(const CullView& view, int tile, const Cell& cell, const OracleLight& light,
-                      CullTest test) {
+bool possibly_touches(const View& view, int tile, const Cell& cell, const OracleLight& light, CullTest test) {
   if (light.lists_nothing || !(cell.near <= cell.far)) return false;
   const glm::dvec3& p = light.position;
   const double r = light.radius + light.position_error;
@@ -165,7 +123,7 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Or
   const double ends =
       cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
   const double box_margin = least_radius + 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
-  const Box box = box_of(cell);
+  const CellBox box = box_around(cell);
   if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
   const CullTestRow& parts = row_of(test);
   if (parts.planes && outside_of_sides(cell, p) > r + margin) return false;
@@ -180,17 +138,4 @@ bool possibly_touches(const CullView& view, int tile, const Cell& cell, const Or
          cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
 }
 
-Touching touching_lights(const CullView& view, std::span<const OracleLight> lights,
-                         std::span<const DepthInterval> bounds, int tile, bool pixel_centres) {
-  const size_t tiles = bounds.size();
-  Touching touching(tiles * (view.slice_edges.size() + 1));
-  parallel_for(int(touching.size()), [&](int i) {
-    const Cell cell = cell_of(view, tile, size_t(i), bounds[size_t(i) % tiles], pixel_centres);
-    for (uint32_t light = 0; light < lights.size(); ++light) {
-      if (certainly_touches(cell, lights[light])) touching[i].push_back(light);
-    }
-  });
-  return touching;
-}
-
-}  // namespace lightgrid::verify
+}  // namespace lightgrid

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
-#include "verify/run.h"
+#include "passes/pass_cases.h"
 
-namespace lightgrid::verify {
+namespace lightgrid {
 namespace {
 
 // Changes lights before they are listed, or lists before they are read.
@@ -14,71 +15,56 @@ struct WorldFault {
   const char* name;
   std::vector<std::string> caught_by;
   void (*of_light)(CullLight&) = nullptr;
-  void (*of_lists)(WorldLists&) = nullptr;
+  void (*of_lists)(ListedWorld&) = nullptr;
   bool near_view = false;    // lists are built for an eye at the origin, wherever it is
   bool first_build = false;  // what an earlier build listed is read again
   bool no_slack = false;     // radii are neither grown nor rounded up
 };
 
-class FaultyWorld : public CullEngine {
+class FaultyWorld : public PassCheck {
  public:
-  FaultyWorld(CullEngine& right, const WorldFault& fault) : right_(right), fault_(fault) {}
-  std::string name() const override { return fault_.name; }
-  bool is_the_library() const override { return false; }
-  HostGrid cull(const CullerOptions&, const CullView&, std::span<const CullLight>,
-                std::span<const DepthInterval>) override {
-    return {};
-  }
-  std::vector<DepthInterval> depth_bounds(const CullerOptions&, const CullView&, const DepthImage&,
-                                          bool) override {
-    return {};
-  }
-  HostGrid cull_depth(const CullerOptions&, const CullView&, std::span<const CullLight>, const DepthImage&,
-                      bool) override {
-    return {};
-  }
+  explicit FaultyWorld(const WorldFault& planted) : planted_(planted) { many = 1000; }
 
-  std::optional<WorldLists> world_lists(const WorldListsOf& of, std::span<const CullLight> given,
-                                        const WorldBox& bounds, const View& view) override {
+  ListedWorld world_lists(const WorldListsOf& of, std::span<const CullLight> given, const WorldBox& bounds,
+                         const View& view) override {
     std::vector<CullLight> lights(given.begin(), given.end());
-    if (fault_.of_light) std::ranges::for_each(lights, fault_.of_light);
+    if (planted_.of_light) std::ranges::for_each(lights, planted_.of_light);
     View seen_from = view;
-    if (fault_.near_view) seen_from.eye = {0, 0, 5};
-    std::optional<WorldLists> lists = right_.world_lists(of, lights, bounds, seen_from);
-    if (fault_.no_slack) {
+    if (planted_.near_view) seen_from.eye = {0, 0, 5};
+    ListedWorld lists = PassCheck::world_lists(of, lights, bounds, seen_from);
+    if (planted_.no_slack) {
       for (size_t i = 0; i < lights.size(); ++i) {
         // And one unit in the last place, by which it may be rounded up.
         lights[i].radius_m -=
-            double(lists->layout.lights[i].w) * (1 + 0x1p-23) * lists->layout.cell_m - lights[i].radius_m;
+            double(lists.layout.lights[i].w) * (1 + 0x1p-23) * lists.layout.cell_m - lights[i].radius_m;
       }
-      lists = right_.world_lists(of, lights, bounds, seen_from);
+      lists = PassCheck::world_lists(of, lights, bounds, seen_from);
     }
-    if (fault_.of_lists) fault_.of_lists(*lists);
-    if (fault_.first_build) lists->grid = first_.try_emplace(of, lists->grid).first->second;
+    if (planted_.of_lists) planted_.of_lists(lists);
+    if (planted_.first_build) lists.grid = first_.try_emplace(of, lists.grid).first->second;
     return lists;
   }
 
  private:
-  CullEngine& right_;
-  const WorldFault& fault_;
+  const WorldFault& planted_;
   std::map<WorldListsOf, HostWorldGrid> first_;
 };
 
-void lists_of_255(WorldLists& lists) {
+void lists_of_255(ListedWorld& lists) {
   for (glm::uvec2& cell : lists.grid.cells) cell.y = std::min(cell.y, 255u);
 }
 
-void next_cell(WorldLists& lists) { lists.grid.params.least_x += 1, lists.grid.params.most_x += 1; }
+void next_cell(ListedWorld& lists) { lists.grid.params.least_x += 1, lists.grid.params.most_x += 1; }
 
-void none_everywhere(WorldLists& lists) { lists.grid.params.everywhere_count = 0; }
+void none_everywhere(ListedWorld& lists) { lists.grid.params.everywhere_count = 0; }
 
-void backwards(WorldLists& lists) {
+void backwards(ListedWorld& lists) {
   for (const glm::uvec2& cell : lists.grid.cells)
     std::reverse(lists.grid.indices.begin() + cell.x, lists.grid.indices.begin() + cell.x + cell.y);
 }
 
 // A block of small cells lists its own lights alone.
-void own_level_alone(WorldLists& lists) {
+void own_level_alone(ListedWorld& lists) {
   if (lists.layout.levels.empty()) return;
   for (size_t i = 0; i < lists.grid.cells.size(); ++i) {
     glm::uvec2& cell = lists.grid.cells[i];
@@ -116,17 +102,17 @@ const WorldFault world_faults[] = {
 };
 
 TEST(WorldFaults, AreCaught) {
-  const auto library = device_engine("");
-  for (const WorldFault& fault : world_faults) {
-    for (const std::string& name : fault.caught_by) {
-      SCOPED_TRACE(std::string(fault.name) + " by " + name);
-      FaultyWorld faulty(*library, fault);
-      const auto chosen = chosen_cases("^world/" + name + "$");
-      ASSERT_EQ(chosen.size(), 1u);
-      EXPECT_EQ(run_case(*chosen[0], faulty, 1000).verdict, Verdict::fail);
+  const std::vector<PassCase> cases = world_cases();
+  for (const WorldFault& planted : world_faults) {
+    for (const std::string& name : planted.caught_by) {
+      const auto by = std::ranges::find(cases, name, &PassCase::name);
+      ASSERT_NE(by, cases.end()) << name;
+      FaultyWorld faulty(planted);
+      by->run(faulty);
+      EXPECT_NE(faulty.fault, "") << planted.name << " by " << name;
     }
   }
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid

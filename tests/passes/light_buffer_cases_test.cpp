@@ -7,15 +7,14 @@
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/fill_light_buffer.h"
+#include "passes/pass_cases.h"
 #include "reference/attenuation.h"
 #include "reference/light_sums.h"
 #include "reference/position.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
-#include "verify/check.h"
-#include "verify/light_passes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid {
 namespace {
 
 constexpr double light_exponent = 32;  // of the setting prepass-shininess
@@ -87,17 +86,15 @@ double rounding_of(const ViewLight& light, const glm::dvec3& position, double br
   return brightest / (distance * distance) * (turned * (16 + cone) + 64 * float_step);
 }
 
-void hold_sums(Check& c, const Scene& scene, const View& view, const PrepassInput& input, const char* name,
-               double repeated = 1) {
-  Renderer* renderer = c.engine.renderer();
-  if (!renderer) return c.skip("the engine has no passes");
+void hold_sums(PassCheck& c, const Scene& scene, const View& view, const PrepassInput& input,
+               const char* name, double repeated = 1) {
   Scene drawn = scene;
   drawn.lights.insert(drawn.lights.end(), size_t(repeated - 1),
                       scene.lights.empty() ? Light() : scene.lights[0]);
   // Far away, so that all cases need one kernel.
   add_spot(drawn, "far", glm::vec3(view.eye + glm::dvec3(0, 1e6, 0)), glm::vec3(view.eye), {1, 1, 1}, 1, 1,
            10, 20);
-  const std::vector<SixSums> sums = filled_sums(*renderer, drawn, view, input);
+  const std::vector<SixSums> sums = filled_sums(opencl_devices(), drawn, view, input);
   const std::vector<ViewLight> lights = lights_in_view(scene, view);
   for (size_t i = 0; i < sums.size(); ++i) {
     SixSums expected{};
@@ -111,7 +108,7 @@ void hold_sums(Check& c, const Scene& scene, const View& view, const PrepassInpu
       for (const ViewLight& light : lights) {
         const glm::dvec3& intensity = light.radiant_intensity;
         allowed += rounding_of(light, position, std::max({intensity.x, intensity.y, intensity.z}));
-        c.contacts(attenuation(light, position, true) > 0);
+        c.contacts += attenuation(light, position, true) > 0;
       }
       allowed = repeated * (allowed + (double(lights.size()) + repeated) * float_step * s.weight);
     }
@@ -125,12 +122,12 @@ void hold_sums(Check& c, const Scene& scene, const View& view, const PrepassInpu
   }
 }
 
-void hold_wall(Check& c, const Scene& scene, const char* name) {
+void hold_wall(PassCheck& c, const Scene& scene, const char* name) {
   const View view = eye_view(33, 19);
   hold_sums(c, scene, view, wall_input(view), name);
 }
 
-void in_the_surface(Check& c) {
+void in_the_surface(PassCheck& c) {
   for (const float before : {0.0f, 1e-4f, 0.01f, -0.3f}) {
     Scene scene = wall_scene();
     add_point(scene, "lamp", {0.2f, 0.1f, -4 + before}, {1, 0.5f, 0.2f}, 2, 2);
@@ -138,7 +135,7 @@ void in_the_surface(Check& c) {
   }
 }
 
-void around_the_eye(Check& c) {
+void around_the_eye(PassCheck& c) {
   for (const glm::vec3 at : {glm::vec3(0), glm::vec3(0.05f, 0, 0.05f)}) {
     Scene scene = wall_scene();
     add_point(scene, "lamp", at, {1, 0.5f, 0.2f}, 5, 30);
@@ -146,7 +143,7 @@ void around_the_eye(Check& c) {
   }
 }
 
-void ranges_of_any_size(Check& c) {
+void ranges_of_any_size(PassCheck& c) {
   constexpr float sizes[] = {std::numeric_limits<float>::infinity(), 1e20f, 1e4f, 0.011f, 1e-40f, 0};
   for (const float radius : sizes) {
     Scene scene = wall_scene();
@@ -155,7 +152,7 @@ void ranges_of_any_size(Check& c) {
   }
 }
 
-void any_brightness(Check& c) {
+void sums_of_any_brightness(PassCheck& c) {
   for (const float candela : {0.0f, 1e-30f, 1e20f, 1e30f, 3e38f}) {
     Scene scene = wall_scene();
     add_point(scene, "lamp", {0.3f, 0, -3}, {1, 0.5f, 0.2f}, candela, 3);
@@ -163,7 +160,7 @@ void any_brightness(Check& c) {
   }
 }
 
-void thin_prepass_spots(Check& c) {
+void thin_spots_in_tiles(PassCheck& c) {
   Scene scene = wall_scene();
   Random random(3);
   for (int i = 0; i < 100; ++i) {
@@ -175,18 +172,18 @@ void thin_prepass_spots(Check& c) {
   hold_wall(c, scene, "thin spots");
 }
 
-void no_lights_of_a_buffer(Check& c) { hold_wall(c, wall_scene(), "no lights"); }
+void nothing_in_range(PassCheck& c) { hold_wall(c, wall_scene(), "no lights"); }
 
 // The sum of equal terms rounds once a term. Up to 65,535 lights have indices of 16 bits, as the other cases.
-void many_in_one_place(Check& c) {
+void many_in_one_place(PassCheck& c) {
   Scene scene = wall_scene();
   add_point(scene, "lamp", {0.3f, 0.2f, -3.5f}, {1, 0.8f, 0.6f}, 0.001f, 1);
   const View view = eye_view(17, 9);
-  hold_sums(c, scene, view, wall_input(view), "many in one place", c.adversarial_lights > 100000 ? 1e6 : 5e4);
+  hold_sums(c, scene, view, wall_input(view), "many in one place", long_tests() ? 1e6 : 5e4);
 }
 
 // Normals of every direction, also away from the eye, and at a right angle to a light.
-void normals_of_any_direction(Check& c) {
+void normals_of_any_direction(PassCheck& c) {
   const View view = eye_view(33, 19);
   Scene scene = wall_scene();
   add_random_lights(scene, 60, 5);
@@ -197,7 +194,7 @@ void normals_of_any_direction(Check& c) {
   hold_sums(c, scene, view, input, "normals of any direction");
 }
 
-void surfaces_at_any_distance(Check& c) {
+void surfaces_at_any_distance(PassCheck& c) {
   const View view = eye_view(33, 19);
   Scene scene = wall_scene();
   add_random_lights(scene, 100, 6);
@@ -209,7 +206,7 @@ void surfaces_at_any_distance(Check& c) {
   hold_sums(c, scene, view, input, "surfaces at any distance");
 }
 
-void awkward_prepass_sizes(Check& c) {
+void buffers_of_awkward_sizes(PassCheck& c) {
   Scene scene = wall_scene();
   add_random_lights(scene, 100, 7);
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(3, 65), glm::ivec2(66, 33)}) {
@@ -218,7 +215,7 @@ void awkward_prepass_sizes(Check& c) {
   }
 }
 
-void prepass_far_from_the_origin(Check& c) {
+void sums_far_from_the_origin(PassCheck& c) {
   for (const double offset : {1e5, 1e8}) {
     const glm::dvec3 origin(offset, -2 * offset, offset / 2);
     Scene scene = wall_scene(origin);
@@ -229,7 +226,7 @@ void prepass_far_from_the_origin(Check& c) {
   }
 }
 
-void prepass_fuzzed(Check& c) {
+void fuzzed_sums(PassCheck& c) {
   for (const uint64_t seed : {21, 22, 23}) {
     Scene scene = wall_scene();
     add_random_lights(scene, 300, seed);
@@ -239,37 +236,30 @@ void prepass_fuzzed(Check& c) {
 
 }  // namespace
 
-std::vector<HardCase> prepass_cases() {
-  constexpr const char* g = "prepass";
+std::vector<PassCase> light_buffer_cases() {
   constexpr const char* sums = "every sum as the oracle's";
   return {
-      {g, "in_the_surface", "lights in a wall's plane, 0.1 mm and 1 cm before it, behind it",
-       "n·l from rounded positions; normalize(0)", sums, in_the_surface},
-      {g, "around_the_eye", "the eye in a light, and at its centre", "v·h of opposite directions", sums,
-       around_the_eye},
-      {g, "ranges_of_any_size", "ranges of ∞, 10²⁰, 10⁴, 0.011, 10⁻⁴⁰ and 0 m",
-       "1 / radius² is infinite, or 0", sums, ranges_of_any_size},
-      {g, "sums_of_any_brightness", "0, 10⁻³⁰, 10²⁰ and 3·10³⁸ candela",
-       "∞ · 0 in a lobe; a sum past what materials take", "every sum as the oracle's, 10³⁰ at most",
-       any_brightness},
-      {g, "thin_spots_in_tiles", "half-angles of 60 to 6·10⁻⁴ degrees", "a cone misses tiles' centres", sums,
-       thin_prepass_spots},
-      {g, "nothing_in_range", "0 lights in range", "a list that is not there is read", "sums of exactly 0",
-       no_lights_of_a_buffer},
-      {g, "many_in_one_place", "5·10⁴ lights in one place (10⁶ with --nightly)", "a limit a tile", sums,
-       many_in_one_place},
-      {g, "normals_of_any_direction", "normals away from the eye and across lights",
-       "negative cosines; lobes behind the surface", sums, normals_of_any_direction},
-      {g, "surfaces_at_any_distance", "neighbours at 0.1 to 3,000 m, and background between them",
-       "a tile's bounds or its background leak", "every sum as the oracle's, 0 in the background",
-       surfaces_at_any_distance},
-      {g, "buffers_of_awkward_sizes", "1 × 1, 17 × 9, 3 × 65 and 66 × 33 pixels",
-       "rows of 4 × 4 pixels past an edge", sums, awkward_prepass_sizes},
-      {g, "sums_far_from_the_origin", "the world moved by 10⁵ and 10⁸ m", "positions of the world in float",
-       sums, prepass_far_from_the_origin},
-      {g, "fuzzed_sums", "300 lights of 5 cm to 6 m, a quarter spots", "whatever is left", sums,
-       prepass_fuzzed},
+      CASE(in_the_surface, "lights in a wall's plane, 0.1 mm and 1 cm before it, behind it",
+           "n·l from rounded positions; normalize(0)", sums),
+      CASE(around_the_eye, "the eye in a light, and at its centre", "v·h of opposite directions", sums),
+      CASE(ranges_of_any_size, "ranges of ∞, 10²⁰, 10⁴, 0.011, 10⁻⁴⁰ and 0 m",
+           "1 / radius² is infinite, or 0", sums),
+      CASE(sums_of_any_brightness, "0, 10⁻³⁰, 10²⁰ and 3·10³⁸ candela",
+           "∞ · 0 in a lobe; a sum past what materials take", "every sum as the oracle's, 10³⁰ at most"),
+      CASE(thin_spots_in_tiles, "half-angles of 60 to 6·10⁻⁴ degrees", "a cone misses tiles' centres", sums),
+      CASE(nothing_in_range, "0 lights in range", "a list that is not there is read", "sums of exactly 0"),
+      CASE(many_in_one_place, "5·10⁴ lights in one place (10⁶ with LIGHTGRID_LONG_TESTS)", "a limit a tile",
+           sums),
+      CASE(normals_of_any_direction, "normals away from the eye and across lights",
+           "negative cosines; lobes behind the surface", sums),
+      CASE(surfaces_at_any_distance, "neighbours at 0.1 to 3,000 m, and background between them",
+           "a tile's bounds or its background leak", "every sum as the oracle's, 0 in the background"),
+      CASE(buffers_of_awkward_sizes, "1 × 1, 17 × 9, 3 × 65 and 66 × 33 pixels",
+           "rows of 4 × 4 pixels past an edge", sums),
+      CASE(sums_far_from_the_origin, "the world moved by 10⁵ and 10⁸ m", "positions of the world in float",
+           sums),
+      CASE(fuzzed_sums, "300 lights of 5 cm to 6 m, a quarter spots", "whatever is left", sums),
   };
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid
