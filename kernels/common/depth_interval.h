@@ -9,8 +9,8 @@
 #include "kernels/common/cell.h"
 
 #define ONE_BITS 0x3f800000u
-// Lights farther than 1e16 m are scaled towards the eye (docs/hard_cases.md#far-lights), so a tile with a
-// surface past this distance, metres, spans every distance.
+// Lights farther than 1e16 m are scaled towards the eye (docs/details/hard_cases.md#far-lights), so a tile with
+// a surface past this distance, metres, spans every distance.
 #define FARTHEST_SURFACE 1e15f
 
 #ifdef STANDARD_DEPTH

@@ -1,4 +1,4 @@
-// The sums of light_prepass's light buffer in double (docs/techniques/light_prepass.md#equations).
+// The sums of light_prepass's light buffer in double (docs/details/light_prepass.md#equations).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// A sample of a voxel light buffer in double (docs/techniques/voxel_lights.md#a-sample).
+// A sample of a voxel light buffer in double (docs/details/voxel_lights.md#a-sample).
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // How large the cells of a world grid should be: what world-cell=auto means
-// (docs/techniques/world_grid.md#cells-that-choose-themselves). Host code alone, in double.
+// (docs/details/world_grid.md#cells-that-choose-themselves). Host code alone, in double.
 #pragma once
 
 #include <span>

@@ -14,7 +14,7 @@
 namespace lightgrid {
 
 // The views that lists are right for: how far rounding may move a position that shading computes
-// (docs/techniques/world_grid.md#slack). Larger values make longer lists.
+// (docs/details/world_grid.md#slack). Larger values make longer lists.
 struct WorldReach {
   double distance_m =
       0;  // of the eye from the grid's middle and, in orthographic views, of what is seen from the eye

@@ -1,11 +1,11 @@
 // The light buffer of a light pre-pass renderer (Engel, "Designing a Renderer for Multiple Lights: The Light
 // Pre-Pass Renderer", ShaderX7, 2009): sums over point and spot lights of what depends on light, normal and
-// viewer alone, and the radiance of a material under them (docs/techniques/light_prepass.md#equations).
+// viewer alone, and the radiance of a material under them (docs/details/light_prepass.md#equations).
 //   LAMBERT: no specular term.
 //   PREPASS_FIFTH_TERM, PREPASS_LUMINANCE, PREPASS_BENT: how the material's shininess takes part
 //   (prepass-specular); without any of them it does not.
 //   SKIN, MINNAERT: materials of these models take the luminance of the sums for the cosine, as the article's
-//   appendix has it (docs/techniques/light_prepass.md#skin-and-minnaert).
+//   appendix has it (docs/details/light_prepass.md#skin-and-minnaert).
 #pragma once
 
 #include "shared/power_of_cosine.h"

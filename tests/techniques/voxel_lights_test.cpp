@@ -80,7 +80,7 @@ TEST(VoxelLights, HardCasesHold) {
   }
 }
 
-// docs/techniques/voxel_lights.md#how-it-converges: one light, a diffuse wall, and the bound of the
+// docs/details/voxel_lights.md#how-it-converges: one light, a diffuse wall, and the bound of the
 // interpolation.
 TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
   SmallScene s = small_scene(false);
