@@ -51,7 +51,8 @@ typedef struct Interval {
   real near, far;
 } Interval;
 
-// Of depths whose keys go from `low` to `high`, widened by a step of the depth format and by rounding.
+// The interval of depths whose keys go from `low` to `high`, widened by a step of the depth format and by
+// rounding.
 static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullParams* p) {
   const real near_depth =
       lane_min(lane_max(NEARER(AS_REAL(KEY(high)), p->depth_step), (real)(0.0f)), (real)(1.0f));

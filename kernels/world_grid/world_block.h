@@ -22,7 +22,7 @@ typedef struct BlockSides {
 #endif
 } BlockSides;
 
-// Of the cells of one part, from lanes as above.
+// Spreads lanes as above over the cells of one part.
 #ifdef COLUMNS
 #define SPREAD_X(v) (v).s0123456701234567
 #define SPREAD_Y(v, part)                \
