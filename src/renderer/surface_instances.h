@@ -8,7 +8,8 @@
 
 namespace lightgrid {
 
-// Of these instances of the scene, in their order. Replaces `records`, whose memory is used again.
+// Makes the records of these instances of the scene, in their order. Replaces `records`, whose memory is used
+// again.
 void set_surface_instances(const RenderView& v, std::span<const int> instances,
                            std::vector<SurfaceInstance>& records);
 

@@ -65,7 +65,7 @@ size_t WorldGrid::chunk_of(size_t count, size_t least) const {
   return std::max({(count + items - 1) / items, cpu ? least : least / 16, size_t(1)});
 }
 
-// Of totals_. Returns the sum of all, if it is read.
+// Scans totals_. Returns the sum of all, if it is read.
 uint64_t WorldGrid::scan(size_t count, bool read) {
   cl::Kernel kernel = renderer_.kernels->kernel("world_grid/world_scan", "");
   const size_t group = renderer_.cl->info().cpu ? 1 : 256;
@@ -168,7 +168,7 @@ void WorldGrid::find_blocks() {
        members_.at_least(device, pair_count_ * 4 + members_past_end));
 }
 
-// Of hashed grids with several levels: full_members_.
+// Makes full_members_ of hashed grids with several levels.
 void WorldGrid::inherit() {
   ClDevice& device = *renderer_.cl;
   const size_t chunk = chunk_of(blocks_, 16), chunks = (blocks_ + chunk - 1) / chunk;

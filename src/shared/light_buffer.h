@@ -27,7 +27,7 @@ SHARED_STRUCT(LightTerms) {
   real rim;       // channel 6: channel 4 times g
 };
 
-// What the material pass knows of the light buffer.
+// The material pass reads these beside the light buffer.
 SHARED_STRUCT(LightBufferParams) {
   real exponent;   // n
   real reference;  // a light of this size is 1 to equation 8.5.7: the scale of buffers in fixed point
@@ -105,7 +105,7 @@ SHARED_FUNCTION real luminance_of_terms(LightTerms t) {
 // brightest light is at half its range, not at an eighth.
 #define LIGHT_OF_COSINE_1 0.0625f
 
-// What a surface reflects diffusely of finite sums, without a coat over it.
+// The light that a surface reflects diffusely, without a coat over it. The sums are finite.
 #if defined(SKIN) || defined(MINNAERT)
 SHARED_FUNCTION Real3 diffuse_of_terms(ShadingPoint p, LightTerms t, LightBufferParams of) {
   real cosine = min_real(luminance_of_terms(t) / (LIGHT_OF_COSINE_1 * of.reference), REAL(1.0f));
