@@ -29,7 +29,7 @@ static inline void store_row(float16 row, global float* to) {
   vstore16(row, 0, to);
 }
 
-// Of a block, its rows: x, y, z and w of four pixels each.
+// Makes the rows of a block: x, y, z and w of four pixels each.
 static inline void rows_of_block(float16* rows, Real3 c, real w) {
   rows[0] = (float16)(c.x.s0, c.y.s0, c.z.s0, w.s0, c.x.s1, c.y.s1, c.z.s1, w.s1, c.x.s2, c.y.s2, c.z.s2,
                       w.s2, c.x.s3, c.y.s3, c.z.s3, w.s3);

@@ -9,8 +9,8 @@
 #include "kernels/culling/cell.h"
 
 #define ONE_BITS 0x3f800000u
-// Lights farther than 1e16 m are scaled towards the eye (docs/hard_cases.md#far-lights), so a tile with a
-// surface past this distance, metres, spans every distance.
+// Lights farther than 1e16 m are scaled towards the eye (docs/details/hard_cases.md#far-lights), so a tile with
+// a surface past this distance, metres, spans every distance.
 #define FARTHEST_SURFACE 1e15f
 
 #ifdef STANDARD_DEPTH
@@ -51,7 +51,8 @@ typedef struct Interval {
   real near, far;
 } Interval;
 
-// Of depths whose keys go from `low` to `high`, widened by a step of the depth format and by rounding.
+// The interval of depths whose keys go from `low` to `high`, widened by a step of the depth format and by
+// rounding.
 static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullParams* p) {
   const real near_depth =
       lane_min(lane_max(NEARER(AS_REAL(KEY(high)), p->depth_step), (real)(0.0f)), (real)(1.0f));

@@ -50,7 +50,7 @@ static inline Section section_at(ViewSphere s, const Cell* c, real t, uint ortho
   return at;
 }
 
-// Of the lights in `keep`, those that may touch the cell itself. f is convex in t with f'' >= 2, so for every
+// Returns the lights in `keep` that may touch the cell itself. f is convex in t with f'' >= 2, so for every
 // u in [near, far] f(u) >= f(t) + 2 g (u - t) + (u - t)^2: a lower bound whatever t is. t is a Newton
 // iterate. f is quadratic in pieces, so one step is exact unless the nearest faces change. g is moved towards
 // the minimum by its rounding error. A light is kept when a section touches it and dropped when the bound

@@ -16,7 +16,7 @@
 #define SLACK (24.0f * 5.9604645e-8f)
 // Radii also grow by this, metres: squares of smaller numbers underflow.
 #define LEAST_RADIUS 1e-18f
-// Tangents and tile coordinates round to this part of themselves: docs/hard_cases.md#tangents.
+// Tangents and tile coordinates round to this part of themselves: docs/details/hard_cases.md#tangents.
 #define TANGENT_SLACK (32.0f * 5.9604645e-8f)
 
 // View space with d = -z, metres; r is the radius with slack.

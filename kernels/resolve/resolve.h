@@ -33,7 +33,7 @@ typedef struct ResolveScene {
   float2 half_size;  // of the image, pixels
 } ResolveScene;
 
-// What LANES pixels have of their triangles.
+// LANES pixels have these attributes of their triangles.
 typedef struct Attributes {
   Real3 normal;  // view space, not yet unit
   whole material;
@@ -310,7 +310,7 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   KEEP(surface->unlit, (mask_t)(m->flags & SURFACE_UNLIT ? -1 : 0));
 }
 
-// Of a vector's square: whether it can be made a unit vector. False for NaN.
+// Whether a vector of this squared length can be made a unit vector. False for NaN.
 static inline mask_t has_direction(real length_squared) {
   return (length_squared >= REAL(FLT_MIN)) & (length_squared <= REAL(FLT_MAX));
 }
@@ -332,7 +332,7 @@ static inline Real3 bent_normal(const Attributes* a, Real3 n, Real3 mapped, mask
 }
 #endif
 
-// Of the front side, unit. Where corners' normals cancel it is the view's axis.
+// The normal of the front side, unit. Where corners' normals cancel it is the view's axis.
 static inline Real3 geometric_normal(const Attributes* a) {
   const real length_squared = dot3(a->normal, a->normal);
   const mask_t here = has_direction(length_squared);
@@ -349,7 +349,7 @@ static inline Real3 shading_normal(const Attributes* a, const Surface* s) {
   return scale3(n, a->side);
 }
 
-// Of the material's model.
+// The number of the material's model.
 static inline real number_of(const Surface* s) {
 #if defined(SKIN) || defined(MINNAERT)
   return s->model;

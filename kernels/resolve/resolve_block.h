@@ -163,7 +163,7 @@ static inline mask_t walk_to(BlockWalk* w, uint x, uint y) {
 #endif
 }
 
-// Of the pixels of the block at (x, y), which the walk is at.
+// The attributes of the pixels of the block at (x, y), which the walk is at.
 static inline const Attributes* block_attributes(BlockWalk* w, mask_t covered, uint x, uint y) {
 #ifdef FETCH_AHEAD
   return w->attributes + w->turn;

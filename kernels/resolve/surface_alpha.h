@@ -29,7 +29,7 @@ static inline real filtered_alpha(global const uint* alphas, uint base, global c
   return fma(coarse - fine, f.mix, fine) * (1.0f / 255.0f);
 }
 
-// What a mask is looked up in: ClScene's buffers (shared/surface_records.h), and half the image's size in
+// A mask is looked up in these: ClScene's buffers (shared/surface_records.h), and half the image's size in
 // pixels.
 typedef struct AlphaSource {
   global const SurfaceVertex* vertices;

@@ -54,8 +54,8 @@ typedef ushort packed_t;
 #define INDEX_LANE(v, i) ((size_t)(uint)(v))
 #endif
 
-// What a trilinear filter takes of a level: the numbers of the first texel of both rows, and weights. A
-// texel's is its row's times its column's.
+// A trilinear filter takes these from a level: the numbers of the first texel of both rows, and weights. A
+// texel's weight is its row's times its column's.
 typedef struct LevelTaps {
   whole low, high;
   real low_weight, high_weight, left_weight, right_weight;

@@ -22,7 +22,7 @@ typedef struct BlockSides {
 #endif
 } BlockSides;
 
-// Of the cells of one part, from lanes as above.
+// Spreads lanes as above over the cells of one part.
 #ifdef COLUMNS
 #define SPREAD_X(v) (v).s0123456701234567
 #define SPREAD_Y(v, part)                \
@@ -70,7 +70,7 @@ static inline BlockSides block_sides(uint2 key, constant WorldGridParams* world)
 // A cone against the balls of radius R around cells, R rounded up and with slack. With d from the light to a
 // cell's centre and a = d . axis, the ball meets the cone only if cos |d - a axis| <= R + a sin. Squared and
 // with cos^2 + sin^2 = 1 that is cos^2 d^2 <= (a + R sin)^2 + R^2 cos^2, whose terms are sums over the axes.
-// docs/techniques/world_grid.md#slack has its rounding.
+// docs/details/world_grid.md#slack has its rounding.
 typedef struct ConeTest {
   real along, squared;        // in the lanes of BlockSides: parts of a, and of cos^2 d^2
   real along_xy, squared_xy;  // of a + R sin, and of cos^2 d^2

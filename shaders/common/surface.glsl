@@ -44,7 +44,7 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
   return length_squared >= 1.2e-38 && length_squared <= 3.4e38 ? normalize(v) : otherwise;
 }
 
-// Of the front side, unit.
+// The normal of the front side, unit.
 vec3 geometric_normal() { return unit_or(normal_view, vec3(0.0, 0.0, 1.0)); }
 
 #ifdef TANGENTS

@@ -139,7 +139,7 @@ int merge(const FrontierCommand& o) {
   return finish(o, read_parts(folders, [](const std::string& what) { log_info("{}", what); }), pictures);
 }
 
-// What the command is asked for, checked before a device opens and before the first scene is measured.
+// Checks what the command is asked for, before a device opens and before the first scene is measured.
 void check_request(const FrontierCommand& o) {
   if (!o.gate.empty()) read_frontier_json(o.gate);
   if (!o.json.empty()) check_output_file("--json", o.json);

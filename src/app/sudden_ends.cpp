@@ -24,7 +24,7 @@ constexpr size_t spare_bytes = 64 << 20;        // no crash is for lack of memor
 constexpr int faults[] = {SIGSEGV, SIGBUS};
 constexpr int interrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
-// What the handlers read. They call only what a signal handler may.
+// The handlers read this. They call only what a signal handler may.
 struct Ends {
   std::string cache, temporary, full_line;
   struct sigaction before[NSIG] = {};

@@ -22,7 +22,7 @@ double view_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 11 : 7); }
 // two pairs of tangents; sphere against box; additionally three Newton steps; additionally cone against
 // sphere.
 constexpr double project_flops = 100, box_flops = 18, exact_flops = 110, cone_flops = 60;
-// Of view_sphere there, with a range of distances from it.
+// view_sphere there takes these, with a range of distances from it.
 constexpr double range_flops = 28;
 double test_flops(const KernelWork& w) {
   return box_flops + (w.exact ? exact_flops : 0) + (w.cones ? cone_flops : 0);

@@ -13,8 +13,8 @@ struct KernelWork {
                                                                   // total size
   size_t mask_bytes = 0, z_bins = 0;
   bool exact = false, cones = false;
-  // Of the rasteriser, whose tiles are of 64 x 64 pixels: vertices and triangles of all instances, drawn or
-  // not, and RasterCounts.
+  // The rasteriser has these (its tiles are 64 x 64 pixels): vertices and triangles of all instances, drawn
+  // or not, and RasterCounts.
   size_t vertices = 0, triangles = 0, clusters = 0, records = 0, tile_entries = 0;
 };
 

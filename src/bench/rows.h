@@ -34,7 +34,7 @@ struct ContestantParams {
   KernelWork work;
 };
 
-// Of culling, whose frame has a plain read of its depth, or of the rasteriser, which has none.
+// The rows of culling, whose frame has a plain read of its depth, or of the rasteriser, which has none.
 std::vector<BenchRow> contestant_rows(const ContestantParams& about, const MeasuredRun& run,
                                       const MeasuredFrame& frame, const Limits& limits);
 

@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-// Of cl_khr_device_uuid and cl_khr_external_memory_opaque_fd: headers of 2022 lack them.
+// cl_khr_device_uuid and cl_khr_external_memory_opaque_fd define these; headers of 2022 lack them.
 constexpr cl_device_info cl_device_uuid_khr = 0x106A;
 constexpr cl_ulong cl_handle_opaque_fd_khr = 0x2060;
 

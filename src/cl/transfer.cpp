@@ -39,7 +39,7 @@ MappedBuffer::~MappedBuffer() {
   try {
     device_.queue().enqueueUnmapMemObject(buffer_, data_);
   } catch (const cl::Error&) {
-    // What was read is right; the queue's next use reports what is wrong with it.
+    // The values that were read are right; the queue's next use reports what is wrong with it.
   }
 }
 

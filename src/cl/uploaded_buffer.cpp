@@ -30,7 +30,7 @@ bool UploadedBuffer::Staged::is_read() const {
   return status <= CL_COMPLETE;
 }
 
-// What the queue has yet to read is freed by its last reader.
+// Values that the queue has yet to read are freed by their last reader.
 UploadedBuffer::~UploadedBuffer() {
   const auto free_values = [](cl_event, cl_int, void* staged) { delete static_cast<Staged*>(staged); };
   for (auto& staged : staged_) {

@@ -15,7 +15,7 @@ constexpr float far_away = FAR_AWAY;
 constexpr double half_ulp = 0x1p-24;
 
 // A light farther than this from the origin (metres) is uploaded scaled towards the origin:
-// docs/hard_cases.md#far-lights.
+// docs/details/hard_cases.md#far-lights.
 constexpr double farthest_light = 1e16;
 // Surfaces farther than this from the eye (metres) are in cells that span every distance.
 constexpr double farthest_surface = 1e15;

@@ -110,7 +110,7 @@ inline constexpr GLenum dedicated_memory_object = 0x9581, handle_type_opaque_fd 
 LIGHTGRID_GL_MEMORY_FUNCTIONS(LIGHTGRID_GL_DECLARE)
 #undef LIGHTGRID_GL_DECLARE
 
-// Of the current context.
+// Asks the current context.
 bool has_gl_extension(std::string_view name);
 
 // Loads the functions of the current context. Throws Error(machine) naming the first of the core that is missing.

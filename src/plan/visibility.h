@@ -1,4 +1,4 @@
-// What a view may see. Conservative: a result "outside" is certain. In double.
+// Tests what a view may see. Conservative: a result "outside" is certain. In double.
 #pragma once
 
 #include "scene/camera.h"

@@ -1,4 +1,4 @@
-// The sums of light_prepass's light buffer in double (docs/techniques/light_prepass.md#equations).
+// The sums of light_prepass's light buffer in double (docs/details/light_prepass.md#equations).
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@ struct LightSums {
   double specular = 0, weight = 0, rim = 0;  // channels 4 to 6
 };
 
-// Of point and spot lights at a point of a perspective view. normal: unit, view space; exponent: the lights'.
+// Adds up point and spot lights at a point of a perspective view. normal: unit, view space; exponent: the
+// lights'.
 // A light at the point itself adds nothing.
 LightSums light_sums(const glm::dvec3& position, const glm::dvec3& normal, std::span<const ViewLight> lights,
                      double exponent);

@@ -12,7 +12,7 @@ dmat3 xyw_of(const std::array<dvec4, 3>& corners) {
   return {xyw(corners[0]), xyw(corners[1]), xyw(corners[2])};
 }
 
-// Of values at vertices.
+// The weighted mean of values at vertices.
 template <typename Values>
 auto mean(const TriangleInView& triangle, const dvec3& weights, const Values& values) {
   using Wide = glm::vec<Values::value_type::length(), double>;
@@ -23,7 +23,7 @@ auto mean(const TriangleInView& triangle, const dvec3& weights, const Values& va
 
 }  // namespace
 
-// Of the corners at a place, and their change from there to the next pixel.
+// The corners' weights at a place, and their change from there to the next pixel.
 struct SceneSurfaces::Weights {
   dvec3 here, right, up;  // the first adds up to 1, the others to 0
   dvec3 unscaled;         // corners * unscaled: the place, with w = 1

@@ -16,7 +16,7 @@ struct TriangleInView {
   int instance = 0;                    // of the scene
   std::array<uint32_t, 3> vertices{};  // of its mesh, in the mesh's order
   std::array<glm::dvec4, 3> corners{};
-  // Of x, y and w of the corners: above 0 if they appear counter-clockwise; 0: seen edge on.
+  // The determinant of the corners' x, y and w: above 0 if they appear counter-clockwise; 0: seen edge on.
   double turn() const;
 };
 

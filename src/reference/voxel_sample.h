@@ -1,4 +1,4 @@
-// A sample of a voxel light buffer in double (docs/techniques/voxel_lights.md#a-sample).
+// A sample of a voxel light buffer in double (docs/details/voxel_lights.md#a-sample).
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ struct VoxelCell {
   static VoxelCell of(const glm::dvec3& box, double volume);
 };
 
-// Of point and spot lights with the window of KHR_lights_punctual. Lights and `at`: along the same axes.
+// Takes point and spot lights with the window of KHR_lights_punctual. Lights and `at`: along the same axes.
 VoxelSample voxel_sample(const glm::dvec3& at, const VoxelCell& cell, std::span<const ViewLight> lights);
 
 }  // namespace lightgrid

@@ -24,7 +24,7 @@ struct PassRecord {
 
 class PassTimer {
  public:
-  // What surrounds a pass on "gl" or "cl".
+  // Called before and after a pass on "gl" or "cl".
   struct Clock {
     std::function<void(const std::string& on)> start;
     std::function<std::vector<KernelTime>(const std::string& on)> stop;  // waits for the device

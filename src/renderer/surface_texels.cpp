@@ -45,7 +45,7 @@ uint sampler_flags(const Texture& t) {
   return flags;
 }
 
-// What a chain is of, without where it lies.
+// A chain's contents, without the place where it lies.
 struct PlacedChain {
   uint base;
   TexelChain chain;  // without its values

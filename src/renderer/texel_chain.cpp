@@ -9,8 +9,8 @@
 namespace lightgrid {
 namespace {
 
-// What of a row of `from` texels each of `to` texels averages: neighbours from `first` on, with weights that
-// add up to 1.
+// A row of `from` texels becomes one of `to` texels. Each of those averages `count` neighbours from `first`
+// on, with weights that add up to 1.
 struct Taps {
   int first, count;
   double weights[3];

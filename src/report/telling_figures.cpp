@@ -172,8 +172,8 @@ std::string lossy_clause(const CompareReport& report, const RunResult& row) {
                      short_number(row.frame_ms.median), error_in_words(row));
 }
 
-// Of a technique whose picture is another one: "visibility draws 34 frames a second (29.4 ms); its image
-// differs by …".
+// The sentence for a technique whose picture is another one: "visibility draws 34 frames a second (29.4 ms);
+// its image differs by …".
 std::string other_picture_figure(const CompareReport& report, const RunResult& row) {
   return fmt::format("{} draws {} frames a second ({} ms); its image {}", name_of(report, row),
                      short_number(1000 / std::max(row.frame_ms.median, 1e-9)),

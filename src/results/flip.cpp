@@ -214,7 +214,7 @@ Planes ycxcz_of(const Image& image) {
   return planes;
 }
 
-// What FLIP compares of an image.
+// FLIP compares these parts of an image.
 struct SeenImage {
   Planes color;  // Hunt-adjusted CIELAB of what an eye sees
   Features features;
@@ -253,7 +253,7 @@ constexpr double aces_a = 0.6 * 0.6 * 2.51, aces_b = 0.6 * 0.03, aces_c = 0.6 * 
 
 double aces(double x) { return (aces_a * x * x + aces_b * x) / (aces_c * x * x + aces_d * x + aces_e); }
 
-// What the tone map brings to `out`.
+// The value that the tone map brings to `out`.
 double inverse_aces(double out) {
   const double a = aces_a - out * aces_c, b = aces_b - out * aces_d, c = -out * aces_e;
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);

@@ -12,7 +12,7 @@
 
 namespace lightgrid {
 
-// Of a display 0.7 m away, 0.7 m and 3840 pixels wide: the authors' default.
+// A display 0.7 m away, 0.7 m and 3840 pixels wide has this: the authors' default.
 inline constexpr double default_pixels_per_degree = 67;
 
 // Per pixel, row 0 at the bottom, 0 (no visible difference) to 1. Both images have one size and are linear

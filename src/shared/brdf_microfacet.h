@@ -18,7 +18,7 @@
 namespace lightgrid {
 #endif
 
-// Of unit vectors and a perceptual roughness.
+// Takes unit vectors and a perceptual roughness.
 SHARED_FUNCTION Lobe lobe_of(Real3 normal, Real3 to_viewer, real roughness) {
   Lobe l;
   real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));

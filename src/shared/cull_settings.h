@@ -14,7 +14,7 @@ enum class GridLists { lists, masks };
 // The tables of cull tests and depth-bounds modes: settings, culling, checks and inspection loop over them.
 // docs/overview.md#how-to-add lists what a new row needs.
 
-// What a light's sphere is tested against, besides the cell's interval of distances. All parts must hold.
+// The parts of a test of a light's sphere, besides the cell's interval of distances. All must hold.
 struct CullTestRow {
   CullTest test;
   const char* name;  // the setting cull-test

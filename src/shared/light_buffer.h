@@ -1,11 +1,11 @@
 // The light buffer of a light pre-pass renderer (Engel, "Designing a Renderer for Multiple Lights: The Light
 // Pre-Pass Renderer", ShaderX7, 2009): sums over point and spot lights of what depends on light, normal and
-// viewer alone, and the radiance of a material under them (docs/techniques/light_prepass.md#equations).
+// viewer alone, and the radiance of a material under them (docs/details/light_prepass.md#equations).
 //   LAMBERT: no specular term.
 //   PREPASS_FIFTH_TERM, PREPASS_LUMINANCE, PREPASS_BENT: how the material's shininess takes part
 //   (prepass-specular); without any of them it does not.
 //   SKIN, MINNAERT: materials of these models take the luminance of the sums for the cosine, as the article's
-//   appendix has it (docs/techniques/light_prepass.md#skin-and-minnaert).
+//   appendix has it (docs/details/light_prepass.md#skin-and-minnaert).
 #pragma once
 
 #include "shared/power_of_cosine.h"
@@ -27,7 +27,7 @@ SHARED_STRUCT(LightTerms) {
   real rim;       // channel 6: channel 4 times g
 };
 
-// What the material pass knows of the light buffer.
+// The material pass reads these beside the light buffer.
 SHARED_STRUCT(LightBufferParams) {
   real exponent;   // n
   real reference;  // a light of this size is 1 to equation 8.5.7: the scale of buffers in fixed point
@@ -105,7 +105,7 @@ SHARED_FUNCTION real luminance_of_terms(LightTerms t) {
 // brightest light is at half its range, not at an eighth.
 #define LIGHT_OF_COSINE_1 0.0625f
 
-// What a surface reflects diffusely of finite sums, without a coat over it.
+// The light that a surface reflects diffusely, without a coat over it. The sums are finite.
 #if defined(SKIN) || defined(MINNAERT)
 SHARED_FUNCTION Real3 diffuse_of_terms(ShadingPoint p, LightTerms t, LightBufferParams of) {
   real cosine = min_real(luminance_of_terms(t) / (LIGHT_OF_COSINE_1 * of.reference), REAL(1.0f));

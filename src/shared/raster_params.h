@@ -1,4 +1,4 @@
-// What the rasteriser's host and kernels share: 32-bit scalars only.
+// The rasteriser's host and kernels share these structs, which hold 32-bit scalars only.
 #pragma once
 
 #include "shared/language.h"

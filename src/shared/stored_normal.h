@@ -38,7 +38,7 @@ SHARED_FUNCTION Real3 place_of_normal(Real3 n) {
 
 SHARED_FUNCTION Real3 normal_at_place(Real3 place) { return normal_of_octahedral(place.x, place.y); }
 #elif defined(NORMALS_SPHEREMAP)
-// Of two equal expressions each half of the sphere takes the one without cancellation. The pole at -z is the
+// Two expressions are equal. Each half of the sphere uses the one that does not cancel. The pole at -z is the
 // whole rim.
 SHARED_FUNCTION Real3 place_of_normal(Real3 n) {
   real across_squared = n.x * n.x + n.y * n.y;

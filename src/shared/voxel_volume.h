@@ -34,7 +34,7 @@ namespace lightgrid {
 
 #ifndef LIGHTGRID_GLSL
 // The samples. Metres along the volume's axes; with VOXELS_LOG x and y are x / distance and y / distance.
-// What a slice of equal z shares is in a table, VoxelSlice each.
+// A table holds a VoxelSlice for each slice of equal z: what its samples share.
 typedef struct VoxelGrid {
   uint size_x, size_y, size_z;  // samples
   uint groups;                  // of lights, VOXEL_LIGHT_GROUP each
@@ -70,7 +70,7 @@ typedef struct VoxelLookup {
   float last_x, last_y, last_z;           // places of the last samples: sizes less 1
   float inverse_scale;                    // of what is stored
   float spacing_x, spacing_y, spacing_z;  // metres, along the volume's axes
-  // Of VoxelSlice; with VOXELS_LOG at distance 1, of whose square they are multiples.
+  // As in VoxelSlice; with VOXELS_LOG at distance 1: elsewhere they grow with the distance's square.
   float half_diagonal_squared, core_squared;
 #ifdef LIGHTGRID_GLSL
 } voxel_lookup;
@@ -97,7 +97,7 @@ SHARED_FUNCTION Real3 voxel_place(Real3 position VOXEL_ARGUMENT) {
                min_real(max_real(z, REAL(0.0f)), REAL(VOXELS(last_z))));
 }
 
-// What a volume holds at a point, interpolated: irradiance on a surface that faces each light, and the sum of
+// The volume's value at a point, interpolated: irradiance on a surface that faces each light, and the sum of
 // the directions to the lights weighted by luminance, with the sum of the weights.
 SHARED_STRUCT(VoxelLight) {
   Real3 irradiance, directions;
@@ -111,7 +111,7 @@ SHARED_FUNCTION Real3 turned_to_view(Real3 d VOXEL_ARGUMENT) {
                VOXELS(view_z_from_x) * d.x + VOXELS(view_z_from_y) * d.y + VOXELS(view_z_from_z) * d.z);
 }
 
-// Of what is stored, without its scale and in view space.
+// These take the stored numbers, remove their scale and turn them into view space.
 #ifdef __OPENCL_VERSION__
 #define GIVEN_LOOKUP , voxels
 #elif defined(LIGHTGRID_GLSL)
@@ -128,8 +128,8 @@ SHARED_FUNCTION VoxelLight voxel_light_in_view(VoxelLight stored VOXEL_ARGUMENT)
   return light;
 }
 
-// What a surface reflects of light in view space: the part in which directions agree as a light from their
-// mean, the rest as if it came from all sides. Over all normals of a diffuse surface its mean and first
+// The light that a surface reflects, in view space. The part in which directions agree counts as a light from
+// their mean, the rest as if it came from all sides. Over all normals of a diffuse surface its mean and first
 // moments are those of the lights.
 SHARED_FUNCTION Real3 radiance_of_voxels(ShadingPoint p, VoxelLight light) {
   real squared = max_real(dot3(light.directions, light.directions), REAL(1.2e-38f));

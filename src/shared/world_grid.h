@@ -62,7 +62,7 @@ inline float world_floor(float x) {  // of less than 2^31; std::floor is a call
 #define WORLD_CELL(i) lists.cells[i]
 #endif
 
-// Of a grid, whatever the view.
+// These belong to a grid, whatever the view.
 #ifndef LIGHTGRID_GLSL
 typedef struct WorldGridParams {
 #else
@@ -141,7 +141,7 @@ SHARED_FUNCTION WORLD_WHOLE world_coordinate(real at, float least, float most) {
   return TO_WORLD_WHOLE(world_floor(min_real(max_real(at, REAL(least)), REAL(most))) - REAL(least));
 }
 
-// What the radius of a light at a distance of `distance` (in the sum norm) is grown by.
+// The length by which the radius of a light at a distance of `distance` (in the sum norm) is grown.
 #ifndef LIGHTGRID_GLSL
 SHARED_FUNCTION float world_slack(float distance, float radius, WORLD_ARGUMENT) {
   return WORLD(slack) * (WORLD(reach) + distance + radius);

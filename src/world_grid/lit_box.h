@@ -46,7 +46,7 @@ void for_each_part(size_t count, const Body& body) {
   parallel_for(parts, run);
 }
 
-// Of some thousand lights at most, evenly chosen, each sample_step-th is taken.
+// Every sample_step-th light is taken, so that the sample has some thousand lights at most.
 size_t sample_step(size_t lights);
 
 // The median radius of the sample's lights with a radius above 0; 0: there is none.

@@ -1,4 +1,4 @@
-// What world_grid.cpp and world_update.cpp share.
+// world_grid.cpp and world_update.cpp share these.
 #pragma once
 
 #include "cl/launch.h"

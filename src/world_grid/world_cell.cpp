@@ -30,7 +30,7 @@ struct FourSpans {
   Float4 low_x, high_x, low_z, high_z;
 };
 
-// What estimates are made of: some lights, and the box of the grid.
+// Estimates are made from some lights and the box of the grid.
 struct LightSample {
   std::vector<CullLight> lights;  // with a radius above 0
   std::vector<FourSpans> spans;   // of them; what fills the last one up is nowhere

@@ -1,5 +1,5 @@
 // How large the cells of a world grid should be: what world-cell=auto means
-// (docs/techniques/world_grid.md#cells-that-choose-themselves). Host code alone, in double.
+// (docs/details/world_grid.md#cells-that-choose-themselves). Host code alone, in double.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct WorldCellEstimate {
 WorldCellEstimate estimate_world_cell(std::span<const CullLight> lights, const WorldBox& bounds,
                                       WorldGridShape shape, double cell);
 
-// Of the values of world-cell the one of least cost for these lights, in entries. The same on every device.
+// The value of world-cell that costs least for these lights, in entries. It is the same on every device.
 // bounds: of the surfaces.
 double choose_world_cell(std::span<const CullLight> lights, const WorldBox& bounds, WorldGridShape shape);
 

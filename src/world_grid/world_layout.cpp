@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-// 96 units in the last place: docs/techniques/world_grid.md#slack.
+// 96 units in the last place: docs/details/world_grid.md#slack.
 constexpr float slack_factor = 96.0f / 16777216.0f;
 constexpr double hashed_cells = 262144;  // along an axis
 

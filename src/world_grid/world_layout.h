@@ -14,7 +14,7 @@
 namespace lightgrid {
 
 // The views that lists are right for: how far rounding may move a position that shading computes
-// (docs/techniques/world_grid.md#slack). Larger values make longer lists.
+// (docs/details/world_grid.md#slack). Larger values make longer lists.
 struct WorldReach {
   double distance_m =
       0;  // of the eye from the grid's middle and, in orthographic views, of what is seen from the eye
@@ -53,8 +53,8 @@ struct WorldLayout {
   // Position and radius with slack, in cells from the middle; radius -1: in no cell. The radius is an odd
   // float if the light has a cone that is tested, else an even one.
   std::vector<glm::vec4> lights;
-  // Of lights whose cone is tested: axis, and a cosine no larger than the outer half-angle's. Empty: no light
-  // has a cone.
+  // For lights whose cone is tested: axis, and a cosine no larger than the outer half-angle's. Empty: no
+  // light has a cone.
   std::vector<glm::vec4> cones;
   std::vector<WorldBlocks> light_blocks;  // of each light; empty: hashed
   std::vector<uint32_t> levels;           // of each light; empty: 0

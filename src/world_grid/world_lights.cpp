@@ -84,7 +84,7 @@ inline float marked(float radius, bool cone) {
   return placed;
 }
 
-// What a thread adds up over its lights.
+// A thread adds these up over its lights.
 struct LightsPart {
   uint64_t pairs = 0;
   uint32_t levels = 0;

@@ -1,5 +1,5 @@
-// What changes in the blocks of a counted world grid (world_blocks.h) when some of its lights move. Host code
-// alone.
+// Finds the changes in the blocks of a counted world grid (world_blocks.h) when some of its lights move. Host
+// code alone.
 #pragma once
 
 #include "world_grid/world_blocks.h"
@@ -14,7 +14,7 @@ constexpr uint32_t edit_before = 0x80000000u, edit_after = 0x40000000u;
 struct WorldMoves {
   std::vector<uint32_t> moved;          // numbers of lights, ascending
   std::vector<glm::vec4> balls, cones;  // two of each: before, after
-  // Of the stored blocks after the moves:
+  // The stored blocks after the moves have:
   std::vector<uint32_t> buckets, old_blocks, edit_first;  // old_blocks: numbers before; ~0: not stored then
   std::vector<glm::uvec2> keys;
   std::vector<uint32_t> edits;  // places in `moved` with flags, by block, then ascending

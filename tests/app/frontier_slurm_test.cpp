@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// What does not depend on the machine's speed, by label.
+// The figures that do not depend on the machine's speed, by label.
 json figures_of_answer(const fs::path& folder) {
   const json answer = json::parse(file_bytes(folder / "frontier.json"), nullptr, false);
   json figures = json::object();

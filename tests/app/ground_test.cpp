@@ -41,8 +41,8 @@ double ground_distance(const glm::dvec3& forward, int x, int y) {
   return -eye_height_m / (forward + right * across + up * glm::cross(across, forward)).y;
 }
 
-// Of the pixels that see the ground within 600 m: the greatest relative error of a distance over what
-// snapping the ground's corners explains, or infinity if one shows no surface.
+// Looks at the pixels that see the ground within 600 m. Returns the greatest relative error of a distance
+// over what snapping the ground's corners explains, or infinity if one shows no surface.
 double worst_error(const std::string& scene, const std::string& technique, const glm::dvec3& target) {
   const TempFolder folder;
   const std::string camera =

@@ -82,7 +82,8 @@ def put_table(text):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         seconds, command = compare(folder)
-        shutil.copy(os.path.join(folder, "index.html"), RESULTS + ".html")
+        os.makedirs("out", exist_ok=True)
+        shutil.copy(os.path.join(folder, "index.html"), "out/comparison.html")
         shutil.copy(os.path.join(folder, "results.csv"), RESULTS + ".csv")
     rows = list(csv.DictReader(open(RESULTS + ".csv", newline="")))
     first = rows[0]

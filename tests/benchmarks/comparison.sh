@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the sample report of docs/results/comparison.md: one `lightgrid compare` over the built-in scenes and all
-# techniques. Writes comparison.html and comparison.csv beside that page, and its table into it.
+# techniques. Writes comparison.csv beside that page, its table into it, and the report to out/comparison.html.
 #   tests/benchmarks/comparison.sh [MORE ARGUMENTS OF compare]
 # Needs a built tree (build/, or LIGHTGRID_BUILD) and python3. LIGHTGRID_FRAMES: frames a measurement (default 3);
 # LIGHTGRID_SIZE: of the images (default 1280x720). Nothing else should run on the machine.

@@ -20,8 +20,7 @@ TEST_F(BridgeChoice, IsMappedExactlyWhereBothSidesAreTheCpu) {
   EXPECT_EQ(choose_bridge(cl, *gl) == BridgeKind::mapped, may_share_memory(cl.info(), gl->software));
 }
 
-// Of a context in software that pretends to be a graphics card: on a CPU no import is tried, on a GPU it
-// fails.
+// A context in software pretends to be a graphics card: on a CPU no import is tried, on a GPU it fails.
 TEST_F(BridgeChoice, IsStagedWhereNothingCanBeShared) {
   if (!gl->software) GTEST_SKIP() << gl->renderer << " is no software";
   gl->software = false;

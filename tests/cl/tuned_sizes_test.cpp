@@ -1,4 +1,4 @@
-// What --tune found, kept in a file by device and driver.
+// The sizes that --tune found are kept in a file by device and driver.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -179,7 +179,7 @@ TEST(OwnMaterials, TextureTransforms) {
   expect_quarters(transformed(all), {blue, blue, white, white});
 }
 
-// Of a red and a blue texel, u from -1 to 1.
+// The texture has a red and a blue texel; u goes from -1 to 1.
 TEST(OwnMaterials, WrapModes) {
   const auto wrapped = [](int wrap_s) {
     GltfBuilder made = unlit_plate({1, 1, 1, 1});

@@ -79,7 +79,7 @@ struct Picture {
     }
     return double(count) / ((high.x - low.x + 1) * (high.y - low.y + 1));
   }
-  // Of the whole picture.
+  // The share of the whole picture.
   double share(Hue hue) const {
     int count = 0;
     for (const glm::vec4& p : image.pixels) count += hue_of(p) == hue;

@@ -19,7 +19,7 @@ class PoseOracle {
   const nlohmann::json& root() const { return root_; }
   std::vector<Numbers> elements(int accessor) const;
 
-  // Of animation `animation`, or of all at -1; at rest if `seconds` is negative.
+  // Poses animation `animation`, or all at -1; at rest if `seconds` is negative.
   Affine world_of_node(int node, double seconds, int animation = -1) const;
 
   // World positions and unit normals (empty if the file has none) of a skinned primitive's vertices.

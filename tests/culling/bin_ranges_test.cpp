@@ -24,7 +24,7 @@ kernel void lights_that_meet(float near, float far, global uint* out) {
 }
 )";
 
-// Of 16 lights between 4 and 6 m, those that a bin between two distances keeps.
+// Returns which of 16 lights between 4 and 6 m a bin between two distances keeps.
 uint32_t kept(float near, float far, const std::string& before) {
   const std::string source =
       before + "#define LANES 16\n" + with_includes("kernels/culling/light_records.h") + kernel_text;

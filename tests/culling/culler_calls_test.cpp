@@ -171,7 +171,7 @@ TEST(CullerCalls, RefuseBoundsOfAnotherViewAndMoreIntervalsThanTiles) {
   }
 }
 
-// Of the same size, so that lights would be lost without a word.
+// The view has the same size, so that lights would be lost without a word.
 TEST(CullerCalls, RefuseBoundsOfAnotherViewOfTheSameSize) {
   const CullView made = view_with_near(0.1);
   CullView moved = made, turned = made, wider = made;

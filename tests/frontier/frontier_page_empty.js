@@ -1,4 +1,4 @@
-// What the frontier page shows where nothing ran.
+// Reads what the frontier page shows where nothing ran.
 addEventListener("load", () => {
   const outcome = document.createElement("pre");
   outcome.id = "outcome";

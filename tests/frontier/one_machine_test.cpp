@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// Of shard 0, or of shard 1, whose machine takes twice as long.
+// A record of shard 0, or of shard 1, whose machine takes twice as long.
 FrontierRecord timed_record(int shard, int view, double frame_ms, const char* scene = "hall") {
   FrontierRecord r = some_record(8 + shard, view);
   r.point.scene = scene;

@@ -97,7 +97,7 @@ TEST(FrontierParts, AreOfOneSweep) {
   EXPECT_THAT(fault_with([](FrontierPart& p) { p.shards = 5; }), HasSubstr("number of shards 5 is not 4"));
 }
 
-// Of several machines: ratios are to each part's own baseline.
+// Parts of several machines are joined: ratios are to each part's own baseline.
 TEST(FrontierParts, MayBeOfSeveralMachines) {
   PartFolders folders;
   folders.write("a", some_part(0, 2));

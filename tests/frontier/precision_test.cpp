@@ -28,8 +28,8 @@ TEST(RandomPixels, AreOneOfEachShare) {
   EXPECT_NE(random_pixels(pixels, 100, 3), random_pixels(pixels, 100, 4));
 }
 
-// The bound of docs/frontier.md#the-truth-in-double, in 20,000 samples of 50 of 1,000 pixels. The kind of
-// pixel that must not be missed is a share of 3 / 50 and lies in one place, or is spread evenly: missed in at
+// The bound of docs/details/frontier.md#the-truth-in-double, in 20,000 samples of 50 of 1,000 pixels. The
+// kind of pixel that must not be missed is a share of 3 / 50 and lies in one place, or is spread evenly: missed in at
 // most (1 - 0.06)^50 = 4.5 %; four standard errors are 0.6 %.
 TEST(RandomPixels, MissAShareNoOftenerThanTheBound) {
   std::vector<uint32_t> pixels(1000);

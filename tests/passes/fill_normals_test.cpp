@@ -1,4 +1,4 @@
-// The image of normals, decoded here by the formulas of docs/techniques/light_prepass.md#normals.
+// The image of normals, decoded here by the formulas of docs/details/light_prepass.md#normals.
 #include "passes/fill_normals.h"
 
 #include <cmath>

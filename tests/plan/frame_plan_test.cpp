@@ -57,7 +57,7 @@ TEST(FramePlan, EachEffectComesWithItsWitness) {
   }
 }
 
-// What other views of the scene need, whatever this one sees.
+// The plan names what other views of the scene need, whatever this one sees.
 TEST(FramePlan, OfEveryInstanceAndOfPlainOnes) {
   SmallScene s = small_scene();
   for (const char* name : {"blend", "mask", "emissive_map"}) {

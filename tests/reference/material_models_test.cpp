@@ -55,7 +55,7 @@ TEST(Minnaert, ByHand) {
               dvec3(1, 0.5, 0) * (9 / 16.0 / pi), 1e-15);
   EXPECT_EQ(reflected(moon, overhead, at_cosine(0), Brdf::lambert), dvec3(0));
   EXPECT_EQ(reflected(moon, overhead, at_cosine(-0.5), Brdf::lambert), dvec3(0));
-  // Of a metal there is no diffuse part to change.
+  // A metal has no diffuse part to change.
   const Surface metal{.metallic = 1, .roughness = 0.5},
       minnaert_metal{.metallic = 1, .roughness = 0.5, .minnaert_k = 0.5};
   EXPECT_EQ(reflected(minnaert_metal, overhead, at_cosine(0.25)),

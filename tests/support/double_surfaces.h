@@ -15,7 +15,7 @@ namespace lightgrid::double_surfaces {
 
 using glm::dvec2, glm::dvec3, glm::dvec4;
 
-// What is nearest at a pixel.
+// The nearest triangle at a pixel.
 struct Hit {
   int instance = -1;      // of the scene; -1: nothing
   uint32_t triangle = 0;  // of its mesh

@@ -46,7 +46,7 @@ inline ProgramRun run_words(std::vector<std::string> words, std::vector<std::str
   std::vector<char*> argv, envp;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  // Of two entries with one name the first is used: ours come first.
+  // The first of two entries with one name is used: ours come first.
   for (std::string& variable : environment) envp.push_back(variable.data());
   for (char** variable = environ; *variable; ++variable) envp.push_back(*variable);
   envp.push_back(nullptr);

@@ -57,7 +57,7 @@ Scene stacked(const Stack& stack, int lamps = 19) {
   Mesh mesh;
   for (int i = 0; i < stack.sheets; ++i) {
     glm::vec4 color = colors[i];
-    // Of masked sheets the later ones have the larger holes, so that each is visible somewhere.
+    // Later masked sheets have the larger holes, so that each is visible somewhere.
     if (stack.masked) color.a = 0.8f - 0.25f * float(i);
     add_sheet(mesh, {-1.2f, -1.1f, -4}, 2.3f, stack.side, color);
     if (stack.one_mesh && i + 1 < stack.sheets) continue;

@@ -11,7 +11,7 @@
 namespace lightgrid {
 namespace {
 
-// Of 18 lights no pixel is in more than 16 volumes.
+// No pixel is in more than 16 of the volumes of 18 lights.
 TEST(Lidr, LightsAboutTheEyeTheNearPlaneAndEverything) {
   const Scene scene = awkward_lights();
   Camera ends = look_at({0, 0, 0}, {0, 0, -1});

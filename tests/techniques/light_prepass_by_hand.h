@@ -48,8 +48,8 @@ inline glm::dvec3 f0_by_hand(const Material& m) {
   return glm::min(glm::dvec3(m.specular_color) * root * root, glm::dvec3(1)) * double(m.specular);
 }
 
-// What the model reflects of the diffuse sums, which are the same for all channels: the article's appendix,
-// with the luminance in units of `scale` for the cosine.
+// The light that the model reflects of the diffuse sums, which are the same for all channels: the article's
+// appendix, with the luminance in units of `scale` for the cosine.
 inline glm::dvec3 diffuse_by_hand(const Material& m, double n_dot_v, double luminance, double scale) {
   const double cosine = std::min(16 * luminance / scale, 1.0), roll_off = double(m.model.roll_off),
                k = double(m.model.minnaert_k);

@@ -58,7 +58,7 @@ struct RelativeErrors {
   size_t pixels = 0, lit = 0;
 };
 
-// Of each pixel that is lit in either: the largest channel's error over the caster's largest channel.
+// For each pixel that is lit in either, the largest channel's error over the caster's largest channel.
 RelativeErrors relative_errors(Room& room, const std::vector<Light>& lights) {
   room.drawn.lights = room.spheres.lights = lights;
   const Image image = render(room.drawn, make_view(room.camera, width, height), "forward");

@@ -116,7 +116,7 @@ TEST(VoxelLights, BothShapesFillTheSameBytesUnderThousandsOfLights) {
   }
 }
 
-// docs/techniques/voxel_lights.md#memory: 32 bytes a sample, 16 in 16 bits, and as much in OpenGL where that
+// docs/details/voxel_lights.md#memory: 32 bytes a sample, 16 in 16 bits, and as much in OpenGL where that
 // draws; a slice has a record of 16 bytes.
 TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
   const Scene scene = small_scene().scene;

@@ -16,7 +16,7 @@ DrawnVoxels drawn(const Scene& scene, const View& view, const Settings& settings
   return {run.image(), count_listed_pairs(run, read_depth(run))};
 }
 
-// What must hold of pictures in both spaces: no NaN, no light lost.
+// Pictures in both spaces must have no NaN and lose no light.
 struct VoxelCase {
   const char* name;
   std::function<void(SmallScene&)> change;
@@ -80,7 +80,7 @@ TEST(VoxelLights, HardCasesHold) {
   }
 }
 
-// docs/techniques/voxel_lights.md#how-it-converges: one light, a diffuse wall, and the bound of the
+// docs/details/voxel_lights.md#how-it-converges: one light, a diffuse wall, and the bound of the
 // interpolation.
 TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
   SmallScene s = small_scene(false);
@@ -100,8 +100,8 @@ TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
     run.run_frame();
     const Volume volume(run.view());
     const glm::dvec3 h = volume.spacing;
-    // Of irradiance on a surface that faces the light, and of it times the direction: the largest second
-    // differences over the cells that the wall is in. The second is taken as a vector, which bounds its part
+    // The largest second differences over the cells that the wall is in: of irradiance on a surface that
+    // faces the light, and of it times the direction. The second is taken as a vector, which bounds its part
     // along the normal.
     const auto field = [&](const glm::dvec3& at) {
       const glm::dvec3 d = lamp - at;

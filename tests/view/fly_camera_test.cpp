@@ -48,7 +48,7 @@ TEST(FlyCamera, StaysTheStartUntilItMoves) {
   EXPECT_FALSE(camera.move({}, 1));
   EXPECT_FALSE(camera.turn(0, 0, 180));
   EXPECT_EQ(camera.view(320, 180).clip_from_view, start_view().clip_from_view);
-  // Of another aspect ratio: the vertical field stays.
+  // With another aspect ratio the vertical field stays.
   const View square = camera.view(180, 180);
   EXPECT_EQ(square.clip_from_view[1][1], start_view().clip_from_view[1][1]);
   EXPECT_EQ(square.clip_from_view[0][0], square.clip_from_view[1][1]);

@@ -48,7 +48,8 @@ static inline uint list_cell(const Candidates* few, int tile, const TestCell* ce
   return n;
 }
 
-// Of a bin, whose indices are counted in 32 bits. A bin with more gets no room; the host refuses.
+// The most units of a bin, whose indices are counted in 32 bits. A bin with more gets no room; the host
+// refuses.
 #define MOST_UNITS 0x0fffffffu
 #define MANY 256  // with more candidates, testing blocks before quads pays
 

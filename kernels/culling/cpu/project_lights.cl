@@ -12,7 +12,8 @@
 #define LANES 16
 #include "kernels/culling/light_records.h"
 
-// Of 16 lights, projected before they are sorted into regions: both steps stay in the first-level cache.
+// Batches of 16 lights, projected before they are sorted into regions: both steps stay in the first-level
+// cache.
 #define BATCHES 32
 
 typedef struct Held {

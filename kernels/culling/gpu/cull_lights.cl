@@ -88,7 +88,7 @@ static inline Cell block_box(const Block* block, local float* spans, constant Cu
   return c;
 }
 
-// Of the lights in `bits`, from `first` on, those that may touch the block.
+// Returns the lights in `bits`, from `first` on, that may touch the block.
 static inline uint touch_block(uint bits, global const float4* first, const Cell* box) {
   uint kept = 0;
   for (; bits; bits &= bits - 1) {

@@ -1,4 +1,4 @@
-// What arithmetic alone takes: each item runs CHAINS independent chains of x = x * a + b,
+// Measures the time of arithmetic alone: each item runs CHAINS independent chains of x = x * a + b,
 // `steps` long, on vectors of 16. A product and a sum are two operations: contraction is off, as
 // in every kernel here. For CPUs.
 #define CHAINS 12

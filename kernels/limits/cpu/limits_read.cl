@@ -1,4 +1,4 @@
-// What reading alone takes, for CPUs: the limit that kernels are held against (docs/benchmarks.md).
+// Measures the time of reading alone, for CPUs: the limit that kernels are held against (docs/benchmarks.md).
 // Item i reads the i-th of global_size equal parts and writes a sum, so that the reads are not left out.
 // values  count vectors of 16, a multiple of 8 of them; sums  one uint an item
 #define CHAINS 8u

@@ -1,4 +1,5 @@
-// What arithmetic alone takes, for GPUs: as limits/cpu/limits_flops.cl, with scalar chains and many items.
+// Measures the time of arithmetic alone, for GPUs: as limits/cpu/limits_flops.cl, with scalar chains and many
+// items.
 #define CHAINS 12
 
 kernel void limits_flops(float factor, float term, uint steps, global float* results) {

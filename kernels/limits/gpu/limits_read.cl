@@ -1,5 +1,5 @@
-// What reading alone takes, for GPUs: the same contract as limits/cpu/limits_read.cl, but items side by side read
-// side by side, and all of them stride through the buffer together.
+// Measures the time of reading alone, for GPUs: the same contract as limits/cpu/limits_read.cl, but items
+// side by side read side by side, and all of them stride through the buffer together.
 // values  count vectors of 4; sums  one uint an item
 kernel void limits_read(global const uint4* values, uint count, global uint* sums) {
   const uint item = get_global_id(0), items = get_global_size(0);

@@ -105,7 +105,7 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
   *least = least_lane(now);
 }
 
-// Of a square of blocks those that the triangle may show in. Depths grow or fall steadily along x and y,
+// The blocks of a square in which the triangle may show. Depths grow or fall steadily along x and y,
 // rounding included: the depth at the corner where they are greatest bounds the block's.
 static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_y, const Tile* tile) {
   const int x = square_x * 16, y = square_y * 16;

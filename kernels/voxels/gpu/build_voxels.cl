@@ -1,8 +1,8 @@
-// Fills a voxel light buffer, for GPUs: a work-group takes 8 x 4 samples of a slice. As voxels/cpu/build_voxels.cl,
-// with the same arguments.
+// Fills a voxel light buffer, for GPUs: a work-group takes 8 x 4 samples of a slice. As
+// voxels/cpu/build_voxels.cl, with the same arguments.
 //
-// What takes long is the work-group that most lights reach, one light after another: a sample adds them in
-// their order. So work-items compute what different lights bring to a sample side by side, and then add it up
+// The work-group that most lights reach takes longest, one light after another: a sample adds them in their
+// order. So work-items compute what different lights bring to a sample side by side, and then add it up
 // in that order, each a part of the sample's sums.
 #define FUSED  // shared/real.h
 #define LANES 1
@@ -40,7 +40,7 @@ static inline void gather_flags(local uint* words, uint item, bool flag) {
   barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-// Of a light: its number and whether it has a cone, which few have.
+// This bit of a light's number says that it has a cone, which few have.
 #define WITH_CONE 0x80000000u
 
 static inline uint marked_number(global const float8* cones, uint number) {
@@ -58,8 +58,8 @@ static inline float8 marked_cone(global const float8* cones, uint marked) {
   return (float8)(0.0f);
 }
 
-// What a light adds to a part of a sample's sums. brought: its attenuation, and its weight over distance.
-// Zeros where it does not reach: they leave a sum as it is.
+// The numbers that a light adds to a part of a sample's sums. brought: its attenuation, and its weight over
+// distance. Zeros where it does not reach: they leave a sum as it is.
 static inline float4 added_part(uint part, float2 brought, float4 place, float4 color, Real3 position) {
   const Real3 arrives = voxel_irradiance(brought.x, color);
   float4 added = (float4)(arrives.x, arrives.y, arrives.z, 0.0f);

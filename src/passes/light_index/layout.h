@@ -1,5 +1,5 @@
 // A row of the table of packings: the number of lights, how many of them a pixel can hold, and the images
-// required (docs/techniques/lidr.md#the-table-of-packings).
+// required (docs/details/lidr.md#the-table-of-packings).
 #pragma once
 
 #include <span>

@@ -63,7 +63,7 @@ function surfacesInWords({ sum_rel, rmse_rel }) {
   return `RMSE ${errorNumber(rmse_rel)} of the brightest channel, in sum ${sum_rel === 0 ? "equal" : sum}`;
 }
 
-// Of a technique with a rasteriser of its own: what differs beside its silhouettes.
+// Says what differs beside the silhouettes of a technique with a rasteriser of its own.
 function silhouettesInWords({silhouettes, inside}) {
   if (!silhouettes || inside.max_rel === null) return '';
   return `; ${wholeNumber(silhouettes.pixels)} pixels show another triangle, elsewhere it is at most ${

@@ -40,7 +40,7 @@ double step_up(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-// What a face adds to an ellipsoid, as a share of its radius. turn: from the front, -pi to pi; rise:
+// A face adds this to an ellipsoid, as a share of its radius. turn: from the front, -pi to pi; rise:
 // elevation.
 double relief(double turn, double rise) {
   const double side = std::abs(turn);

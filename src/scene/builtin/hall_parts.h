@@ -34,7 +34,7 @@ void add_front(Mesh& mesh, const ArchedWall& wall);
 void add_reveal(Mesh& mesh, const ArchedWall& wall, float depth_m);  // the opening's sides, arch and sill
 void add_back(Mesh& mesh, const ArchedWall& wall, float depth_m);    // closes it
 
-// Of a bay, right side.
+// Parts of a bay, right side.
 Mesh bay_stone(const Materials& m);     // arcade wall on both faces, outer wall
 Mesh bay_brick(const Materials& m);     // niche
 Mesh bay_trim(const Materials& m);      // arch, its moulding, cornice, plinth of the urn

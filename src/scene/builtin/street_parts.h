@@ -12,7 +12,7 @@ inline constexpr float length_m = 360, house_m = 9, front_x_m = 8, kerb_x_m = 5;
 inline constexpr int houses_a_side = 40, lamp_posts_a_side = 30, cars = 36;
 inline constexpr float lamp_spacing_m = 12;
 
-// Of a string across the street, -1..1 from side to side.
+// The height of a string across the street. across: -1 to 1 from side to side.
 inline float garland_height_m(float across) { return 5.5f + 1.5f * across * across; }
 
 struct Materials {

@@ -45,7 +45,7 @@ void read_webp_header(const Document& doc, Encoded& image) {
   image.width = features.width, image.height = features.height;
 }
 
-// Of stb_image's formats, glTF allows these two.
+// glTF allows these two of stb_image's formats.
 void read_stb_header(const Document& doc, Encoded& image) {
   if (!is_png(image.bytes) && !starts_with(image.bytes, "\xff\xd8\xff"))
     throw doc.error("{}: is neither PNG nor JPEG{}", image.place, uses_webp(doc) ? " nor WebP" : "");

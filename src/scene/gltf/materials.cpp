@@ -136,7 +136,7 @@ void read_specular(Document& doc, const tinygltf::Value& in, const std::string& 
   if (out.specular == 0) out.specular_map = out.specular_color_map = {};  // not decoded
 }
 
-// Of NVIDIA's lambSkin where the file names none.
+// NVIDIA's lambSkin has these; they stand in where the file names none.
 constexpr glm::vec3 default_subsurface_color(1, 0.2f, 0.2f);
 constexpr double default_roll_off = 0.2;
 

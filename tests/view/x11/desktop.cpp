@@ -26,7 +26,7 @@ bool within(double seconds, const Done& done) {
   return true;
 }
 
-// Of `window` and the windows in it the first with such a title.
+// Returns the first with such a title among `window` and the windows in it.
 Window titled(Display* x, Window window, const std::string& title) {
   char* name = nullptr;
   const bool found = XFetchName(x, window, &name) && std::string(name).starts_with(title);
@@ -64,7 +64,7 @@ struct Desktop::Parts {
     XFlush(x);
   }
 
-  // Of key, button and pointer events, which have these fields in common.
+  // Fills the fields that key, button and pointer events have in common.
   template <typename Event>
   Event at(int type, int px, int py) {
     Event event{};

@@ -99,7 +99,7 @@ class LiveView : public testing::Test {
   static int difference(const PngPixels& shown, const PngPixels& picture) {
     return difference(shown, picture, picture.width, picture.height);
   }
-  // Of the first columns and rows, without names and the line.
+  // Compares the first columns and rows, without names and the line.
   static int difference(const PngPixels& a, const PngPixels& b, int width, int height) {
     int greatest = 0;
     for (int y = name_rows; y < height; ++y) {

@@ -1,0 +1,117 @@
+// The pages under docs/: their links, their contents page, and the references to them in comments.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "support/paths.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path checkout = source_folder;
+
+std::string whole_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<fs::path> files_under(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  return files;
+}
+
+std::vector<fs::path> all_pages() {
+  std::vector<fs::path> all = files_under(checkout / "docs");
+  std::erase_if(all, [](const fs::path& path) { return path.extension() != ".md"; });
+  all.push_back(checkout / "README.md");
+  return all;
+}
+
+// A heading's anchor as GitHub makes it, for headings whose other characters than ASCII are letters.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : std::regex_replace(heading, std::regex(R"(\]\([^)]*\))"), "")) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || byte >= 0x80 || c == '_' || c == '-') anchor += char(std::tolower(byte));
+    if (c == ' ') anchor += '-';
+  }
+  return anchor;
+}
+
+const std::set<std::string>& anchors_of(const fs::path& page) {
+  static std::map<fs::path, std::set<std::string>> known;
+  if (const auto found = known.find(page); found != known.end()) return found->second;
+  std::set<std::string>& anchors = known[page];
+  std::ifstream file(page);
+  for (std::string line; std::getline(file, line);) {
+    const size_t level = line.find_first_not_of('#');
+    if (level > 0 && level < line.size() && line[level] == ' ')
+      anchors.insert(anchor_of(line.substr(level + 1)));
+  }
+  return anchors;
+}
+
+// `link`: a path from `folder`, with or without an anchor. The anchor alone is one of `page`.
+void expect_target(const fs::path& page, const fs::path& folder, const std::string& link) {
+  const size_t hash = link.find('#');
+  const fs::path file = hash == 0 ? page : (folder / link.substr(0, hash)).lexically_normal();
+  EXPECT_TRUE(fs::exists(file)) << page << ": " << link;
+  if (hash != std::string::npos && file.extension() == ".md") {
+    EXPECT_TRUE(anchors_of(file).contains(link.substr(hash + 1))) << page << ": " << link;
+  }
+}
+
+void for_matches(const std::string& text, const char* pattern, auto&& found) {
+  const std::regex expression(pattern);
+  for (std::sregex_iterator i(text.begin(), text.end(), expression); i != std::sregex_iterator(); ++i)
+    found((*i)[1].str());
+}
+
+TEST(Documents, HaveLinksThatLeadSomewhere) {
+  for (const fs::path& page : all_pages()) {
+    for_matches(whole_text(page), R"(\]\(([^)\s]+)\))", [&](const std::string& link) {
+      if (!link.starts_with("http")) expect_target(page, page.parent_path(), link);
+    });
+  }
+}
+
+TEST(Documents, AreWhereCommentsSay) {
+  for (const char* folder : {"src", "kernels", "shaders", "tests"}) {
+    for (const fs::path& file : files_under(checkout / folder)) {
+      for_matches(whole_text(file), R"((?:^|[^/\w])(docs/[\w./-]+\.md(?:#[\w-]+)?))",
+                  [&](const std::string& link) { expect_target(file, checkout, link); });
+    }
+  }
+}
+
+TEST(Documents, AreInTheContents) {
+  std::set<fs::path> listed = {checkout / "docs/README.md"};
+  for_matches(whole_text(checkout / "docs/README.md"), R"(\]\(([^)#\s]+))",
+              [&](const std::string& link) { listed.insert((checkout / "docs" / link).lexically_normal()); });
+  for (const fs::path& page : all_pages()) {
+    if (page.string().find("/docs/examples/") == std::string::npos) {
+      EXPECT_TRUE(listed.contains(page)) << page;
+    }
+  }
+}
+
+TEST(Documents, InTheLabTellDateMachineAndCommit) {
+  for (const fs::path& note : files_under(checkout / "docs/lab")) {
+    const std::string text = whole_text(note), first = text.substr(0, text.find('\n'));
+    EXPECT_TRUE(first.starts_with("# " + note.filename().string().substr(0, 10) + ", ")) << note;
+    EXPECT_TRUE(std::regex_search(first, std::regex(R"(: .+; commit .+)"))) << note;
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
