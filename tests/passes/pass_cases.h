@@ -1,6 +1,6 @@
 // Hard cases of passes: the world grid, the light buffer and the voxel light buffer. As those of culling
 // (`lightgrid verify`) they have an input, the fault of naive code that breaks on it and a property that must
-// hold (docs/hard_cases.md#cases-of-passes).
+// hold (docs/details/hard_cases.md#cases-of-passes).
 #pragma once
 
 #include <fmt/format.h>
