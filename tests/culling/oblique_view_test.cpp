@@ -199,6 +199,7 @@ TEST(CheckView, RefusesByNameWhatCullingCannotDo) {
   lost.eye.y = NAN;
   EXPECT_THAT(refusal_of(lost), HasSubstr("eye[1] is nan"));
   EXPECT_THAT(refusal_of(culled(view_of(64, 48, 60, 1e16))), HasSubstr("near plane is at 1e+16 m"));
+  EXPECT_THAT(refusal_of(culled(view_of(64, 48, 60, 3e-53))), HasSubstr("near plane is at 3e-53 m"));
   EXPECT_THAT(refusal_of(culled(orthographic_view_of(64, 48, 1e16, 0.1, 50))), HasSubstr("past 10^15 m"));
 }
 
