@@ -6,7 +6,6 @@
 // World lights, light_stride floats each: x, y, z relative to the lights' origin, radius; with
 // cones x, y, z of the unit axis and the outer half-angle's cosine (2 where there is none).
 // Readable up to a multiple of 16 lights.
-#define WORLD_ARRAYS 8
 
 // Lights in view space, an array each: centre and radius with slack; the tiles they can
 // be seen in; the index; the cone.

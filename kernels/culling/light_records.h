@@ -7,7 +7,6 @@
 
 #include "kernels/culling/light_arrays.h"
 
-#define RECORD_TILES 4
 #define RECORD_CONE 8
 #ifdef SPOTS
 #define RECORD 12

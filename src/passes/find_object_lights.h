@@ -41,11 +41,6 @@ class ObjectLights : public PassCache {
   size_t buffer_bytes_ = 0;
 };
 
-class BlendedObjectLights : public ObjectLights {
- public:
-  using ObjectLights::ObjectLights;
-};
-
 // The lights of the current object (uniform lights_of_draw).
 LightSource from_objects(Work& work, const Seen& seen, const ObjectLights& objects);
 

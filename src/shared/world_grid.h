@@ -26,7 +26,6 @@ namespace lightgrid {
 #define WORLD_LOWEST_BIT(x) lowest_bit(x)
 #define WORLD(member) world->member
 #define WORLD_ARGUMENT constant WorldGridParams* world
-#define WORLD_AND_LISTS world, lists
 #define WORLD_LISTS_ARGUMENT , constant WorldGridParams *world, const WorldLists *lists
 #define WORLD_BUCKET(i) lists->buckets[i]
 #define WORLD_KEY(i) lists->keys[i]
