@@ -9,7 +9,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "plan/path_plans.h"
 #include "results/path_changes.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "frontier/points.h"
 
 namespace lightgrid {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/compare.h"
+#include "session/compare.h"
 #include "frontier/record.h"
 
 namespace lightgrid {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "compare/oracle_sample.h"
-#include "compare/silhouettes.h"
+#include "session/oracle_sample.h"
+#include "session/silhouettes.h"
 #include "frontier/errors.h"
 #include "scene/random.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "frontier/brute_force.h"
 
 namespace lightgrid {

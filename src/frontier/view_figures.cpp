@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "cl/error.h"
-#include "compare/oracle.h"
+#include "session/oracle.h"
 #include "frontier/errors.h"
 #include "frontier/scene_views.h"
 #include "results/metrics.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "plan/settings.h"
 #include "results/error_measures.h"
 #include "results/path_changes.h"
 
@@ -15,12 +16,6 @@ using nlohmann::json;
 
 // JSON has neither infinity nor NaN.
 json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
-
-// "cull-test" on the command line is "cull_test" here.
-std::string key_of(std::string setting) {
-  std::replace(setting.begin(), setting.end(), '-', '_');
-  return setting;
-}
 
 template <typename Number>
 bool parse_whole(const std::string& text, Number& number) {
@@ -129,7 +124,7 @@ json to_json(const MovingResult& m) {
 
 json settings_json(const std::map<std::string, std::string>& settings) {
   json out = json::object();
-  for (const auto& [name, value] : settings) out[key_of(name)] = value_of(value);
+  for (const auto& [name, value] : settings) out[json_key(name)] = value_of(value);
   return out;
 }
 

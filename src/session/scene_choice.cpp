@@ -160,4 +160,19 @@ Settings chosen_settings(const SceneChoice& choice) {
   return settings;
 }
 
+Renderer open_devices(const DeviceOptions& o, const std::string& technique, const Settings& settings) {
+  const bool opengl = technique.empty() || draws_with_opengl(find_technique(technique).needs, settings);
+  const GlBackend wanted = parse_gl_backend(o.gl);
+  Renderer renderer(o.device, !opengl && wanted == GlBackend::automatic ? GlBackend::none : wanted);
+  if (opengl && !technique.empty()) renderer.require_gl();
+  return renderer;
+}
+
+const Technique& technique_or_default(const std::string& technique, const Renderer& renderer) {
+  if (!technique.empty()) return find_technique(technique);
+  if (renderer.gl) return find_technique("forward_plus");
+  log_warning("{}; visibility takes the place of forward_plus", renderer.why_no_gl);
+  return find_technique("visibility");
+}
+
 }  // namespace lightgrid

@@ -27,9 +27,7 @@ std::string render_command(const std::string& scene_words, int width, int height
   const Technique& technique = find_technique(side.technique);
   for (const std::string& key : side.settings.given) {
     if (!reads_setting(technique, key)) continue;
-    std::string name = key;
-    std::ranges::replace(name, '-', '_');
-    line += fmt::format(" --set {}={}", key, values.at(name));
+    line += fmt::format(" --set {}={}", key, values.at(json_key(key)));
   }
   return line + " -o view.png";
 }

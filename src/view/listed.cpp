@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "capture/frame_culler.h"
-#include "compare/oracle.h"
+#include "session/oracle.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
 

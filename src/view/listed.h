@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "inspect/inspect.h"
 #include "reference/lit_set.h"
 #include "view/controls.h"

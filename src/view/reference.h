@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 

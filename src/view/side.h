@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "view/controls.h"
 #include "view/timings.h"
 

@@ -16,8 +16,8 @@
 #include <cstdlib>
 
 #include "capture/grid_lists.h"
-#include "compare/oracle.h"
-#include "compare/run_technique.h"
+#include "session/oracle.h"
+#include "session/technique_run.h"
 #include "renderer/culler_input.h"
 #include "renderer/world_cell.h"
 #include "scene/builtin.h"

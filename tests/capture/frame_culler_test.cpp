@@ -11,7 +11,7 @@
 #include "capture/captured_frame.h"
 #include "capture/frame_lists.h"
 #include "inspect/inspect_maps.h"
-#include "compare/oracle.h"
+#include "session/oracle.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 #include "support/temp_folder.h"

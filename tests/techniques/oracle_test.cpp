@@ -1,6 +1,6 @@
 // The shaders against the oracle in double, pixel by pixel.
 #include "scene/random.h"
-#include "compare/oracle_sample.h"
+#include "session/oracle_sample.h"
 #include "report/report.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"

@@ -10,8 +10,8 @@
 #include "scene/builtin.h"
 #include "scene/camera.h"
 #include "results/metrics.h"
-#include "compare/oracle.h"
-#include "compare/run_technique.h"
+#include "session/oracle.h"
+#include "session/technique_run.h"
 #include "support/devices.h"
 
 namespace lightgrid {

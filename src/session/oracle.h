@@ -6,7 +6,7 @@
 #include "reference/lit_set.h"
 #include "reference/shading.h"
 #include "results/results.h"
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 

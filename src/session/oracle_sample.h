@@ -1,7 +1,7 @@
 // Compares images with the oracle at a sample of pixels.
 #pragma once
 
-#include "compare/oracle.h"
+#include "session/oracle.h"
 
 namespace lightgrid {
 

@@ -2,7 +2,7 @@
 // apart the images are elsewhere.
 #pragma once
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "passes/read_outs/triangles.h"
 
 namespace lightgrid {

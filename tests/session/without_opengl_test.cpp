@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "compare/compare.h"
-#include "compare/run_technique.h"
+#include "session/compare.h"
+#include "session/technique_run.h"
 #include "gl/objects.h"
 #include "results/metrics.h"
 #include "support/devices.h"

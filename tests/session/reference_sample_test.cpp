@@ -1,11 +1,11 @@
-#include "compare/reference_sample.h"
+#include "session/reference_sample.h"
 
 #include <gmock/gmock.h>
 
 #include <set>
 
-#include "compare/compare.h"
-#include "compare/oracle.h"
+#include "session/compare.h"
+#include "session/oracle.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 

@@ -2,7 +2,7 @@
 // scene's. The oracle (oracle_sample.h) shades surfaces that OpenGL drew, and so does not show their errors.
 #pragma once
 
-#include "compare/silhouettes.h"
+#include "session/silhouettes.h"
 
 namespace lightgrid {
 

@@ -1,4 +1,4 @@
-#include "compare/compare.h"
+#include "session/compare.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "results/metrics.h"
 #include "results/results.h"
 #include "support/render.h"

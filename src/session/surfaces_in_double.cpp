@@ -1,4 +1,4 @@
-#include "compare/surfaces_in_double.h"
+#include "session/surfaces_in_double.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "compare/surfaces_in_double.h"
+#include "session/surfaces_in_double.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "compare/compare.h"
+#include "session/compare.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 

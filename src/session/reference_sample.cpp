@@ -1,4 +1,4 @@
-#include "compare/reference_sample.h"
+#include "session/reference_sample.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 #include "passes/shade_blended.h"
 #include "passes/shade_forward.h"
 #include "scene/random.h"
-#include "compare/oracle.h"
+#include "session/oracle.h"
 
 namespace lightgrid {
 namespace {

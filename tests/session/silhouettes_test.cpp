@@ -1,11 +1,11 @@
 // Pixels that show another triangle than OpenGL's, and the difference elsewhere.
-#include "compare/silhouettes.h"
+#include "session/silhouettes.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "compare/compare.h"
+#include "session/compare.h"
 #include "results/metrics.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"

@@ -1,10 +1,10 @@
-#include "compare/silhouettes.h"
+#include "session/silhouettes.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "cl/transfer.h"
-#include "compare/oracle_sample.h"
+#include "session/oracle_sample.h"
 #include "results/metrics.h"
 
 namespace lightgrid {

@@ -1,10 +1,10 @@
-#include "compare/oracle.h"
+#include "session/oracle.h"
 
 #include "cl/transfer.h"
 #include "reference/position.h"
 #include "shared/light_grid.h"
 #include "results/metrics.h"
-#include "compare/oracle_sample.h"
+#include "session/oracle_sample.h"
 #include "capture/grid_lists.h"
 
 namespace lightgrid {

@@ -1,10 +1,10 @@
-#include "compare/moving.h"
+#include "session/moving.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/resident.h"
-#include "compare/oracle.h"
+#include "session/oracle.h"
 #include "plan/path_plans.h"
 #include "results/metrics.h"
 

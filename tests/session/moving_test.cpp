@@ -1,5 +1,5 @@
 // Techniques along a camera path: same pictures as at rest, no work twice, and flicker is detected.
-#include "compare/moving.h"
+#include "session/moving.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-#include "compare/oracle.h"
+#include "session/oracle.h"
 #include "results/metrics.h"
 #include "results/path_changes.h"
 #include "scene/builtin.h"

@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "compare/compare.h"
-#include "compare/run_technique.h"
+#include "session/compare.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 

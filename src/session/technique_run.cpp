@@ -1,4 +1,4 @@
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 
 #include <algorithm>
 

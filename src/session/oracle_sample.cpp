@@ -1,4 +1,4 @@
-#include "compare/oracle_sample.h"
+#include "session/oracle_sample.h"
 
 #include <algorithm>
 #include <cmath>
