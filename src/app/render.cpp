@@ -10,7 +10,7 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "session/technique_run.h"
-#include "plan/path_plans.h"
+#include "plan/plan_changes.h"
 #include "results/path_changes.h"
 
 namespace lightgrid {

@@ -4,11 +4,11 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "capture/frame_lists.h"
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
-#include "renderer/render_view.h"
 #include "reference/position.h"
-#include "capture/frame_lists.h"
+#include "renderer/render_view.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

@@ -5,7 +5,7 @@
 
 #include "frontier/answer.h"
 #include "frontier/statistics.h"
-#include "results/csv_line.h"
+#include "results/words.h"
 
 namespace lightgrid {
 namespace {

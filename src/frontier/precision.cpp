@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "session/oracle_sample.h"
-#include "session/silhouettes.h"
+#include "session/surfaces_in_double.h"
 #include "frontier/errors.h"
 #include "scene/random.h"
 

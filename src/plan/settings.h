@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/brdf.h"
+#include "scene/material_model.h"
 #include "scene/light_ranges.h"
 #include "shared/cull_settings.h"
 

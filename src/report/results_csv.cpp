@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "results/csv_line.h"
+#include "results/words.h"
 #include "results/error_measures.h"
 
 namespace lightgrid {

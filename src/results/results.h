@@ -75,8 +75,8 @@ struct ImageError {
 // channel of all frames.
 struct MovingResult {
   size_t frames = 0;
-  Spread frame_ms;    // move and frame, without the first two
-  Spread resting_ms;  // the same views again, nothing changed
+  Spread frame_ms;      // move and frame, without the first two
+  Spread resting_ms;    // the same views again, nothing changed
   Spread over_resting;  // frame_ms over resting_ms, view by view
   double max_abs = 0, max_rel = 0, rmse_rel = 0;
   // Change of the difference from the reference between frames: flicker that the scene does not have.

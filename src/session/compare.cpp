@@ -16,7 +16,6 @@
 #include "session/moving.h"
 #include "session/oracle_sample.h"
 #include "session/runs.h"
-#include "session/silhouettes.h"
 #include "session/surfaces_in_double.h"
 
 namespace lightgrid {

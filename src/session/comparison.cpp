@@ -1,10 +1,10 @@
 #include "session/comparison.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "session/contestants.h"
 
 namespace lightgrid {
@@ -13,12 +13,10 @@ namespace {
 const std::vector<std::string> techniques_without_opengl = {"visibility:lights=all", "visibility"};
 
 int parse_lights(const std::string& text) {
-  int count = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (failure != std::errc() || end != text.data() + text.size() || count < 0 || count > most_lights) {
+  const auto count = parse_number<int>(text);
+  if (!count || *count < 0 || *count > most_lights)
     throw input_error("lights {}: not a number from 0 to {}", text, most_lights);
-  }
-  return count;
+  return *count;
 }
 
 ReferencePixels parse_reference(const std::string& text) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "session/compare.h"
-#include "session/loaded_views.h"
+#include "session/scene_choice.h"
 
 namespace lightgrid {
 

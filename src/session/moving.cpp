@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/resident.h"
-#include "session/oracle.h"
-#include "plan/path_plans.h"
+#include "plan/plan_changes.h"
 #include "results/metrics.h"
+#include "session/oracle.h"
 
 namespace lightgrid {
 namespace {

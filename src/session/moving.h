@@ -21,7 +21,7 @@ struct MovingScene {
 // of the same frame, over all frames; pairs are summed. Sets RunResult::moving in `rows`, in the order of
 // `runs`. progress: called before each frame.
 PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& reference,
-                    const MovingScene& moving, std::vector<RunResult>& rows,
-                    const std::function<void(double done)>& progress);
+                          const MovingScene& moving, std::vector<RunResult>& rows,
+                          const std::function<void(double done)>& progress);
 
 }  // namespace lightgrid

@@ -1,44 +1,13 @@
 #include "session/oracle.h"
 
+#include "capture/frame_lists.h"
 #include "cl/transfer.h"
 #include "reference/position.h"
-#include "shared/light_grid.h"
 #include "results/metrics.h"
 #include "session/oracle_sample.h"
-#include "capture/grid_lists.h"
 
 namespace lightgrid {
 namespace {
-
-std::vector<ViewLight> local_lights(const RenderView& v) {
-  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
-  std::vector<ViewLight> local;
-  for (int i : v.plan.local) local.push_back(all[i]);
-  return local;
-}
-
-template <typename T>
-std::vector<T> read_shared(const RenderView& v, SharedTexture& shared, size_t count) {
-  std::vector<T> values(count);
-  if (count)
-    read_buffer(*v.renderer.cl, "reading the light grid", shared.buffer->cl_buffer(), values.data(),
-                count * sizeof(T));
-  return values;
-}
-
-void add_lists(RenderView& v, const LightGrid& grid, ListedLights& lists) {
-  SharedGridStorage& storage = v.opaque_grid();
-  const size_t count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  for (const glm::uvec2& cell : read_shared<glm::uvec2>(v, storage.cells_, count)) {
-    lists.first.push_back(cell.x), lists.count.push_back(cell.y);
-  }
-  if (grid.index_bits == 16) {
-    const auto narrow = read_shared<uint16_t>(v, storage.indices_, grid.index_count);
-    lists.indices.assign(narrow.begin(), narrow.end());
-  } else {
-    lists.indices = read_shared<uint32_t>(v, storage.indices_, grid.index_count);
-  }
-}
 
 // A row of pixels as an image, for the metrics.
 Image as_image(const std::vector<glm::dvec3>& colors) {
@@ -72,30 +41,6 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   return surface;
 }
 
-std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<float>& depth) {
-  const CullView view = cull_view(v.view, v.plan);
-  const auto edges = slice_keys(view);
-  std::vector<uint32_t> cells;
-  cells.reserve(depth.size());
-  for (int y = 0; y < v.view.height; ++y) {
-    for (int x = 0; x < v.view.width; ++x) {
-      const uint slice = slice_of_key(depth_key(view, depth[cells.size()]), edges.data());
-      const uint first = cell_of_pixel(x, y, v.params.tile_size, v.params.tiles_x);
-      cells.push_back(cell_in_slice(first, slice, v.params.tiles_x, v.params.tiles_y));
-    }
-  }
-  return cells;
-}
-
-std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth) {
-  const CullView view = cull_view(v.view, v.plan);
-  const auto edges = z_bin_keys(view);
-  std::vector<uint32_t> bins;
-  bins.reserve(depth.size());
-  for (const float value : depth) bins.push_back(z_bin_of_key(depth_key(view, value), edges.data()));
-  return bins;
-}
-
 std::vector<float> read_depth(TechniqueRun& run) {
   RenderView& v = run.view();
   if (!run.frame().depth) return read_depth(v);
@@ -105,23 +50,26 @@ std::vector<float> read_depth(TechniqueRun& run) {
   return depth;
 }
 
+std::vector<ViewLight> local_lights(const RenderView& v) {
+  const std::vector<ViewLight> all = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
+  std::vector<ViewLight> local;
+  for (int i : v.plan.local) local.push_back(all[i]);
+  return local;
+}
+
+FrameGrid grid_of(TechniqueRun& run) {
+  RenderView& v = run.view();
+  const CullView view = cull_view(v.view, v.plan);
+  return {read_grid(*v.renderer.cl, *run.frame().grid, v.opaque_grid()), int(v.params.tile_size),
+          view.slice_edges, view.z_bin_edges, to_strings(v.plan.settings)};
+}
+
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   RenderView& v = run.view();
   if (run.technique().listed && !run.frame().grid) return run.technique().listed(v);
   if (run.technique().listed_at) return run.technique().listed_at(v, depth);
   if (!v.plan.light_grid) return list_every_light(uint32_t(v.plan.local.size()));
-  const LightGrid& grid = *run.frame().grid;
-  ListedLights lists;
-  lists.cell_of_pixel = cells_of_pixels(v, depth);
-  if (v.plan.settings.grid_lists == GridLists::masks) {
-    const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-    add_masks(read_shared<uint32_t>(v, v.opaque_grid().masks_, cells * grid.mask_words), cells, lists);
-  } else {
-    add_lists(v, grid, lists);
-  }
-  if (grid.z_bin_bytes == 0) return lists;
-  return in_z_bins(lists, z_bins_of_pixels(v, depth),
-                   read_shared<uint32_t>(v, v.opaque_grid().z_bins_, grid.z_bin_bytes / 4));
+  return listed_lights(v.view, depth, grid_of(run));
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {

@@ -1,6 +1,7 @@
 // Compares the renderer's buffers with the oracle (reference/).
 #pragma once
 
+#include "capture/frame_lists.h"
 #include "passes/read_outs/depth.h"
 #include "passes/read_outs/surfaces.h"
 #include "reference/lit_set.h"
@@ -13,15 +14,15 @@ namespace lightgrid {
 // The surface at a pixel, for the oracle to shade.
 Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
 
-// The cell of the light grid that shading reads at each pixel, from the depth image of the frame.
-std::vector<uint32_t> cells_of_pixels(const RenderView& v, const std::vector<float>& depth);
-
-// The pixel's z-bin: 0 without z-bins.
-std::vector<uint32_t> z_bins_of_pixels(const RenderView& v, const std::vector<float>& depth);
-
 // The depth of the surfaces that the last frame of a run shaded: the technique's own where it rasterised in
 // OpenCL, else the depth image.
 std::vector<float> read_depth(TechniqueRun& run);
+
+// The point and spot lights in view space, in the order of lists.
+std::vector<ViewLight> local_lights(const RenderView& v);
+
+// The light grid of the last frame of a run, which has one, for opaque surfaces.
+FrameGrid grid_of(TechniqueRun& run);
 
 // The lights that the last frame of a run used on opaque surfaces: from the technique's own list, from the
 // light grid, or every point and spot light at every pixel. A pixel's slice and z-bin follow from its depth;

@@ -2,6 +2,7 @@
 // and other front ends. Error(input) names the field and its value.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,5 +72,24 @@ Renderer open_devices(const DeviceOptions& options, const std::string& technique
 // The technique by its name; if that is empty, forward_plus or, without OpenGL, visibility, which is reported
 // in the log.
 const Technique& technique_or_default(const std::string& technique, const Renderer& renderer);
+
+// A view and its lights; several views may share the scene.
+struct LoadedView {
+  std::shared_ptr<Scene> scene;
+  View view;
+  std::vector<Light> lights;
+  glm::vec3 ambient;
+
+  // The scene with this view's lights.
+  Scene& with_lights() const {
+    scene->lights = lights;
+    scene->ambient = ambient;
+    return *scene;
+  }
+};
+
+// Neighbouring choices with the same scene share it. An error in any of them is thrown before the first view
+// is run.
+std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices);
 
 }  // namespace lightgrid

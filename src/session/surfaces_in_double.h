@@ -2,7 +2,8 @@
 // scene's. The oracle (oracle_sample.h) shades surfaces that OpenGL drew, and so does not show their errors.
 #pragma once
 
-#include "session/silhouettes.h"
+#include "passes/read_outs/triangles.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 
@@ -18,5 +19,13 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
 
 // brightest: the reference's brightest channel.
 SurfacesError surfaces_error(const Image& image, const SurfacesInDouble& in_double, double brightest);
+
+// The triangle of each pixel in the last frame of a run that has Frame::triangles.
+std::vector<SceneTriangle> own_triangles(TechniqueRun& run);
+
+// `own` and `shown`: of each pixel of the image and of the reference. Relative to the reference's brightest
+// channel.
+SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,
+                                 const Image& reference, const ShownTriangles& shown);
 
 }  // namespace lightgrid

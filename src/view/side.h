@@ -5,8 +5,8 @@
 #include <string>
 
 #include "session/technique_run.h"
+#include "view/clock.h"
 #include "view/controls.h"
-#include "view/timings.h"
 
 namespace lightgrid {
 

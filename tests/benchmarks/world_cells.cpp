@@ -15,7 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "capture/grid_lists.h"
+#include "capture/frame_lists.h"
 #include "session/oracle.h"
 #include "session/technique_run.h"
 #include "renderer/culler_input.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "session/oracle.h"
-#include "session/silhouettes.h"
+#include "session/surfaces_in_double.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"
 

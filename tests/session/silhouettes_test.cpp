@@ -1,5 +1,5 @@
 // Pixels that show another triangle than OpenGL's, and the difference elsewhere.
-#include "session/silhouettes.h"
+#include "session/surfaces_in_double.h"
 
 #include <gtest/gtest.h>
 

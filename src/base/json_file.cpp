@@ -1,7 +1,8 @@
-#include "results/json_file.h"
+#include "base/json_file.h"
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 namespace lightgrid {
 namespace {
@@ -11,33 +12,18 @@ using nlohmann::json;
 constexpr int max_depth = 16;
 constexpr size_t longest_value_told = 60;
 
-// "[json.exception.parse_error.101] parse error at line 1, ..."
-std::string without_prefix(const std::string& what) {
-  const size_t end = what.find("] ");
-  return end == std::string::npos ? what : what.substr(end + 2);
-}
-
 json parse(const std::string& path) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure)) throw input_error("{}: no such file", path);
-  const uintmax_t bytes = std::filesystem::file_size(path, failure);
-  if (failure) throw input_error("{}: cannot be read: {}", path, failure.message());
-  if (bytes > max_json_file_bytes) {
-    throw input_error("{}: {} bytes are more than the {} this file may have", path, bytes,
-                      max_json_file_bytes);
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw input_error("{}: cannot be opened", path);
+  const std::string text = read_small_file(path, max_json_file_bytes, "this file");
   const auto shallow = [&](int depth, json::parse_event_t, json&) {
     if (depth > max_depth) throw input_error("{}: nested deeper than {}", path, max_depth);
     return true;
   };
   try {
-    return json::parse(file, shallow);
+    return json::parse(text, shallow);
   } catch (const json::parse_error& error) {
-    throw input_error("{}: is not JSON: {}", path, without_prefix(error.what()));
+    throw input_error("{}: is not JSON: {}", path, fault_of(error));
   } catch (const json::exception& error) {
-    throw input_error("{}: {}", path, without_prefix(error.what()));
+    throw input_error("{}: {}", path, fault_of(error));
   }
 }
 
@@ -50,6 +36,26 @@ std::string told(const json& value) {
 }
 
 }  // namespace
+
+std::string read_small_file(const std::filesystem::path& path, uintmax_t most, const char* kind) {
+  const std::string name = path.string();
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(path, failure)) throw input_error("{}: no such file", name);
+  const uintmax_t bytes = std::filesystem::file_size(path, failure);
+  if (failure) throw input_error("{}: cannot be read: {}", name, failure.message());
+  if (bytes > most)
+    throw input_error("{}: {} bytes are more than the {} {} may have", name, bytes, most, kind);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw input_error("{}: cannot be opened", name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// "[json.exception.parse_error.101] parse error at line 1, ..."
+std::string fault_of(const json::exception& error) {
+  const std::string what = error.what();
+  const size_t end = what.find("] ");
+  return end == std::string::npos ? what : what.substr(end + 2);
+}
 
 JsonFile::JsonFile(const std::filesystem::path& path) : path_(path.string()), json_(parse(path_)) {
   if (!json_.is_object()) throw input_error("{}: is {}, not an object", path_, json_.type_name());

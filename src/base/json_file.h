@@ -14,6 +14,13 @@ namespace lightgrid {
 
 inline constexpr uintmax_t max_json_file_bytes = 1 << 20;
 
+// The bytes of a file of at most `most`. `kind`: of the file, for the message of a larger one: "a lights
+// file".
+std::string read_small_file(const std::filesystem::path& path, uintmax_t most, const char* kind);
+
+// What the parser says, without its own prefix.
+std::string fault_of(const nlohmann::json::exception& error);
+
 class JsonFile {
  public:
   // Reads the whole file. It must hold an object, and at most max_json_file_bytes.
