@@ -7,7 +7,7 @@
 
 namespace lightgrid {
 
-// Text by path: "kernels/cpu/depth_bounds.cl", "shaders/forward.frag", "shared/light_grid.h".
+// Text by path: "kernels/culling/cpu/depth_bounds.cl", "shaders/forward.frag", "shared/light_grid.h".
 const std::map<std::string, std::string, std::less<>>& embedded_files();
 
 // One file's text; asserts that it is there.

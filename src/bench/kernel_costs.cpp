@@ -18,7 +18,7 @@ constexpr double bin_tiles = 64;
 double world_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 8 : 4); }
 double view_bytes(const KernelWork& w) { return 4.0 * (w.cones ? 11 : 7); }
 
-// Operations of kernels/common/project.h and light_cell_tests.h, counted in their text: to view space with
+// Operations of kernels/culling/project.h and light_cell_tests.h, counted in their text: to view space with
 // two pairs of tangents; sphere against box; additionally three Newton steps; additionally cone against
 // sphere.
 constexpr double project_flops = 100, box_flops = 18, exact_flops = 110, cone_flops = 60;

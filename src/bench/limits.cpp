@@ -46,7 +46,7 @@ Spread copy_ms(ClDevice& device, const cl::Buffer& from, size_t bytes, int runs)
 
 Spread flops_ms(ClDevice& device, ProgramCache& programs, int runs, double& operations) {
   const bool cpu = device.info().cpu;
-  cl::Kernel kernel = programs.kernel(cpu ? "cpu/limits_flops" : "gpu/limits_flops", "");
+  cl::Kernel kernel = programs.kernel(cpu ? "limits/cpu/limits_flops" : "limits/gpu/limits_flops", "");
   const size_t items =
       cpu ? 4 * size_t(device.info().compute_units) : gpu_group * 32 * device.info().compute_units;
   const cl_uint steps = cpu ? 20000 : 4000;
@@ -67,7 +67,7 @@ double launches_ms(ClDevice& device, cl::Kernel& empty, const cl::Buffer& unused
 
 void measure_launches(ClDevice& device, ProgramCache& programs, int runs, Limits& limits) {
   constexpr int many = 33;
-  cl::Kernel empty = programs.kernel("limits_empty", "");
+  cl::Kernel empty = programs.kernel("limits/limits_empty", "");
   const cl::Buffer unused = device_buffer(device, 64);
   limits.launch_wait = repeat(4 * runs, [&] { return launches_ms(device, empty, unused, 1); });
   const double one = limits.launch_wait.median;
@@ -100,7 +100,7 @@ Spread read_ms(ClDevice& device, PlainRead& read, const cl::Buffer& buffer, size
 
 PlainRead::PlainRead(ClDevice& device, ProgramCache& programs)
     : device_(device),
-      kernel_(programs.kernel(device.info().cpu ? "cpu/limits_read" : "gpu/limits_read", "")),
+      kernel_(programs.kernel(device.info().cpu ? "limits/cpu/limits_read" : "limits/gpu/limits_read", "")),
       group_(device.info().cpu ? 1 : gpu_group) {
   items_ = group_ * size_t(device.info().compute_units);
   sums_ = device_buffer(device, 64 * items_ * sizeof(cl_uint));

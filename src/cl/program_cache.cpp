@@ -20,7 +20,7 @@ std::string common_options(const ClDeviceInfo& device) {
 // Whether a CPU compiles this kernel without optimisation.
 bool builds_quickly(const std::string& file) {
   const char* kernels = std::getenv("LIGHTGRID_CL_QUICK_BUILD");
-  return kernels && (file.starts_with("gpu/") || std::string_view(kernels) == "all");
+  return kernels && (file.find("/gpu/") != file.npos || std::string_view(kernels) == "all");
 }
 
 // PoCL 3 includes clang's opencl-c.h before each program, where this macro is not defined yet (its
@@ -37,7 +37,7 @@ constexpr const char* prelude =
     "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
     "#endif\n";
 
-// "cull_lights" for "cpu/cull_lights".
+// "cull_lights" for "culling/cpu/cull_lights".
 std::string entry_point(const std::string& file) { return file.substr(file.rfind('/') + 1); }
 
 bool disk_is_off() {

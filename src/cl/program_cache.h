@@ -20,13 +20,13 @@ class ProgramCache {
   // disk cache; "driver" does the same but keeps the driver's own cache. PoCL compiles each kernel a second
   // time to return its binary: without our cache a first build took less than half as long, and each later
   // start 35 ms a kernel more (measured with `verify --filter depth/all_sky$`, empty and warm caches).
-  // With LIGHTGRID_CL_QUICK_BUILD=gpu a CPU compiles the kernels of kernels/gpu without optimisation, with
+  // With LIGHTGRID_CL_QUICK_BUILD=gpu a CPU compiles the kernels of kernels/*/gpu without optimisation, with
   // "all" every kernel: optimisation is most of a kernel's build time. For tests only (docs/testing.md).
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
 
-  // The kernel of the embedded file "kernels/<file>.cl" (e.g. "cpu/depth_bounds") with its includes, built
-  // with the options that all kernels share (no contraction, no fast-math) and `defines` (e.g. "-DLANES=16
-  // -DTILE=16"). It has the file's own name, without the folder.
+  // The kernel of the embedded file "kernels/<file>.cl" (e.g. "culling/cpu/depth_bounds") with its includes,
+  // built with the options that all kernels share (no contraction, no fast-math) and `defines` (e.g.
+  // "-DLANES=16 -DTILE=16"). It has the file's own name, without the folder.
   cl::Kernel kernel(const std::string& file, const std::string& defines);
 
   // The same for a source that is not embedded; `file` names it in messages (tests, tools).

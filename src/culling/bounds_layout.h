@@ -1,4 +1,4 @@
-// How depth bounds lie on the device (kernels/common/depth_bounds.h).
+// How depth bounds lie on the device (kernels/culling/depth_bounds.h).
 #pragma once
 
 #include "cl/device.h"
@@ -18,7 +18,7 @@ inline int planes_of(DepthBoundsMode mode) {
   return mode == DepthBoundsMode::mask32 ? 3 : 2;
 }
 
-// Index of a tile's value in plane `plane`: kernels/common/depth_bounds.h.
+// Index of a tile's value in plane `plane`: kernels/culling/depth_bounds.h.
 inline size_t bounds_index(const CullParams& p, int planes, int plane, uint tx, uint ty) {
   const size_t bin = size_t(ty / BIN_TILES) * p.bins_x + tx / BIN_TILES;
   return (bin * planes + plane) * BIN_SIZE + slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);

@@ -151,7 +151,7 @@ void LightCuller::run_kernels(LightGrid& grid, const TileBounds& bounds, GridSto
 
 void LightCuller::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
   grid.z_bin_bytes = light_count_ * sizeof(cl_uint);
-  if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("light_z_bins", "");
+  if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("culling/light_z_bins", "");
   launch(device_, "light_z_bins", z_bins_kernel_,
          cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group), cl::NDRange(z_bin_group),
          lights_->get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
@@ -169,7 +169,8 @@ void LightCuller::make_masks(LightGrid& grid, GridStorage& storage) {
         cells, light_count_, grid.mask_bytes, device_.info().name);
   }
   cl::Kernel& kernel = masks_kernels_[grid.index_bits == 32];
-  if (!kernel()) kernel = programs_.kernel("lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
+  if (!kernel())
+    kernel = programs_.kernel("culling/lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
   launch(device_, "lists_to_masks", kernel, cl::NDRange((cells + mask_group - 1) / mask_group * mask_group),
          cl::NDRange(mask_group), storage.cells(grid.cell_bytes), storage.indices(grid.index_bytes),
          cl_uint(cells), cl_uint(grid.mask_words), storage.masks(grid.mask_bytes));

@@ -65,7 +65,7 @@ void LightCuller::read_layout(const DepthInput& depth) {
 cl::Buffer LightCuller::straight_depth(const DepthInput& depth, uint first, uint row) {
   const StraightView& s = *oblique_;
   if (!straight_depth_) straight_depth_ = std::make_unique<GrowingBuffer>();
-  if (!straighten_kernel_()) straighten_kernel_ = programs_.kernel("straighten_depth", "");
+  if (!straighten_kernel_()) straighten_kernel_ = programs_.kernel("culling/straighten_depth", "");
   const size_t width = size_t(params_.width) * options_.samples;
   const cl::Buffer& straight = straight_depth_->at_least(device_, width * params_.height * sizeof(float));
   const cl_float4 plane = {{s.tilt_x, s.tilt_y, s.offset, s.scale}};
@@ -105,7 +105,8 @@ DepthBounds LightCuller::depth_bounds(const DepthInput& depth) {
     depth_group_ = usual_depth_group;
     while (depth_group_ > device_.info().max_group_items) depth_group_ /= 2;
     if (!lanes && depth_group_ != usual_depth_group) defines += fmt::format(" -DGROUP={}", depth_group_);
-    bounds_kernel_ = programs_.kernel(lanes ? "cpu/depth_bounds" : "gpu/depth_bounds", defines);
+    bounds_kernel_ =
+        programs_.kernel(lanes ? "culling/cpu/depth_bounds" : "culling/gpu/depth_bounds", defines);
   }
   const uint depth_first = params_.depth_first, depth_row = params_.depth_row;
   if (oblique_) {

@@ -29,13 +29,13 @@ class GroupPipeline : public CullPipeline {
           "lanes",
           project_items, device.info().name, allowed);
     }
-    project_ = programs.kernel("gpu/project_lights", options.light_defines);
+    project_ = programs.kernel("culling/gpu/project_lights", options.light_defines);
     while (write_items_ > allowed) write_items_ /= 2;
     if (options.group_size > 0) cull_items_ = size_t(options.group_size);
     while (cull_items_ > allowed) cull_items_ /= 2;
-    cull_ =
-        programs.kernel("gpu/cull_lights", fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
-    write_ = programs.kernel("gpu/write_lists", index_define(options) + group_define(write_items_));
+    cull_ = programs.kernel("culling/gpu/cull_lights",
+                            fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
+    write_ = programs.kernel("culling/gpu/write_lists", index_define(options) + group_define(write_items_));
   }
 
   void prepare(const CullParams& p) override {

@@ -29,9 +29,9 @@ class LanesPipeline : public CullPipeline {
   LanesPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
     const std::string form = options.portable ? " -DPORTABLE" : "", index = index_define(options);
-    project_ = programs.kernel("cpu/project_lights", options.light_defines + form);
-    cull_ = programs.kernel("cpu/cull_lights", options.cell_defines + index + form);
-    write_ = programs.kernel("cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + form);
+    project_ = programs.kernel("culling/cpu/project_lights", options.light_defines + form);
+    cull_ = programs.kernel("culling/cpu/cull_lights", options.cell_defines + index + form);
+    write_ = programs.kernel("culling/cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + form);
   }
 
   void prepare(const CullParams& p) override {

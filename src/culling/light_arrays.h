@@ -1,4 +1,4 @@
-// Lights as the kernels read them: kernels/common/light_arrays.h.
+// Lights as the kernels read them: kernels/culling/light_arrays.h.
 #pragma once
 
 #include <span>

@@ -161,7 +161,7 @@ struct CullerOptions {
 struct CullInputs {
   CullParams params{};
   DepthBoundsMode mode = DepthBoundsMode::minmax;
-  std::vector<float> lights, bounds;  // kernels/common/light_arrays.h, depth_bounds.h
+  std::vector<float> lights, bounds;  // kernels/culling/light_arrays.h, depth_bounds.h
   std::vector<glm::vec2> slices;      // near and far of each, metres; a single slice is infinite
 };
 

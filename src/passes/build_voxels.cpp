@@ -17,7 +17,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr float largest_float_voxel = 1e15f;  // LARGEST_VOXEL of kernels/common/voxel_light.h
+constexpr float largest_float_voxel = 1e15f;  // LARGEST_VOXEL of kernels/voxels/voxel_light.h
 constexpr float largest_half_voxel = 6e4f;
 constexpr float brightest_half = 1024;  // what the brightest light is stored as, at most: room for sums
 
@@ -69,7 +69,8 @@ class VoxelBuffers : public PassState {
 
   cl::Kernel& kernel(RenderView& v) {
     if (!kernel_())
-      kernel_ = v.renderer.kernels->kernel(lanes ? "cpu/build_voxels" : "gpu/build_voxels", defines_);
+      kernel_ =
+          v.renderer.kernels->kernel(lanes ? "voxels/cpu/build_voxels" : "voxels/gpu/build_voxels", defines_);
     return kernel_;
   }
 

@@ -8,7 +8,7 @@
 namespace lightgrid {
 
 // In OpenCL's memory, until the view's next build_voxels(). Values: four a sample, x fastest, of voxel-bits;
-// what they are: kernels/cpu/build_voxels.cl.
+// what they are: kernels/voxels/cpu/build_voxels.cl.
 struct VoxelVolume {
   SharedBuffer* irradiance = nullptr;
   SharedBuffer* directions = nullptr;

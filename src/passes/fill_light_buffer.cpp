@@ -39,7 +39,8 @@ class LightSums : public PassState {
   // Built at first use.
   cl::Kernel& kernel(RenderView& v) {
     if (!kernel_())
-      kernel_ = v.renderer.kernels->kernel(lanes ? "cpu/light_buffer" : "gpu/light_buffer", defines_);
+      kernel_ = v.renderer.kernels->kernel(lanes ? "resolve/cpu/light_buffer" : "resolve/gpu/light_buffer",
+                                           defines_);
     return kernel_;
   }
 

@@ -49,7 +49,7 @@ class Resolving : public PassState {
   cl::Kernel& kernel(RenderView& v, const char* stem, const std::string& more_defines = "") {
     cl::Kernel& kernel = kernels_[stem + more_defines];
     if (!kernel()) {
-      kernel = v.renderer.kernels->kernel((lanes ? "cpu/" : "gpu/") + std::string(stem),
+      kernel = v.renderer.kernels->kernel((lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
                                           defines_ + more_defines + register_limit(v));
     }
     return kernel;
@@ -67,7 +67,7 @@ class Resolving : public PassState {
     return scene;
   }
 
-  // RESOLVE_ARGUMENTS of kernels/common/resolve_light.h.
+  // RESOLVE_ARGUMENTS of kernels/resolve/resolve_light.h.
   auto arguments(RenderView& v, const RasterBuffers& raster, const cl::Buffer& surfaces, const GridInCl& in) {
     const ClScene& s = scene(v);
     cl::Buffer cells, indices, light_bins;

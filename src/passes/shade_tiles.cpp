@@ -40,7 +40,8 @@ class TileShading : public PassState {
     if (kernel()) return kernel;
     const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
                                             holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel = v.renderer.kernels->kernel(lanes ? "cpu/shade_tiles" : "gpu/shade_tiles", defines);
+    kernel =
+        v.renderer.kernels->kernel(lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles", defines);
     return kernel;
   }
 

@@ -28,11 +28,11 @@ class RasterGroupPipeline : public RasterPipeline {
  public:
   RasterGroupPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
       : device_(device), programs_(programs), wide_(wide_atomics && has_64_bit_atomics(device)) {
-    transform_ = programs.kernel("gpu/raster_transform", "");
-    clusters_ = programs.kernel("gpu/raster_clusters", "");
+    transform_ = programs.kernel("raster/gpu/raster_transform", "");
+    clusters_ = programs.kernel("raster/gpu/raster_clusters", "");
     if (!wide_) return;
-    clear_ = programs.kernel("gpu/raster_clear", "");
-    keys_kernel_ = programs.kernel("gpu/raster_keys", "");
+    clear_ = programs.kernel("raster/gpu/raster_clear", "");
+    keys_kernel_ = programs.kernel("raster/gpu/raster_keys", "");
   }
 
   uint32_t chunks(const RasterParams&) const override { return 1; }
@@ -64,14 +64,15 @@ class RasterGroupPipeline : public RasterPipeline {
     const bool masks = job.masks.alphas() != nullptr;
     // The second pass needs the depths of all triangles.
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      launch(device_, "raster_small", kernel("gpu/raster_small", pass, masks), all, group, visible_.get(),
-             job.pairs, job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip,
-             job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
-             records_.get(), entries_.get(), keys_.get(), job.triangles, job.depths, job.counters,
+      launch(device_, "raster_small", kernel("raster/gpu/raster_small", pass, masks), all, group,
+             visible_.get(), job.pairs, job.clusters, job.instances, job.cluster_indices,
+             job.cluster_triangles, job.clip, job.instances, job.indices, job.clip, job.masks.vertices,
+             job.masks.materials, job.masks.alphas, records_.get(), entries_.get(), keys_.get(),
+             job.triangles, job.depths, job.counters, job.params_buffer);
+      launch(device_, "raster_large", kernel("raster/gpu/raster_large", pass, masks), all, group,
+             records_.get(), entries_.get(), job.instances, job.indices, job.clip, job.masks.vertices,
+             job.masks.materials, job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters,
              job.params_buffer);
-      launch(device_, "raster_large", kernel("gpu/raster_large", pass, masks), all, group, records_.get(),
-             entries_.get(), job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials,
-             job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters, job.params_buffer);
     }
     if (wide_) {
       launch(device_, "raster_keys", keys_kernel_, items_for(pixels, image_group), cl::NDRange(image_group),

@@ -17,12 +17,12 @@ class RasterLanesPipeline : public RasterPipeline {
  public:
   RasterLanesPipeline(ClDevice& device, ProgramCache& programs, bool portable)
       : device_(device), programs_(programs), defines_(portable ? "-DPORTABLE" : "") {
-    transform_ = programs.kernel("cpu/raster_transform", "");
-    clusters_ = programs.kernel("cpu/raster_clusters", "");
-    order_ = programs.kernel("cpu/raster_order", "");
-    setup_ = programs.kernel("cpu/raster_setup", defines_);
-    scan_ = programs.kernel(device.info().cpu ? "cpu/raster_scan" : "gpu/raster_scan", "");
-    fill_ = programs.kernel("cpu/raster_fill", "");
+    transform_ = programs.kernel("raster/cpu/raster_transform", "");
+    clusters_ = programs.kernel("raster/cpu/raster_clusters", "");
+    order_ = programs.kernel("raster/cpu/raster_order", "");
+    setup_ = programs.kernel("raster/cpu/raster_setup", defines_);
+    scan_ = programs.kernel(device.info().cpu ? "raster/cpu/raster_scan" : "raster/gpu/raster_scan", "");
+    fill_ = programs.kernel("raster/cpu/raster_fill", "");
   }
 
   uint32_t chunks(const RasterParams& p) const override {
@@ -89,7 +89,7 @@ class RasterLanesPipeline : public RasterPipeline {
   cl::Kernel& tiles_kernel(bool masks) {
     cl::Kernel& kernel = tiles_[masks];
     if (!kernel()) {
-      kernel = programs_.kernel("cpu/raster_tiles", defines_ + (masks ? " -DALPHA_MASKS" : ""));
+      kernel = programs_.kernel("raster/cpu/raster_tiles", defines_ + (masks ? " -DALPHA_MASKS" : ""));
     }
     return kernel;
   }

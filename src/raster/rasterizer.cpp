@@ -229,7 +229,7 @@ void Rasterizer::State::keep_sample(int sample) {
   const size_t pixels = size_t(view->width) * view->height, values = pixels * view->samples;
   sample_triangles.at_least(device, values * sizeof(cl_uint));
   sample_depths.at_least(device, (values + Visibility::spare_pixels) * sizeof(cl_float));
-  if (!sample_kernel()) sample_kernel = programs.kernel("raster_sample", "");
+  if (!sample_kernel()) sample_kernel = programs.kernel("raster/raster_sample", "");
   launch(device, "raster_sample", sample_kernel,
          cl::NDRange((pixels + sample_group - 1) / sample_group * sample_group), cl::NDRange(sample_group),
          image_triangles.get(), image_depths.get(), cl_uint(pixels), cl_uint(sample), cl_uint(view->samples),

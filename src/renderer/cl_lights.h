@@ -15,7 +15,7 @@ class ClLights {
       slice_edges;  // shared/punctual_light.h, shared/slices.h
 };
 
-// The -D names that light loops in OpenCL take of a view and its plan (kernels/common/shade_pixels.h).
+// The -D names that light loops in OpenCL take of a view and its plan (kernels/resolve/shade_pixels.h).
 // `lanes`: those of kernels that take a tile. brdf: of the kernel, which may serve several of the setting's.
 std::string light_defines(const RenderView& v, bool lanes, Brdf brdf);
 

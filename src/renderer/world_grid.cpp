@@ -67,7 +67,7 @@ size_t WorldGrid::chunk_of(size_t count, size_t least) const {
 
 // Of totals_. Returns the sum of all, if it is read.
 uint64_t WorldGrid::scan(size_t count, bool read) {
-  cl::Kernel kernel = renderer_.kernels->kernel("world_scan", "");
+  cl::Kernel kernel = renderer_.kernels->kernel("world_grid/world_scan", "");
   const size_t group = renderer_.cl->info().cpu ? 1 : 256;
   launch(*renderer_.cl, "world_scan", kernel, cl::NDRange(group), cl::NDRange(group), totals_.get(),
          cl_uint(count), total_.at_least(*renderer_.cl, 8));

@@ -8,7 +8,7 @@
 namespace lightgrid {
 
 // Flags of an edit: the block is around the light's ball before, or after, it moved. As in
-// kernels/world_update.cl.
+// kernels/world_grid/world_update.cl.
 constexpr uint32_t edit_before = 0x80000000u, edit_after = 0x40000000u;
 
 struct WorldMoves {

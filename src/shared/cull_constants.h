@@ -7,6 +7,6 @@
 // docs/hard_cases.md#slack.
 #define WIDEN 4.8e-7f
 // GPUs cull by blocks of BLOCK_TILES x BLOCK_TILES tiles. A work-group of
-// gpu/project_lights.cl takes PROJECT_GROUP lights.
+// culling/gpu/project_lights.cl takes PROJECT_GROUP lights.
 #define BLOCK_TILES 4u
 #define PROJECT_GROUP 128

@@ -20,10 +20,10 @@
 #define RASTER_BLOCKS 1   // blocks of records that were asked for
 #define RASTER_RECORDS 2
 #define RASTER_INVALID 3  // triangles with a corner that is not finite
-// Low word, then high word: pairs of a record and a tile, or a window (gpu/raster_small.cl).
+// Low word, then high word: pairs of a record and a tile, or a window (raster/gpu/raster_small.cl).
 #define RASTER_ENTRIES 4
 #define RASTER_LARGE 6    // records of triangles that are not drawn at once, in the group shape
-#define RASTER_NEXT_TILE 7  // the first tile that no work-item of cpu/raster_tiles.cl has taken yet
+#define RASTER_NEXT_TILE 7  // the first tile that no work-item of raster/cpu/raster_tiles.cl has taken yet
 #define RASTER_COUNTERS 8
 
 #if !defined(__OPENCL_VERSION__)

@@ -1,5 +1,5 @@
 // voxel-lights-exact: what one light adds to a voxel light buffer at a point, so that it can be taken out
-// again and shaded by itself. kernels/common/voxel_light.h fills the volume by the same formulas
+// again and shaded by itself. kernels/voxels/voxel_light.h fills the volume by the same formulas
 // (docs/techniques/voxel_lights.md); VoxelLights.ExactLightsLeaveNothingOfThemselves holds both together.
 #pragma once
 

@@ -120,15 +120,15 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   EXPECT_EQ(all.size(), std::size(cull_tests));
   const Naming expected = {
       {"src/shared/cull_settings.h", all},
-      {"kernels/common/light_cell_tests.h", {"exact", "planes", "sphere"}},
+      {"kernels/culling/light_cell_tests.h", {"exact", "planes", "sphere"}},
       // The default.
       {"src/culling/light_culler.h", {"planes_aabb"}},
       {"src/plan/settings.h", {"planes_aabb"}},
       // Kernels that compute more, or less, for one test.
-      {"kernels/common/bin_cells.h", {"exact"}},
-      {"kernels/common/bin_tiles.h", {"exact"}},
-      {"kernels/common/cell.h", {"exact"}},
-      {"kernels/common/project.h", {"aabb", "planes_aabb", "sphere"}},
+      {"kernels/culling/bin_cells.h", {"exact"}},
+      {"kernels/culling/bin_tiles.h", {"exact"}},
+      {"kernels/culling/cell.h", {"exact"}},
+      {"kernels/culling/project.h", {"aabb", "planes_aabb", "sphere"}},
       // Checks that hold between certain tests.
       {"src/verify/agreement.cpp", {"aabb", "exact", "planes", "planes_aabb"}},
       {"src/verify/camera.cpp", {"exact", "planes"}},

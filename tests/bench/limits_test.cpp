@@ -40,11 +40,12 @@ TEST(PlainRead, ReadsEachValueOnce) {
   for (const uint32_t blocks : {1u, 3u, 64u, 131u}) {
     const uint32_t values = blocks * 128, sum = uint32_t(uint64_t(values) * (values + 1) / 2);
     for (const size_t items : {1u, 2u, 7u, 200u}) {
-      EXPECT_EQ(sum_of_plain_read("cpu/limits_read", values, values / 16, items, 1), sum)
+      EXPECT_EQ(sum_of_plain_read("limits/cpu/limits_read", values, values / 16, items, 1), sum)
           << values << " by " << items;
     }
     for (const size_t groups : {1u, 3u}) {
-      EXPECT_EQ(sum_of_plain_read("gpu/limits_read", values, values / 4, 64 * groups, 64), sum) << values;
+      EXPECT_EQ(sum_of_plain_read("limits/gpu/limits_read", values, values / 4, 64 * groups, 64), sum)
+          << values;
     }
   }
 }
@@ -62,7 +63,7 @@ TEST(Arithmetic, RunsAllOfItsChains) {
   ProgramCache programs(device());
   const cl::Buffer results(device().context(), CL_MEM_READ_WRITE, 4 * 4);
   for (const bool lanes : {true, false}) {
-    cl::Kernel kernel = programs.kernel(lanes ? "cpu/limits_flops" : "gpu/limits_flops", "");
+    cl::Kernel kernel = programs.kernel(lanes ? "limits/cpu/limits_flops" : "limits/gpu/limits_flops", "");
     launch(device(), "flops", kernel, 4, 1, factor, term, cl_uint(steps), results);
     const auto found = read_back<float>(results, 4);
     for (int item = 0; item < 4; ++item) {

@@ -117,7 +117,7 @@ TEST(LightCuller, RefusesOptionsThatAreNone) {
   EXPECT_EQ(message_of({}), "");
 }
 
-// More lights, and more candidates of a block, than any group processes at once (gpu/cull_lights.cl).
+// More lights, and more candidates of a block, than any group processes at once (culling/gpu/cull_lights.cl).
 TEST(LightCuller, GivesTheSameGridWithAnyGroupSize) {
   const View view = view_of(127, 73, 60);
   std::vector<ViewLight> lights;

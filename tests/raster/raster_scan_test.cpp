@@ -47,9 +47,10 @@ TEST(Rasterizer, ScansCountsAlikeForCpusAndGpus) {
       std::vector<uint32_t> counts(tiles_x * tiles_y * chunks);
       uint64_t sum = 0;
       for (uint32_t& count : counts) sum += count = uint32_t(random.between(0, most));
-      const ScannedCounts of_cpu = scanned("cpu/raster_scan", 1, counts, tiles_x, tiles_y, chunks);
+      const ScannedCounts of_cpu = scanned("raster/cpu/raster_scan", 1, counts, tiles_x, tiles_y, chunks);
       EXPECT_EQ(of_cpu.counters[RASTER_ENTRIES] | uint64_t(of_cpu.counters[RASTER_ENTRIES + 1]) << 32, sum);
-      EXPECT_TRUE(scanned("gpu/raster_scan", RASTER_SCAN_GROUP, counts, tiles_x, tiles_y, chunks) == of_cpu)
+      EXPECT_TRUE(scanned("raster/gpu/raster_scan", RASTER_SCAN_GROUP, counts, tiles_x, tiles_y, chunks) ==
+                  of_cpu)
           << tiles_x;
     }
   }

@@ -1,5 +1,5 @@
 // Point and spot lights along the axes of a voxel light buffer, neighbours in groups: what
-// kernels/*/build_voxels.cl reads.
+// kernels/voxels/*/build_voxels.cl reads.
 #pragma once
 
 #include "cl/uploaded_buffer.h"
@@ -19,7 +19,7 @@ class GroupedLights {
   float brightest() const { return brightest_; }
   size_t memory_bytes() const;
 
-  // As kernels/common/voxel_light.h says.
+  // As kernels/voxels/voxel_light.h says.
   UploadedBuffer boxes, places, colors, cones;
 
  private:

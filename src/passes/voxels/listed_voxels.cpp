@@ -70,7 +70,7 @@ class VoxelLister {
     return first_of(key / cells_of_brick) + glm::uvec3(in % side, in / side % side, in / side / side);
   }
 
-  // The cell between samples in which a pixel lies, as kernels/common/voxel_lookup.h finds it.
+  // The cell between samples in which a pixel lies, as kernels/voxels/voxel_lookup.h finds it.
   glm::uvec3 cell_at(size_t pixel, float depth) const {
     const ViewParams& p = v_.params;
     const double x = double(pixel % p.width) + 0.5, y = double(pixel / p.width) + 0.5;
@@ -95,7 +95,7 @@ class VoxelLister {
     return r_.axes.log_depth ? glm::dvec3(x * place, y * place, -place) : glm::dvec3(x, y, place);
   }
 
-  // Whether add_voxel_light of kernels/common/voxel_light.h adds anything of a light.
+  // Whether add_voxel_light of kernels/voxels/voxel_light.h adds anything of a light.
   bool reaches(const ViewLight& light, glm::uvec3 i) const {
     const glm::dvec3 d = light.position - sample_at(i);
     const double squared = glm::dot(d, d), grown = r_.placed.slices[i.z].half_diagonal_squared;

@@ -6,7 +6,7 @@
 
 namespace lightgrid::verify {
 namespace {
-#include "kernels/common/bin_cells.h"
+#include "kernels/culling/bin_cells.h"
 
 struct Projected {
   std::vector<float> values;  // a light's sphere and cone, as light_may_touch reads them

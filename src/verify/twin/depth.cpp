@@ -5,7 +5,7 @@
 
 namespace lightgrid::verify {
 namespace {
-#include "kernels/common/depth_interval.h"
+#include "kernels/culling/depth_interval.h"
 
 #ifdef STANDARD_DEPTH
 constexpr bool standard = true;

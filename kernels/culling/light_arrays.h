@@ -1,0 +1,51 @@
+// Lights as structures of arrays.
+#pragma once
+
+#include "kernels/culling/light_cell_tests.h"
+
+// World lights, light_stride floats each: x, y, z relative to the lights' origin, radius; with
+// cones x, y, z of the unit axis and the outer half-angle's cosine (2 where there is none).
+// Readable up to a multiple of 16 lights.
+#define WORLD_ARRAYS 8
+
+// Lights in view space, an array each: centre and radius with slack; the tiles they can
+// be seen in; the index; the cone.
+#define VIEW_X 0
+#define VIEW_Y 1
+#define VIEW_D 2
+#define VIEW_R 3
+#define VIEW_TILES 4  // of one bin: bits 0-7 its columns, 8-15 its rows
+#define VIEW_ID 5
+#define VIEW_CONE 6   // four arrays
+#ifdef SPOTS
+#define VIEW_ARRAYS (VIEW_CONE + 4)
+#else
+#define VIEW_ARRAYS VIEW_CONE
+#endif
+
+#if LANES == 16
+#define LOAD(p) vload16(0, p)
+#else
+#define LOAD(p) (*(p))
+#endif
+
+static inline ViewSphere load_sphere(global const float* lights, size_t stride) {
+  const ViewSphere s = {LOAD(lights), LOAD(lights + stride), LOAD(lights + 2 * stride),
+                        LOAD(lights + 3 * stride)};
+  return s;
+}
+
+#ifdef SPOTS
+static inline ViewCone load_cone(global const float* cones, size_t stride) {
+  const ViewCone k = {LOAD(cones), LOAD(cones + stride), LOAD(cones + 2 * stride), LOAD(cones + 3 * stride)};
+  return k;
+}
+
+static inline ViewCone view_cone(global const float* lights, size_t stride, constant CullParams* p) {
+  const ViewCone w = load_cone(lights + 4 * stride, stride);
+  const ViewCone k = {p->x_axis_x * w.x + p->x_axis_y * w.y + p->x_axis_z * w.d,
+                      p->y_axis_x * w.x + p->y_axis_y * w.y + p->y_axis_z * w.d,
+                      p->d_axis_x * w.x + p->d_axis_y * w.y + p->d_axis_z * w.d, w.cosine};
+  return k;
+}
+#endif

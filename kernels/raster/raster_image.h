@@ -1,0 +1,115 @@
+// The image as work-items of the group shape write to it in any order: the greatest depth wins, of equal ones
+// the highest triangle number. With -DATOMICS=64 in one pass, on keys of depth and number; with -DATOMICS=32
+// in two, first (-DPASS=1) all depths, then (-DPASS=2) the numbers of those that are as near.
+#pragma once
+
+#include "kernels/raster/raster_tiles.h"
+#include "kernels/common/small_float.h"
+
+#ifndef ATOMICS
+#define ATOMICS 64
+#endif
+#ifndef PASS
+#define PASS 1
+#endif
+
+#if ATOMICS == 64
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+#pragma OPENCL EXTENSION cl_khr_int64_extended_atomics : enable
+#endif
+
+#define LEAST_DEPTH FLT_MIN  // less is not drawn
+
+#include "kernels/raster/raster_masks.h"
+
+typedef struct Image {
+  // A pixel: its depth's bits << 32 | number, or 0 where nothing is. Depths of one sign are ordered as their
+  // bits.
+  global volatile ulong* keys;
+  global volatile int* triangles;  // RASTER_NONE, where nothing is, is below every number
+  global volatile uint* depths;
+  uint width;
+  MaskSource masks;
+} Image;
+
+static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(depth) << 32 | triangle; }
+
+// Whether put_pixel would change the pixel. It is tested before the mask, whose lookup costs more.
+static inline bool would_change(const Image* image, size_t at, float depth, uint triangle) {
+  const bool drawn = depth >= LEAST_DEPTH;
+#if ATOMICS == 64
+  return drawn & (image->keys[at] < key_of(depth, triangle));
+#elif PASS == 1
+  return drawn & (image->depths[at] < as_uint(depth));
+#else
+  return drawn && image->depths[at] == as_uint(depth) && image->triangles[at] < (int)triangle;
+#endif
+}
+
+static inline void put_pixel(const Image* image, size_t at, float depth, uint triangle) {
+#if ATOMICS == 64
+  atom_max(image->keys + at, key_of(depth, triangle));
+#elif PASS == 1
+  atomic_max(image->depths + at, as_uint(depth));
+#else
+  atomic_max(image->triangles + at, (int)triangle);
+#endif
+}
+
+// A record as seen from a pixel (x0, y0).
+typedef struct PlacedTriangle {
+  Edge edges[3];
+  int x0, y0;
+  int width, height;  // of what lies in its box from there on, pixels
+  float dx, dy;       // of the pixel's centre from corner 0, pixels; exact: multiples of 1/256 below 2^16
+  float z0, zx, zy, z_min, z_max;
+  uint triangle, instance;
+  int alpha_material;
+} PlacedTriangle;
+
+static inline PlacedTriangle placed_triangle(const RasterRecord* r, int x0, int y0, int width, int height) {
+  PlacedTriangle t;
+  for (int k = 0; k < 3; ++k) {
+    const int next = k == 2 ? 0 : k + 1;
+    t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], x0, y0);
+  }
+  t.x0 = x0, t.y0 = y0, t.width = width, t.height = height;
+  t.dx = (float)(x0 * 256 + 128 - r->x[0]) * (1.0f / 256),
+  t.dy = (float)(y0 * 256 + 128 - r->y[0]) * (1.0f / 256);
+  t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
+  t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
+  return t;
+}
+
+// A pixel, and whether drawing the triangle there would change the image, masks apart.
+typedef struct SeenPixel {
+  int x, y;
+  float depth;
+  bool changes;
+} SeenPixel;
+
+// The pixel x to the right of (x0, y0) and y above it, below RASTER_TILE, where `inside`. Reads a pixel of
+// the image in any case, so that several reads can be on their way.
+static inline SeenPixel see_pixel(const PlacedTriangle* t, int x, int y, bool inside, const Image* image) {
+  const Edge a = t->edges[0], b = t->edges[1], c = t->edges[2];
+  const bool covered =
+      inside & (((a.c + a.a * x + a.b * y) | (b.c + b.a * x + b.b * y) | (c.c + c.a * x + c.b * y)) >= 0);
+  const float dx = t->dx + small_float((uint)x), dy = t->dy + small_float((uint)y);
+  SeenPixel p;
+  p.depth = max(min(fma(t->zx, dx, fma(t->zy, dy, t->z0)), t->z_max), t->z_min);
+  p.x = t->x0 + (covered ? x : 0), p.y = t->y0 + (covered ? y : 0);
+  p.changes = covered & would_change(image, (size_t)p.y * image->width + (size_t)p.x, p.depth, t->triangle);
+  return p;
+}
+
+static inline void draw_seen(const PlacedTriangle* t, SeenPixel p, const Image* image) {
+  if (!p.changes) return;
+#ifdef ALPHA_MASKS
+  if (t->alpha_material >= 0 &&
+      !shown_by_mask(&image->masks, t->triangle, t->instance, (uint)t->alpha_material, (float)(p.x & ~3),
+                     (float)(p.y & ~3), (float)(p.x & 3), (float)(p.y & 3))) {
+    return;
+  }
+#endif
+  put_pixel(image, (size_t)p.y * image->width + (size_t)p.x, p.depth, t->triangle);
+}

@@ -1,0 +1,66 @@
+// Radiance of every pixel of a visibility buffer under its sums of light, for CPUs: a work-item takes a tile,
+// block after block of 4 x 4 pixels. The material pass of light_prepass where OpenCL rasterises.
+//
+// triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
+// RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; of the lights only directional ones are read
+// background  of pixels without a surface
+// first, second  the light buffer (kernels/resolve/cpu/light_buffer.cl)
+// scale       what its values are multiplied by
+// exponent, reference  LightBufferParams (shared/light_buffer.h)
+// image       out: RGBA a pixel, linear, row 0 at the bottom
+// -DTILE      pixels a side, a multiple of 8 (default 16)
+// -DPREPASS_…, -DBUFFER_BITS, -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name
+#define FUSED  // shared/real.h
+#define LANES 16
+#include "kernels/resolve/resolve_block.h"
+#include "kernels/resolve/resolve_sums.h"
+
+static inline LightTerms sums_of_block(global const light_channel_t* first,
+                                       global const light_channel_t* second, float scale, uint x, uint y,
+                                       uint width, uint height) {
+  float terms[6][16];
+  for (uint i = 0; i < 16; ++i) {
+    const size_t at = (size_t)min(y + i / 4, height - 1) * width + min(x + i % 4, width - 1);
+    const float4 t = LOAD_CHANNELS(4, at, first) * scale;
+    terms[0][i] = t.x, terms[1][i] = t.y, terms[2][i] = t.z, terms[3][i] = t.w;
+#ifdef PREPASS_FIFTH_TERM
+    const float2 u = LOAD_CHANNELS(2, at, second) * scale;
+    terms[4][i] = u.x, terms[5][i] = u.y;
+#endif
+  }
+  LightTerms sums = no_terms();
+  sums.diffuse = real3(vload16(0, terms[0]), vload16(0, terms[1]), vload16(0, terms[2]));
+  sums.specular = vload16(0, terms[3]);
+#ifdef PREPASS_FIFTH_TERM
+  sums.weight = vload16(0, terms[4]), sums.rim = vload16(0, terms[5]);
+#endif
+  return sums;
+}
+
+kernel void resolve_materials(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
+                              float4 background, global const light_channel_t* first,
+                              global const light_channel_t* second, float scale, float exponent,
+                              float reference, global float* image) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const ResolveScene scene = RESOLVE_SCENE;
+  const ResolveLights lights = RESOLVE_LIGHTS;
+  const LightBufferParams of = {REAL(exponent), REAL(reference)};
+  BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
+  for (uint y = walk.y0; y < walk.y_end; y += 4) {
+    for (uint x = walk.x0; x < walk.x_end; x += 4) {
+      const mask_t covered = walk_to(&walk, x, y);
+      Real3 color = real3(REAL(background.x), REAL(background.y), REAL(background.z));
+      if (any_lane(covered)) {
+        const Attributes* a = block_attributes(&walk, covered, x, y);
+        Surface s = {0};
+        add_materials(&s, a, &scene, covered);
+        const real depth = block_depths(&walk, depths, x, y);
+        const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
+        const Real3 shown = radiance_of_sums(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
+                                             depth, covered, sums, of, &lights, view);
+        color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
+      }
+      store_block(image, color, REAL(1.0f), x, y, width, height);
+    }
+  }
+}

@@ -1,0 +1,44 @@
+// The normal of every pixel of a visibility buffer, for the light buffer of light_prepass, for CPUs: a
+// work-item takes a tile, block after block of 4 x 4 pixels.
+//
+// triangles   a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE
+// RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; no lights are read
+// normals     out: a pixel each (shared/stored_normal.h)
+// -DTILE      pixels a side, a multiple of 8 (default 16)
+// -DNORMALS_…, and what kernels/resolve/resolve.h names
+#define FUSED  // shared/real.h
+#define LANES 16
+#include "kernels/resolve/resolve_block.h"
+#include "kernels/resolve/resolve_light.h"
+#include "kernels/resolve/stored_normals.h"
+
+static inline void store_normals(global normal_t* to, Real3 n, uint x, uint y, uint width, uint height) {
+#ifdef NORMAL_CHANNEL_STEPS
+  const uint16 packed = packed_normal(n);
+  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
+  for (uint line = 0; line < lines; ++line) {
+    for (uint i = 0; i < columns; ++i)
+      to[(size_t)(y + line) * width + x + i] = ((const uint*)&packed)[4 * line + i];
+  }
+#else
+  store_block((global float*)to, n, REAL(0.0f), x, y, width, height);
+#endif
+}
+
+kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS, global normal_t* normals) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const ResolveScene scene = RESOLVE_SCENE;
+  BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
+  for (uint y = walk.y0; y < walk.y_end; y += 4) {
+    for (uint x = walk.x0; x < walk.x_end; x += 4) {
+      const mask_t covered = walk_to(&walk, x, y);
+      const Attributes* a = block_attributes(&walk, covered, x, y);
+      Surface s = {0};
+      add_materials(&s, a, &scene, covered);
+      const Real3 n = shading_normal(a, &s);
+      const real none = 0.0f;
+      store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
+                    y, width, height);
+    }
+  }
+}

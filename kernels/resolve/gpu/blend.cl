@@ -1,0 +1,37 @@
+// Blended surfaces laid over an image in drawing order, for GPUs: a work-item a pixel, record after record of
+// its tile. As resolve/cpu/blend.cl, with the same arguments.
+#define FUSED  // shared/real.h
+#define LANES 1
+#include "kernels/raster/raster_blocks.h"
+#include "kernels/resolve/resolve_light.h"
+#include "shared/light_grid.h"
+
+kernel void blend(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
+                  uint tiles_x, global const float* depths, RESOLVE_ARGUMENTS, global float* image) {
+  const uint x = get_global_id(0), y = get_global_id(1);
+  if (x >= view->width || y >= view->height) return;
+  const uint number = y / RASTER_TILE * tiles_x + x / RASTER_TILE;
+  const int tile_x = (int)(x / RASTER_TILE * RASTER_TILE), tile_y = (int)(y / RASTER_TILE * RASTER_TILE);
+  const int dx = (int)(x & 3u), dy = (int)(y & 3u), bx = (int)x - tile_x - dx, by = (int)y - tile_y - dy;
+  const size_t at = (size_t)y * view->width + x;
+  const float opaque = depths[at];
+  const ResolveScene scene = RESOLVE_SCENE;
+  ResolveLights lights = RESOLVE_LIGHTS;
+  take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
+  float4 under = ((global const float4*)image)[at];
+  for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
+    const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);
+    if (!covered_pixels(&r, bx, by, dx, dy)) continue;
+    const float depth = depth_at(&r, bx, by, (float)dx, (float)dy);
+    if (!(depth >= opaque && depth >= FLT_MIN)) continue;
+    Attributes a = {0};
+    Surface s = {0};
+    add_triangle(&a, &scene, r.triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)dx, (float)dy);
+    add_material(&s, &a, &scene, (uint)a.material, 1);
+    if (s.alpha == 0.0f) continue;  // shows nothing
+    const Real3 color =
+        radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depth, 1, &lights, bin_edges, view);
+    under = blended((float4)(color.x, color.y, color.z, 1.0f), s.alpha, under);
+  }
+  ((global float4*)image)[at] = under;
+}

@@ -1,0 +1,45 @@
+// Point and spot lights added to the image of every tile from its light list, for GPUs: a work-item a pixel.
+// As resolve/cpu/shade_tiles.cl, with the same arguments.
+#define LANES 1
+#include "kernels/resolve/shade_pixels.h"
+#include "shared/light_grid.h"
+
+kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
+                        global const channel_t* coats, global const channel_t* specular,
+                        global const MaterialModelRecord* models,
+                        global const float* depth, global const float4* positions,
+                        global const float4* colors, global const float4* cones, global const uint2* cells,
+                        global const index_t* indices, global const uint* light_bins,
+                        constant float* bin_edges, global float* image, float4 background,
+                        constant ViewParams* view) {
+  const uint x = get_global_id(0), y = get_global_id(1);
+  if (x >= view->width || y >= view->height) return;
+  const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
+  const size_t at = (size_t)y * view->width + x;
+  const Texels normal = load_texel(first + 4 * at), color = load_texel(second + 4 * at);
+  const bool lit = depth[at] > 0.0f && color.w > 0.0f;
+  Real3 sum = real3(background.x, background.y, background.z);
+  if (lit) {
+    const Lights lights = {positions, colors, cones, light_bins};
+    const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
+    const Real3 to_viewer = direction_to_viewer(position);
+    ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef SPECULAR
+    p = specular_point(p, normal, color, load_texel(specular + 4 * at));
+#endif
+#ifdef MODELS
+    p = modelled_point(p, to_viewer, number_of_texel(color), models);
+#endif
+#ifdef CLEARCOAT
+    p = coated_point(p, load_texel(coats + 4 * at));
+#endif
+    sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights,
+                    view);
+  }
+#ifdef BASE_LIGHTING
+  const float4 under = ((global const float4*)image)[at];
+#else
+  const float4 under = (float4)(0.0f, 0.0f, 0.0f, 1.0f);
+#endif
+  ((global float4*)image)[at] = under + (float4)(sum.x, sum.y, sum.z, 0.0f);
+}

@@ -1,0 +1,295 @@
+// Radiance of resolved surfaces: what they show of themselves, directional lights, then point and spot
+// lights, in the order of forward's shader (shaders/forward.frag).
+//
+// -DDIRECTIONAL  there are directional lights
+// -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
+// -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
+//                  (kernels/voxels/voxel_lookup.h), not from lists
+// -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only
+//                the rest comes from the volume
+// -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
+// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR, -DSKIN, -DMINNAERT
+//                as kernels/resolve/shade_pixels.h says
+#pragma once
+
+#include "kernels/resolve/resolve.h"
+#include "kernels/resolve/shade_pixels.h"
+#include "shared/light_grid.h"
+#ifdef LIGHTS_VOXELS
+#include "kernels/voxels/voxel_lookup.h"
+#ifdef VOXEL_EXACT
+#include "shared/voxel_exact.h"
+#endif
+#define VOXEL_ARGUMENTS                                                               \
+  , global const stored_voxel_t *irradiance, global const stored_voxel_t *directions, \
+      constant VoxelLookup *voxels
+#define GIVEN_VOXELS , irradiance, directions, voxels
+#else
+#define VOXEL_ARGUMENTS
+#define GIVEN_VOXELS
+#endif
+#ifdef WORLD_GRID
+#include "shared/world_grid.h"
+#endif
+
+// What all kernels that resolve triangles take, and the same as members of ResolveScene and ResolveLights.
+// What a triangle number leads to (raster/rasterizer.h); surfaces, vertices and materials
+// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/punctual_light.h),
+// directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
+// pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light, and the depth
+// keys between them; with -DSLICES the depth keys between slices; with -DWORLD_GRID the world
+// grid's own (shared/world_grid.h).
+#ifdef WORLD_GRID
+#define WORLD_ARGUMENTS                                                                                \
+  , global const uint *world_buckets, global const uint2 *world_keys, constant WorldGridParams *world, \
+      constant WorldViewParams *world_view
+#define RESOLVE_WORLD , {world_buckets, world_keys, cells}, world, world_view
+#else
+#define WORLD_ARGUMENTS
+#define RESOLVE_WORLD
+#endif
+#define RESOLVE_ARGUMENTS                                                                            \
+  global const uint *triangle_instance, global const RasterInstanceRecord *instances,                \
+      global const uint *indices, global const float4 *clip, global const SurfaceInstance *surfaces, \
+      global const SurfaceVertex *vertices, global const SurfaceMaterial *materials,                 \
+      global const ushort *texels_4, global const ushort *texels_8, global const float4 *positions,  \
+      global const float4 *colors, global const float4 *cones, global const float4 *directional,     \
+      global const uint2 *cells, global const index_t *light_indices, global const uint *light_bins, \
+      constant float *bin_edges, constant float *slice_edges,                                        \
+      constant ViewParams *view VOXEL_ARGUMENTS WORLD_ARGUMENTS
+#define RESOLVE_SCENE                                                                               \
+  {                                                                                                 \
+    triangle_instance, instances, surfaces, indices, clip, vertices, materials, texels_4, texels_8, \
+        (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                             \
+  }
+#define RESOLVE_LIGHTS                                                               \
+  {                                                                                  \
+    {positions, colors, cones, light_bins}, directional, light_indices, 0, cells, 0, \
+        slice_edges GIVEN_VOXELS RESOLVE_WORLD                                       \
+  }
+
+typedef struct ResolveLights {
+  Lights lights;
+  global const float4* directional;  // two each: direction to the light, and illuminance
+  global const index_t* list;  // null: all of them
+  uint count;
+  global const uint2* cells;  // with -DSLICES: of all tiles; `list` is then where all lists begin
+  uint cell;                  // the tile's in slice 0
+  constant float* slice_edges;
+#ifdef LIGHTS_VOXELS
+  global const stored_voxel_t *irradiance, *directions;
+  constant VoxelLookup* voxels;
+#endif
+#ifdef WORLD_GRID  // `list` is then where all lists begin
+  WorldLists world_lists;
+  constant WorldGridParams* world;
+  constant WorldViewParams* world_view;
+#endif
+} ResolveLights;
+
+// The list of a tile's cell, or the cells that are one behind the other.
+static inline void take_list(ResolveLights* l, global const index_t* light_indices, global const uint2* cells,
+                             uint cell, constant ViewParams* view) {
+#ifdef WORLD_GRID
+  l->list = light_indices;
+#elif defined(SLICES)
+  l->list = light_indices, l->cell = cell;
+#else
+  l->list = cells ? light_indices + cells[cell].x : 0;
+  l->count = cells ? cells[cell].y : view->light_count;
+#endif
+}
+
+#ifdef SLICES
+// From the nearest slice to the farthest, the list of each for the pixels in it.
+static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth, mask_t lit,
+                                   const ResolveLights* l, constant float* bin_edges,
+                                   constant ViewParams* view) {
+  const real nearest = lit ? -depth : REAL(INFINITY), farthest = lit ? depth : REAL(INFINITY);
+  const uint first = slice_of_key(least_lane(nearest), l->slice_edges);
+  const uint last = slice_of_key(-least_lane(farthest), l->slice_edges);
+  Real3 sum = own;
+  for (uint slice = first; slice <= last; ++slice) {
+    const float begin = slice == 0 ? -INFINITY : l->slice_edges[slice - 1], end = l->slice_edges[slice];
+    const mask_t here = lit & (-depth >= REAL(begin)) & (-depth < REAL(end));
+    if (!any_lane(here)) continue;
+    const uint2 range = l->cells[cell_in_slice(l->cell, slice, view->tiles_x, view->tiles_y)];
+    const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y,
+                                   bins_of_pixels(depth, here, bin_edges), &l->lights);
+    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+  }
+  return sum;
+}
+#endif
+
+#ifdef VOXEL_EXACT
+static inline real importance_at(const ShadingPoint* p, mask_t lit, PunctualLight light) {
+  return lit ? voxel_importance(arrival_at(p->position, light), light) : REAL(0.0f);
+}
+
+// Shades the lights of the list that matter most at each pixel, and takes them out of the rest.
+static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, const ResolveLights* l,
+                                VoxelLight* rest) {
+  real greatest[VOXEL_EXACT];
+  for (uint k = 0; k < VOXEL_EXACT; ++k) greatest[k] = 0.0f;
+  for (uint i = 0; i < l->count; ++i) {
+    const PunctualLight light = light_at(&l->lights, l->list ? l->list[i] : i);
+    if (!any_lane(lit & in_range(p->position, light))) continue;
+    real value = importance_at(p, lit, light);
+    for (uint k = 0; k < VOXEL_EXACT; ++k) {
+      const real larger = lane_max(greatest[k], value);
+      value = lane_min(greatest[k], value);
+      greatest[k] = larger;
+    }
+  }
+  for (uint i = 0; i < l->count; ++i) {
+    const PunctualLight light = light_at(&l->lights, l->list ? l->list[i] : i);
+    if (!any_lane(lit & in_range(p->position, light))) continue;
+    const real value = importance_at(p, lit, light);
+    const mask_t chosen = (value > REAL(0.0f)) & (value >= greatest[VOXEL_EXACT - 1]);
+    if (!any_lane(chosen)) continue;
+    const Real3 own = radiance_from(*p, light);
+    sum = real3(sum.x + (chosen ? own.x : REAL(0.0f)), sum.y + (chosen ? own.y : REAL(0.0f)),
+                sum.z + (chosen ? own.z : REAL(0.0f)));
+    *rest = without_light(*rest, p->position, light, chosen ? REAL(1.0f) : REAL(0.0f), l->voxels);
+  }
+  *rest = at_least_nothing(*rest);
+  return sum;
+}
+#endif
+
+#ifdef WORLD_GRID
+// A cell's list and the lights of every list, merged: the order of the brute-force loop.
+static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t lit, uint2 range,
+                                       const ResolveLights* l) {
+  uint i = range.x, other = l->world->everywhere_first;
+  const uint end = i + range.y, other_end = other + l->world->everywhere_count;
+  while (i < end || other < other_end) {
+    const uint light = i < end ? l->list[i] : UINT_MAX,
+               everywhere = other < other_end ? l->list[other] : UINT_MAX;
+    if (light < everywhere) {
+      ++i;
+    } else {
+      ++other;
+    }
+    sum = with_light(sum, p, lit, min(light, everywhere), &l->lights);
+  }
+  return sum;
+}
+
+#if LANES == 16
+// The pixels' cells one after the other, each with its list. Neighbours are mostly in one cell.
+static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
+  constant WorldGridParams* const world = l->world;
+  const Real3 at = world_position(p->position, l->world_view);
+  const whole x = world_coordinate(at.x, world->least_x, world->most_x);
+  const whole y = world_coordinate(at.y, world->least_y, world->most_y);
+  const whole z = world_coordinate(at.z, world->least_z, world->most_z);
+  whole list = 0, count = 0;
+  uint2 ranges[LANES];
+  uint found = 0;
+  for (uint left = mask_bits(lit); left != 0; ++found) {
+    const uint one = lowest_bit(left);
+    const int cell_x = ((const int*)&x)[one], cell_y = ((const int*)&y)[one], cell_z = ((const int*)&z)[one];
+    const mask_t here = lit & (x == (whole)(cell_x)) & (y == (whole)(cell_y)) & (z == (whole)(cell_z));
+    left &= ~mask_bits(here);
+    ranges[found] = world_range((uint)cell_x, (uint)cell_y, (uint)cell_z, world, &l->world_lists);
+    list = here ? (whole)((int)ranges[found].x) : list, count = here ? (whole)((int)ranges[found].y) : count;
+  }
+  Real3 sum = own;
+  mask_t left = lit;
+  for (uint i = 0; i < found; ++i) {
+    // Small cells without lights of their own share a larger one's list.
+    const mask_t here = left & (list == (whole)((int)ranges[i].x)) & (count == (whole)((int)ranges[i].y));
+    if (!any_lane(here)) continue;
+    left &= ~here;
+    const Real3 with = sum_of_world_lists(own, p, here, ranges[i], l);
+    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+  }
+  return sum;
+}
+#else
+static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
+  constant WorldGridParams* const world = l->world;
+  const Real3 at = world_position(p->position, l->world_view);
+  const uint2 range =
+      world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
+                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
+                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &l->world_lists);
+  return sum_of_world_lists(own, p, lit, range, l);
+}
+#endif
+#endif
+
+static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
+                              constant ViewParams* view) {
+  const Real3 ambient =
+      reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+  Real3 sum = add3(UNDER_COAT(*p, s->emissive), scale3(ambient, s->occlusion));
+#ifdef DIRECTIONAL
+  for (uint i = 0; i < view->directional_count; ++i) {
+    const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
+    const Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
+    sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
+  }
+#endif
+  return sum;
+}
+
+// What a surface shows without point and spot lights.
+static inline Real3 base_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
+                               constant ViewParams* view) {
+  const Real3 own = own_light(p, s, l, view);
+  return real3(s->unlit ? s->base_color.x : own.x, s->unlit ? s->base_color.y : own.y,
+               s->unlit ? s->base_color.z : own.z);
+}
+
+// A blended surface of this alpha over what is behind it, which may be infinite.
+static inline float4 blended(float4 over, float alpha, float4 under) {
+  const float4 most = LARGEST_BLENDED, behind = alpha < 1.0f ? under * (1.0f - alpha) : (float4)(0.0f);
+  return (over > most ? most : over) * alpha + behind;
+}
+
+// x, y: pixel centres. covered: lanes with a surface.
+static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s, real x, real y, real depth,
+                                          mask_t covered, constant ViewParams* view) {
+  const Real3 position = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
+  const Real3 to_viewer = direction_to_viewer(position);
+  ShadingPoint p =
+      shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
+#ifdef SPECULAR
+  p = with_specular(p, s->metallic, s->f0, s->f90);
+#endif
+#ifdef SKIN
+  p = with_skin(p, s->subsurface, s->roll_off);
+#endif
+#ifdef MINNAERT
+  p = with_minnaert(p, to_viewer, s->minnaert_k);
+#endif
+#ifdef CLEARCOAT
+  p = with_coat(p, coat_normal(a, s), s->coat, s->coat_roughness);
+#endif
+  return p;
+}
+
+// The same arguments. lit: lanes with a surface that light reaches.
+static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real y, real depth, mask_t lit,
+                             const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
+  const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
+  Real3 sum = own_light(&p, s, l, view);
+#ifdef LIGHTS_VOXELS
+  VoxelLight of_voxels = voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels);
+#ifdef VOXEL_EXACT
+  sum = exact_light(sum, &p, lit, l, &of_voxels);
+#endif
+  sum = add3(sum, radiance_of_voxels(p, of_voxels));
+#elif defined(WORLD_GRID)
+  sum = light_of_world(sum, &p, lit, l);
+#elif defined(SLICES)
+  sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);
+#else
+  sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);
+#endif
+  return real3(s->unlit ? s->base_color.x : sum.x, s->unlit ? s->base_color.y : sum.y,
+               s->unlit ? s->base_color.z : sum.z);
+}

@@ -1,0 +1,136 @@
+// The light pass in OpenCL: LANES pixels of one cell and the lights of its list.
+//
+// -DINDEX_32  indices are 32 bits, not 16
+// -DBASE_LIGHTING  the image already holds ambient, directional and emitted light; without
+//                  it ambient light is added here
+// -DZ_BINS    lights whose z-bin range misses the pixels are skipped
+// -DSPOTS     some light has a cone
+// -DBLINN     the specular lobe is Blinn-Phong, not GGX
+// -DLAMBERT   there is none: shared/brdf_lambert.h
+// -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
+// -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf_microfacet.h
+// -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
+#pragma once
+
+#include "kernels/resolve/gbuffer.h"
+#include "shared/pixel_position.h"
+#include "shared/punctual_light.h"
+#include "shared/slices.h"
+
+#ifdef INDEX_32
+typedef uint index_t;
+#else
+typedef ushort index_t;
+#endif
+
+// Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
+typedef struct Lights {
+  global const float4 *positions, *colors, *cones;
+  global const uint* bins;
+} Lights;
+
+static inline PunctualLight light_at(const Lights* lights, uint index) {
+  PunctualLight light;
+  light.position = lights->positions[index];
+  light.color = lights->colors[index];
+#ifdef SPOTS
+  light.cone = lights->cones[index];
+#endif
+  return light;
+}
+
+// The z-bins from the nearest to the farthest of those of the pixels that are lit.
+typedef struct PixelBins {
+  uint first, last;
+} PixelBins;
+
+#if LANES == 16
+static inline float least_lane(real v) {
+  const float8 a = fmin(v.lo, v.hi);
+  const float4 b = fmin(a.lo, a.hi);
+  const float2 c = fmin(b.lo, b.hi);
+  return fmin(c.x, c.y);
+}
+#else
+#define least_lane(v) (v)
+#endif
+
+static inline PixelBins bins_of_pixels(real depths, mask_t lit, constant float* edges) {
+  PixelBins bins = {0, 0};
+#ifdef Z_BINS
+  const real nearest = lit ? -depths : REAL(INFINITY), farthest = lit ? depths : REAL(INFINITY);
+  bins.first = z_bin_of_key(least_lane(nearest), edges);
+  bins.last = z_bin_of_key(-least_lane(farthest), edges);
+#endif
+  return bins;
+}
+
+// Whether positions lie within the light's radius.
+static inline mask_t in_range(Real3 position, PunctualLight light) {
+  const Real3 d = offset_to_light(position, light);
+  return dot3(d, d) * light.position.w < REAL(1.0f);
+}
+
+// A light that reaches none of the lit pixels, or that none of them faces, would add exact zeros. Few of a
+// list's lights reach a given block of pixels, so the cheaper test comes first.
+static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index,
+                               const Lights* lights) {
+  const PunctualLight light = light_at(lights, index);
+  if (!any_lane(lit & in_range(p->position, light))) return sum;
+  const Arrival arrival = arrival_at(p->position, light);
+#ifdef SKIN
+  mask_t facing = dot3(p->normal, arrival.to_light) > -p->roll_off;
+#else
+  mask_t facing = dot3(p->normal, arrival.to_light) > REAL(0.0f);
+#endif
+#ifdef CLEARCOAT
+  facing |= dot3(p->coat_normal, arrival.to_light) > REAL(0.0f);
+#endif
+  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
+  return any_lane(lit & reached) ? add3(sum, radiance_of(*p, arrival, light)) : sum;
+}
+
+// In the order of the list: the sum of the GL loop. A list that is null has the first `count` lights.
+#if defined(Z_BINS) && LANES == 16
+#define STRETCH 64u
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
+                                uint count, PixelBins bins, const Lights* lights) {
+  uint met[STRETCH];
+  for (uint begin = 0; begin < count; begin += STRETCH) {
+    const uint end = min(begin + STRETCH, count);
+    uint n = 0;
+    // A loop of its own, without a branch: a branch inside the sum would cost more
+    // than the lights that it skips.
+    for (uint i = begin; i < end; ++i) {
+      const uint index = list ? list[i] : i;
+      met[n] = index;
+      n += !list || bins_meet(lights->bins[index], bins.first, bins.last) ? 1 : 0;
+    }
+    for (uint i = 0; i < n; ++i) sum = with_light(sum, p, lit, met[i], lights);
+  }
+  return sum;
+}
+#else
+static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
+                                uint count, PixelBins bins, const Lights* lights) {
+  for (uint i = 0; i < count; ++i) {
+    const uint index = list ? list[i] : i;
+#ifdef Z_BINS
+    if (list && !bins_meet(lights->bins[index], bins.first, bins.last)) continue;
+#endif
+    sum = with_light(sum, p, lit, index, lights);
+  }
+  return sum;
+}
+#endif
+
+static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
+                              PixelBins bins, const Lights* lights, constant ViewParams* view) {
+#ifdef BASE_LIGHTING
+  const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#else
+  const Real3 own =
+      reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+#endif
+  return sum_of_list(own, p, lit, list, count, bins, lights);
+}
