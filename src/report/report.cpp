@@ -31,6 +31,7 @@ CompareReport without_images(const CompareReport& report) {
   rest.reference_surfaces = report.reference_surfaces;
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
+  rest.exposure = report.exposure;
   return rest;
 }
 

@@ -119,6 +119,9 @@ struct RunResult {
   std::optional<MovingResult> moving;  // absent without a camera path
 };
 
+// {"ev", "auto"}
+nlohmann::json exposure_json(const Exposure& exposure);
+
 // Settings by the keys of results.json, numbers as numbers.
 nlohmann::json settings_json(const std::map<std::string, std::string>& settings);
 
@@ -152,6 +155,7 @@ struct CompareReport {
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
   std::optional<PathMemory> path_memory;  // absent without a camera path
+  Exposure exposure;                      // of every picture of this view
 };
 
 // The row that is the reference, possibly refused; null if there is none.

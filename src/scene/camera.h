@@ -37,8 +37,8 @@ glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_objec
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
 
 // NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg,near:m" (fov vertical, default 60; near by default a thousandth
-// of the scene's size, and at most 0.1 m). Empty: the scene's first camera, or, without one, a camera that shows
-// the whole scene in an image of this aspect (scene/overview_camera.h). Far is infinite unless the scene's camera
+// of the scene's size, and at most 0.1 m). Empty: the scene's first camera, or, without one, an eye in its room,
+// or a camera that shows the whole scene in an image of this aspect (scene/overview_camera.h). Far is infinite unless the scene's camera
 // has one. Throws Error(input) for an unknown name or form, an invalid number, a field outside 0..180 degrees, a
 // near that is not above 0, and a target at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish, double aspect = 1);
