@@ -143,7 +143,6 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   EXPECT_EQ(all.size(), std::size(cull_tests));
   const Naming expected = {
       {"src/shared/cull_settings.h", all},
-      {"kernels/culling/light_cell_tests.h", {"exact", "planes", "sphere"}},
       // The default.
       {"src/culling/light_culler.h", {"planes_aabb"}},
       {"src/plan/settings.h", {"planes_aabb"}},
@@ -158,7 +157,11 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
       {"src/verify/depth_bounds.cpp", {"exact"}},
       {"src/verify/lists.cpp", {"exact"}},
   };
-  EXPECT_THAT(differences(files_that_name({"src", "kernels"}, texts), expected), IsEmpty());
+  Naming found = files_that_name({"src", "kernels"}, texts);
+  const std::string text = "kernels/culling/light_cell_tests.h";
+  EXPECT_THAT(found[text], testing::IsSupersetOf({"exact", "planes", "sphere"}));
+  found.erase(text);  // any test may have a text of its own there
+  EXPECT_THAT(differences(found, expected), IsEmpty());
 }
 
 // Its field, and its function with its row in error_measures.cpp.
