@@ -1,4 +1,4 @@
-#include "verify/hunt_contacts.h"
+#include "verify/hunt_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "renderer/culler_input.h"
-#include "verify/hunt_depth.h"
-#include "verify/views.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -141,7 +141,6 @@ void covers_once(Check& c, const RasterInput& input) {
   c.that(std::ranges::count(claims, 1) == std::ptrdiff_t(claims.size()),
          "a pixel belongs to no triangle or to two");
 }
-
 void shared_edges(Check& c) { covers_once(c, raster_sheet(23, false)); }
 void on_pixel_centres(Check& c) { covers_once(c, raster_sheet(23, true)); }
 
@@ -160,7 +159,6 @@ void fan(Check& c, double radius) {
   const std::optional<RasterImage> image = raster(c, input);
   if (image) c.that(std::ranges::count(image->triangles, no_triangle) == 0, "a hole");
 }
-
 void fan_of_slivers(Check& c) { fan(c, 300); }
 
 // Random triangles within `reach` metres of the eye, on all sides.
@@ -181,7 +179,6 @@ void around_the_eye(Check& c, int count, float reach, bool whole_numbers) {
   }
   raster(c, input);
 }
-
 void behind_the_eye(Check& c) { around_the_eye(c, 200, 5, false); }
 void at_w_zero(Check& c) { around_the_eye(c, 200, 1, true); }
 
@@ -298,32 +295,9 @@ void more_than_expected(Check& c) {
 
 }  // namespace
 
-std::vector<HardCase> raster_cases() {
-  constexpr const char* group = "raster";
-  return {
-      CASE(shared_edges, "a sheet of 1058 triangles over the whole image",
-           "edges that belong to both sides or to none",
-           "no hole; each pixel belongs to one triangle, the oracle's"),
-      CASE(on_pixel_centres, "the same with every vertex on a pixel's centre",
-           "ties: ≥ doubles them, > drops them", "no hole; each pixel belongs to one triangle, the oracle's"),
-      CASE(fan_of_slivers, "a thousand slivers around a pixel's centre",
-           "edges in float, boxes rounded inwards", "no hole; every pixel as the oracle"),
-      CASE(behind_the_eye, "200 triangles around the eye, most of them across the near plane",
-           "division by a negative w", "every pixel as the oracle"),
-      CASE(at_w_zero, "vertices on the eye and on its plane", "division by 0", "every pixel as the oracle"),
-      CASE(huge_and_tiny, "triangles of 10⁻³ to 10⁷ pixels; fans of slivers of 10⁴ and 10⁶",
-           "edges overflow in 32 bits, or are rounded in float", "every pixel as the oracle"),
-      CASE(not_finite, "corners at NaN, ±∞ and the largest floats",
-           "NaN passes or fails each comparison by its form", "left out and counted, others unharmed"),
-      CASE(equal_depths, "the same triangles three times", "the winner depends on threads or on sorting",
-           "the last one drawn is shown"),
-      CASE(mirrored_and_two_sided, "instances scaled by negative numbers", "front and back change places",
-           "every pixel as the oracle"),
-      CASE(awkward_sizes, "1 × 1, 17 × 9, 1 × 200, 65 × 63, 1279 × 721 pixels",
-           "the last tile is cut or read past", "every pixel as the oracle"),
-      CASE(more_than_expected, "20,000 triangles after 3", "a fixed capacity drops some",
-           "every pixel as the oracle"),
-  };
+std::vector<CaseRun> raster_cases() {
+  return CASES(shared_edges, on_pixel_centres, fan_of_slivers, behind_the_eye, at_w_zero, huge_and_tiny,
+               not_finite, equal_depths, mirrored_and_two_sided, awkward_sizes, more_than_expected);
 }
 
 }  // namespace lightgrid::verify

@@ -22,7 +22,8 @@ struct Lens {
 };
 CullView view_through(const Lens& lens, int width, int height);
 CullView field_of_view(double fov_y_deg, int width, int height);
-const CullView& sixty();  // degrees; 127 x 73
+const CullView& sixty();        // degrees; 127 x 73
+const CullView& small_sixty();  // 64 x 48
 
 // The same view for the oracle (reference/position.h), which reads size, matrices and kind of projection.
 View oracle_view(const CullView& view);
