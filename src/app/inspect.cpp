@@ -15,7 +15,6 @@
 #include "base/write_file.h"
 #include "capture/capture.h"
 #include "inspect/inspect.h"
-#include "inspect/inspect_maps.h"
 #include "capture/list_accuracy.h"
 
 namespace lightgrid {

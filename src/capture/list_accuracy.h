@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plan/settings.h"
-#include "reference/lit_blocks.h"
+#include "reference/lit_set.h"
 #include "capture/frame_file.h"
 
 namespace lightgrid {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reference/grid_cell.h"
+#include "reference/cell.h"
 #include "verify/engine.h"
 
 namespace lightgrid::verify {

@@ -10,7 +10,7 @@
 #include "capture/captured_frame.h"
 #include "capture/frame_lists.h"
 #include "compare/oracle.h"
-#include "inspect/inspect_maps.h"
+#include "inspect/inspect.h"
 #include "reference/position.h"
 #include "support/render.h"
 #include "support/small_scene.h"

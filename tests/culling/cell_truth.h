@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "culling/culled_grid.h"
-#include "reference/grid_cell.h"
+#include "reference/cell.h"
 #include "reference/position.h"
 
 namespace lightgrid {
@@ -92,7 +92,7 @@ inline void expect_little_more(const View& view, const std::vector<ViewLight>& l
       const double per_metre = 8 * ulp_of_one * (c.orthographic ? 1 : 1 + steepest);
       const double margin = per_metre * (c.orthographic ? sum + steepest : sum);
       EXPECT_LE(outside_of_sides(c, p), r + margin) << "cell " << i << " light " << light;
-      EXPECT_LE(distance_to_box_of(c, p), r + margin + per_metre * (c.far < 1e17 ? std::abs(c.far) : 1e18))
+      EXPECT_LE(box_around(c).distance(p), r + margin + per_metre * (c.far < 1e17 ? std::abs(c.far) : 1e18))
           << "cell " << i << " light " << light;
     }
   }
