@@ -23,8 +23,9 @@ struct TestMargins {
 };
 
 struct LightVerdict {
-  uint32_t index = 0;     // in the lists
-  int light = 0;          // in the frame
+  uint32_t index = 0;  // in the lists
+  int light = 0;       // in the frame
+  double radius_m = 0;
   double distance_m = 0;  // from the pixel's surface
   bool listed = false;
   std::string test;     // among the tests in use: the one that dropped it, or the one with the least margin
