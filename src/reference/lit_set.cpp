@@ -1,5 +1,7 @@
 #include "reference/lit_set.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <map>
@@ -173,6 +175,26 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
     out.listed += tally.listed, out.lit += tally.lit, out.lost += tally.lost, out.wrong += tally.wrong;
   });
   return out;
+}
+
+std::string malformed_lists(std::span<const glm::uvec2> lists, std::span<const uint32_t> indices,
+                            size_t lights) {
+  std::vector<uint32_t> order;  // by position in the array
+  for (uint32_t i = 0; i < lists.size(); ++i) {
+    if (lists[i].y) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return lists[a].x < lists[b].x; });
+  uint64_t next = 0;
+  for (const uint32_t i : order) {
+    if (lists[i].x != next) return fmt::format("list {} begins at {}, not at {}", i, lists[i].x, next);
+    next += lists[i].y;
+    if (next > indices.size()) return fmt::format("list {} ends past the indices", i);
+    const auto list = indices.subspan(lists[i].x, lists[i].y);
+    if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) != list.end())
+      return fmt::format("list {} is not sorted", i);
+    if (list.back() >= lights) return fmt::format("list {} has light {}", i, list.back());
+  }
+  return next == indices.size() ? "" : "indices that belong to no list";
 }
 
 LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "scene/listed_lights.h"
@@ -31,6 +33,11 @@ struct LitPairs {
 // is decided by is_lit on positions in double. 1280 x 720 with 1024 lights takes about a second on two cores.
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
                      const ListedLights& lists);
+
+// Empty, or a fault of lists (first and count of each) in one array of indices: they must be adjacent without
+// gap or overlap, in any order, each sorted without repetition, and contain valid lights.
+std::string malformed_lists(std::span<const glm::uvec2> lists, std::span<const uint32_t> indices,
+                            size_t lights);
 
 // The lit set of an image, by blocks of pixels. The oracle runs once; the lists of many settings are then
 // compared with its result.

@@ -2,31 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/position.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 #include "verify/check.h"
-#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 namespace {
 
-// A light of almost no size at each pixel's centre: the cell that shading finds for the pixel must list it.
 void pixel_finds_its_tile(Check& c) {
-  const View v = oracle_view(sixty());
-  std::vector<CullLight> lights;
-  for (int y = 0; y < 73; ++y)
-    for (int x = 0; x < 127; ++x)
-      lights.push_back(point({view_x_of_pixel(v, x + 0.5) * 5, view_y_of_pixel(v, y + 0.5) * 5, -5}, 1e-6));
-  for (const CullerOptions& options : every_tile()) {
-    const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{5, 5}}, options);
-    for (uint y = 0; y < 73; ++y) {
-      for (uint x = 0; x < 127; ++x) {
-        if (!c.tile_lists(grid, options.tile, x, y, y * 127 + x))
-          c.lost("tile {}: pixel {} {}", options.tile, x, y);
-      }
-    }
-  }
+  for (const CullerOptions& options : every_tile()) c.pixels_find_tiny_lights(sixty(), options);
 }
 
 void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const char* what) {
@@ -264,8 +248,7 @@ void slices_make_the_whole(Check& c) {
 
 void slices_and_bounds(Check& c) {
   const CullView view = sliced(sixty(), 24);
-  const OverTiles tiles = scattered_over_tiles(view, 200, true, 58);
-  c.grid(view, tiles.lights, tiles.bounds);
+  c.grid(view, scattered_over_tiles(view, 200, true, 58));
   const OverDepth surfaces = scattered_over_depth(view, 200, true, 59);
   c.pixels(view, surfaces.lights, surfaces.depth, every_test());
 }

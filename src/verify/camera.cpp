@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "reference/position.h"
 #include "shared/light_grid.h"
 #include "verify/check.h"
-#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -49,23 +47,10 @@ void beside_the_axis(Check& c) {
         c, view_through({.half_x = 0.5, .half_y = 0.3, .shift_x = shift, .shift_y = shift}, 127, 73));
 }
 
-// A tiny light at each pixel's own position: the tile that shading finds for the pixel must list it.
 void pixels_in_their_tiles(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
-    const View v = oracle_view(named.view);
-    std::vector<CullLight> lights;
-    for (int y = 0; y < 73; ++y)
-      for (int x = 0; x < 127; ++x) lights.push_back(point(position_at(v, x, y, 5), 1e-6));
-    move_to_world(named.view, lights);
-    for (const CullTest test : {CullTest::planes, CullTest::exact}) {
-      const CullerOptions options{.cull_test = test};
-      const HostGrid grid = c.grid_of_known_answer(named.view, lights, {{5, 5}}, options);
-      for (uint i = 0; i < lights.size(); ++i) {
-        if (!c.tile_lists(grid, 16, i % 127, i / 127, i))
-          c.lost("{}: {}: pixel {} {} is not in its tile", named.name, to_string(options), i % 127, i / 127);
-      }
-      c.contacts(test == CullTest::planes ? lights.size() : 0);
-    }
+    c.contacts(c.pixels_find_tiny_lights(named.view, {.cull_test = CullTest::planes}));
+    c.pixels_find_tiny_lights(named.view, {.cull_test = CullTest::exact});
   }
 }
 
@@ -314,12 +299,7 @@ void other_projections(Check& c) {
       }
     }
     try {
-      const HostGrid grid = c.engine.cull_depth({}, view, lights, depth);
-      for (uint i = 0; i < lights.size(); ++i) {
-        if (!c.tile_lists(grid, 16, i % view.width, i / view.width, i))
-          c.lost("{}: accepted, and pixel {} {} loses its light", change.name, i % view.width,
-                 i / view.width);
-      }
+      c.pixels_find_lights(c.engine.cull_depth({}, view, lights, depth), view, 16, change.name);
     } catch (const Error& error) {
       c.that(error.kind() == ErrorKind::input, "{}: {}", change.name, error.what());
     }

@@ -5,11 +5,11 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "reference/lit_set.h"
 #include "reference/position.h"
 #include "shared/cull_settings.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
-#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -94,26 +94,9 @@ std::optional<LostFrom> ListFinder::lost_from(uint x, uint y, float depth, uint3
 }
 
 std::string malformed(const HostGrid& grid, size_t lights) {
-  const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  if (grid.cells.size() != cells) return "not one first and count a cell";
-  std::vector<uint32_t> order;  // by position in the index list, whose order is private to the kernels
-  for (uint32_t i = 0; i < cells; ++i) {
-    if (grid.cells[i].y) order.push_back(i);
-  }
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return grid.cells[a].x < grid.cells[b].x; });
-  uint64_t next = 0;
-  for (const uint32_t i : order) {
-    if (grid.cells[i].x != next)
-      return fmt::format("cell {} begins at {}, not at {}", i, grid.cells[i].x, next);
-    next += grid.cells[i].y;
-    if (next > grid.indices.size()) return fmt::format("cell {} ends past the index list", i);
-    const auto list = list_of(grid, i);
-    if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) != list.end())
-      return fmt::format("the list of cell {} is not sorted", i);
-    if (list.back() >= lights) return fmt::format("cell {} lists light {}", i, list.back());
-  }
-  return next == grid.indices.size() ? "" : "indices that belong to no cell";
+  if (grid.cells.size() != size_t(grid.cells_x) * grid.cells_y * grid.slices)
+    return "not one first and count a cell";
+  return malformed_lists(grid.cells, grid.indices, lights);
 }
 
 void Check::fail(const std::string& why) {
@@ -189,10 +172,25 @@ void Check::each_cell_lists(const HostGrid& grid, uint32_t lights, const char* w
     that(grid.cells[i].y == lights, "cell {} has {} of {} {}", i, grid.cells[i].y, lights, what);
 }
 
-bool Check::tile_lists(const HostGrid& grid, int tile, uint x, uint y, uint32_t light) {
-  trials(1);
-  const auto list = list_of(grid, cell_of_pixel(x, y, uint(tile), uint(grid.cells_x)));
-  return std::binary_search(list.begin(), list.end(), light);
+void Check::pixels_find_lights(const HostGrid& grid, const CullView& view, int tile,
+                               const std::string& what) {
+  for (uint i = 0; i < uint(view.width * view.height); ++i) {
+    const uint x = i % uint(view.width), y = i / uint(view.width);
+    const auto list = list_of(grid, cell_of_pixel(x, y, uint(tile), uint(grid.cells_x)));
+    trials(1);
+    if (!std::binary_search(list.begin(), list.end(), i)) lost("{}: pixel {} {} loses its light", what, x, y);
+  }
+}
+
+size_t Check::pixels_find_tiny_lights(const CullView& view, const CullerOptions& options) {
+  const View v = oracle_view(view);
+  std::vector<CullLight> lights;
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) lights.push_back(point(position_at(v, x, y, 5), 1e-6));
+  move_to_world(view, lights);
+  pixels_find_lights(grid_of_known_answer(view, lights, {{5, 5}}, options), view, options.tile,
+                     to_string(options));
+  return lights.size();
 }
 
 void Check::hold_between(const CullView& view, std::span<const OracleLight> lights,

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/views.h"
+#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 
@@ -85,6 +85,7 @@ class Check {
                 std::vector<DepthInterval> bounds) {
     return grid(view, lights, std::move(bounds), every_test());
   }
+  HostGrid grid(const CullView& view, const OverTiles& over) { return grid(view, over.lights, over.bounds); }
 
   // The same without the oracle: for sizes at which it would take minutes, with a known answer.
   HostGrid grid_of_known_answer(const CullView& view, const std::vector<CullLight>& lights,
@@ -109,8 +110,10 @@ class Check {
 
   // Each cell lists so many lights.
   void each_cell_lists(const HostGrid& grid, uint32_t lights, const char* what = "lights");
-  // The grid's cell lists the light, which certainly lights the pixel (pixel_x, pixel_y).
-  bool tile_lists(const HostGrid& grid, int tile, uint pixel_x, uint pixel_y, uint32_t light);
+  // Light i is at pixel i, y * width + x: the tile that shading finds for the pixel lists it.
+  void pixels_find_lights(const HostGrid& grid, const CullView& view, int tile, const std::string& what);
+  // The same with tiny lights 5 m away. Returns their number.
+  size_t pixels_find_tiny_lights(const CullView& view, const CullerOptions& options);
 
   // Any other condition: one trial.
   template <typename... Args>

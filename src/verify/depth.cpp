@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "verify/check.h"
-#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "verify/check.h"
-#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 namespace {

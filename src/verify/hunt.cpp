@@ -102,7 +102,7 @@ FrameGrid grid_of(const HuntSetting& setting, const HuntView& h, const ShrunkLos
   return {loss.grid, o.tile, h.view.slice_edges, h.view.z_bin_edges, to_strings(s)};
 }
 
-// What a replay of the frame does not see.
+// Names the parts of the view that a replay of the frame does not see.
 std::string words_of_absent(const HuntView& h) {
   std::string words;
   if (h.blended) words += "the frame lacks the blended surface that the depth is of\n";

@@ -1,5 +1,5 @@
-// What the hunt (hunt.h) draws from: random settings; random views of every class that docs/hard_cases.md
-// covers, with surfaces; lights that barely reach one pixel's own position.
+// The space that the hunt (hunt.h) draws from: random settings; random views of every class that
+// docs/hard_cases.md covers, with surfaces; lights that barely reach one pixel's own position.
 #pragma once
 
 #include <cmath>

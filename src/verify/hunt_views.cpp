@@ -24,15 +24,15 @@ void choose_from_few(HuntSetting& s, Random& random) {
   }
 }
 
-// Of a block of pixels. Two distances, metres along the view axis; a pixel has one of them, or a distance
-// between.
+// A block of pixels has two distances, metres along the view axis; a pixel is at one of them, or between.
 struct Block {
   enum { flat, layers, rough, edge, none } kind = flat;
   double a = 0, b = 0;
   float value = 0, other = 0;  // stored, of kind edge
 };
 
-// Of the image at a point, pixels: depth = tilt + b / d - a. 0 unless the near plane is oblique.
+// The tilt of depth at a point of the image, pixels: depth = tilt + b / d - a. 0 unless the near plane is
+// oblique.
 double tilt_at(const HuntView& h, double px, double py) {
   const glm::dmat4& clip = h.view.clip_from_view;
   if (clip[0][2] == 0 && clip[1][2] == 0) return 0;
@@ -84,28 +84,21 @@ Block random_block(const HuntView& h, Random& random) {
 }
 
 float value_in(const Block& block, const HuntView& h, double tilt, Random& random) {
-  switch (block.kind) {
-    case Block::none:
-      return depth_of_nothing(h.view);
-    case Block::flat:
-      return stored_depth(h, block.a, tilt);
-    case Block::layers:
-      return stored_depth(h, chance(random, 0.5) ? block.a : block.b, tilt);
-    case Block::rough:
-      return stored_depth(h, between(random, block.a, block.b), tilt);
-    default:
-      return chance(random, 0.5) ? block.value : block.other;
-  }
+  if (block.kind == Block::none) return depth_of_nothing(h.view);
+  if (block.kind == Block::edge) return chance(random, 0.5) ? block.value : block.other;
+  const double distance = block.kind == Block::flat    ? block.a
+                          : block.kind == Block::rough ? between(random, block.a, block.b)
+                          : chance(random, 0.5)        ? block.a
+                                                       : block.b;
+  return stored_depth(h, distance, tilt);
 }
 
 using std::numbers::pi;
 constexpr double steepest_half = 1145.9;    // tan(179.9 / 2 degrees)
 constexpr double gentlest_half = 0.000873;  // tan(0.1 / 2 degrees)
 
-struct Size {
-  int width, height;
-};
-constexpr Size sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515}, {128, 128}, {17, 1031}, {480, 272}};
+constexpr glm::ivec2 sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515},
+                                {128, 128}, {17, 1031}, {480, 272}};
 
 // The parameters of a view; each class sets its own.
 struct Plan {
@@ -137,50 +130,30 @@ Plan mixed_plan(Random& random) {
 }
 
 Plan plan_of(HuntClass hunted, Random& random) {
-  if (hunted == HuntClass::mixed) return mixed_plan(random);
+  using enum HuntClass;
+  if (hunted == mixed) return mixed_plan(random);
   Plan p;
   p.half = half_of(5, 150, random);
   p.placed = chance(random, 0.5), p.eye_m = log_between(random, 0.1, 1000);
-  const bool any_depth = hunted == HuntClass::d16 || hunted == HuntClass::d24 || hunted == HuntClass::blended;
-  switch (hunted) {
-    case HuntClass::narrow:
-      p.half = half_of(1, 5, random);
-      break;
-    case HuntClass::narrowest:
-      p.half = half_of(0.1, 1, random);
-      break;
-    case HuntClass::wide:
-      p.half = half_of(150, 179.9, random);
-      break;
-    case HuntClass::off_centre:
-      p.half = log_between(random, 0.01, 5);
-      p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
-      break;
-    case HuntClass::turned_far:
-      p.placed = true, p.eye_m = log_between(random, 1e3, 1e15);
-      break;
-    case HuntClass::orthographic:
-      p.orthographic = true;
-      break;
-    case HuntClass::standard:
-      p.standard = true, p.finite = chance(random, 0.5);
-      break;
-    case HuntClass::finite_far:
-      p.finite = true;
-      break;
-    case HuntClass::scaled:
-      p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
-      break;
-    case HuntClass::oblique:
-      p.oblique = true, p.standard = chance(random, 0.5);
-      if (chance(random, 0.3)) p.off = between(random, -2, 2) * p.half;
-      break;
-    case HuntClass::blended:
-      p.blended = true;
-      break;
-    default:
-      break;
+  const bool any_depth = hunted == d16 || hunted == d24 || hunted == blended;
+  if (hunted == narrow) p.half = half_of(1, 5, random);
+  if (hunted == narrowest) p.half = half_of(0.1, 1, random);
+  if (hunted == wide) p.half = half_of(150, 179.9, random);
+  if (hunted == off_centre) {
+    p.half = log_between(random, 0.01, 5);
+    p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
   }
+  if (hunted == turned_far) p.placed = true, p.eye_m = log_between(random, 1e3, 1e15);
+  if (hunted == orthographic) p.orthographic = true;
+  if (hunted == standard) p.standard = true, p.finite = chance(random, 0.5);
+  if (hunted == finite_far) p.finite = true;
+  if (hunted == scaled)
+    p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
+  if (hunted == oblique) {
+    p.oblique = true, p.standard = chance(random, 0.5);
+    if (chance(random, 0.3)) p.off = between(random, -2, 2) * p.half;
+  }
+  if (hunted == blended) p.blended = true;
   if (any_depth) {
     p.standard = chance(random, 0.5), p.finite = chance(random, 0.5);
     p.orthographic = chance(random, 0.25);
@@ -220,8 +193,8 @@ DepthFormat format_of(HuntClass hunted, Random& random) {
   return one_of(random, {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16});
 }
 
-CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
-  const double aspect = double(size.width) / size.height, metres = p.orthographic ? p.unit_m : 1;
+CullView lens_of(const HuntView& h, const Plan& p, const glm::ivec2& size, Random& random) {
+  const double aspect = double(size.x) / size.y, metres = p.orthographic ? p.unit_m : 1;
   Lens lens{.near = h.near, .orthographic = p.orthographic};
   lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect),
   lens.half_y = metres * (aspect >= 1 ? p.half / aspect : p.half);
@@ -231,7 +204,7 @@ CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
   if (p.finite)
     lens.far = p.orthographic ? h.near + (h.far - h.near) * between(random, 1.01, 3)
                               : h.far * log_between(random, 1.001, 100);
-  return view_through(lens, size.width, size.height);
+  return view_through(lens, size.x, size.y);
 }
 
 // Cuts the view at a plane that no image axis is parallel to (Lengyel, "Oblique View Frustum Depth Projection

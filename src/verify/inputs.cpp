@@ -100,7 +100,7 @@ std::vector<CullLight> tangent_lights(const CullView& view, std::span<const Dept
     const size_t i = some_cell(bounds, random);
     const Cell cell = cell_of(view, tile, i, bounds[i], true);
     const glm::dvec3 q = contact_point(cell, contact, random);
-    // From a hundredth of the cell's width to far larger than the cell.
+    // Sizes range from a hundredth of the cell's width to far larger than the cell.
     const double width = std::max((cell.x1 - cell.x0) * cell.scale_at(-q.z), 1e-6 * std::abs(q.z));
     const double size = width * std::exp2(16 * random.uniform() - 7);
     const glm::dvec3 centre = q + size * any_direction(random);

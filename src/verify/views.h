@@ -45,7 +45,7 @@ void move_to_world(const CullView& view, std::vector<CullLight>& lights);  // po
 
 std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights);
 
-// Of the lights' positions, each axis alone; positions that are not finite are left out. World, metres.
+// The median of the lights' positions, each axis alone, without positions that are not finite. World, metres.
 glm::dvec3 median_light(std::span<const CullLight> lights);
 
 // As cell_of_grid.
