@@ -1,4 +1,4 @@
-# The float twin of the culling kernels (src/verify/float_twin.h) compiles the kernels' own headers as C++: once for
+# The float twin of the culling kernels (src/verify/float_twin.cpp) compiles the kernels' own headers as C++: once for
 # each setting that is a macro there. Its sources are excluded from the folder's list and added as objects.
 set(float_twin_sources twin/cells.cpp twin/depth.cpp)
 

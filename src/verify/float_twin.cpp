@@ -1,4 +1,4 @@
-#include "verify/float_twin.h"
+#include "verify/check.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "shared/cull_settings.h"
 #include "shared/light_grid.h"
-#include "verify/check.h"
 #include "verify/twin/twin.h"
 
 namespace lightgrid::verify {

@@ -240,7 +240,6 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       {"src/reference/shading.cpp", {"arrives", "asks"}},
       {"src/reference/light_sums.cpp", {"arrives", "asks"}},
       {"src/reference/lit_set.cpp", {"asks"}},
-      {"src/reference/voxel_sample.cpp", {"asks"}},
   };
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }

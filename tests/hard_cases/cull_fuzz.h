@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "verify/check.h"
-#include "verify/hunt_contacts.h"
+#include "verify/hunt_space.h"
 
 namespace lightgrid::verify {
 

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "verify/check.h"
-#include "verify/float_twin.h"
-#include "verify/tangent_lights.h"
+#include "verify/inputs.h"
 
 namespace lightgrid::verify {
 namespace {

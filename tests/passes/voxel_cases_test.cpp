@@ -6,7 +6,7 @@
 
 #include "passes/build_voxels.h"
 #include "passes/pass_cases.h"
-#include "reference/voxel_sample.h"
+#include "reference/light_sums.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
 

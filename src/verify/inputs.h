@@ -1,10 +1,26 @@
-// Lights tangent to cells: the easiest ones to lose.
+// Inputs of the hard cases: lights, most of them tangent to cells, the easiest ones to lose; depth images and
+// intervals.
 #pragma once
 
 #include "scene/random.h"
 #include "verify/views.h"
 
 namespace lightgrid::verify {
+
+constexpr double sky = no_end;
+
+// distance(x, y) in metres; sky: background.
+template <typename Distance>
+DepthImage depth_of(const CullView& view, const Distance& distance) {
+  DepthImage depth;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const double d = distance(x, y);
+      depth.values.push_back(d == sky ? depth_of_nothing(view) : float(depth_at(view, d)));
+    }
+  }
+  return depth;
+}
 
 enum class Contact { face, edge, corner, any };
 
@@ -18,17 +34,15 @@ std::vector<CullLight> tangent_lights(const CullView& view, std::span<const Dept
 std::vector<CullLight> tangent_spots(const CullView& view, std::span<const DepthInterval> bounds, int tile,
                                      size_t count, Random& random);
 
-// Lights that barely reach one pixel's own surface: by at most `relative` of the radius, down to 2^-10 of
-// that. Pixels are drawn from those within `of` of the image, as fractions of its width and height. In view
-// space; sizes from 2^-12 to 8 times the surface's distance. With `spots`, every second one is a spot whose
-// side passes by the surface.
-struct PixelRange {
-  double x0 = 0, y0 = 0, x1 = 1, y1 = 1;
-};
-// The surface at a pixel (its first sample), in view space; empty if there is none.
-std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y);
+// Lights that barely reach one pixel's own surface: by at most 2^-24 of the radius, down to 2^-10 of
+// that. In view space; sizes from 2^-12 to 8 times the surface's distance. With `spots`, every second one is
+// a spot whose side passes by the surface.
 std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots,
-                                      Random& random, const PixelRange& of = {}, double relative = 0x1p-24);
+                                      Random& random);
+
+// The surface at a pixel, in view space; empty if there is none.
+std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y,
+                                     int sample = 0);
 
 // A light at each pixel that shows a surface, on it, in the pixels' order. Its radius is `share` of the
 // surface's distance, which counts as at least 0.01 m. In view space.
@@ -59,6 +73,7 @@ OverTiles scattered_over_tiles(const CullView& view, size_t count, bool spots,
 OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact, uint64_t seed,
                              int ulps = 0);
 
+void add(std::vector<CullLight>& lights, const std::vector<CullLight>& more);
 CullLight point(const glm::dvec3& position, double radius);
 CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double radius, double outer_deg);
 

@@ -1,11 +1,10 @@
-#include "verify/tangent_lights.h"
+#include "verify/inputs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "reference/position.h"
-#include "verify/views.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -38,6 +37,15 @@ float stepped(float value, int steps) {
   for (; steps > 0; --steps) value = std::nextafter(value, float(no_end));
   for (; steps < 0; ++steps) value = std::nextafter(value, 0.0f);
   return value;
+}
+
+// A spot whose axis is turned by `off` from the direction opposite to `away`, towards any side.
+CullLight spot_past(const glm::dvec3& apex, double radius, const glm::dvec3& away, double off,
+                    double cos_outer, Random& random) {
+  const glm::dvec3 side = glm::normalize(glm::cross(away, any_direction(random)) + 1e-9);
+  const glm::dvec3 across = glm::normalize(side - away * glm::dot(side, away));
+  return {apex, radius, glm::normalize(-away * std::cos(off) + across * std::sin(off)),
+          std::max(0.0, cos_outer)};
 }
 
 size_t some_cell(std::span<const DepthInterval> bounds, Random& random) {
@@ -73,6 +81,10 @@ OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact
   return over;
 }
 
+void add(std::vector<CullLight>& lights, const std::vector<CullLight>& more) {
+  lights.insert(lights.end(), more.begin(), more.end());
+}
+
 CullLight point(const glm::dvec3& position, double radius) {
   return {.position = position, .radius_m = radius};
 }
@@ -88,7 +100,7 @@ std::vector<CullLight> tangent_lights(const CullView& view, std::span<const Dept
     const size_t i = some_cell(bounds, random);
     const Cell cell = cell_of(view, tile, i, bounds[i], true);
     const glm::dvec3 q = contact_point(cell, contact, random);
-    // From a hundredth of the cell's width to far larger than the cell.
+    // Sizes range from a hundredth of the cell's width to far larger than the cell.
     const double width = std::max((cell.x1 - cell.x0) * cell.scale_at(-q.z), 1e-6 * std::abs(q.z));
     const double size = width * std::exp2(16 * random.uniform() - 7);
     const glm::dvec3 centre = q + size * any_direction(random);
@@ -114,19 +126,14 @@ std::vector<CullLight> tangent_spots(const CullView& view, std::span<const Depth
     if (!(distance_to_cell(cell, apex) > 0.01 * size)) continue;
     // The axis is turned away from the contact by the half-angle, so that the cone's side passes through it.
     const double angle = std::exp2(-10 * random.uniform()) * pi / 2;
-    const glm::dvec3 side = glm::normalize(glm::cross(away, any_direction(random)) + 1e-9);
-    const glm::dvec3 across = glm::normalize(side - away * glm::dot(side, away));
-    const glm::dvec3 axis = -away * std::cos(angle) + across * std::sin(angle);
-    CullLight light = point(apex, 4 * size);
-    light.direction = glm::normalize(axis), light.cos_outer = std::max(0.0, std::cos(angle * (1 + 1e-7)));
-    lights.push_back(light);
+    lights.push_back(spot_past(apex, 4 * size, away, angle, std::cos(angle * (1 + 1e-7)), random));
   }
   return lights;
 }
 
-std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y) {
-  const int row = depth.row_pixels ? depth.row_pixels : view.width;
-  const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples;
+std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& depth, int x, int y,
+                                     int sample) {
+  const size_t at = depth.index(view, x, y, sample);
   const float value = depth.values[at];
   if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) return {};
   const View v = oracle_view(view);
@@ -146,18 +153,16 @@ std::vector<CullLight> lights_at_surfaces(const CullView& view, const DepthImage
 }
 
 std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& depth, size_t count, bool spots,
-                                      Random& random, const PixelRange& of, double relative) {
-  const auto pick = [&](double low, double high, int size) {
-    return std::clamp(int((low + (high - low) * random.uniform()) * size), 0, size - 1);
-  };
+                                      Random& random) {
+  const auto pick = [&](int size) { return std::clamp(int(double(random.uniform()) * size), 0, size - 1); };
   std::vector<CullLight> lights;
   for (size_t tries = 0; lights.size() < count && tries < 100 * count; ++tries) {
-    const int x = pick(of.x0, of.x1, view.width), y = pick(of.y0, of.y1, view.height);
+    const int x = pick(view.width), y = pick(view.height);
     const std::optional<glm::dvec3> surface = surface_at(view, depth, x, y);
     if (!surface) continue;
     const glm::dvec3 q = *surface;
     const double size = glm::length(q) * std::exp2(15 * random.uniform() - 12);
-    const double hair = relative * std::exp2(-10 * random.uniform());
+    const double hair = 0x1p-24 * std::exp2(-10 * random.uniform());
     const glm::dvec3 away = any_direction(random), place = q + size * away;
     const double distance = glm::length(place - q);
     if (!(distance > 0)) continue;
@@ -167,12 +172,7 @@ std::vector<CullLight> grazing_lights(const CullView& view, const DepthImage& de
     }
     // The axis deviates from the direction to the surface by slightly less than the half-angle.
     const double angle = std::exp2(-10 * random.uniform()) * pi / 2, off = angle * (1 - hair);
-    const glm::dvec3 side = glm::normalize(glm::cross(away, any_direction(random)) + 1e-9);
-    const glm::dvec3 across = glm::normalize(side - away * glm::dot(side, away));
-    CullLight light = point(place, 4 * distance);
-    light.direction = glm::normalize(-away * std::cos(off) + across * std::sin(off));
-    light.cos_outer = std::max(0.0, std::cos(angle));
-    lights.push_back(light);
+    lights.push_back(spot_past(place, 4 * distance, away, off, std::cos(angle), random));
   }
   return lights;
 }
