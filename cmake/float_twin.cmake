@@ -15,7 +15,7 @@ endfunction()
 
 function(lightgrid_float_twin)
   # One for each row of cull_tests; a new row configures anew.
-  set(table ${PROJECT_SOURCE_DIR}/src/shared/cull_settings.h)
+  set(table ${PROJECT_SOURCE_DIR}/src/shared/cull_tests.h)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
   file(STRINGS ${table} rows REGEX "^    {CullTest::")
   list(LENGTH rows tests)

@@ -10,7 +10,7 @@
 #include "reference/lit_set.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

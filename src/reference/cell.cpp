@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/position.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

@@ -5,6 +5,7 @@
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 #include "verify/check.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 #include "verify/check.h"
 

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "verify/check.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {

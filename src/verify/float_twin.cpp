@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 #include "verify/twin/twin.h"
 

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "reference/position.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 #include "verify/hunt_space.h"
 

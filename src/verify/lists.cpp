@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 
 namespace lightgrid::verify {

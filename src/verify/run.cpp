@@ -15,7 +15,7 @@
 #include "cl/error.h"
 #include "reference/lit_set.h"
 #include "renderer/render_view.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {

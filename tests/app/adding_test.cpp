@@ -8,7 +8,7 @@
 #include <set>
 
 #include "results/error_measures.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "support/paths.h"
 #include "support/read_files.h"
 #include "techniques/technique.h"
@@ -129,7 +129,7 @@ TEST(Adding, ALightSourceTakesItsBuilderAndTheChoiceOfItsLoop) {
 TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   std::map<std::string, std::vector<std::string>> texts;
   std::set<std::string> all;
-  const std::string numbers = text_at("src/shared/cull_settings.h");
+  const std::string numbers = text_at("src/shared/cull_tests.h");
   const std::regex number("#define CULL_(\\w+) \\d");
   for (std::sregex_iterator at(numbers.begin(), numbers.end(), number), end; at != end; ++at) {
     std::string upper = (*at)[1], lower = upper;
@@ -142,10 +142,7 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   }
   EXPECT_EQ(all.size(), std::size(cull_tests));
   const Naming expected = {
-      {"src/shared/cull_settings.h", all},
-      // The default.
-      {"src/culling/light_culler.h", {"planes_aabb"}},
-      {"src/plan/settings.h", {"planes_aabb"}},
+      {"src/shared/cull_tests.h", all},
       // Kernels that compute more, or less, for one test.
       {"kernels/culling/bin_cells.h", {"exact"}},
       {"kernels/culling/bin_tiles.h", {"exact"}},

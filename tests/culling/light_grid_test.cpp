@@ -11,7 +11,7 @@
 #include "reference/lit_set.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 #include "verify/hunt_space.h"
 

@@ -6,6 +6,7 @@
 
 #include "verify/check.h"
 #include "verify/inputs.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {

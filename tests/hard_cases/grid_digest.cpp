@@ -5,6 +5,7 @@
 
 #include "verify/check.h"
 #include "verify/inputs.h"
+#include "shared/cull_tests.h"
 
 using namespace lightgrid;
 using namespace lightgrid::verify;

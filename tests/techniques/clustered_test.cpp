@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "passes/read_outs/cells.h"
+#include "shared/cull_tests.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
