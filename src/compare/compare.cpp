@@ -13,7 +13,7 @@
 #include "compare/oracle_sample.h"
 #include "compare/silhouettes.h"
 #include "compare/surfaces_in_double.h"
-#include "gl/state.h"
+#include "gl/bindings.h"
 #include "reference/position.h"
 #include "results/flip.h"
 #include "results/metrics.h"
@@ -92,7 +92,7 @@ struct ReferenceTriangles {
 
 ReferenceTriangles triangles_of(ReferenceRun& reference) {
   RenderView& v = reference.run->view();
-  if (!reference.run->frame().triangles) return {read_triangles(v, v)};
+  if (!reference.run->frame().triangles) return {read_triangles(v)};
   return {{own_triangles(*reference.run), std::vector<bool>(v.grid().values())}};
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/run_technique.h"
-#include "passes/read_outs/triangles.h"
+#include "passes/read_outs.h"
 
 namespace lightgrid {
 

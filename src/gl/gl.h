@@ -4,6 +4,7 @@
 
 #include <GL/glcorearb.h>
 
+#include <string>
 #include <string_view>
 
 // clang-format off
@@ -115,5 +116,11 @@ bool has_gl_extension(std::string_view name);
 
 // Loads the functions of the current context. Throws Error(machine) naming the first of the core that is missing.
 void load_gl_functions(void* (*get_proc_address)(const char*));
+
+std::string gl_error_name(GLenum error);
+
+// Throws Error(machine) that names the error and `where` if one is pending, and clears all pending errors. Debug builds
+// abort at the failing call; release builds detect it here.
+void check_gl(const char* where);
 
 }  // namespace lightgrid

@@ -5,10 +5,9 @@
 
 #include "gl/bindings.h"
 #include "plan/frame_plan.h"
-#include "renderer/clusters.h"
-#include "renderer/model_records.h"
-#include "renderer/shown_meshes.h"
-#include "renderer/texel_chain.h"
+#include "renderer/drawing/draw_list.h"
+#include "renderer/upload/scene_surfaces.h"
+#include "renderer/upload/texel_chain.h"
 #include "scene/rig.h"
 
 namespace lightgrid {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cl/transfer.h"
-#include "world_grid/run.h"
+#include "world_grid/world_grid.h"
 
 namespace lightgrid {
 namespace {
@@ -71,7 +71,7 @@ void WorldGrid::upload_moves() {
 void WorldGrid::update_lists() {
   blocks_ = moved_.keys.size();
   sizes_[1] = blocks_ * 8, sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
-  check_world_count(device_, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
+  check_count("cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   upload_moves();
   storage_->swap_lists();
   storage_->at_least(WorldArray::cells, sizes_[2]);

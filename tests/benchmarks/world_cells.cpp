@@ -17,7 +17,7 @@
 
 #include "compare/oracle.h"
 #include "compare/run_technique.h"
-#include "renderer/culler_input.h"
+#include "renderer/upload/culler_input.h"
 #include "scene/builtin.h"
 #include "scene/grid_lists.h"
 #include "scene/light_rigs.h"

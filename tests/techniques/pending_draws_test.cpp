@@ -1,5 +1,5 @@
 // Passes of very many draws let few of them wait (gl/pending_draws.h): llvmpipe keeps what waits in memory.
-#include "gl/pending_draws.h"
+#include "renderer/drawing/draw.h"
 
 #include <map>
 #include <utility>

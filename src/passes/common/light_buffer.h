@@ -82,8 +82,8 @@ struct LightBuffer {
 };
 
 // The view's images, drawn or not.
-NormalImage normal_image_of(Work& work, const Seen& seen);
-LightBuffer light_buffer_of(Work& work, const Seen& seen);
+NormalImage normal_image_of(Work& work);
+LightBuffer light_buffer_of(Work& work);
 
 // Normals as plain bytes in OpenCL's memory, row 0 at the bottom.
 struct NormalsInCl {
@@ -92,7 +92,7 @@ struct NormalsInCl {
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.
-NormalsInCl normals_in_cl_of(Work& work, const Seen& seen, TargetUse use);
+NormalsInCl normals_in_cl_of(Work& work, TargetUse use);
 
 // The sums in OpenCL's memory. second: null without a fifth term.
 struct LightBufferInCl {
