@@ -13,7 +13,7 @@
 namespace lightgrid {
 namespace {
 
-// As in cuda.h of CUDA 10.2 and later.
+// The declarations of cuda.h, CUDA 10.2 and later.
 using CudaResult = int;
 using CudaDevice = int;
 struct CudaMemoryLocation {

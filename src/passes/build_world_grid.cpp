@@ -39,7 +39,7 @@ class ViewOfWorldGrid : public PassCache {
 
 namespace {
 
-// As shared/pixel_position.h, which C++ compiles for perspective views alone.
+// shared/pixel_position.h does the same, but C++ compiles it for perspective views alone.
 glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
   if (!seen.view.orthographic) return position_of_pixel(x, y, depth, seen.params);
   const ViewParams& p = seen.params;
@@ -47,7 +47,7 @@ glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
           (depth - p.depth_b) * p.depth_a};
 }
 
-// Whether the lists are right now, since few lights moved since they were.
+// Brings the lists up to date where few lights moved since they were right. Returns false if a build is due.
 bool update_world_grid(Work& work, SharedWorldGrid& grid) {
   if (!grid.serves(work.view, grid.lights_version())) return false;
   const auto changed = work.gpu.lights_changed_since(grid.lights_version());

@@ -16,7 +16,7 @@ ViewGrid cull(Work& work, LightCuller& culler, const char* name, const TileBound
   return grid;
 }
 
-// As lists, or as masks.
+// The grid has lists or masks.
 GlLightLoop grid_to_gl(Work& work, const ViewGrid& grid) {
   auto pass = work.timer.pass("grid_to_gl", "gl");
   pass.moves(grid.bytes(), grid.bytes());
@@ -71,15 +71,13 @@ void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lis
 
 ListedLights listed_of_grid(Work& work, const ViewGrid& grid, const std::vector<float>& depth) {
   ListedLights lists;
-  lists.cell_of_pixel = cells_of_pixels(work, depth);
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   if (work.plan.settings.grid_lists == GridLists::masks) {
     add_masks(read_shared<uint32_t>(work, grid.storage->masks_, cells * grid.mask_words), cells, lists);
   } else {
     add_lists(work, grid, cells, lists);
   }
-  if (grid.z_bin_bytes == 0) return lists;
-  return in_z_bins(lists, z_bins_of_pixels(work, depth),
+  return at_pixels(std::move(lists), cells_of_pixels(work, depth),
                    read_shared<uint32_t>(work, grid.storage->z_bins_, grid.z_bin_bytes / 4));
 }
 

@@ -8,8 +8,8 @@ namespace lightgrid {
 
 DepthImage depth_prepass(Work& work);
 
-// Of opaque and masked surfaces, in one pass over the geometry, in the format of the setting normals. Of
-// surfaces with equal depth the last one's normal, as the material pass shades it.
+// Draws normals with the depth, in one pass over the geometry, in the format of the setting normals. Where
+// surfaces have equal depth it keeps the last one's normal, as the material pass shades it.
 NormalImage fill_normals(Work& work);
 
 }  // namespace lightgrid

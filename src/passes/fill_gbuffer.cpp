@@ -21,7 +21,18 @@ void clear(const Seen& seen, const GBuffer& gbuffer) {
     glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.attachment(i), nothing);
 }
 
-void draw_surfaces(Work& work, const GBuffer& gbuffer, const DrawList& surfaces) {
+// with_depth: writes the depth too, else tests it. Where depths are equal the last surface wins, as in
+// forward shading.
+GBuffer draw_surfaces(Work& work, const DrawList& surfaces, BaseLighting lit, bool with_depth) {
+  auto pass = work.timer.pass("fill_gbuffer", "gl");
+  const GBuffer gbuffer = gbuffer_of(work, lit);
+  glDepthFunc(with_depth ? GL_GEQUAL : GL_EQUAL);
+  glDepthMask(with_depth ? GL_TRUE : GL_FALSE);
+  if (with_depth) {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    const float nothing = 0.0f;
+    glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, gbuffer.framebuffer);
   glViewport(0, 0, work.grid().width, work.grid().height);
   clear(work, gbuffer);
@@ -35,32 +46,20 @@ void draw_surfaces(Work& work, const GBuffer& gbuffer, const DrawList& surfaces)
   loop.bind(work);
   draw_list(work, surfaces, DrawStreams::all,
             work.programs({"shaders/scene.vert", "shaders/gbuffer.frag", loop.defines}));
+  const size_t depth_bytes = work.grid().values() * 4, bytes = work.grid().values() * written_bytes(gbuffer);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + (with_depth ? 0 : depth_bytes),
+             bytes + (with_depth ? depth_bytes : 0));
+  return gbuffer;
 }
 
 }  // namespace
 
 GBuffer fill_gbuffer(Work& work, BaseLighting base_lighting) {
-  auto pass = work.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(work, base_lighting);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as in forward shading
-  glDepthMask(GL_TRUE);
-  const float nothing = 0.0f;
-  glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
-  draw_surfaces(work, gbuffer, work.opaque);
-  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + written_bytes(gbuffer)));
-  return gbuffer;
+  return draw_surfaces(work, work.opaque, base_lighting, true);
 }
 
 GBuffer fill_gbuffer(Work& work, const DrawList& surfaces, BaseLighting base_lighting) {
-  auto pass = work.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(work, base_lighting);
-  glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE);
-  draw_surfaces(work, gbuffer, surfaces);
-  pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 4,
-             work.grid().values() * written_bytes(gbuffer));
-  return gbuffer;
+  return draw_surfaces(work, surfaces, base_lighting, false);
 }
 
 }  // namespace lightgrid

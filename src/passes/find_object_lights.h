@@ -14,7 +14,7 @@ struct ViewBox {
 
 ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box);
 
-// Whether a light may reach a box: in double, conservative.
+// Tests whether a light may reach a box: in double, conservative.
 class LightReach {
  public:
   explicit LightReach(const LightBounds& light);

@@ -13,7 +13,7 @@ constexpr size_t group_width = 8, group_height = 16;  // pixels; the 32 items th
 
 constexpr size_t cached_texture_bytes = 16 << 20;  // about what a CPU's caches keep from frame to frame
 
-// The lists of a source of lights, as RESOLVE_ARGUMENTS has them.
+// A light source's lists, in the order of RESOLVE_ARGUMENTS.
 ClArguments source_arguments(const ClLightLoop& loop) {
   return ClArguments{{"cells", loop.cells}, {"light_indices", loop.indices}, {"light_bins", loop.z_bins}} +
          loop.more;

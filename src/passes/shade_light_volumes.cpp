@@ -59,20 +59,25 @@ ListedLights read_pairs(Work& work, Cached<LightVolumes>& cache) {
   return lists;
 }
 
+// Draws all lights with a fragment shader that adds what each does. bind: its inputs.
+void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const char* fragment,
+                const std::vector<std::string>& defines, const auto& bind) {
+  volumes.update(work);
+  std::vector<std::string> all = light_loop(work).defines;
+  all.insert(all.end(), defines.begin(), defines.end());
+  begin_adding_lights(work, framebuffer);
+  bind();
+  VolumeDraws(work, volumes, fragment, std::move(all)).draw(0, volumes.volumes().size());
+  glDisable(GL_BLEND);
+}
+
 }  // namespace
 
 void shade_light_volumes(Work& work, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
   if (!work.plan.local_lights) return;
   auto pass = work.timer.pass("shade_light_volumes", "gl");
-  LightVolumes& volumes = cache.of(work);
-  volumes.update(work);
-  std::vector<std::string> defines = light_loop(work).defines;
-  for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
-  begin_adding_lights(work, gbuffer.image.framebuffer);
-  bind_gbuffer(gbuffer);
-  VolumeDraws(work, cache.of(work), "shaders/deferred_light.frag", std::move(defines))
-      .draw(0, volumes.volumes().size());
-  glDisable(GL_BLEND);
+  add_lights(work, cache.of(work), gbuffer.image.framebuffer, "shaders/deferred_light.frag",
+             gbuffer_defines(gbuffer), [&] { bind_gbuffer(gbuffer); });
   const size_t values = work.grid().values();
   pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
 }
@@ -90,17 +95,12 @@ LightBuffer draw_light_buffer(Work& work, Cached<LightVolumes>& cache, const Nor
   const float nothing[4] = {0, 0, 0, 0};
   for (size_t i = 0; i < images.size(); ++i)
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), nothing);
-  LightVolumes& volumes = cache.of(work);
-  volumes.update(work);
-  std::vector<std::string> defines = light_loop(work).defines;
-  if (normals.layout->define) defines.emplace_back(normals.layout->define);
-  for (std::string& define : light_buffer_defines(work)) defines.push_back(std::move(define));
-  begin_adding_lights(work, framebuffer);
-  bind_texture(Sampler::normals, normals.texture);
-  bind_texture(Sampler::depth_image, work.targets.depth());
-  VolumeDraws(work, cache.of(work), "shaders/light_buffer.frag", std::move(defines))
-      .draw(0, volumes.volumes().size());
-  glDisable(GL_BLEND);
+  std::vector<std::string> defines = light_buffer_defines(work);
+  if (normals.layout->define) defines.insert(defines.begin(), normals.layout->define);
+  add_lights(work, cache.of(work), framebuffer, "shaders/light_buffer.frag", defines, [&] {
+    bind_texture(Sampler::normals, normals.texture);
+    bind_texture(Sampler::depth_image, work.targets.depth());
+  });
   pass.moves(work.grid().values() * (4 + normals.layout->image.bytes + buffer.bytes()),
              work.grid().values() * buffer.bytes());
   return buffer;

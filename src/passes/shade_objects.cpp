@@ -1,5 +1,5 @@
 // Forward shading object by object, in as many draws as its lights take. The first draw of an object replaces
-// the image, so that of two surfaces of one depth the later one is visible, as in shade_forward. Further
+// the image, so that the later of two surfaces of one depth is visible, as in shade_forward. Further
 // draws add light.
 //
 // Triangles of one object may also share a depth (coplanar parts of a mesh). The first draw leaves the last

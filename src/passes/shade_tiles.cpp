@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-// Whether the image already contains base lighting before the light pass.
+// True if the image already contains base lighting before the light pass.
 bool holds_base_lighting(const GBufferInCl& gbuffer) {
   return gbuffer.base_lighting == BaseLighting::in_image;
 }

@@ -140,14 +140,9 @@ LightCuller& RenderView::culler() {
   return *culler_;
 }
 
-SharedGridStorage& RenderView::opaque_grid() {
-  if (!grids_[0]) grids_[0].emplace(renderer, plan.index_bits);
-  return *grids_[0];
-}
-
-SharedGridStorage& RenderView::blend_grid() {
-  if (!grids_[1]) grids_[1].emplace(renderer, plan.index_bits);
-  return *grids_[1];
+SharedGridStorage& RenderView::grid_storage(bool blended) {
+  std::optional<SharedGridStorage>& storage = grids_[blended];
+  return storage ? *storage : storage.emplace(renderer, plan.index_bits);
 }
 
 size_t RenderView::memory_bytes() const {

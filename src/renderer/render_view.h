@@ -43,12 +43,13 @@ struct RenderView : Work {
   PassCaches caches;
 
   LightCuller& culler();  // created at first use; has lights only if the plan has a light grid
-  SharedGridStorage& opaque_grid();
-  SharedGridStorage& blend_grid();
+  SharedGridStorage& opaque_grid() { return grid_storage(false); }
+  SharedGridStorage& blend_grid() { return grid_storage(true); }
 
   size_t memory_bytes() const;  // of this view's targets and buffers, and the scene's
 
  private:
+  SharedGridStorage& grid_storage(bool blended);
   void look(const View& view, PlannedInstances instances);
   void follow_view();
   void drop_caches();

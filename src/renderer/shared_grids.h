@@ -1,5 +1,5 @@
-// Light lists in memory that OpenCL writes and, where there is OpenGL, that reads: of a view's light grid,
-// and of a scene's world grid.
+// Light lists in memory that OpenCL writes and OpenGL, where there is any, reads: a view's light grid and a
+// scene's world grid.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace lightgrid {
 struct SharedTexture {
   std::optional<SharedBuffer> buffer;
   GlTexture texture;
-  // Of at least `bytes`; growing loses the contents. for_gl: with a texture of this format.
+  // The buffer, of at least `bytes`; growing loses the contents. for_gl: with a texture of this format.
   cl::Buffer& at_least(Renderer& renderer, size_t bytes, GLenum format, bool for_gl);
   size_t bytes() const { return buffer ? buffer->size() : 0; }
 };
@@ -56,6 +56,7 @@ struct WorldGridKey {
 WorldEye world_eye(const View& view);
 WorldViewParams world_view_params(const WorldLayout& layout, const View& view);
 
+// GpuScene::world_grid shares it between views.
 class SharedWorldGrid : public WorldGrid {
  public:
   // for_gl: OpenGL may read the lists too, whose memory is then that of the renderer's bridge.

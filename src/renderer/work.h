@@ -1,4 +1,4 @@
-// What a pass is given: what a camera sees of a scene, what works on it, and what the pass itself keeps.
+// A pass takes these: what a camera sees of a scene, what works on it, and what the pass itself keeps.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct Seen {
   PixelGrid grid() const { return view.grid(); }
 };
 
-// What is seen, and with it the machine, the scene in its memory, and the view's images, programs and clock.
+// Beside what is seen, the machine, the scene in its memory, and the view's images, programs and clock.
 struct Work : Seen {
   Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool);
 
@@ -68,7 +68,7 @@ struct Work : Seen {
   std::vector<std::string> view_defines(std::vector<std::string> defines) const;
 };
 
-// What a pass keeps from frame to frame beyond targets and programs.
+// A pass keeps this from frame to frame, beyond targets and programs.
 class PassCache {
  public:
   virtual ~PassCache() = default;
@@ -76,7 +76,7 @@ class PassCache {
   // Called after the camera, the lights or the plan changed. Returns false if the cache no longer fits; it is
   // then made again at its next use.
   virtual bool follow(Work&) { return false; }
-  // What follow() may leave for later: uploads of what the rasteriser does not read. PassCaches::upload calls
+  // Uploads that follow() may leave for later, as the rasteriser does not read them. PassCaches::upload calls
   // it while the device draws triangles; the pass calls it too, before it reads them. Only the first call
   // after follow() does anything.
   virtual void upload(Work&) {}

@@ -26,7 +26,7 @@ std::vector<uint32_t> pairs_of_blocks(const WorldBlockLights& blocks) {
 bool WorldGrid::may_update(std::span<const uint32_t> moved, std::span<const WorldLight> now) const {
   const size_t lights = layout_.lights.size();
   if (!counted_ || lights_version_ < 0 || moved.size() * lights_a_move > lights) return false;
-  // As many moves as lights may have changed what cells suit them.
+  // After as many moves as lights, other cells may suit them.
   if (moves_ + moved.size() > lights) return false;
   return std::ranges::none_of(now, &WorldLight::everywhere) && std::ranges::none_of(moved, [&](uint32_t i) {
            return std::ranges::binary_search(layout_.everywhere, i);

@@ -16,7 +16,7 @@ struct WorldBlockLights {
 
 constexpr size_t world_batch = 16;  // lights that world_lists loads together: BATCH there
 
-// Whether counting is cheaper than sorting pairs of blocks and lights.
+// True if counting is cheaper than sorting pairs of blocks and lights.
 bool has_few_blocks(const WorldLayout& layout);
 
 // Replaces `blocks`, whose arrays keep their memory. layout.pairs is above 0 and below 2^32.

@@ -65,8 +65,7 @@ void WorldGrid::check_count(const char* what, uint64_t count, size_t bytes_each)
   if (count <= most_count(bytes_each)) return;
   throw machine_error(
       "world grid: {} {} take {} bytes, more than the {} that this device gives to one buffer; use larger "
-      "cells (world-cell), "
-      "smaller ranges or fewer lights",
+      "cells (world-cell), smaller ranges or fewer lights",
       count, what, count * bytes_each, most);
 }
 
@@ -77,7 +76,7 @@ size_t WorldGrid::chunk_of(size_t count, size_t least) const {
   return std::max({(count + items - 1) / items, cpu ? least : least / 16, size_t(1)});
 }
 
-// Of totals_. Returns the sum of all, if it is read.
+// Turns totals_ into sums of all before each. Returns the sum of all, if it is read.
 uint64_t WorldGrid::scan(size_t count, bool read) {
   cl::Kernel kernel = kernels_.kernel("world_grid/world_scan", "");
   const size_t group = device_.info().cpu ? 1 : 256;
@@ -177,7 +176,7 @@ void WorldGrid::find_blocks() {
        members_.at_least(device_, pair_count_ * 4 + members_past_end));
 }
 
-// Of hashed grids with several levels: full_members_.
+// Makes full_members_ for hashed grids with several levels.
 void WorldGrid::inherit() {
   const size_t chunk = chunk_of(blocks_, 16), chunks = (blocks_ + chunk - 1) / chunk;
   totals_.at_least(device_, chunks * 4);

@@ -24,7 +24,7 @@ struct WorldReach {
   }
 };
 
-// What the lists depend on of a view.
+// A view's part in the lists.
 struct WorldEye {
   glm::dvec3 position{0};  // world, metres
   double seen_m =

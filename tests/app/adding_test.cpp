@@ -70,21 +70,20 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
   std::map<std::string, std::vector<std::string>> texts;
   Naming expected = {
       // Defaults of commands, and the techniques that stand in for others without OpenGL.
-      {"src/app/compare.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/app/cull.cpp", {"forward_plus"}},
       {"src/app/inspect.cpp", {"forward_plus"}},
-      {"src/app/options.cpp", {"forward_plus", "visibility"}},
       {"src/app/plan.cpp", {"forward_plus"}},
       {"src/app/view.cpp", {"deferred_tiled", "forward_plus"}},
       {"src/bench/culling_run.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
       {"src/frontier/precision.cpp", {"forward_plus", "visibility"}},
+      {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},
+      {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
       // The reference.
-      {"src/compare/contestant_runs.cpp", {"forward", "visibility"}},
       {"src/frontier/brute_force.cpp", {"forward", "visibility"}},
-      {"src/view/reference.cpp", {"forward"}},
+      {"src/session/runs.cpp", {"forward", "visibility"}},
       // Messages of its own passes.
-      {"src/passes/light_index/blending_probe.cpp", {"lidr"}},
+      {"src/passes/light_index/blending.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
@@ -202,7 +201,7 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   for (const char* text : {"light.cone.", "light.cone = (float4)"}) texts["cone"].push_back(text);
   const Naming expected = {
       {"src/shared/light_table.h", all},
-      {"src/renderer/light_table.cpp", all},
+      {"src/renderer/upload/lights.cpp", all},
       // Readers: the range alone; a cone's part in what arrives, also at samples of voxel light buffers.
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone"}},

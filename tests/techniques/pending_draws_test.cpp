@@ -1,4 +1,4 @@
-// Passes of very many draws let few of them wait (gl/pending_draws.h): llvmpipe keeps what waits in memory.
+// Passes of very many draws let few of them wait (renderer/drawing/draw.h): llvmpipe keeps what waits in memory.
 #include "renderer/drawing/draw.h"
 
 #include <map>

@@ -14,8 +14,8 @@
 
 namespace lightgrid {
 
-// A closed mesh that encloses the reach of a light: the unit sphere, or a cone of it.
-// Counter-clockwise triangles, seen from outside; each edge belongs to two of them.
+// A closed mesh that encloses the reach of a light: the unit sphere, or a cone of it. Triangles are
+// counter-clockwise, seen from outside; each edge belongs to two of them.
 struct LightMesh {
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> indices;

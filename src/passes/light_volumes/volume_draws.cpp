@@ -113,7 +113,7 @@ void begin_adding_lights(Work& work, GLuint framebuffer) {
 
 namespace {
 
-// As in light_volumes.cpp: float rounding under 1e-5 of the distances, and 1/256 of the radius.
+// The slack of light_volumes.cpp: float rounding under 1e-5 of the distances, and 1/256 of the radius.
 double reach(const LightBounds& light) {
   const glm::dvec3 p = glm::abs(light.position);
   return light.radius_m * (1 + 1.0 / 256) + 1e-5 * (p.x + p.y + p.z + light.radius_m);

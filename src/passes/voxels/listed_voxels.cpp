@@ -96,7 +96,7 @@ class VoxelLister {
     return r_.axes.log_depth ? glm::dvec3(x * place, y * place, -place) : glm::dvec3(x, y, place);
   }
 
-  // Whether add_voxel_light of kernels/voxels/voxel_light.h adds anything of a light.
+  // True if add_voxel_light of kernels/voxels/voxel_light.h adds anything for this light.
   bool reaches(const LightBounds& light, glm::uvec3 i) const {
     const glm::dvec3 d = light.position - sample_at(i);
     const double squared = glm::dot(d, d), grown = r_.placed.slices[i.z].half_diagonal_squared;

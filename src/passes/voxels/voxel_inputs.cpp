@@ -226,23 +226,9 @@ PlacedVoxels place_voxels(const Seen& seen, const VoxelAxes& axes, const Visible
 }
 
 glm::uvec3 voxel_size(VoxelSize size) {
-  switch (size) {
-    case VoxelSize::s16x16x4:
-      return {16, 16, 4};
-    case VoxelSize::s32x32x8:
-      return {32, 32, 8};
-    case VoxelSize::s64x64x16:
-      return {64, 64, 16};
-    case VoxelSize::s128x128x16:
-      return {128, 128, 16};
-    case VoxelSize::s128x128x32:
-      return {128, 128, 32};
-    case VoxelSize::s128x128x64:
-      return {128, 128, 64};
-    case VoxelSize::s256x256x64:
-      return {256, 256, 64};
-  }
-  return {};
+  static constexpr glm::uvec3 sizes[] = {{16, 16, 4},    {32, 32, 8},    {64, 64, 16},  {128, 128, 16},
+                                         {128, 128, 32}, {128, 128, 64}, {256, 256, 64}};
+  return sizes[size_t(size)];
 }
 
 namespace {

@@ -1,5 +1,5 @@
-// What the kernel that fills a voxel light buffer reads: where its samples lie in a frame, and the lights in
-// groups.
+// The inputs of the kernel that fills a voxel light buffer: the places of its samples in a frame, and the
+// lights in groups.
 #pragma once
 
 #include "cl/uploaded_buffer.h"
@@ -14,8 +14,8 @@ struct VisibleBox {
   double nearest_m = 0, farthest_m = 0;  // along the view axis
 };
 
-// Of opaque surfaces by the depth bounds of tiles, of blended ones by their boxes. Without depth bounds, of
-// all by their boxes. A view that shows nothing gets a box at the near plane.
+// Encloses opaque surfaces by the depth bounds of tiles, and blended ones by their boxes. Without depth
+// bounds it encloses all by their boxes. A view that shows nothing gets a box at the near plane.
 VisibleBox visible_box(const Seen& seen, const TileDistances& distances);
 
 // The axes of the volume: where lights are for the kernel that fills it.
@@ -54,7 +54,7 @@ class GroupedLights {
   float brightest() const { return brightest_; }
   size_t memory_bytes() const;
 
-  // As kernels/voxels/voxel_light.h says.
+  // Laid out as kernels/voxels/voxel_light.h says.
   UploadedBuffer boxes, places, colors, cones;
 
  private:

@@ -31,7 +31,7 @@ struct IndexRanges {
 
 IndexRanges index_ranges(const GlMesh& mesh, std::span<const uint32_t> clusters);
 
-// The same triangles, last to first. Requires reversed triangles (GlScene).
+// The triangles of `ranges`, last to first. Requires reversed triangles (GlScene).
 IndexRanges in_reverse(const IndexRanges& ranges, const GlScene& gpu);
 
 // Clusters of one instance that are drawn together.

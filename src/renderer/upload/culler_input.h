@@ -17,7 +17,7 @@ CullLight cull_light(const LightBounds& bounds);
 // The lights of a scene at `indices`. World space, metres.
 std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
                                       const LightRanges& ranges = {});
-// The same into memory that is there.
+// The same, into memory that is kept.
 void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges,
                     std::vector<CullLight>& lights);
 

@@ -21,8 +21,8 @@ struct Seen;
 inline constexpr size_t light_column_count = 0 LIGHT_TABLE(LIGHT_COLUMN_COUNT);
 #undef LIGHT_COLUMN_COUNT
 
-// What light loops are compiled with so that they read the plan's columns and no others, and as its ranges
-// have it (shared/punctual_light.h).
+// The defines with which light loops read the plan's columns and no others, with the window of its ranges
+// (shared/punctual_light.h).
 std::vector<const char*> light_table_defines(const FramePlan& plan);
 
 // Uniform blocks and buffer textures, as OpenGL's shaders read them.

@@ -78,7 +78,7 @@ class TexelWriter {
   const Texture& texture_of(const TextureSlot& slot) const { return scene_.textures[slot.texture]; }
   const Bitmap& bitmap_of(const TextureSlot& slot) const { return scene_.bitmaps[texture_of(slot).bitmap]; }
 
-  // Those that the material has of the maps that a packed texel has room for.
+  // The material's maps that fit into a packed texel.
   static std::vector<const TextureSlot*> packed_maps(const Material& m) {
     std::vector<const TextureSlot*> slots;
     for (const TextureSlot* slot : {&m.base_color_map, &m.metallic_roughness_map, &m.normal_map}) {
