@@ -28,7 +28,7 @@ enum class LidrOrder { priority, scene };
 // needs no OpenGL.
 enum class RasterApi { opengl, opencl };
 
-// How the resolve passes keep a material's maps (renderer/surface_texels.h), and which lights it adds up.
+// How the resolve passes keep a material's maps (upload/scene_surfaces.h), and which lights it adds up.
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
-#include "renderer/culler_input.h"
+#include "renderer/upload/culler_input.h"
 
 namespace lightgrid::verify {
 namespace {

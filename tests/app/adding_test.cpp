@@ -83,7 +83,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/frontier/brute_force.cpp", {"forward", "visibility"}},
       {"src/session/runs.cpp", {"forward", "visibility"}},
       // Messages of its own passes.
-      {"src/passes/light_index/blending_probe.cpp", {"lidr"}},
+      {"src/passes/light_index/blending.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
@@ -201,7 +201,7 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   for (const char* text : {"light.cone.", "light.cone = (float4)"}) texts["cone"].push_back(text);
   const Naming expected = {
       {"src/shared/light_table.h", all},
-      {"src/renderer/light_table.cpp", all},
+      {"src/renderer/upload/lights.cpp", all},
       // Readers: the range alone; a cone's part in what arrives, also at samples of voxel light buffers.
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone"}},
