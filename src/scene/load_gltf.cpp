@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <new>
 
-#include "scene/gltf/animations.h"
 #include "scene/gltf/json.h"
-#include "scene/gltf/lights.h"
 #include "scene/gltf/materials.h"
-#include "scene/gltf/meshes.h"
+#include "scene/gltf/nodes.h"
 
 namespace lightgrid {
 namespace {
