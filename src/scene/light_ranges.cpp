@@ -1,6 +1,7 @@
 #include "scene/light_ranges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/random.h"
@@ -47,6 +48,68 @@ std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ran
   if (ranges.range == LightRange::scene) return lights;
   for (size_t i = 0; i < lights.size(); ++i) lights[i].radius_m = float(range_of(lights[i], i, ranges));
   return lights;
+}
+
+static std::vector<glm::dvec3> surface_points(const Scene& scene, size_t count) {
+  struct Part {
+    double area_until;
+    const Instance* instance;
+    size_t index;
+  };
+  std::vector<Part> parts;
+  double area = 0;
+  const auto corner = [&](const Instance& instance, size_t index) {
+    const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
+    return glm::dvec3(instance.world_from_object * glm::dvec4(mesh.positions[mesh.indices[index]], 1));
+  };
+  for (const Instance& instance : scene.instances) {
+    for (size_t i = 0; i + 2 < scene.meshes[size_t(instance.mesh)].indices.size(); i += 3) {
+      const glm::dvec3 a = corner(instance, i);
+      area += glm::length(glm::cross(corner(instance, i + 1) - a, corner(instance, i + 2) - a));
+      parts.push_back({area, &instance, i});
+    }
+  }
+  std::vector<glm::dvec3> points;
+  if (!(area > 0) || !std::isfinite(area)) return points;
+  for (size_t n = 0; n < count; ++n) {
+    const double at = area * (double(n) + 0.5) / double(count);
+    const auto part = std::ranges::lower_bound(parts, at, {}, &Part::area_until);
+    double u = random_of(1, 2 * n), v = random_of(1, 2 * n + 1);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const glm::dvec3 a = corner(*part->instance, part->index);
+    points.push_back(a + u * (corner(*part->instance, part->index + 1) - a) +
+                     v * (corner(*part->instance, part->index + 2) - a));
+  }
+  return points;
+}
+
+std::optional<CutoffEffect> helpful_cutoff(const Scene& scene) {
+  constexpr size_t count = 256, most_lights = 10'000;
+  const std::vector<glm::dvec3> points = surface_points(scene, count);
+  if (points.empty()) return {};
+  const size_t stride = scene.lights.size() / most_lights + 1;  // every n-th of many
+  std::vector<double> irradiances;
+  double lights = 0, sum = 0;
+  for (size_t i = 0; i < scene.lights.size(); i += stride) {
+    const Light& light = scene.lights[i];
+    if (is_directional(light)) continue;
+    ++lights;
+    for (const glm::dvec3& point : points) {
+      const glm::dvec3 to = light.position - point;
+      irradiances.push_back(brightest_intensity(light) / std::max(glm::dot(to, to), 1e-4));
+      sum += irradiances.back();
+    }
+  }
+  const double most = std::max(lights / 8, 8.0 / double(stride)) * double(points.size());
+  for (int step = 0; step <= 30; ++step) {
+    const double cutoff = std::array{1, 2, 5}[size_t(step % 3)] * std::pow(10, step / 3 - 4);
+    double reach = 0, kept = 0;
+    for (const double irradiance : irradiances) {
+      if (irradiance > cutoff) ++reach, kept += irradiance;
+    }
+    if (reach <= most) return CutoffEffect{cutoff, reach * double(stride) / double(points.size()), sum > 0 ? kept / sum : 1};
+  }
+  return {};
 }
 
 RangeWindow window_of(const LightRanges& ranges) {
