@@ -3,11 +3,10 @@
 
 #include <optional>
 
-#include "cl/growing_buffer.h"
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
-#include "culling/oblique_view.h"
+#include "culling/view_depth.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "renderer/surface_instances.h"
 
 namespace lightgrid {

@@ -1,10 +1,10 @@
-// Meshes and instances as the kernels read them: plain arrays, made on the host.
+// Meshes, instances and a camera as the kernels read them: plain arrays and numbers, made on the host.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "cl/growing_buffer.h"
+#include "cl/buffers.h"
 #include "raster/raster_scene.h"
 #include "raster/raster_view.h"
 #include "shared/raster_params.h"
@@ -62,5 +62,14 @@ void check_raster_instances(std::span<const RasterInstance> instances,
 // Takes instances that passed the check. Throws Error(machine) where numbers do not fit 32 bits.
 RasterInstances raster_instances(std::span<const RasterInstance> instances,
                                  std::span<const RasterMeshPlace> meshes);
+
+// Throws Error(input) as RasterView::set_camera says.
+void check_raster_camera(const RasterCamera& camera);
+
+// All but what depends on the scene and on room.
+RasterParams raster_params(const RasterCamera& camera);
+
+RasterFrameInstance raster_frame_instance(const RasterCamera& camera, const glm::dmat4& world_from_object,
+                                          bool two_sided);
 
 }  // namespace lightgrid

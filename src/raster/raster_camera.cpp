@@ -1,4 +1,4 @@
-#include "raster/raster_camera.h"
+#include "raster/raster_arrays.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "cl/growing_buffer.h"
+#include "cl/buffers.h"
 #include "cl/program_cache.h"
 #include "raster/raster_view.h"
 #include "shared/raster_params.h"

@@ -4,11 +4,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "cl/buffers.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
-#include "cl/uploaded_buffer.h"
 #include "raster/raster_arrays.h"
-#include "raster/raster_camera.h"
 #include "raster/raster_pipeline.h"
 #include "shared/surface_records.h"
 

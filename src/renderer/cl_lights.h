@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cl/launch.h"
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "renderer/light_table.h"
 #include "shared/view_params.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/write_file.h"
 #include "capture/frame_file.h"
-#include "culling/oblique_view.h"
+#include "culling/view_depth.h"
 #include "plan/settings.h"
 
 namespace lightgrid::verify {

@@ -6,9 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "cl/growing_buffer.h"
+#include "cl/buffers.h"
 #include "cl/program_cache.h"
-#include "cl/uploaded_buffer.h"
 #include "world_grid/world_moves.h"
 
 namespace lightgrid {

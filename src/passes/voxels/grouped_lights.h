@@ -2,7 +2,7 @@
 // kernels/voxels/*/build_voxels.cl reads.
 #pragma once
 
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "passes/voxels/placed_voxels.h"
 
 namespace lightgrid {
