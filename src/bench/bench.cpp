@@ -5,8 +5,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "bench/raster_run.h"
-#include "bench/row_filter.h"
+#include "bench/runs.h"
 #include "scene/builtin.h"
 #include "shared/cull_settings.h"
 
@@ -62,6 +61,12 @@ CapturedFrame frame_of(const BenchCase& c) {
   return frame;
 }
 
+Rounds rounds_of(const BenchOptions& options, const BenchCase& c) {
+  Rounds rounds{options.warmup, options.frames, {}};
+  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
+  return rounds;
+}
+
 // The rows of one case, with ratios to those of the first contestant.
 std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, const MeasuredFrame& measured,
                                    const Limits& limits) {
@@ -92,9 +97,7 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
     in_turn.push_back(runs.back().get());
   }
   PlainRead read(device, programs);
-  Rounds rounds{options.warmup, options.frames, {}};
-  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
-  const MeasuredFrame measured = measure_in_turn(device, in_turn, read, rounds);
+  const MeasuredFrame measured = measure_in_turn(device, in_turn, read, rounds_of(options, c));
 
   std::vector<ContestantParams> about;
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -116,10 +119,8 @@ std::vector<BenchRow> measure_raster(ClDevice& device, ProgramCache& programs, c
                                                contestant.settings));
     work.push_back([run = runs.back().get()] { run->run(); });
   }
-  Rounds rounds{options.warmup, options.frames, {}};
-  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
   MeasuredFrame measured;
-  measured.runs = time_in_turn(device, work, rounds, [](bool) {});
+  measured.runs = time_in_turn(device, work, rounds_of(options, c), [](bool) {});
   std::vector<ContestantParams> about;
   for (size_t i = 0; i < runs.size(); ++i) {
     const KernelWork of_run = runs[i]->work();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cl/buffers.h"
 #include "cl/transfer.h"
 
 namespace lightgrid {
@@ -10,10 +11,6 @@ namespace {
 constexpr size_t depth_bytes = size_t(1920) * 1080 * sizeof(float);
 constexpr size_t gpu_group = 256;
 constexpr int chains = 12, vector_width = 16;  // of the arithmetic kernels
-
-cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
-  return {device.context(), CL_MEM_READ_WRITE, bytes};
-}
 
 double device_ms(ClDevice& device) {
   double ms = 0;
@@ -27,13 +24,6 @@ size_t large_size(ClDevice& device) {
   const size_t wanted = std::max<size_t>(size_t(256) << 20, 2 * cache);
   const size_t most = std::min(device.info().max_allocation_bytes, device.info().global_bytes / 8);
   return PlainRead::bytes_read(std::min(wanted, most));
-}
-
-Spread repeat(int runs, auto&& run) {
-  for (int i = 0; i < 2; ++i) run();  // untimed warm-up
-  std::vector<double> samples;
-  for (int i = 0; i < runs; ++i) samples.push_back(run());
-  return spread_of(samples);
 }
 
 Spread copy_ms(ClDevice& device, const cl::Buffer& from, size_t bytes, int runs) {
@@ -78,16 +68,9 @@ void measure_launches(ClDevice& device, ProgramCache& programs, int runs, Limits
 void measure_transfers(ClDevice& device, int runs, Limits& limits) {
   const cl::Buffer buffer = device_buffer(device, depth_bytes);
   std::vector<char> host(depth_bytes, 1);
-  limits.to_device = repeat(runs, [&] {
-    const Timer timer;
-    write_buffer(device, "limits", buffer, host.data(), depth_bytes);
-    return timer.elapsed_ms();
-  });
-  limits.to_host = repeat(runs, [&] {
-    const Timer timer;
-    read_buffer(device, "limits", buffer, host.data(), depth_bytes);
-    return timer.elapsed_ms();
-  });
+  limits.to_device =
+      time_alone(runs, [&] { write_buffer(device, "limits", buffer, host.data(), depth_bytes); });
+  limits.to_host = time_alone(runs, [&] { read_buffer(device, "limits", buffer, host.data(), depth_bytes); });
 }
 
 Spread read_ms(ClDevice& device, PlainRead& read, const cl::Buffer& buffer, size_t bytes, int runs) {
@@ -97,6 +80,21 @@ Spread read_ms(ClDevice& device, PlainRead& read, const cl::Buffer& buffer, size
 }
 
 }  // namespace
+
+Spread repeat(int runs, const std::function<double()>& run) {
+  for (int i = 0; i < 2; ++i) run();
+  std::vector<double> samples;
+  for (int i = 0; i < runs; ++i) samples.push_back(run());
+  return spread_of(samples);
+}
+
+Spread time_alone(int runs, const std::function<void()>& work) {
+  return repeat(runs, [&] {
+    const Timer timer;
+    work();
+    return timer.elapsed_ms();
+  });
+}
 
 PlainRead::PlainRead(ClDevice& device, ProgramCache& programs)
     : device_(device),

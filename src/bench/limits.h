@@ -1,12 +1,19 @@
 // The limits of the machine's OpenCL device, with which kernels are compared.
 #pragma once
 
+#include <functional>
+
 #include "base/timer.h"
 #include "cl/device.h"
 #include "cl/launch.h"
 #include "cl/program_cache.h"
 
 namespace lightgrid {
+
+// The spread of the milliseconds that `run` returns, after two runs that are not counted.
+Spread repeat(int runs, const std::function<double()>& run);
+// The same of the wall-clock time that `work` takes.
+Spread time_alone(int runs, const std::function<void()>& work);
 
 // A plain read of a buffer by the fastest number of items found. Sums are discarded.
 class PlainRead {
@@ -31,12 +38,12 @@ class PlainRead {
 
 // Times in milliseconds, each over several runs. Rates are computed from the least time.
 struct Limits {
-  Spread read_large;    // on the device: a buffer far larger than caches; no runs if not requested
-  Spread read_depth;    // on the device: a buffer of the size of depth at 1920 x 1080
-  Spread copy;          // the same, to another buffer of that size: counts bytes read and written
-  Spread flops;         // on the device
-  Spread launch_wait;   // wall clock: an empty kernel and the wait for it
-  Spread more_launch;   // wall clock: each additional empty kernel before one wait
+  Spread read_large;          // on the device: a buffer far larger than caches; no runs if not requested
+  Spread read_depth;          // on the device: a buffer of the size of depth at 1920 x 1080
+  Spread copy;                // the same, to another buffer of that size: counts bytes read and written
+  Spread flops;               // on the device
+  Spread launch_wait;         // wall clock: an empty kernel and the wait for it
+  Spread more_launch;         // wall clock: each additional empty kernel before one wait
   Spread to_device, to_host;  // wall clock: transfer of depth_bytes, with the wait
   size_t large_bytes = 0, depth_bytes = 0;
   double operations = 0;

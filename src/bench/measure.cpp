@@ -5,6 +5,8 @@
 namespace lightgrid {
 namespace {
 
+constexpr int transfer_runs = 5;
+
 // The samples of one contestant over all rounds.
 struct Samples {
   std::vector<double> wall, device, overhead;
@@ -57,22 +59,10 @@ MeasuredRun result_of(const Samples& samples) {
   return run;
 }
 
-template <typename Work>
-Spread time_alone(const Work& work) {
-  constexpr int runs = 5;
-  std::vector<double> samples;
-  for (int i = -1; i < runs; ++i) {
-    const Timer timer;
-    work();
-    if (i >= 0) samples.push_back(timer.elapsed_ms());
-  }
-  return spread_of(samples);
-}
-
 void measure_transfers(CullingRun& run, MeasuredRun& result) {
-  result.lights_upload = time_alone([&] { run.upload_lights(); });
+  result.lights_upload = time_alone(transfer_runs, [&] { run.upload_lights(); });
   run.run();
-  result.grid_download = time_alone([&] { run.download_grid(); });
+  result.grid_download = time_alone(transfer_runs, [&] { run.download_grid(); });
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/timer.h"
-#include "bench/culling_run.h"
 #include "bench/limits.h"
+#include "bench/runs.h"
 
 namespace lightgrid {
 

@@ -76,7 +76,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/app/options.cpp", {"forward_plus", "visibility"}},
       {"src/app/plan.cpp", {"forward_plus"}},
       {"src/app/view.cpp", {"deferred_tiled", "forward_plus"}},
-      {"src/bench/culling_run.cpp", {"forward_plus"}},
+      {"src/bench/runs.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
       {"src/frontier/precision.cpp", {"forward_plus", "visibility"}},
       // The reference.

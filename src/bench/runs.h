@@ -1,12 +1,17 @@
-// One frame with one set of settings, for repeated culling.
+// What is timed: a frame's culling, and the rasterising of a scene, each with one set of settings.
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
-#include "culling/light_culler.h"
-#include "plan/settings.h"
+#include "bench/kernel_costs.h"
 #include "bench/standard_frames.h"
 #include "capture/frame_culler.h"
+#include "culling/light_culler.h"
+#include "plan/settings.h"
+#include "raster/raster_view.h"
+#include "scene/scene.h"
 
 namespace lightgrid {
 
@@ -40,6 +45,27 @@ class CullingRun {
   size_t depth_bytes_ = 0;
   LightGrid grid_;
   std::vector<char> host_;
+};
+
+// Names of the rows that a case of the rasteriser may have.
+const std::vector<std::string>& raster_rows();
+
+// A built-in scene's opaque and masked triangles. Masks are not looked up: masked triangles are drawn whole.
+class RasterRun {
+ public:
+  // The scene's first camera. Draws twice, so that kernels are built and room has its size.
+  RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height,
+            const Settings& settings);
+
+  // Vertices to the visibility buffer, with the wait in which the rasteriser reads its counters.
+  void run() { raster_.draw(); }
+
+  KernelWork work() const;  // of the last run
+
+ private:
+  RasterScene geometry_;
+  RasterView raster_;
+  KernelWork scene_;
 };
 
 }  // namespace lightgrid
