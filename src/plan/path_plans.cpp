@@ -1,6 +1,19 @@
 #include "plan/path_plans.h"
 
+#include <algorithm>
+
 namespace lightgrid {
+
+std::vector<PlanChange> plan_changes(const std::vector<Decision>& before, const std::vector<Decision>& now,
+                                     size_t frame) {
+  std::vector<PlanChange> changes;
+  for (const Decision& d : now) {
+    const auto old = std::ranges::find(before, d.effect, &Decision::effect);
+    if (old == before.end() || old->needed == d.needed) continue;
+    changes.push_back({frame, d.effect, d.needed, d.needed ? "came: " + d.why : "left: " + old->why});
+  }
+  return changes;
+}
 
 void PathPlans::add(const FramePlan& plan) {
   const size_t frame = frames_++;

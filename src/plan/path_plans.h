@@ -1,11 +1,25 @@
-// The plans of a path, frame by frame.
+// Where the plans of a path's frames change, and why.
 #pragma once
 
 #include "plan/frame_plan.h"
-#include "plan/plan_changes.h"
 
 namespace lightgrid {
 
+struct PlanChange {
+  size_t frame = 0;     // of the path, counted from 0: the first with the new plan
+  std::string effect;   // as in Decision
+  bool needed = false;  // from this frame on
+  std::string why;  // "came: " and the new plan's witness, or "left: " and the witness of the plan before it
+
+  bool operator==(const PlanChange&) const = default;
+};
+
+// The effects that one plan needs and the other does not, in the order of `now`. Both are plans of one
+// technique with the same settings. Another witness of the same effect is no change.
+std::vector<PlanChange> plan_changes(const std::vector<Decision>& before, const std::vector<Decision>& now,
+                                     size_t frame);
+
+// The plans of a path, frame by frame.
 class PathPlans {
  public:
   // The next frame's plan. The first has nothing to differ from, and with the setting everything-on no plan

@@ -3,7 +3,7 @@
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
 #include "passes/shade_blended.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

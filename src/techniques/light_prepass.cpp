@@ -10,7 +10,7 @@
 #include "passes/shade_blended.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

@@ -1,6 +1,6 @@
 // Triangle numbers first, in OpenCL; then attributes, textures and light of each pixel in one pass, from its
 // tile's list.
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

@@ -1,7 +1,7 @@
 // Lights are added up at the samples of a volume; surfaces read the volume, however many lights there are.
 #include "passes/build_voxels.h"
 #include "passes/cull_lights.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

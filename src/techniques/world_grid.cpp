@@ -1,7 +1,7 @@
 // Forward shading from light lists in cells of the world, which serve every view and change only when
 // lights move (docs/techniques/world_grid.md).
 #include "passes/build_world_grid.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 
