@@ -69,8 +69,8 @@ std::vector<Choice> choices_of(const Row (&table)[rows], T Settings::*member, T 
   return choices;
 }
 
-const std::vector<Setting>& all_settings() {
-  static const std::vector<Setting> settings = {
+std::vector<Setting>& all_settings() {
+  static std::vector<Setting> settings = {
       {"brdf", "the specular lobe: GGX, Blinn-Phong of the same width, or none: base colour / pi",
        named(&Settings::brdf, {{"ggx", Brdf::ggx}, {"blinn", Brdf::blinn}, {"lambert", Brdf::lambert}})},
       {"range",
@@ -115,11 +115,6 @@ const std::vector<Setting>& all_settings() {
                                          {"stencil", VolumeCulling::stencil},
                                          {"scissor", VolumeCulling::scissor},
                                          {"depth-bounds", VolumeCulling::depth_bounds}})},
-      {"prepass-lights",
-       "who adds up the light buffer: OpenCL from lists of tiles, or OpenGL, a light's volume after the "
-       "other",
-       named(&Settings::prepass_lights,
-             {{"tiles", PrepassLights::tiles}, {"volumes", PrepassLights::volumes}})},
       {"prepass-specular",
        "the specular term of the light buffer: of the lights' shininess; or raised to the material's, after "
        "division by a fifth term, by the luminance of the diffuse ones, or as it is",
@@ -220,6 +215,17 @@ const std::vector<Setting>& all_settings() {
 }
 
 }  // namespace
+
+void add_own_setting(const char* key, const char* before, const char* meaning,
+                     const std::vector<std::string>& values) {
+  Setting own{key, meaning, {}};
+  const auto chosen = [=](const Settings& s) { return s.own.contains(key) ? s.own.at(key) : 0; };
+  for (size_t i = 0; i < values.size(); ++i) {
+    own.choices.push_back(
+        {values[i], [=](Settings& s) { s.own[key] = i; }, [=](const Settings& s) { return chosen(s) == i; }});
+  }
+  all_settings().insert(std::ranges::find(all_settings(), before, &Setting::key), std::move(own));
+}
 
 void apply_setting(Settings& settings, const std::string& assignment) {
   const size_t equals = assignment.find('=');
