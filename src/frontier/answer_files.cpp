@@ -9,7 +9,7 @@
 #include "frontier/pictures.h"
 #include "frontier/record_file.h"
 #include "frontier/statistics.h"
-#include "results/csv_line.h"
+#include "results/words.h"
 
 namespace lightgrid {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "compare/run_technique.h"
 #include "frontier/points.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 

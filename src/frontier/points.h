@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/compare.h"
 #include "frontier/record.h"
+#include "session/compare.h"
 
 namespace lightgrid {
 

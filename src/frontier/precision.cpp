@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "compare/oracle_sample.h"
-#include "compare/silhouettes.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
 #include "scene/random.h"
+#include "session/oracle_sample.h"
+#include "session/surfaces_in_double.h"
 
 namespace lightgrid {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "compare/run_technique.h"
 #include "frontier/brute_force.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 

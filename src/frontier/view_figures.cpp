@@ -5,11 +5,11 @@
 
 #include "base/error.h"
 #include "cl/error.h"
-#include "compare/oracle.h"
 #include "frontier/errors.h"
 #include "frontier/scene_views.h"
 #include "results/metrics.h"
 #include "scene/random.h"
+#include "session/oracle.h"
 
 namespace lightgrid {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "results/csv_line.h"
 #include "results/error_measures.h"
+#include "results/words.h"
 
 namespace lightgrid {
 namespace {

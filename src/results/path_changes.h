@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "plan/path_plans.h"
+#include "plan/plan_changes.h"
 #include "results/results.h"
 
 namespace lightgrid {

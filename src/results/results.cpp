@@ -1,10 +1,11 @@
 #include "results/results.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
+#include "plan/settings.h"
 #include "results/error_measures.h"
 #include "results/path_changes.h"
 
@@ -16,24 +17,10 @@ using nlohmann::json;
 // JSON has neither infinity nor NaN.
 json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
 
-// "cull-test" on the command line is "cull_test" here.
-std::string key_of(std::string setting) {
-  std::replace(setting.begin(), setting.end(), '-', '_');
-  return setting;
-}
-
-template <typename Number>
-bool parse_whole(const std::string& text, Number& number) {
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return failure == std::errc() && end == text.data() + text.size();
-}
-
 json value_of(const std::string& setting) {
-  int64_t whole = 0;
-  double real = 0;
   if (setting == "true" || setting == "false") return setting == "true";
-  if (parse_whole(setting, whole)) return whole;
-  if (parse_whole(setting, real) && std::isfinite(real)) return real;
+  if (const auto whole = parse_number<int64_t>(setting)) return *whole;
+  if (const auto real = parse_number<double>(setting); real && std::isfinite(*real)) return *real;
   return setting;
 }
 
@@ -129,7 +116,7 @@ json to_json(const MovingResult& m) {
 
 json settings_json(const std::map<std::string, std::string>& settings) {
   json out = json::object();
-  for (const auto& [name, value] : settings) out[key_of(name)] = value_of(value);
+  for (const auto& [name, value] : settings) out[json_key(name)] = value_of(value);
   return out;
 }
 

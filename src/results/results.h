@@ -11,7 +11,7 @@
 
 #include "base/image.h"
 #include "base/timer.h"
-#include "plan/path_plans.h"
+#include "plan/plan_changes.h"
 
 namespace lightgrid {
 

@@ -1,10 +1,10 @@
 #include "results/words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 namespace lightgrid {
 
@@ -33,6 +33,23 @@ std::string view_in_words(const CompareReport& report) {
   const int lights = report.rows.empty() ? 0 : report.rows.front().lights_total;
   return fmt::format("{}, {} × {}, {} light{}", short_scene(report), report.width, report.height,
                      with_commas(lights), lights == 1 ? "" : "s");
+}
+
+namespace {
+
+std::string quoted_field(const std::string& field) {
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string text = "\"";
+  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
+}  // namespace
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + quoted_field(fields[i]);
+  return line + "\n";
 }
 
 }  // namespace lightgrid

@@ -1,8 +1,9 @@
-// Numbers and views as text for the report.
+// Numbers, views and lines of tables as text for the report.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "results/results.h"
 
@@ -17,5 +18,8 @@ std::string spelled_setting(
     std::string key);  // as the command line spells it: "lidr_overlap" -> "lidr-overlap"
 std::string short_scene(const CompareReport& report);    // without folders and extension
 std::string view_in_words(const CompareReport& report);  // "hall, 1280 × 720, 237 lights"
+
+// Separated by commas and quoted as in RFC 4180, with a newline at the end.
+std::string csv_line(const std::vector<std::string>& fields);
 
 }  // namespace lightgrid

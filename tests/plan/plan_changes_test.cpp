@@ -1,9 +1,9 @@
 // A camera's turn brings effects into the plan and takes others from it. The small scene lies within 30
 // degrees of the view ahead and the square view spans 60: a turn by 90 degrees leaves nothing of it in view.
+#include "plan/plan_changes.h"
 
 #include <gmock/gmock.h>
 
-#include "plan/path_plans.h"
 #include "scene/camera_path.h"
 #include "support/small_scene.h"
 
