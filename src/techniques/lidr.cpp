@@ -18,7 +18,7 @@ static Frame render(RenderView& v) {
   } else {
     shade_blended(v, v, image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
   }
-  return {.image = image, .listed = lights.listed, .light_index_bytes = lights.bytes};
+  return {.image = image, .listed = lights.listed, .list_bytes = lights.bytes};
 }
 
 extern const Technique lidr{

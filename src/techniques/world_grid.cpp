@@ -13,8 +13,9 @@ static Frame render(RenderView& v) {
   frame.listed = lights.listed;
   frame.image = shade(v, surfaces, lights);
   blend(v, surfaces, lights, frame.image);
-  frame.world_grid_bytes = lights.bytes;
-  frame.world_cell = built_world_grid(v, v, v.caches.world_grid).layout().cell;
+  frame.list_bytes = lights.bytes;
+  frame.built_by = "build_world_grid";
+  frame.built_with = {{"world_cell", built_world_grid(v, v, v.caches.world_grid).layout().cell}};
   return frame;
 }
 

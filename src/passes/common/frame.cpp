@@ -3,7 +3,7 @@
 namespace lightgrid {
 
 size_t Frame::light_grid_bytes() const {
-  size_t bytes = light_index_bytes + world_grid_bytes;
+  size_t bytes = list_bytes;
   for (const auto* g : {&grid, &blend_grid}) {
     if (*g) bytes += (*g)->bytes();
   }
