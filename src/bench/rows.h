@@ -8,10 +8,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/kernel_costs.h"
 #include "bench/measure.h"
 
 namespace lightgrid {
+
+// Lower bounds of a kernel's memory traffic and arithmetic, for its limit.
+struct KernelCost {
+  double bytes = 0, flops = 0;
+};
+
+// By the label of a launch; empty if the table does not contain it.
+std::optional<KernelCost> kernel_cost(const std::string& label, const KernelWork& work);
 
 struct BenchRow {
   std::string name;  // a kernel's label, "pipeline", "pipeline_device", "plain_read", "upload_lights", …

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/kernel_costs.h"
 #include "bench/standard_frames.h"
 #include "capture/frame_culler.h"
 #include "culling/light_culler.h"
@@ -49,6 +48,18 @@ class CullingRun {
 
 // Names of the rows that a case of the rasteriser may have.
 const std::vector<std::string>& raster_rows();
+
+// What a run computed, from which its kernels' costs follow.
+struct KernelWork {
+  size_t pixels = 0, tiles = 0, cells = 0, bins = 0, lights = 0;  // a tile has one cell a slice
+  size_t indices = 0, index_bytes = 0;                            // entries of the grid's lists, and their
+                                                                  // total size
+  size_t mask_bytes = 0, z_bins = 0;
+  bool exact = false, cones = false;
+  // The rasteriser has these (its tiles are 64 x 64 pixels): vertices and triangles of all instances, drawn
+  // or not, and RasterCounts.
+  size_t vertices = 0, triangles = 0, clusters = 0, records = 0, tile_entries = 0;
+};
 
 // A built-in scene's opaque and masked triangles. Masks are not looked up: masked triangles are drawn whole.
 class RasterRun {
