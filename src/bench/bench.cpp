@@ -87,17 +87,14 @@ std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, c
 std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options,
                                    const BenchCase& c, const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;
-  std::vector<CullingRun*> in_turn;
   const cl::Buffer depth = upload_depth(device, frame);
   std::vector<BenchContestant> contestants = options.contestants;
   for (BenchContestant& contestant : contestants) {
     if (c.tile) contestant.settings.tile = c.tile;
     if (c.captured && options.own_tile) contestant.settings.tile = frame.tile;
     runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, contestant.settings));
-    in_turn.push_back(runs.back().get());
   }
-  PlainRead read(device, programs);
-  const MeasuredFrame measured = measure_in_turn(device, in_turn, read, rounds_of(options, c));
+  const MeasuredFrame measured = measure_in_turn(device, programs, runs, rounds_of(options, c));
 
   std::vector<ContestantParams> about;
   for (size_t i = 0; i < runs.size(); ++i) {

@@ -70,7 +70,7 @@ std::optional<KernelCost> kernel_cost(const std::string& label, const KernelWork
   const std::map<std::string, KernelCost> costs = {
       {"depth_bounds", {4.0 * w.pixels + interval_bytes * w.tiles, 8.0 * w.tiles}},
       {"project_lights", {(world_bytes(w) + view_bytes(w)) * w.lights, project_flops * w.lights}},
-      // Those of the CPU's form.
+      // These two are bounds of the CPU's form.
       {"cull_lights",
        {interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + count_bytes * w.cells +
             w.index_bytes,

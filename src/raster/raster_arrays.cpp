@@ -155,7 +155,7 @@ uint64_t morton(const glm::dvec3& p) {
   return code;
 }
 
-// Which side of a cube the triangle faces: 0 to 5.
+// The side of a cube that the triangle faces: 0 to 5.
 uint64_t facing(const RasterMesh& mesh, size_t triangle) {
   const glm::dvec3 a = corner_of(mesh, triangle, 0);
   const glm::dvec3 normal = glm::cross(corner_of(mesh, triangle, 1) - a, corner_of(mesh, triangle, 2) - a);

@@ -1,7 +1,7 @@
 // transform, clusters -> order -> setup -> scan -> fill -> tiles: for CPUs. Without tiles also for GPUs,
 // where lists have to be in drawing order.
 // transform, clusters -> small -> large -> keys: for GPUs. With 32-bit atomics small and large run twice.
-#include "raster/raster_pipeline.h"
+#include "raster/raster_arrays.h"
 
 #include <algorithm>
 #include <map>

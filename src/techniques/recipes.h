@@ -17,12 +17,12 @@ Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
 // lists become the frame's.
 void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
 
-// Of deferred_tiled and forward_plus_compute, which with OpenGL find depth differently: surfaces into a
-// geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces are
-// laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
+// deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share this: surfaces
+// into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces
+// are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
 
-// Of forward_multipass and forward_zprepass: each object with the lights that reach its visible part,
+// forward_multipass and forward_zprepass share this: each object with the lights that reach its visible part,
 // `lights_a_draw` in each draw, added up; then blended surfaces. own_apart: the first draw has base lighting
 // alone.
 Frame shade_by_objects(RenderView& v, uint32_t lights_a_draw, bool own_apart);
