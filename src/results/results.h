@@ -111,7 +111,8 @@ struct RunResult {
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
-  std::optional<double> world_cell;  // that world_grid's lists were built with
+  std::string built_by;                      // as in Frame
+  std::map<std::string, double> built_with;  // the same
   std::optional<PairCounts> pairs;   // absent without the oracle
   std::optional<ImageError> error;   // technique error: this image against the float image with every light
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
