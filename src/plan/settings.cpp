@@ -5,10 +5,13 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
+
+constexpr double least_number = 1e-9, most_number = 1e9;
 
 struct Choice {
   std::string value;
@@ -19,6 +22,7 @@ struct Choice {
 struct Setting {
   std::string key, meaning;
   std::vector<Choice> choices;  // the default first
+  double LightRanges::*number = nullptr;  // any of least_number … most_number besides
 };
 
 // A member of Settings, or of what it holds.
@@ -82,13 +86,13 @@ std::vector<Setting>& all_settings() {
                                    {"infinite", LightRange::infinite}})},
       {"cutoff", "irradiance at which lights end with range=cutoff: intensity over squared distance",
        numbers(&LightRanges::cutoff, {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002",
-                                      "0.001", "0.0005", "0.0002", "0.0001"})},
+                                      "0.001", "0.0005", "0.0002", "0.0001"}), &LightRanges::cutoff},
       {"window", "how a light fades towards its range: 1 - (d / range)^4, its square, or not at all",
        named(&LightRanges::window,
              {{"khr", RangeWindow::khr}, {"smooth", RangeWindow::smooth}, {"none", RangeWindow::none}})},
       {"alpha", "irradiance below which a light reaches a point by chance, with range=stochastic",
        numbers(&LightRanges::alpha, {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002",
-                                     "0.001", "0.0005", "0.0002", "0.0001"})},
+                                     "0.001", "0.0005", "0.0002", "0.0001"}), &LightRanges::alpha},
       {"light-seed", "of the random ranges, with range=stochastic",
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
@@ -233,20 +237,30 @@ void apply_setting(Settings& settings, const std::string& assignment) {
   const auto& all = all_settings();
   const auto setting = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
   if (equals == std::string::npos || setting == all.end()) {
-    std::string keys;
-    for (const Setting& s : all) keys += (keys.empty() ? "" : ", ") + s.key;
-    throw input_error("set {}: not KEY=VALUE with a known key; keys are {}", assignment, keys);
+    std::vector<std::string> keys;
+    for (const Setting& s : all) keys.push_back(s.key);
+    throw input_error("set {}: not KEY=VALUE with a known key{}; keys are {}", assignment, did_you_mean(key, keys),
+                      fmt::join(keys, ", "));
   }
   const std::string value = assignment.substr(equals + 1);
-  std::string values;
+  std::vector<std::string> values;
   for (const Choice& c : setting->choices) {
     if (c.value == value) {
       settings.given.insert(key);
       return c.set(settings);
     }
-    values += (values.empty() ? "" : ", ") + c.value;
+    values.push_back(c.value);
   }
-  throw input_error("set {}: \"{}\" is not a value of {}; values are {}", assignment, value, key, values);
+  const auto number = setting->number ? parse_number<double>(value) : std::nullopt;
+  if (number && *number >= least_number && *number <= most_number) {
+    settings.given.insert(key);
+    settings.ranges.*setting->number = *number;
+    return;
+  }
+  if (setting->number)
+    throw input_error("set {}: {} is a number from {:g} to {:g}", assignment, key, least_number, most_number);
+  throw input_error("set {}: \"{}\" is not a value of {}{}; values are {}", assignment, value, key,
+                    did_you_mean(value, values), fmt::join(values, ", "));
 }
 
 const std::vector<std::string>& model_settings() {
@@ -288,6 +302,7 @@ std::string json_key(std::string setting) {
 std::map<std::string, std::string> to_strings(const Settings& settings) {
   std::map<std::string, std::string> strings;
   for (const Setting& s : all_settings()) {
+    if (s.number) strings[json_key(s.key)] = fmt::format("{}", settings.ranges.*s.number);
     for (const Choice& c : s.choices) {
       if (c.is_set(settings)) strings[json_key(s.key)] = c.value;
     }
@@ -299,7 +314,7 @@ const std::vector<SettingHelp>& setting_help() {
   static const auto help = [] {
     std::vector<SettingHelp> rows;
     for (const Setting& s : all_settings()) {
-      SettingHelp& row = rows.emplace_back(SettingHelp{s.key, {}, s.meaning});
+      SettingHelp& row = rows.emplace_back(SettingHelp{s.key, {}, s.meaning, s.number != nullptr});
       for (const Choice& c : s.choices) row.values.push_back(c.value);
     }
     return rows;

@@ -145,6 +145,7 @@ struct SettingHelp {
   std::string key;
   std::vector<std::string> values;  // the first is the default
   std::string meaning;
+  bool any_number = false;  // from 1e-9 to 1e9 besides; `values` are then those that sweeps and lists show
 };
 const std::vector<SettingHelp>& setting_help();
 

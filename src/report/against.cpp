@@ -95,10 +95,12 @@ void compare_errors(const Row& now, const Row& earlier, AgainstResult& result) {
                                          of.at(key).get<double>(), error.at(key).get<double>()));
     }
   };
-  for (const ErrorMeasure& measure : error_measures()) compare(errors, before, measure.key, measure.key);
+  const json &from_oracle = errors.at("oracle"), &from_oracle_before = before.at("oracle");
+  for (const ErrorMeasure& measure : error_measures()) {
+    compare(errors, before, measure.key, measure.key);
+    compare(from_oracle, from_oracle_before, measure.key, std::string("oracle's ") + measure.key);
+  }
   compare(errors, before, "flip_mean", "flip_mean");
-  if (errors.contains("oracle") && before.contains("oracle"))
-    compare(errors.at("oracle"), before.at("oracle"), "max_rel", "the oracle's max_rel");
 }
 
 void compare_counts(const Row& now, const Row& earlier, AgainstResult& result) {

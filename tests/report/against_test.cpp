@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -27,7 +28,7 @@ json row(const char* technique, double ms, double error = 1e-6) {
           {"nan_pixels", 0}};
 }
 
-json results(const json& rows) {
+json results(const std::vector<json>& rows) {
   return {{"scene", "hall"},
           {"size", {64, 36}},
           {"devices", {{"cl", "a"}, {"gl", "b"}}},
