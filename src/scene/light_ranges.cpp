@@ -88,26 +88,32 @@ std::optional<CutoffEffect> helpful_cutoff(const Scene& scene) {
   const std::vector<glm::dvec3> points = surface_points(scene, count);
   if (points.empty()) return {};
   const size_t stride = scene.lights.size() / most_lights + 1;  // every n-th of many
-  std::vector<double> irradiances;
-  double lights = 0, sum = 0;
+  std::vector<std::vector<double>> irradiances(points.size());
+  size_t lights = 0;
   for (size_t i = 0; i < scene.lights.size(); i += stride) {
     const Light& light = scene.lights[i];
     if (is_directional(light)) continue;
     ++lights;
-    for (const glm::dvec3& point : points) {
-      const glm::dvec3 to = light.position - point;
-      irradiances.push_back(brightest_intensity(light) / std::max(glm::dot(to, to), 1e-4));
-      sum += irradiances.back();
+    for (size_t p = 0; p < points.size(); ++p) {
+      const glm::dvec3 to = light.position - points[p];
+      irradiances[p].push_back(brightest_intensity(light) / std::max(glm::dot(to, to), 1e-4));
     }
   }
-  const double most = std::max(lights / 8, 8.0 / double(stride)) * double(points.size());
+  const double most = std::max(double(lights) / 8, 8.0 / double(stride)), every = double(points.size());
   for (int step = 0; step <= 30; ++step) {
     const double cutoff = std::array{1, 2, 5}[size_t(step % 3)] * std::pow(10, step / 3 - 4);
-    double reach = 0, kept = 0;
-    for (const double irradiance : irradiances) {
-      if (irradiance > cutoff) ++reach, kept += irradiance;
+    double reach = 0, share = 0;
+    for (const std::vector<double>& at : irradiances) {
+      double kept = 0, sum = 0;
+      for (const double irradiance : at) {
+        sum += irradiance;
+        if (irradiance <= cutoff) continue;
+        const double squares = cutoff / irradiance;  // of distance over range
+        ++reach, kept += irradiance * (1 - squares * squares);
+      }
+      share += sum > 0 ? kept / sum : 1;
     }
-    if (reach <= most) return CutoffEffect{cutoff, reach * double(stride) / double(points.size()), sum > 0 ? kept / sum : 1};
+    if (reach <= most * every) return CutoffEffect{cutoff, reach * double(stride) / every, share / every};
   }
   return {};
 }

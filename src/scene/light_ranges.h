@@ -46,7 +46,7 @@ double least_falloff(const Light& light, const LightRanges& ranges);
 std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ranges);
 
 // What a cutoff leaves of the point and spot lights at the scene's surfaces, cones and directions aside: lights that
-// reach a point on average, and the share of their irradiance.
+// reach a point on average, and the share of its light that a point keeps on average, with the window khr.
 struct CutoffEffect {
   double cutoff = 0, lights = 0, share = 0;
 };

@@ -79,8 +79,8 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
   const std::optional<CutoffEffect> help = helpful_cutoff(scene);
   log_warning("{}: {} of {} lights have no range: every technique lists them everywhere{}", choice.scene, endless,
               scene.lights.size(),
-              help ? fmt::format("; with --set range=cutoff --set cutoff={:g} about {:.0f} reach a point, with {:.0f} % "
-                                 "of the light",
+              help ? fmt::format("; with --set range=cutoff --set cutoff={:g} about {:.0f} reach a point, which "
+                                 "keeps {:.0f} % of its light",
                                  help->cutoff, help->lights, 100 * help->share)
                    : "");
 }

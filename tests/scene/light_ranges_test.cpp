@@ -87,7 +87,7 @@ TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
   ASSERT_TRUE(effect);
   EXPECT_DOUBLE_EQ(effect->cutoff, 2);
   EXPECT_DOUBLE_EQ(effect->lights, 30);
-  EXPECT_NEAR(effect->share, 120.0 / 525, 1e-6);
+  EXPECT_NEAR(effect->share, 120 * 0.75 / 525, 1e-6) << "1 - (2 / 4)^2 is left by the window";
   scene.lights.resize(8);
   EXPECT_NEAR(helpful_cutoff(scene)->cutoff, 1e-4, 1e-12) << "eight lights are few";
 }
