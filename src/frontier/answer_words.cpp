@@ -7,6 +7,7 @@
 #include <set>
 
 #include "frontier/answer_steps.h"
+#include "plan/settings.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -37,16 +38,13 @@ std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
 
 // Whether two points are meant to show the same: the settings that change the model agree.
 bool same_model(const PointFigures& a, const PointFigures& b) {
-  const auto value_of = [](const PointFigures& p, const std::string& key, const std::string& otherwise) {
+  static const auto defaults = to_strings(Settings{});
+  const auto value_of = [](const PointFigures& p, const char* key) {
     const auto found = p.point.settings.find(key);
-    return found == p.point.settings.end() ? otherwise : found->second;
+    return found == p.point.settings.end() ? defaults.at(key) : found->second;
   };
-  for (const auto& [key, otherwise] :
-       {std::pair("brdf", "ggx"), std::pair("range", "scene"), std::pair("window", "khr"),
-        std::pair("cutoff", ""), std::pair("alpha", ""), std::pair("light_seed", "")}) {
-    if (value_of(a, key, otherwise) != value_of(b, key, otherwise)) return false;
-  }
-  return a.point.frames == b.point.frames;
+  const auto agree = [&](const char* key) { return value_of(a, key) == value_of(b, key); };
+  return a.point.frames == b.point.frames && std::ranges::all_of(model_settings, agree);
 }
 
 const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string& scene) {

@@ -6,9 +6,9 @@
 #include <concepts>
 #include <nlohmann/json.hpp>
 
-#include "frontier/json_fields.h"
 #include "frontier/record.h"
 #include "results/error_measures.h"
+#include "results/json_file.h"
 
 namespace lightgrid {
 

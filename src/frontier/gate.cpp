@@ -1,4 +1,4 @@
-#include "frontier/gate.h"
+#include "frontier/answer.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "frontier/json_fields.h"
 #include "results/error_measures.h"
+#include "results/json_file.h"
 
 namespace lightgrid {
 namespace {
@@ -202,16 +202,10 @@ json read_frontier_json(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(path, ignored) || !file)
     throw input_error("{}: no such file", path.string());
-  const auto shallow = [](int depth, json::parse_event_t, json&) {
-    if (depth > 16) throw input_error("is nested deeper than 16");
-    return true;
-  };
   try {
-    json frontier = json::parse(file, shallow);
+    json frontier = parsed_json({std::istreambuf_iterator<char>(file), {}}, 16);
     JsonFields(frontier).at("points");
     return frontier;
-  } catch (const json::exception&) {
-    throw input_error("{}: is not JSON", path.string());
   } catch (const Error& error) {
     throw input_error("{}: {}", path.string(), error.what());
   }

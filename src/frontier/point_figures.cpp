@@ -5,7 +5,6 @@
 
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
-#include "frontier/statistics.h"
 
 namespace lightgrid {
 namespace {

@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <new>
+#include <utility>
 
 #include "base/error.h"
+#include "base/timer.h"
+#include "cl/error.h"
+#include "results/metrics.h"
 #include "session/contestants.h"
 
 namespace lightgrid {
@@ -165,6 +170,92 @@ std::string label_of(const Contestant& contestant, int frames) {
   }
   if (frames > 1) differing += fmt::format("{}frames={}", differing.empty() ? "" : ",", frames);
   return contestant.technique->name + (differing.empty() ? "" : ":" + differing);
+}
+
+FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
+  const Contestant& c = point.contestant;
+  return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
+}
+
+std::string refusal_of(const std::function<void()>& work) {
+  try {
+    work();
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  } catch (const cl::Error& error) {
+    return cl_machine_error(error).what();
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  }
+}
+
+void PointRun::attempt(const std::function<void()>& work) {
+  if (refused_.empty()) refused_ = refusal_of(work);
+  if (!refused_.empty()) run_.reset();
+}
+
+PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,
+                   std::shared_ptr<TargetPool> pool)
+    : point_(point) {
+  attempt([&] {
+    run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, point.contestant.settings,
+                                          *point.contestant.technique, std::move(pool));
+  });
+}
+
+uint32_t PointRun::seed(int frame) const {
+  return point_.contestant.settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
+}
+
+void PointRun::go_to_frame(int number) {
+  frame_ = number;
+  if (point_.frames > 1 || !has_random_ranges()) return;
+  attempt([&] { run_->draw_ranges(seed(0)); });
+}
+
+void PointRun::look(const View& view) {
+  attempt([&] { run_->look(view); });
+}
+
+void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {
+  for (int frame = 0; frame < point_.frames; ++frame) {
+    if (point_.frames > 1) run_->draw_ranges(seed(frame));
+    run_->run_frame(true);
+    if (point_.frames > 1) add(run_->image());
+  }
+}
+
+double PointRun::draw() {
+  double ms = 0;
+  attempt([&] {
+    const Timer timer;
+    bool first = true;
+    draw_frames([&](const Image& image) {
+      if (std::exchange(first, false)) mean_ = Image(image.width, image.height);
+      const float weight = 1.0f / float(point_.frames);
+      for (size_t i = 0; i < mean_.pixels.size(); ++i) mean_.pixels[i] += image.pixels[i] * weight;
+    });
+    ms = timer.elapsed_ms();
+  });
+  return ms;
+}
+
+void PointRun::draw_for_errors() {
+  attempt([&] {
+    PictureMoments moments;
+    draw_frames([&](const Image& image) { moments.add(image); });
+    if (point_.frames == 1) return;
+    mean_ = moments.mean();
+    deviation_ = moments.deviation();
+  });
+}
+
+void PointRun::draw_first_frame() {
+  attempt([&] {
+    if (point_.frames > 1) run_->draw_ranges(seed(0));
+    run_->run_frame(true);
+  });
 }
 
 }  // namespace lightgrid

@@ -49,6 +49,9 @@ struct PointErrors {
   std::optional<double> temporal_rmse_rel;
 };
 
+// The settings, by the keys of results.json, that change what a picture means.
+inline constexpr const char* model_settings[] = {"brdf", "range", "cutoff", "window", "alpha", "light_seed"};
+
 struct FrontierRecord {
   FrontierPoint point;
   int view = 0;               // index on the scene's path

@@ -1,4 +1,4 @@
-#include "report/overview.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 
@@ -124,12 +124,7 @@ std::string faster_sentence(const std::vector<ReportView>& views, const std::vec
 
 // The fastest exact row of a technique; null if there is none.
 const RunResult* best_of(const CompareReport& report, const std::string& technique) {
-  const RunResult* best = nullptr;
-  for (const RunResult& row : report.rows) {
-    if (row.technique != technique || row.frame_ms.runs == 0 || !is_exact(row)) continue;
-    if (!best || row.frame_ms.median < best->frame_ms.median) best = &row;
-  }
-  return best;
+  return fastest(report, [&](const RunResult& row) { return row.technique == technique && is_exact(row); });
 }
 
 }  // namespace

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <set>
 
-#include "results/results.h"
 #include "report/view_pictures.h"
+#include "results/results.h"
 
 namespace lightgrid {
 
@@ -36,7 +37,7 @@ class ViewsReport {
 
   const ReportView& add(CompareReport report);
   const std::vector<ReportView>& views() const { return views_; }
-  std::vector<std::string> sentences() const;  // statements over all views (overview.h)
+  std::vector<std::string> sentences() const;  // statements over all views (overview_sentences)
   std::string json_text() const;               // the text of results.json
   void write() const;                          // results.json, results.csv, index.html
 
@@ -72,14 +73,34 @@ inline constexpr double exact_max_rel = 1e-5;
 
 bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN; and it ran
 bool is_exact(const ImageError& error);
-bool is_exact(const RunResult& row);      // passes, and its image is exact or was not compared
+bool is_exact(const RunResult& row);  // passes, and its image is exact or was not compared
 
 // The fastest exact technique, and why; then the faster ones and their price: a lossy image or a failed gate.
 std::string verdict(const CompareReport& report);
 
-// The exact row of least median time; null if there is none.
+// The timed row of least median among those that `counts` accepts; null if there is none.
+using RowTest = std::function<bool(const RunResult& row)>;
+const RunResult* fastest(const CompareReport& report, const RowTest& counts);
 const RunResult* fastest_exact(const CompareReport& report);
-const RunResult* fastest_lossy(const CompareReport& report);  // of those that pass all gates but are not
-                                                              // exact
+const RunResult* fastest_lossy(const CompareReport& report);  // passes all gates but is not exact
+
+// The page of a comparison: one self-contained HTML file made of report/page/* and the figures. It loads
+// nothing from elsewhere. Embeds results.json unchanged in <script id="results">, so that both have the same
+// figures, and each distinct picture once. A single view is shown alone; several are shown one at a time,
+// below the statements over all.
+std::string report_page(const std::vector<ReportView>& views);
+
+// The rows of several views as one table: a heading, then a line a row and view (docs/results_json.md,
+// results.csv), with fields quoted as in RFC 4180. Unmeasured fields are empty.
+std::string results_csv(const std::vector<ReportView>& views);
+
+// Statements over all views, one sentence each: which technique is the fastest exact one in how many views
+// and where; which are faster but lossy, and where; which of forward_plus and clustered is faster in which
+// view, if both ran.
+std::vector<std::string> overview_sentences(const std::vector<ReportView>& views);
+
+// Which of the two is faster in which views; a technique counts by its fastest exact row. Empty if no view
+// has both. No clear difference: the median of the faster is not below every run of the other.
+std::string faster_where(const std::vector<ReportView>& views, const std::string& a, const std::string& b);
 
 }  // namespace lightgrid

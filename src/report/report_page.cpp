@@ -1,4 +1,4 @@
-#include "report/report_page.h"
+#include "report/report.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,6 @@
 #include "base/embedded.h"
 #include "base/image.h"
 #include "report/charts.h"
-#include "report/overview.h"
 #include "report/page_template.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
@@ -132,8 +131,8 @@ json page_data(const std::vector<ReportView>& views) {
 
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
-  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "plot.js", "charts.js",
-                           "matrix.js", "changes.js", "view.js", "report.js"}) {
+  for (const char* name :
+       {"elements.js", "bars.js", "table.js", "plot.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
   const json results =

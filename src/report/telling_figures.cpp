@@ -24,17 +24,6 @@ std::string failed_gates(const RunResult& row) {
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
-// The row of least median time among those that `counts` accepts; null if there is none.
-template <typename Counts>
-const RunResult* fastest(const CompareReport& report, const Counts& counts) {
-  const RunResult* best = nullptr;
-  for (const auto& row : report.rows) {
-    const bool timed = row.frame_ms.runs > 0;
-    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
-  }
-  return best;
-}
-
 const RunResult* fastest_of_all(const CompareReport& report) {
   return fastest(report, [](const RunResult&) { return true; });
 }
@@ -200,6 +189,15 @@ bool is_exact(const ImageError& error) {
 }
 
 bool is_exact(const RunResult& row) { return passes_gates(row) && (!row.error || is_exact(*row.error)); }
+
+const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
+  const RunResult* best = nullptr;
+  for (const auto& row : report.rows) {
+    const bool timed = row.frame_ms.runs > 0;
+    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
+  }
+  return best;
+}
 
 const RunResult* fastest_exact(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return is_exact(row); });

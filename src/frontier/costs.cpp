@@ -1,11 +1,12 @@
-// What a tighter cull test must save, and what it saves: docs/frontier.md#break-even.
+// What a tighter cull test must save, and what it saves (docs/frontier.md#break-even); and how frame time
+// grows.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "base/timer.h"
 #include "frontier/answer_steps.h"
-#include "frontier/statistics.h"
 
 namespace lightgrid {
 namespace {
@@ -14,11 +15,6 @@ constexpr double ns_per_ms = 1e6;
 constexpr const char* shading_passes[] = {"shade_forward", "shade_tiles",         "resolve",
                                           "shade_objects", "shade_light_volumes", "fill_light_buffer"};
 const std::vector<std::string> bounds_and_test = {"cull_test", "depth_bounds"};
-
-bool has_cull_time(const FrontierRecord& r) {
-  return r.series.empty() && r.refused.empty() && r.pass_ms.contains(cull_pass) &&
-         r.point.settings.contains("cull_test");
-}
 
 // Passes are profiled on the first view of a point; pairs are taken from the same one.
 std::vector<const FrontierRecord*> profiled(Records records) {
@@ -83,7 +79,18 @@ struct Deviations {
   }
 };
 
+double place_in_series(const FrontierRecord& r) {
+  if (r.series == "lights") return r.lights;
+  if (r.series == "pixels") return double(r.width) * r.height;
+  return r.radius_scale;
+}
+
 }  // namespace
+
+bool has_cull_time(const FrontierRecord& r) {
+  return r.series.empty() && r.refused.empty() && r.pass_ms.contains(cull_pass) &&
+         r.point.settings.contains("cull_test");
+}
 
 std::vector<BreakEven> break_evens_of(Records records) {
   std::vector<std::string> keys;
@@ -149,6 +156,32 @@ std::vector<ShadingCost> shading_costs_of(Records records) {
     measured.push_back(costs[i]);
   }
   return measured;
+}
+
+std::vector<Growth> growth_of(Records records) {
+  std::vector<Growth> curves;
+  std::vector<std::map<double, std::vector<double>>> medians;  // of each curve: by x, one a view
+  for (const FrontierRecord& r : records) {
+    if (r.series.empty() || !r.refused.empty() || r.frame_ms.empty()) continue;
+    const auto same = [&](const Growth& g) {
+      return g.scene == r.point.scene && g.technique == r.point.label && g.of == r.series;
+    };
+    size_t index = size_t(std::find_if(curves.begin(), curves.end(), same) - curves.begin());
+    if (index == curves.size())
+      curves.push_back({r.point.scene, r.point.label, r.series}), medians.emplace_back();
+    medians[index][place_in_series(r)].push_back(spread_of(r.frame_ms).median);
+  }
+  for (size_t i = 0; i < curves.size(); ++i) {
+    for (const auto& [x, of_views] : medians[i]) {
+      double sum = 0;
+      for (const double ms : of_views) sum += ms;
+      curves[i].samples.emplace_back(x, sum / double(of_views.size()));
+    }
+    const PowerLaw law = power_law(curves[i].samples);
+    curves[i].exponent = law.exponent, curves[i].low = law.low, curves[i].high = law.high;
+  }
+  std::erase_if(curves, [](const Growth& g) { return g.samples.size() < 2; });
+  return curves;
 }
 
 }  // namespace lightgrid
