@@ -1,12 +1,17 @@
 #include "app/environment.h"
 
-#include <sched.h>
-#include <unistd.h>
-
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
+#include <sched.h>
+#include <unistd.h>
+
+#include "base/log.h"
+#include "cl/cache_folder.h"
+
 namespace lightgrid {
+
 namespace {
 
 // PoCL pins worker i to processor i, even if this process may use only others (taskset, a container's
@@ -28,6 +33,44 @@ void prepare_environment() {
   if (cache && std::string_view(cache) == "off") setenv("POCL_KERNEL_CACHE", "0", 0);
   // Mesa prints a warning about each device that it cannot use; the program reports what matters itself.
   setenv("EGL_LOG_LEVEL", "fatal", 0);
+}
+
+namespace {
+
+constexpr uintmax_t room_bytes = 32 << 20;  // all kernels of a comparison of every technique take 8 MB
+
+bool has_room(const std::filesystem::path& folder) {
+  std::error_code unknown;
+  const std::filesystem::space_info disk = std::filesystem::space(folder, unknown);
+  return unknown || disk.available >= room_bytes;
+}
+
+}  // namespace
+
+TemporaryCache::TemporaryCache() {
+  const char* named = std::getenv("POCL_CACHE_DIR");
+  const std::filesystem::path usual = pocl_cache_folder();
+  if (named && *named) return;
+  const bool writable = why_not_writable(usual).empty();
+  if (writable && has_room(usual)) return;
+  std::error_code failure;
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path(failure);
+  if (failure || (writable && !has_room(temporary))) return;
+  std::string name = (temporary / "lightgrid_XXXXXX").string();
+  if (!mkdtemp(name.data())) return;
+  folder_ = name;
+  why_ = fmt::format("{}: {}", usual.string(), writable ? "its disk is full" : "cannot be written");
+  setenv("POCL_CACHE_DIR", name.c_str(), 1);
+}
+
+TemporaryCache::~TemporaryCache() {
+  std::error_code ignored;
+  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+}
+
+void TemporaryCache::tell() const {
+  if (folder_.empty()) return;
+  log_info("{}; kernels are compiled in each run (set XDG_CACHE_HOME to a writable folder with room)", why_);
 }
 
 }  // namespace lightgrid

@@ -3,20 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "app/commands.h"
-#include "session/contestants.h"
 #include "app/options.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "base/write_file.h"
 #include "capture/capture.h"
+#include "capture/frame_lists.h"
+#include "capture/list_accuracy.h"
 #include "inspect/inspect.h"
 #include "inspect/inspect_maps.h"
-#include "capture/list_accuracy.h"
+#include "session/contestants.h"
 
 namespace lightgrid {
 namespace {
@@ -38,14 +39,9 @@ struct Place {
 
 std::optional<Place> parse_place(const std::string& text) {
   if (text.empty()) return {};
-  Place place;
-  const char* end = text.data() + text.size();
-  const auto x = std::from_chars(text.data(), end, place.x);
-  if (x.ec == std::errc() && x.ptr != end && *x.ptr == ',') {
-    const auto y = std::from_chars(x.ptr + 1, end, place.y);
-    if (y.ec == std::errc() && y.ptr == end) return place;
-  }
-  throw input_error("--pixel {}: not X,Y", text);
+  const auto place = parse_pair<int>(text, ',');
+  if (!place) throw input_error("--pixel {}: not X,Y", text);
+  return Place{place->first, place->second};
 }
 
 void check_place(const Place& place, const View& view) {
@@ -153,7 +149,7 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
       throw input_error("inspect: --compare supports grids of one slice and no z-bins, not {} slices",
                         grid.lists.slices);
     }
-    rows.push_back({c.compared, measure_lists(truth, c.settings.tile, grid_lists(grid))});
+    rows.push_back({c.compared, measure_lists(truth, c.settings.tile, lists_of_cells(grid.lists))});
     lost += rows.back().accuracy.lost;
     if (o.json != "-") std::fputs(accuracy_line(rows.back()).c_str(), stdout);
   }

@@ -12,7 +12,6 @@
 #include "app/environment.h"
 #include "app/progress.h"
 #include "app/sudden_ends.h"
-#include "app/temporary_cache.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "cl/cache_folder.h"

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "base/write_file.h"
 
 namespace lightgrid {
@@ -48,21 +47,6 @@ void add_timing_options(Subcommand& command, TimingOptions& o) {
 
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what) {
   command.option("-t,--technique", technique, what + " (default: forward_plus; without OpenGL visibility)");
-}
-
-Renderer open_devices(const DeviceOptions& o, const std::string& technique, const Settings& settings) {
-  const bool opengl = technique.empty() || draws_with_opengl(find_technique(technique).needs, settings);
-  const GlBackend wanted = parse_gl_backend(o.gl);
-  Renderer renderer(o.device, !opengl && wanted == GlBackend::automatic ? GlBackend::none : wanted);
-  if (opengl && !technique.empty()) renderer.require_gl();
-  return renderer;
-}
-
-const Technique& technique_or_default(const std::string& technique, const Renderer& renderer) {
-  if (!technique.empty()) return find_technique(technique);
-  if (renderer.gl) return find_technique("forward_plus");
-  log_warning("{}; visibility takes the place of forward_plus", renderer.why_no_gl);
-  return find_technique("visibility");
 }
 
 void check_output_file(const std::string& option, const std::filesystem::path& path) {

@@ -6,19 +6,8 @@
 
 #include "app/command_line.h"
 #include "session/scene_choice.h"
-#include "techniques/technique.h"
 
 namespace lightgrid {
-
-struct DeviceOptions {
-  std::string device;
-  std::string gl = "auto";
-};
-
-struct TimingOptions {
-  int frames = 5;
-  int warmup = 1;
-};
 
 void add_scene_options(Subcommand& command, SceneChoice& choice);
 void add_view_options(Subcommand& command, SceneChoice& choice);  // all but scene, size and lights
@@ -26,15 +15,6 @@ void add_path_option(Subcommand& command, SceneChoice& choice);
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what);
-
-// The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened
-// only if the technique needs it or --gl names a backend. Throws Error(input) for an unknown name,
-// Error(machine) without what it needs.
-Renderer open_devices(const DeviceOptions& options, const std::string& technique, const Settings& settings);
-
-// The technique by its name; if that is empty, forward_plus or, without OpenGL, visibility, which is reported
-// on stderr.
-const Technique& technique_or_default(const std::string& technique, const Renderer& renderer);
 
 // Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not
 // a folder or not writable, or it is a folder itself. Call it before long work; "-" is always valid.

@@ -9,9 +9,9 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
-#include "compare/run_technique.h"
-#include "plan/path_plans.h"
+#include "plan/plan_changes.h"
 #include "results/path_changes.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 namespace {

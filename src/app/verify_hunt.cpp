@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include <nlohmann/json.hpp>
 
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "verify/hunt.h"
 
 namespace lightgrid {
@@ -19,12 +18,10 @@ constexpr uint64_t short_hunt = 1'000'000;  // contacts: a shorter hunt would ta
                                             // kernels of all settings
 
 double parse_minutes(const std::string& text) {
-  double minutes = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), minutes);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() ||
-      !(minutes > 0 && minutes <= most_minutes))
+  const auto minutes = parse_number<double>(text);
+  if (!minutes || !(*minutes > 0 && *minutes <= most_minutes))
     throw input_error("--hunt {}: not a number of minutes above 0 and up to {}", text, most_minutes);
-  return minutes;
+  return *minutes;
 }
 
 void print(const verify::HuntReport& report) {

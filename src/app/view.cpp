@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "techniques/technique.h"
 #ifdef LIGHTGRID_VIEW
-#include "view/command_text.h"
+#include "view/controls.h"
 #include "view/viewer.h"
 #endif
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
 #include "bench/measure.h"
+#include "cl/error.h"
 
 namespace lightgrid {
 namespace {
@@ -44,14 +44,11 @@ void run_on(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame
   const cl::Buffer depth = upload_depth(device, frame);
   for (Candidate& candidate : candidates) {
     if (!candidate.failure.empty()) continue;
-    try {
+    const auto failure = failure_of([&] {
       runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, candidate.settings));
       running.push_back(&candidate);
-    } catch (const Error& error) {
-      candidate.failure = error.what();
-    } catch (const cl::Error& error) {
-      candidate.failure = cl_machine_error(error).what();
-    }
+    });
+    if (failure) candidate.failure = failure->what();
   }
   if (runs.empty()) return;
   std::vector<CullingRun*> in_turn;

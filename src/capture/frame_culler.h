@@ -1,11 +1,11 @@
 // The light grid of a captured frame, made by the culler. OpenCL only: nothing here opens OpenGL.
 #pragma once
 
+#include "capture/frame_file.h"
 #include "cl/device.h"
 #include "cl/program_cache.h"
 #include "culling/light_culler.h"
 #include "plan/frame_plan.h"
-#include "capture/frame_file.h"
 
 namespace lightgrid {
 

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/json_file.h"
 #include "base/write_file.h"
 #include "capture/frame_view.h"
-#include "results/json_file.h"
 #include "results/results.h"
 #include "scene/lights_file.h"
 #include "shared/slices.h"

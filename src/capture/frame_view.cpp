@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/json_file.h"
+#include "base/json_file.h"
 
 namespace lightgrid {
 namespace {

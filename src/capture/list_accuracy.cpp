@@ -24,13 +24,6 @@ LitBlocks find_lit_blocks(const CapturedFrame& frame) {
   return find_lit_blocks(frame.view, covered_depth(frame), local_lights(frame));
 }
 
-ListedLights grid_lists(const FrameGrid& grid) {
-  ListedLights lists{.indices = grid.lists.indices};
-  for (const glm::uvec2& cell : grid.lists.cells)
-    lists.first.push_back(cell.x), lists.count.push_back(cell.y);
-  return lists;
-}
-
 std::string accuracy_line(const AccuracyRow& row) {
   const ListAccuracy& a = row.accuracy;
   return fmt::format(

@@ -4,16 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "capture/frame_file.h"
 #include "plan/settings.h"
 #include "reference/lit_blocks.h"
-#include "capture/frame_file.h"
 
 namespace lightgrid {
 
 LitBlocks find_lit_blocks(const CapturedFrame& frame);
-
-// A grid of one cell a tile, as measure_lists reads it.
-ListedLights grid_lists(const FrameGrid& grid);
 
 struct AccuracyRow {
   std::string compared;  // "cull-test=exact tile=8"

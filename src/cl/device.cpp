@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <mutex>
 #include <optional>
 
+#include "base/text.h"
 #include "cl/cache_folder.h"
 #include "cl/error.h"
 
@@ -84,12 +84,8 @@ bool can_have_memory(size_t bytes) {
 
 // 2 of "#2".
 std::optional<size_t> index_of(const std::string& text) {
-  size_t index = 0;
-  const char* end = text.data() + text.size();
-  if (text.size() < 2 || text[0] != '#') return {};
-  const auto [rest, error] = std::from_chars(text.data() + 1, end, index);
-  if (error != std::errc() || rest != end) return {};
-  return index;
+  if (!text.starts_with('#')) return {};
+  return parse_number<size_t>(std::string_view(text).substr(1));
 }
 
 }  // namespace

@@ -57,13 +57,6 @@ double times_longer(const BaselineTimes& first, const BaselineTimes& other) {
   return of_other > 0 ? of_first / of_other : 0;
 }
 
-struct Faults {
-  FrontierPoint point;
-  std::string refused;
-  uint64_t lost = 0, wrong = 0, nan_pixels = 0, overflow = 0;
-  bool not_finite = false;  // an error that is no number
-};
-
 bool errors_are_finite(const PointErrors& errors) {
   return std::isfinite(errors.total.max_rel) && std::isfinite(errors.total.rmse_rel) &&
          std::isfinite(errors.technique.max_rel) && std::isfinite(errors.technique.rmse_rel);
@@ -112,35 +105,34 @@ std::string label_in_series(const FrontierRecord& r) {
 }
 
 std::vector<Failure> failures_of(Records records) {
-  std::vector<std::string> keys;
-  std::map<std::string, Faults> faults;
-  for (const FrontierRecord& r : records) {
-    const std::string key = point_key(r.point) + label_in_series(r);
-    if (!faults.contains(key)) keys.push_back(key);
-    Faults& of_point = faults[key];
-    of_point.point = r.point;
-    of_point.point.label = label_in_series(r);
-    if (of_point.refused.empty()) of_point.refused = r.refused;
-    if (!r.refused.empty()) continue;
-    of_point.lost += r.pairs.lost, of_point.wrong += r.pairs.wrong;
-    of_point.nan_pixels += r.nan_pixels, of_point.overflow += r.overflow;
-    of_point.not_finite |= !errors_are_finite(r.errors);
-  }
   std::vector<Failure> failures;
-  for (const std::string& key : keys) {
-    const Faults& f = faults[key];
+  for (const Group& views :
+       grouped(accepted(records, [](const FrontierRecord&) { return true; }),
+               [](const FrontierRecord& r) { return point_key(r.point) + label_in_series(r); })) {
+    FrontierPoint point = views.back()->point;
+    point.label = label_in_series(*views.back());
     const auto add = [&](const char* cause, const std::string& why) {
-      failures.push_back({f.point, cause, why});
+      failures.push_back({point, cause, why});
     };
-    if (!f.refused.empty()) add("refused", "refused: " + f.refused);
-    if (f.lost) add("lost", with_commas(f.lost) + " lit pairs are not listed");
-    if (f.wrong) add("wrong", with_commas(f.wrong) + " listed pairs are no light, or twice the same");
-    if (f.nan_pixels) {
-      add("NaN", with_commas(f.nan_pixels) + " pixels are NaN");
-    } else if (f.not_finite) {
+    std::string refused;
+    uint64_t lost = 0, wrong = 0, nan_pixels = 0, overflow = 0;
+    bool finite = true;
+    for (const FrontierRecord* r : views) {
+      if (refused.empty()) refused = r->refused;
+      if (!r->refused.empty()) continue;
+      lost += r->pairs.lost, wrong += r->pairs.wrong;
+      nan_pixels += r->nan_pixels, overflow += r->overflow;
+      finite &= errors_are_finite(r->errors);
+    }
+    if (!refused.empty()) add("refused", "refused: " + refused);
+    if (lost) add("lost", with_commas(lost) + " lit pairs are not listed");
+    if (wrong) add("wrong", with_commas(wrong) + " listed pairs are no light, or twice the same");
+    if (nan_pixels) {
+      add("NaN", with_commas(nan_pixels) + " pixels are NaN");
+    } else if (!finite) {
       add("NaN", "its error is not finite");
     }
-    if (f.overflow) add("overflow", with_commas(f.overflow) + " list entries did not fit");
+    if (overflow) add("overflow", with_commas(overflow) + " list entries did not fit");
   }
   return failures;
 }

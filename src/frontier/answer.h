@@ -1,5 +1,5 @@
-// What the records say: for each point its figures over the views, the Pareto front of each scene, ties,
-// break-evens, growth, failures, and sentences in plain words.
+// The answer that records give: for each point its figures over the views, the Pareto front of each scene,
+// ties, break-evens, growth, failures, and sentences in plain words.
 #pragma once
 
 #include <filesystem>

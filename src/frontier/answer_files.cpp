@@ -8,7 +8,7 @@
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
 #include "frontier/pictures.h"
-#include "report/page_template.h"
+#include "report/report.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -211,11 +211,9 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
     data["scenes"].push_back(
         {{"key", scene}, {"title", scene_in_words(scene)}, {"sentences", sentences_of_scene(answer, scene)}});
   }
-  json& techniques = data["techniques"] = json::array();  // in the order of their colors
-  for (const FrontierRecord& r : answer.part.records) {
-    if (std::find(techniques.begin(), techniques.end(), r.point.technique) == techniques.end())
-      techniques.push_back(r.point.technique);
-  }
+  // In the order of their colors.
+  data["techniques"] =
+      distinct(answer.part.records, [](const FrontierRecord& r) { return r.point.technique; });
   for (const ErrorMeasure& measure : frontier_error_measures())
     data["measures"].push_back({{"key", measure.key}, {"title", measure.frontier_title}});
   data["measures"].push_back({{"key", "flip_mean"}, {"title", "FLIP, mean"}});

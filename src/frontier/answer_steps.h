@@ -2,6 +2,8 @@
 // statistics.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,6 +14,14 @@
 namespace lightgrid {
 
 using Records = std::span<const FrontierRecord>;
+using Group = std::vector<const FrontierRecord*>;
+
+// The records that a test accepts, in their order.
+Group accepted(Records records, const std::function<bool(const FrontierRecord& record)>& test);
+
+// Groups of equal keys, in the order of their first records.
+std::vector<Group> grouped(const Group& records,
+                           const std::function<std::string(const FrontierRecord& record)>& key_of);
 
 // The settings by which two points differ other than in the keys `without`.
 std::map<std::string, std::string> settings_without(const FrontierPoint& point,
@@ -60,6 +70,17 @@ std::string label_in_series(const FrontierRecord& record);
 
 // "hall" for "scenes/hall.glb".
 std::string scene_in_words(const std::string& scene);
+
+// What `text_of` says of the items, each text once, in the order of the items.
+template <typename Items, typename TextOf>
+std::vector<std::string> distinct(const Items& items, const TextOf& text_of) {
+  std::vector<std::string> texts;
+  for (const auto& item : items) {
+    const std::string text = text_of(item);
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+  }
+  return texts;
+}
 
 // Scenes in the order of their first points.
 std::vector<std::string> scenes_of(const FrontierAnswer& answer);

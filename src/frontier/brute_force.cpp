@@ -3,30 +3,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "compare/oracle_sample.h"
-#include "compare/silhouettes.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
 #include "scene/random.h"
+#include "session/oracle_sample.h"
+#include "session/surfaces_in_double.h"
 
 namespace lightgrid {
 namespace {
-
-Settings meaning_of(const Settings& settings, const Settings& common) {
-  Settings meaning = common;
-  meaning.brdf = settings.brdf;
-  meaning.ranges = settings.ranges;
-  meaning.lights = ShadedLights::all;
-  return meaning;
-}
-
-// The settings that a picture of every light depends on.
-std::string name_of(const Settings& meaning) {
-  const auto all = to_strings(meaning);
-  std::string name;
-  for (const char* key : model_settings) name += all.at(key) + " ";
-  return name;
-}
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t least_pixels = 400, most_pixels = 20000;
@@ -46,14 +30,16 @@ void BruteForce::look(const View& view) {
 }
 
 const Image& BruteForce::picture(const Settings& settings) {
-  const Settings meaning = meaning_of(settings, common_);
-  Image& image = pictures_[name_of(meaning)];
-  if (image.pixels.empty()) image = draw(settings);
-  return image;
+  for (const auto& [meaning, image] : pictures_) {
+    if (same_model(meaning, settings)) return image;
+  }
+  return pictures_.emplace_back(settings, draw(settings)).second;
 }
 
 Image BruteForce::draw(const Settings& settings) {
-  TechniqueRun run(renderer_, gpu_, view_, meaning_of(settings, common_), technique_, pool_);
+  Settings meaning = with_model(common_, settings);
+  meaning.lights = ShadedLights::all;
+  TechniqueRun run(renderer_, gpu_, view_, meaning, technique_, pool_);
   run.run_frame(true);
   return run.take_image();
 }

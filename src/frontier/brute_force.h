@@ -2,13 +2,13 @@
 // pictures, against the oracle in double at a sample of pixels.
 #pragma once
 
-#include <map>
+#include <list>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "compare/run_technique.h"
 #include "frontier/record.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 
@@ -36,7 +36,7 @@ class BruteForce {
   const Technique& technique_;
   View view_;
   std::shared_ptr<TargetPool> pool_;
-  std::map<std::string, Image> pictures_;
+  std::list<std::pair<Settings, Image>> pictures_;  // with their meaning
 };
 
 // On the surfaces that OpenGL shows, at opaque pixels, with the BRDF of `common`. For techniques with

@@ -131,7 +131,7 @@ class SceneSweep {
   }
 
   double until() const { return job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0); }
-  // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
+  // True if a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
   bool fits(double more, int rounds, int views) const {
     double round_s = 0;
     for (const MeasuredPoint& m : measured_) {

@@ -11,8 +11,8 @@
 #include <iterator>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "base/write_file.h"
-#include "report/page_template.h"
 #include "report/report.h"
 #include "results/metrics.h"
 #include "scene/random.h"

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <new>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/timer.h"
 #include "cl/error.h"
 #include "results/metrics.h"
@@ -90,10 +89,8 @@ std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
 }
 
 int frames_of(const std::string& text) {
-  int frames = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), frames);
-  if (failure != std::errc() || end != text.data() + text.size() || frames < 1 || frames > 1024)
-    throw input_error("vary frames: {} is not a number from 1 to 1024", text);
+  const int frames = parse_number<int>(text).value_or(0);
+  if (frames < 1 || frames > 1024) throw input_error("vary frames: {} is not a number from 1 to 1024", text);
   return frames;
 }
 
@@ -161,8 +158,7 @@ std::string label_of(const Contestant& contestant, int frames) {
   const auto own = settings_of(*contestant.technique, contestant.settings), plain = to_strings(Settings{});
   std::string differing;
   for (const SettingHelp& help : setting_help()) {
-    std::string key = help.key;
-    std::ranges::replace(key, '-', '_');
+    const std::string key = json_key(help.key);
     const auto found = own.find(key);
     const bool given = contestant.settings.given.contains(help.key);
     if (found == own.end() || (found->second == plain.at(key) && !(given && key == "slices"))) continue;
@@ -177,22 +173,9 @@ FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
   return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
 }
 
-std::string refusal_of(const std::function<void()>& work) {
-  try {
-    work();
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  } catch (const cl::Error& error) {
-    return cl_machine_error(error).what();
-  } catch (const std::bad_alloc&) {
-    return "out of memory";
-  }
-}
-
 void PointRun::attempt(const std::function<void()>& work) {
-  if (refused_.empty()) refused_ = refusal_of(work);
-  if (!refused_.empty()) run_.reset();
+  if (!refused_.empty()) return;
+  if (const std::optional<Error> failure = failure_of(work)) refused_ = failure->what(), run_.reset();
 }
 
 PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/compare.h"
-#include "compare/run_technique.h"
 #include "frontier/record.h"
+#include "session/compare.h"
+#include "session/technique_run.h"
 
 namespace lightgrid {
 
@@ -34,9 +34,6 @@ ChosenPoint baseline_point(const Settings& common, bool opengl);
 std::string label_of(const Contestant& contestant, int frames);
 
 FrontierPoint described(const std::string& scene, const ChosenPoint& point);
-
-// Why `work` could not be done: what it throws; empty if it was done.
-std::string refusal_of(const std::function<void()>& work);
 
 // A point that runs: a technique's frames, or the mean of several with random ranges.
 class PointRun {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_file.h"
 #include "frontier/record_file.h"
-#include "results/json_file.h"
 
 namespace lightgrid {
 namespace {
@@ -61,24 +61,21 @@ void tell_shards(const char* what, int of, const std::vector<int>& shards, const
 
 // How many views a part measured depends on the time that its machine had.
 void tell_different_views(const std::vector<FrontierPart>& parts, const Notice& notice) {
-  std::map<std::string, std::map<int, int>> views;  // by scene: of each shard
+  std::map<std::string, std::map<int, int>> views;  // by scene and shard
   for (const FrontierPart& part : parts) {
     for (const FrontierRecord& r : part.records) {
+      if (!r.series.empty()) continue;
       int& count = views[r.point.scene][part.shard];
-      if (r.series.empty()) count = std::max(count, r.view + 1);
+      count = std::max(count, r.view + 1);
     }
   }
-  for (auto& [scene, counts] : views) {
-    std::erase_if(counts, [](const auto& of_shard) { return of_shard.second == 0; });
-    if (counts.empty()) continue;
-    const auto [least, most] =
-        std::ranges::minmax_element(counts, [](const auto& a, const auto& b) { return a.second < b.second; });
-    const auto first_of = [&](int count) {
-      return std::ranges::find(counts, count, &std::pair<const int, int>::second)->first;
-    };
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  for (const auto& [scene, counts] : views) {
+    const auto least = std::ranges::min_element(counts, fewer),
+               most = std::ranges::max_element(counts, fewer);
     if (least->second == most->second) continue;
     notice(fmt::format("{}: {} views in shard {}, {} in shard {}: points of different views are compared",
-                       scene, least->second, least->first, most->second, first_of(most->second)));
+                       scene, least->second, least->first, most->second, most->first));
   }
 }
 
@@ -178,7 +175,7 @@ PartLines read_part_lines(const std::filesystem::path& path, const Notice& notic
       continue;
     }
     lines.half_line = !line.empty();
-    // Of another file that has no newline nothing may be cut off.
+    // Another file without a newline stays whole.
     if (lines.half_line && number == 1 &&
         line.compare(0, first_text().size(), first_text(), 0, line.size()) != 0) {
       throw input_error("{}: not a part of a frontier", place);

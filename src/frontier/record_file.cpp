@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_file.h"
 #include "base/write_file.h"
-#include "results/json_file.h"
 
 namespace lightgrid {
 namespace {
@@ -91,7 +91,7 @@ RecordFile::RecordFile(const fs::path& path, const FrontierPart& part, const Not
 
 RecordFile::~RecordFile() { close(file_); }
 
-// What is known then is what reading the line again would tell.
+// The line is taken as it would be read from the file.
 void RecordFile::add(const json& line) {
   const std::string text = line_text(line);
   write_text(text);

@@ -21,7 +21,7 @@ void add_time(const MeasuredPoint& point, size_t view, double ms, double beside,
 
 bool is_refused(const FrontierRecord& record) { return !record.refused.empty(); }
 
-// Of each round, over all views.
+// The ratio of each round, over all views.
 std::vector<double> ratios_of(const MeasuredPoint& point) {
   std::vector<double> ratios;
   for (size_t round = 0; round < size_t(point.rounds()); ++round) {
@@ -184,7 +184,7 @@ double TimeRounds::timed(MeasuredPoint& point, size_t view) {
   return point.run.draw();
 }
 
-// Whether each ratio's interval is narrow enough.
+// True if each ratio's interval is narrow enough.
 bool TimeRounds::are_certain() const {
   return std::ranges::all_of(points, [&](const MeasuredPoint& point) {
     if (std::ranges::any_of(point.records, is_refused)) return true;

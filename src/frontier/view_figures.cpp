@@ -5,10 +5,11 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "compare/oracle.h"
+#include "cl/error.h"
 #include "results/metrics.h"
 #include "scene/camera_path.h"
 #include "scene/random.h"
+#include "session/oracle.h"
 
 namespace lightgrid {
 namespace {
@@ -108,7 +109,8 @@ void ViewFigures::measure(PointRun& run, FrontierRecord& record) {
   run.draw_for_errors();
   record.refused = run.refused();
   if (!record.refused.empty()) return;
-  record.refused = refusal_of([&] { fill(run, record); });  // its lists may not fit into memory
+  const auto failure = failure_of([&] { fill(run, record); });  // its lists may not fit into memory
+  if (failure) record.refused = failure->what();
 }
 
 void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {

@@ -65,7 +65,7 @@ std::vector<View> frontier_views(const Scene& scene, const View& start, const Sc
 // Frames of a camera that turns from `start` by a quarter of a degree a frame.
 std::vector<View> slow_turn(const Scene& scene, const View& start, int frames);
 
-// Whether a point's surfaces are those of the rasteriser in OpenCL.
+// True if a point's surfaces are those of the rasteriser in OpenCL.
 bool has_own_surfaces(const ChosenPoint& point);
 
 }  // namespace lightgrid

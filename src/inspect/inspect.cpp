@@ -153,7 +153,7 @@ bool touches_cell(const Cell& cell, const LightBounds& light) {
 // Surfaces of the cell's pixels, in view space.
 std::vector<glm::dvec3> surfaces_of(const CapturedFrame& frame, const FrameGrid& grid,
                                     const PixelInspection& pixel) {
-  const PixelCells cells(frame, grid);
+  const PixelCells cells = cells_of(frame, grid);
   std::vector<glm::dvec3> surfaces;
   for (int y = pixel.y0; y < pixel.y1; ++y) {
     for (int x = pixel.x0; x < pixel.x1; ++x) {
@@ -173,7 +173,7 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
   pixel.covered = is_covered(frame, x, y);
   pixel.distance_m = pixel.covered ? -position_from_depth(view, x, y, pixel.depth).z : endless;
   pixel.cell_x = x / grid.tile, pixel.cell_y = y / grid.tile;
-  pixel.slice = PixelCells(frame, grid).slice(x, y);
+  if (pixel.covered) pixel.slice = cells_of(frame, grid).slice(x, y);
   pixel.x0 = pixel.cell_x * grid.tile, pixel.x1 = std::min(pixel.x0 + grid.tile, view.width);
   pixel.y0 = pixel.cell_y * grid.tile, pixel.y1 = std::min(pixel.y0 + grid.tile, view.height);
   const DepthInterval interval = intervals[size_t(pixel.cell_y) * grid.lists.cells_x + pixel.cell_x];
@@ -249,8 +249,8 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   const std::vector<ViewLight> lights = local_lights(frame);
   const std::vector<int> number = local_numbers(frame);
   const std::vector<uint32_t> near = lights_within_reach(lights, surfaces);
-  const PixelCells cells(frame, grid);
-  const uint32_t at = cells.cell(x, y), bin = cells.z_bin(x, y);
+  const PixelCells cells = cells_of(frame, grid);
+  const uint32_t at = cells.cell(x, y, pixel.slice), bin = cells.z_bin(x, y);
   const bool empty = !(pixel.near_m <= pixel.far_m);
   const Cell cell = cell_of(frame.view, pixel);
   const std::vector<DepthInterval> pieces = pieces_of(cell, surfaces, settings.depth_bounds);
@@ -258,7 +258,7 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   for (uint32_t i = 0; i < lights.size(); ++i) {
     LightVerdict& v = pixel.lights.emplace_back();
     const LightBounds bounds = bounds_of(lights[i]);
-    v.index = i, v.light = number[i];
+    v.index = i, v.light = number[i], v.radius_m = lights[i].radius_m;
     v.listed = stands_in_cell(grid.lists, at, i);
     v.distance_m = pixel.covered ? glm::length(lights[i].position - here) : endless;
     v.lit = pixel.covered && is_lit(lights[i], here);

@@ -21,8 +21,9 @@ struct TestMargins {
 };
 
 struct LightVerdict {
-  uint32_t index = 0;     // in the lists
-  int light = 0;          // in the frame
+  uint32_t index = 0;  // in the lists
+  int light = 0;       // in the frame
+  double radius_m = 0;
   double distance_m = 0;  // from the pixel's surface
   bool listed = false;
   std::string test;     // among the tests in use: the one that dropped it, or the one with the least margin
@@ -43,7 +44,7 @@ struct PixelInspection {
   double near_m = 0, far_m = 0;        // of the cell; near > far if none of its pixels shows a surface
   int covered_pixels = 0;              // of the cell
   int directional = 0;                 // directional lights: they reach every pixel and are in no list
-  std::vector<LightVerdict> lights;  // listed ones by index, then dropped ones, nearest to the cell first
+  std::vector<LightVerdict> lights;    // listed ones by index, then dropped ones, nearest to the cell first
   int listed() const;
   int lit() const;
   int lost() const;  // lit but not listed

@@ -72,15 +72,13 @@ void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lis
 ListedLights listed_of_grid(Work& work, const Seen& seen, const ViewGrid& grid,
                             const std::vector<float>& depth) {
   ListedLights lists;
-  lists.cell_of_pixel = cells_of_pixels(seen, depth);
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   if (seen.plan.settings.grid_lists == GridLists::masks) {
     add_masks(read_shared<uint32_t>(work, grid.storage->masks_, cells * grid.mask_words), cells, lists);
   } else {
     add_lists(work, grid, cells, lists);
   }
-  if (grid.z_bin_bytes == 0) return lists;
-  return in_z_bins(lists, z_bins_of_pixels(seen, depth),
+  return at_pixels(std::move(lists), cells_of_pixels(seen, depth),
                    read_shared<uint32_t>(work, grid.storage->z_bins_, grid.z_bin_bytes / 4));
 }
 

@@ -17,4 +17,12 @@ std::vector<PlanChange> plan_changes(const std::vector<Decision>& before, const 
   return changes;
 }
 
+void PathPlans::add(const FramePlan& plan) {
+  const size_t frame = frames_++;
+  if (plan.settings.everything_on) return;
+  for (PlanChange& change : plan_changes(before_, plan.decisions, frame))
+    changes_.push_back(std::move(change));
+  before_ = plan.decisions;
+}
+
 }  // namespace lightgrid

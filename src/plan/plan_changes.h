@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace lightgrid {
+#include "plan/frame_plan.h"
 
-struct Decision;
+namespace lightgrid {
 
 struct PlanChange {
   size_t frame = 0;     // of the path, counted from 0: the first with the new plan
@@ -22,5 +22,20 @@ struct PlanChange {
 // technique with the same settings. Another witness of the same effect is no change.
 std::vector<PlanChange> plan_changes(const std::vector<Decision>& before, const std::vector<Decision>& now,
                                      size_t frame);
+
+// The plans of a path, frame by frame.
+class PathPlans {
+ public:
+  // The next frame's plan. The first has nothing to differ from, and with the setting everything-on no plan
+  // differs from another.
+  void add(const FramePlan& plan);
+
+  const std::vector<PlanChange>& changes() const { return changes_; }
+
+ private:
+  std::vector<Decision> before_;
+  std::vector<PlanChange> changes_;
+  size_t frames_ = 0;
+};
 
 }  // namespace lightgrid

@@ -247,6 +247,19 @@ void apply_setting(Settings& settings, const std::string& assignment) {
   throw input_error("set {}: \"{}\" is not a value of {}; values are {}", assignment, value, key, values);
 }
 
+const std::vector<std::string>& model_settings() {
+  static const std::vector<std::string> keys = {"brdf", "range", "cutoff", "window", "alpha", "light-seed"};
+  return keys;
+}
+
+bool same_model(const Settings& a, const Settings& b) { return a.brdf == b.brdf && a.ranges == b.ranges; }
+
+Settings with_model(Settings settings, const Settings& model) {
+  settings.brdf = model.brdf;
+  settings.ranges = model.ranges;
+  return settings;
+}
+
 const std::vector<std::string>& tunable_settings() {
   static const std::vector<std::string> keys = {"kernel-shape", "portable", "group-size"};
   return keys;
@@ -263,15 +276,16 @@ Settings with_tuned(Settings settings, const std::map<std::string, std::string>&
   return settings;
 }
 
+std::string json_key(std::string setting) {
+  std::ranges::replace(setting, '-', '_');
+  return setting;
+}
+
 std::map<std::string, std::string> to_strings(const Settings& settings) {
   std::map<std::string, std::string> strings;
   for (const Setting& s : all_settings()) {
     for (const Choice& c : s.choices) {
-      if (c.is_set(settings)) {
-        std::string key = s.key;
-        std::replace(key.begin(), key.end(), '-', '_');
-        strings[key] = c.value;
-      }
+      if (c.is_set(settings)) strings[json_key(s.key)] = c.value;
     }
   }
   return strings;

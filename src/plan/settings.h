@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/brdf.h"
 #include "scene/light_ranges.h"
+#include "scene/material_model.h"
 #include "shared/cull_settings.h"
 
 namespace lightgrid {
@@ -93,6 +93,12 @@ struct Settings {
   std::set<std::string> given{};  // keys that apply_setting has set
 };
 
+// Keys of the settings that say which picture is meant: images with other values cannot be compared.
+const std::vector<std::string>& model_settings();
+bool same_model(const Settings& a, const Settings& b);
+// `settings` with the values that `model` has for those.
+Settings with_model(Settings settings, const Settings& model);
+
 // Settings that change no result; `lightgrid bench --tune` tries them.
 const std::vector<std::string>& tunable_settings();
 
@@ -103,7 +109,9 @@ Settings with_tuned(Settings settings, const std::map<std::string, std::string>&
 // Applies "key=value". Throws Error(input) that lists the keys, or the values of a key.
 void apply_setting(Settings& settings, const std::string& assignment);
 
+// By the keys of results.json: "-" becomes "_".
 std::map<std::string, std::string> to_strings(const Settings& settings);
+std::string json_key(std::string setting);
 
 struct SettingHelp {
   std::string key;

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "scene/brdf.h"
+#include "scene/material_model.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "base/text.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -215,11 +215,8 @@ std::vector<Chart> charts_over(const Axis& axis, const std::vector<ReportView>& 
 std::optional<double> number_of(const RunResult& row, const std::string& key) {
   const auto found = row.settings.find(key);
   if (found == row.settings.end()) return {};
-  const std::string& text = found->second;
-  double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !(value > 0)) return {};
-  return value;
+  const auto value = parse_number<double>(found->second);
+  return value && *value > 0 ? value : std::nullopt;
 }
 
 // The numeric settings that differ between rows of one technique.

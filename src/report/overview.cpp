@@ -74,10 +74,6 @@ void sort_by_count(std::vector<Tally>& tallies) {
                    [](const Tally& a, const Tally& b) { return a.places.size() > b.places.size(); });
 }
 
-std::string row_name(const CompareReport& report, const RunResult& row) {
-  return row_names(report)[size_t(&row - report.rows.data())];
-}
-
 std::string winners_sentence(const std::vector<ReportView>& views, const std::vector<std::string>& names) {
   std::vector<Tally> tallies;
   for (size_t i = 0; i < views.size(); ++i) {

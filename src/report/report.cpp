@@ -120,6 +120,10 @@ std::vector<std::string> row_names(const CompareReport& report) {
   return made_distinct(row_names_without(report, ""));
 }
 
+std::string row_name(const CompareReport& report, const RunResult& row) {
+  return row_names(report)[size_t(&row - report.rows.data())];
+}
+
 std::string file_stem(const std::string& name) {
   std::string stem = name;
   for (char& c : stem) {

@@ -3,7 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "report/view_pictures.h"
 #include "results/results.h"
@@ -54,6 +58,8 @@ nlohmann::json to_json(const std::vector<ReportView>& views);
 // "forward_plus:tile=32". Rows that differ in none are NAME, NAME-2 and so on.
 std::vector<std::string> row_names(const CompareReport& report);
 
+std::string row_name(const CompareReport& report, const RunResult& row);  // one of the report's
+
 // The same without the setting `key` and without numbers: one name for the rows that differ in it alone.
 std::vector<std::string> row_names_without(const CompareReport& report, const std::string& key);
 
@@ -102,5 +108,12 @@ std::vector<std::string> overview_sentences(const std::vector<ReportView>& views
 // Which of the two is faster in which views; a technique counts by its fastest exact row. Empty if no view
 // has both. No clear difference: the median of the faster is not below every run of the other.
 std::string faster_where(const std::vector<ReportView>& views, const std::string& a, const std::string& b);
+
+// For pages of one file, this one and the frontier's.
+// Safe inside <script>: contains no "<", so no "</script>" either. JSON in, JSON of the same value out.
+std::string script_json(const std::string& text);
+
+// Replaces each {{name}} of the template, in order; inserted text is not scanned again.
+std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values);
 
 }  // namespace lightgrid

@@ -1,12 +1,13 @@
 #include "results/results.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_file.h"
+#include "base/text.h"
+#include "plan/settings.h"
 #include "results/error_measures.h"
-#include "results/json_file.h"
 #include "results/path_changes.h"
 
 namespace lightgrid {
@@ -14,24 +15,10 @@ namespace {
 
 using nlohmann::json;
 
-// "cull-test" on the command line is "cull_test" here.
-std::string key_of(std::string setting) {
-  std::replace(setting.begin(), setting.end(), '-', '_');
-  return setting;
-}
-
-template <typename Number>
-bool parse_whole(const std::string& text, Number& number) {
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return failure == std::errc() && end == text.data() + text.size();
-}
-
 json value_of(const std::string& setting) {
-  int64_t whole = 0;
-  double real = 0;
   if (setting == "true" || setting == "false") return setting == "true";
-  if (parse_whole(setting, whole)) return whole;
-  if (parse_whole(setting, real) && std::isfinite(real)) return real;
+  if (const auto whole = parse_number<int64_t>(setting)) return *whole;
+  if (const auto real = parse_number<double>(setting); real && std::isfinite(*real)) return *real;
   return setting;
 }
 
@@ -127,11 +114,11 @@ json to_json(const MovingResult& m) {
 
 json settings_json(const std::map<std::string, std::string>& settings) {
   json out = json::object();
-  for (const auto& [name, value] : settings) out[key_of(name)] = value_of(value);
+  for (const auto& [name, value] : settings) out[json_key(name)] = value_of(value);
   return out;
 }
 
-// Of a pass whose result serves many frames: the frame's median, which is without it, with its share.
+// A pass whose result serves many frames is not in the frame's median; its share is added here.
 static json build_json(const PassResult& pass, double frame_ms, std::optional<double> world_cell) {
   const auto shared = [&](int frames) { return frame_ms + pass.median_ms / frames; };
   return {{"pass", pass.name},

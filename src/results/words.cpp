@@ -1,11 +1,11 @@
 #include "results/words.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
 
 namespace lightgrid {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "scene/overview_camera.h"
 
 namespace lightgrid {
@@ -84,12 +84,9 @@ double size_of(const WorldBox& box) {
   return size > 0 && std::isfinite(size) ? size : 1;
 }
 
-double parse_number(std::string_view text, const std::string& wish) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw input_error("camera {}: \"{}\" is not a number", wish, text);
-  }
+double camera_number(std::string_view text, const std::string& wish) {
+  const double value = parse_number<double>(text).value_or(std::numeric_limits<double>::quiet_NaN());
+  if (!std::isfinite(value)) throw input_error("camera {}: \"{}\" is not a number", wish, text);
   if (std::abs(value) > max_coordinate_m) {
     throw input_error("camera {}: {} is beyond {:g}", wish, text, max_coordinate_m);
   }
@@ -134,8 +131,8 @@ LookAtWish parse_look_at(const std::string& wish) {
     }
     key->seen = true;
     item.remove_prefix(key->name.size());
-    key->values[0] = parse_number(item, wish);
-    for (int i = 1; i < key->count; ++i) key->values[i] = parse_number(next_item(), wish);
+    key->values[0] = camera_number(item, wish);
+    for (int i = 1; i < key->count; ++i) key->values[i] = camera_number(next_item(), wish);
   }
   for (const Key& key : keys) {
     if (!key.seen && key.count == 3) throw input_error("camera {}: {} is missing", wish, key.name);
@@ -163,10 +160,8 @@ Camera find_camera(const Scene& scene, const std::string& wish) {
   for (const Camera& camera : scene.cameras) {
     if (camera.name == wish) return camera;
   }
-  size_t index = 0;
-  const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), index);
-  const bool is_index = error == std::errc() && end == wish.data() + wish.size();
-  if (is_index && index < scene.cameras.size()) return scene.cameras[index];
+  const auto index = parse_number<size_t>(wish);
+  if (index && *index < scene.cameras.size()) return scene.cameras[*index];
   throw input_error("camera {}: no camera of that name or index; {}", wish, known_cameras(scene));
 }
 

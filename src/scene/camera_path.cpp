@@ -1,7 +1,6 @@
 #include "scene/camera_path.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace lightgrid {
 namespace {
@@ -128,13 +128,9 @@ class KeyFile {
 // N of "NAME:N", or empty if the text has another form.
 std::optional<int> count_of(const std::string& text, const std::string& name) {
   if (!text.starts_with(name + ":")) return {};
-  const char* first = text.data() + name.size() + 1;
-  const char* last = text.data() + text.size();
-  int count = 0;
-  const auto [end, failure] = std::from_chars(first, last, count);
-  if (failure != std::errc() || end != last || count < 1 || count > most_views) {
+  const auto count = parse_number<int>(std::string_view(text).substr(name.size() + 1));
+  if (!count || *count < 1 || *count > most_views)
     throw input_error("camera path {}: not {}:N with N from 1 to {}", text, name, most_views);
-  }
   return count;
 }
 

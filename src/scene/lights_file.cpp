@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/json_file.h"
 
 namespace lightgrid {
 namespace {
@@ -48,8 +46,7 @@ class Place : public Json::json_sax_t {
 
   bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
     const bool syntax = dynamic_cast<const Json::parse_error*>(&error);
-    throw input_error("{}: {}{}{}", path_.string(), place(), syntax ? "is not JSON: " : "",
-                      without_prefix(error.what()));
+    throw input_error("{}: {}{}{}", path_.string(), place(), syntax ? "is not JSON: " : "", fault_of(error));
   }
 
  private:
@@ -64,33 +61,19 @@ class Place : public Json::json_sax_t {
     return light_ < 0 ? field : fmt::format("light {}: {}", light_, field);
   }
 
-  // "[json.exception.parse_error.101] parse error at line 1, ..."
-  static std::string without_prefix(const std::string& what) {
-    const size_t end = what.find("] ");
-    return end == std::string::npos ? what : what.substr(end + 2);
-  }
-
   std::filesystem::path path_;
   int depth_ = 0, light_ = -1;
   bool in_lights_ = false;
   std::string field_;
 };
 
-Json read_json(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw input_error("{}: no such file", path.string());
-  const uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw input_error("{}: cannot be read: {}", path.string(), error.message());
-  if (size > max_lights_file_bytes) {
-    throw input_error("{}: {} bytes are more than the {} a lights file may have", path.string(), size,
-                      max_lights_file_bytes);
-  }
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw input_error("{}: cannot be opened", path.string());
+Json read_object(const std::filesystem::path& path) {
+  const std::string text = read_small_file(path, max_lights_file_bytes, "a lights file");
   Place place(path);
   Json::sax_parse(text, &place);
-  return Json::parse(text);
+  Json json = Json::parse(text);
+  if (!json.is_object()) throw input_error("{}: is {}, not an object", path.string(), json.type_name());
+  return json;
 }
 
 // One light's fields, with checks.
@@ -215,12 +198,6 @@ nlohmann::ordered_json to_json(const Light& light) {
   }
   json["color"] = to_json(light.color);
   json["intensity"] = shortest(light.intensity);
-  return json;
-}
-
-Json read_object(const std::filesystem::path& path) {
-  Json json = read_json(path);
-  if (!json.is_object()) throw input_error("{}: is {}, not an object", path.string(), json.type_name());
   return json;
 }
 

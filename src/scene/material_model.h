@@ -1,4 +1,5 @@
-// Diffuse models besides Lambert's, chosen by a material: skin and Minnaert (docs/material_models.md).
+// The lobe of all materials, and diffuse models besides Lambert's, chosen by a material: skin and Minnaert
+// (docs/material_models.md).
 #pragma once
 
 #include <vector>
@@ -28,5 +29,7 @@ std::vector<MaterialModel> material_models(const Scene& scene);
 
 // The number of a model. It is one of `models`.
 int model_number(const std::vector<MaterialModel>& models, const MaterialModel& model);
+
+enum class Brdf { ggx, blinn, lambert };  // the specular lobe, or none: shared/brdf.h
 
 }  // namespace lightgrid

@@ -74,11 +74,12 @@ void check_same_picture(const std::vector<Contestant>& contestants) {
   auto meant = to_strings(first.settings);
   for (const Contestant& c : contestants) {
     auto other = to_strings(c.settings);
-    for (const char* key : {"brdf", "range", "cutoff", "window", "alpha", "light_seed"}) {
-      if (other.at(key) == meant.at(key)) continue;
+    for (const std::string& key : model_settings()) {
+      const std::string &one = meant.at(json_key(key)), &another = other.at(json_key(key));
+      if (one == another) continue;
       throw input_error(
           "{0}: {1} with {0}={2} and {3} with {0}={4}: one reference cannot serve both; choose one for all",
-          key, first.technique->name, meant.at(key), c.technique->name, other.at(key));
+          key, first.technique->name, one, c.technique->name, another);
     }
   }
 }

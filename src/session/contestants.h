@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/bench.h"
-#include "compare/compare.h"
+#include "session/compare.h"
 
 namespace lightgrid {
 

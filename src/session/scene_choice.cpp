@@ -1,12 +1,13 @@
 #include "session/scene_choice.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <string>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "scene/builtin.h"
 #include "scene/camera_path.h"
 #include "scene/light_motion.h"
@@ -15,19 +16,10 @@
 #include "scene/load_gltf.h"
 
 namespace lightgrid {
+
 namespace {
 
 constexpr int max_image_side = 16384;
-
-// Parses two numbers with a separator between them, and nothing else.
-template <typename T>
-bool parse_pair(const std::string& text, char separator, T& a, T& b) {
-  const char *begin = text.data(), *end = begin + text.size();
-  const auto first = std::from_chars(begin, end, a);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != separator) return false;
-  const auto second = std::from_chars(first.ptr + 1, end, b);
-  return second.ec == std::errc() && second.ptr == end;
-}
 
 void check_light_radius(const SceneChoice& choice) {
   if (!choice.light_radius.empty() && (choice.lights < 0 || !choice.lights_file.empty())) {
@@ -40,10 +32,11 @@ void scatter_over(Scene& scene, const SceneChoice& choice) {
   ScatterSettings scatter;
   scatter.count = choice.lights;
   scatter.seed = choice.seed;
-  float &low = scatter.min_radius_m, &high = scatter.max_radius_m;
-  if (!choice.light_radius.empty() && (!parse_pair(choice.light_radius, ',', low, high) || !(low > 0) ||
-                                       !(high >= low) || std::isinf(high))) {
-    throw input_error("light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", choice.light_radius);
+  if (!choice.light_radius.empty()) {
+    const auto [low, high] = parse_pair<float>(choice.light_radius, ',').value_or(std::pair(0.0f, 0.0f));
+    if (!(low > 0) || !(high >= low) || std::isinf(high))
+      throw input_error("light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", choice.light_radius);
+    scatter.min_radius_m = low, scatter.max_radius_m = high;
   }
   scene.lights = scatter_lights(scene, scatter);
 }
@@ -58,11 +51,10 @@ void load_lights(Scene& scene, const SceneChoice& choice) {
 }
 
 float parse_ambient(const std::string& text) {
-  float radiance = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), radiance);
-  if (failure != std::errc() || end != text.data() + text.size() || !(radiance >= 0) || std::isinf(radiance))
+  const auto radiance = parse_number<float>(text);
+  if (!radiance || !(*radiance >= 0) || std::isinf(*radiance))
     throw input_error("ambient {}: not a finite radiance of 0 or more", text);
-  return radiance;
+  return *radiance;
 }
 
 }  // namespace
@@ -70,11 +62,9 @@ float parse_ambient(const std::string& text) {
 std::optional<double> chosen_time(const SceneChoice& choice) {
   const std::string& text = choice.time;
   if (text.empty()) return {};
-  double seconds = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  if (failure != std::errc() || end != text.data() + text.size() || !(seconds >= 0) || !(seconds <= 1e9)) {
+  const auto seconds = parse_number<double>(text);
+  if (!seconds || !(*seconds >= 0) || !(*seconds <= 1e9))
     throw input_error("time {}: not a number of seconds from 0 to 1e9", text);
-  }
   return seconds;
 }
 
@@ -90,12 +80,10 @@ Scene load_scene(const std::string& name) {
 }
 
 ImageSize parse_size(const std::string& text) {
-  ImageSize size;
-  if (!parse_pair(text, 'x', size.width, size.height) || size.width < 1 || size.height < 1 ||
-      size.width > max_image_side || size.height > max_image_side) {
+  const auto [width, height] = parse_pair<int>(text, 'x').value_or(std::pair(0, 0));
+  if (width < 1 || height < 1 || width > max_image_side || height > max_image_side)
     throw input_error("size {}: not WxH with sides from 1 to {}", text, max_image_side);
-  }
-  return size;
+  return {width, height};
 }
 
 View choose_view(Scene& scene, const SceneChoice& choice) {
@@ -158,6 +146,39 @@ Settings chosen_settings(const SceneChoice& choice) {
   for (const std::string& assignment : choice.set) apply_setting(settings, assignment);
   if (!choice.brdf.empty()) apply_setting(settings, "brdf=" + choice.brdf);
   return settings;
+}
+
+Renderer open_devices(const DeviceOptions& o, const std::string& technique, const Settings& settings) {
+  const bool opengl = technique.empty() || draws_with_opengl(find_technique(technique).needs, settings);
+  const GlBackend wanted = parse_gl_backend(o.gl);
+  Renderer renderer(o.device, !opengl && wanted == GlBackend::automatic ? GlBackend::none : wanted);
+  if (opengl && !technique.empty()) renderer.require_gl();
+  return renderer;
+}
+
+const Technique& technique_or_default(const std::string& technique, const Renderer& renderer) {
+  if (!technique.empty()) return find_technique(technique);
+  if (renderer.gl) return find_technique("forward_plus");
+  log_warning("{}; visibility takes the place of forward_plus", renderer.why_no_gl);
+  return find_technique("visibility");
+}
+
+std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices) {
+  std::vector<LoadedView> views;
+  std::string loaded;
+  Scene own;  // the scene's own lights
+  std::shared_ptr<Scene> scene;
+  for (const SceneChoice& choice : choices) {
+    if (!scene || choice.scene != loaded) {
+      scene = std::make_shared<Scene>(load_scene(choice.scene));
+      loaded = choice.scene;
+      own.lights = scene->lights, own.ambient = scene->ambient;
+    }
+    scene->lights = own.lights, scene->ambient = own.ambient;
+    const View view = choose_view(*scene, choice);
+    views.push_back({scene, view, scene->lights, scene->ambient});
+  }
+  return views;
 }
 
 }  // namespace lightgrid

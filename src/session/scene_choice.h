@@ -1,15 +1,16 @@
-// The scene, lights, camera and settings of a run, chosen by text, for the command line, the window and other
-// front ends. Error(input) names the field and its value.
+// The scene, lights, camera, settings and devices of a run, chosen by text, for the command line, the window
+// and other front ends. Error(input) names the field and its value.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "compare/compare.h"
 #include "plan/settings.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
+#include "session/compare.h"
 
 namespace lightgrid {
 
@@ -28,6 +29,16 @@ struct SceneChoice {
   uint64_t seed = 1;
   std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;
+};
+
+struct DeviceOptions {
+  std::string device;
+  std::string gl = "auto";
+};
+
+struct TimingOptions {
+  int frames = 5;
+  int warmup = 1;
 };
 
 inline constexpr int most_lights = 10'000'000;
@@ -52,5 +63,33 @@ struct ChosenScene {
 };
 ChosenScene load_chosen_scene(const SceneChoice& choice);
 Settings chosen_settings(const SceneChoice& choice);
+
+// The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened
+// only if the technique needs it or `gl` names a backend. Throws Error(input) for an unknown name,
+// Error(machine) without what it needs.
+Renderer open_devices(const DeviceOptions& options, const std::string& technique, const Settings& settings);
+
+// The technique by its name; if that is empty, forward_plus or, without OpenGL, visibility, which is reported
+// in the log.
+const Technique& technique_or_default(const std::string& technique, const Renderer& renderer);
+
+// A view and its lights; several views may share the scene.
+struct LoadedView {
+  std::shared_ptr<Scene> scene;
+  View view;
+  std::vector<Light> lights;
+  glm::vec3 ambient;
+
+  // The scene with this view's lights.
+  Scene& with_lights() const {
+    scene->lights = lights;
+    scene->ambient = ambient;
+    return *scene;
+  }
+};
+
+// Neighbouring choices with the same scene share it. An error in any of them is thrown before the first view
+// is run.
+std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices);
 
 }  // namespace lightgrid

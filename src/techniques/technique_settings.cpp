@@ -22,8 +22,14 @@ bool has_effect(const Settings& settings, const std::string& key) {
 }  // namespace
 
 const std::vector<const char*>& common_settings() {
-  static const std::vector<const char*> keys = {"range", "cutoff",     "window",
-                                                "alpha", "light-seed", "everything-on"};
+  static const std::vector<const char*> keys = [] {
+    std::vector<const char*> all;
+    for (const std::string& key : model_settings()) {
+      if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
+    }
+    all.push_back("everything-on");
+    return all;
+  }();
   return keys;
 }
 
@@ -34,8 +40,7 @@ bool reads_setting(const Technique& technique, const std::string& key) {
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {
   std::map<std::string, std::string> all = to_strings(settings), own;
   for (const SettingHelp& help : setting_help()) {
-    std::string key = help.key;
-    std::replace(key.begin(), key.end(), '-', '_');
+    const std::string key = json_key(help.key);
     if (reads_setting(technique, help.key) && has_effect(settings, help.key)) own[key] = all.at(key);
   }
   return own;

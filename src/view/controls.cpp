@@ -1,6 +1,12 @@
 #include "view/controls.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "techniques/technique.h"
 
 namespace lightgrid {
 
@@ -16,6 +22,72 @@ SideMap parse_map(const std::string& name) {
     known += (i ? ", " : "") + std::string(map_names()[i]);
   }
   throw input_error("\"{}\" is not a map; maps are {}", name, known);
+}
+
+namespace {
+
+constexpr double line_reach_px = 6;   // distance within which the line can be dragged
+constexpr double click_reach_px = 3;  // largest movement during a click
+
+}  // namespace
+
+PointerResult Pointer::follow(const Input& input, int width, int height, double line, bool free) {
+  PointerResult result;
+  if (input.pressed) {
+    x_ = (*input.pressed)[0];
+    y_ = (*input.pressed)[1];
+  }
+  // Without `pressed` it is the position of the last frame: a script may press and move in one frame.
+  if (input.button && gesture_ == Gesture::none) {
+    const bool over = free && x_ >= 0 && y_ >= 0 && x_ < width && y_ < height;
+    const bool near_line = std::abs(x_ - line * width) <= line_reach_px;
+    gesture_ = !over ? Gesture::elsewhere : near_line ? Gesture::line : Gesture::look;
+    moved_px_ = 0;
+  }
+  // The release has a position too: a whole drag may lie between two frames.
+  const double dx = input.x - x_, dy = input.y - y_;
+  moved_px_ += std::hypot(dx, dy);
+  const bool drags = moved_px_ > click_reach_px;
+  if (gesture_ == Gesture::line && drags) result.line = std::clamp(input.x / width, 0.0, 1.0);
+  if (gesture_ == Gesture::look && drags) {
+    result.turn_x = dx;
+    result.turn_y = dy;
+  }
+  if (!input.button) {
+    const bool on_picture = gesture_ == Gesture::look || gesture_ == Gesture::line;
+    if (on_picture && !drags) {
+      result.click =
+          PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(height - 1 - int(y_), 0, height - 1)};
+    }
+    gesture_ = Gesture::none;
+  }
+  x_ = input.x;
+  y_ = input.y;
+  return result;
+}
+
+std::string shell_word(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("-_./:,=+@%").find(char(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string render_command(const std::string& scene_words, int width, int height, const std::string& camera,
+                           const std::string& time_words, const SideControls& side) {
+  std::string line = fmt::format("lightgrid render {} --size {}x{}", scene_words, width, height);
+  if (!camera.empty()) line += " --camera " + shell_word(camera);
+  line += time_words + " -t " + side.technique;
+  const auto values = to_strings(side.settings);
+  const Technique& technique = find_technique(side.technique);
+  for (const std::string& key : side.settings.given) {
+    if (!reads_setting(technique, key)) continue;
+    line += fmt::format(" --set {}={}", key, values.at(json_key(key)));
+  }
+  return line + " -o view.png";
 }
 
 }  // namespace lightgrid

@@ -1,5 +1,5 @@
-// The choices of the window's user. Panels, the mouse, keys and scripts change them; the viewer applies them
-// in the next frame.
+// The choices of the window's user, and the command line that draws the same. Panels, the mouse, keys and
+// scripts change them; the viewer applies them in the next frame.
 #pragma once
 
 #include <array>
@@ -57,5 +57,33 @@ struct Input {
 };
 
 enum class FlightKey { forward, left, back, right, down, up, fast };  // W A S D Q E shift
+
+struct PointerResult {
+  double turn_x = 0, turn_y = 0;      // pixels since the last frame
+  std::optional<double> line;         // new position of the line
+  std::optional<PicturePixel> click;  // pressed and released at one position
+};
+
+// Interprets the pointer over the picture: dragging the line, turning the camera, or clicking a pixel.
+class Pointer {
+ public:
+  // The picture fills the window's upper left, width x height. `free`: no panel takes the pointer. A drag
+  // that began over the picture continues over panels.
+  PointerResult follow(const Input& input, int width, int height, double line, bool free);
+
+ private:
+  enum class Gesture { none, line, look, elsewhere };
+  Gesture gesture_ = Gesture::none;
+  double x_ = 0, y_ = 0;  // in the last frame
+  double moved_px_ = 0;   // since it was pressed
+};
+
+// Quotes a word for a shell.
+std::string shell_word(const std::string& word);
+
+// `scene_words`: the scene and its lights, as options. `camera`: --camera's text, or empty. `time_words`:
+// Motion::words.
+std::string render_command(const std::string& scene_words, int width, int height, const std::string& camera,
+                           const std::string& time_words, const SideControls& side);
 
 }  // namespace lightgrid

@@ -7,55 +7,36 @@
 #include <string>
 #include <vector>
 
-#include "compare/run_technique.h"
 #include "inspect/inspect.h"
 #include "reference/lit_set.h"
+#include "session/technique_run.h"
 #include "view/controls.h"
 
 namespace lightgrid {
 
-// The oracle's input for a frame, copied from the devices.
+// The last frame of a side, copied from the devices, with the lights that it listed.
 struct ListedFrame {
-  View view;
-  std::vector<float> depth;
+  CapturedFrame frame;
   std::vector<ViewLight> lights;  // point and spot lights, in the lists' order
-  std::vector<int> scene_lights;  // their indices in the scene
   ListedLights lists;
 };
 ListedFrame read_listed_frame(TechniqueRun& run);
 
-// A light at a pixel.
-struct PixelLight {
-  int light = 0;  // index in the scene
-  std::string name;
-  double distance_m = 0;  // from the surface
-  double radius_m = 0;
-  bool listed = false, lit = false;
-  std::string test;     // that kept or dropped it (inspect/inspect.h); empty: no light grid was culled
-  double margin_m = 0;  // of that test
-};
-
-struct PixelLights {
-  bool covered = false;   // shows a surface
-  double distance_m = 0;  // of the surface along the view axis
-  int listed = 0, lit = 0, lost = 0;
-  // Listed or lit ones: lost first, then lit, then the rest; each group by distance. Then, with a light grid,
-  // the nearest to the cell of those that culling dropped.
-  std::vector<PixelLight> lights;
-};
-PixelLights lights_at(const ListedFrame& frame, const Scene& scene, PicturePixel pixel);
+// The lights at a pixel that the frame listed or the oracle finds lit: lost first, then lit, then the rest;
+// each group by distance. Tests are empty. Of the place only what a pixel has without a light grid is set.
+PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel);
 
 // What culling decided about each light at the pixel: the frame's depth is culled once more, with the
 // run's settings. Empty if the technique's plan has no light grid.
-std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const std::vector<float>& depth,
+std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFrame& frame,
                                              PicturePixel pixel);
 
-// Adds the deciding tests and their margins, and up to `most_dropped` dropped lights.
-void add_margins(PixelLights& lights, const PixelInspection& inspection, const Scene& scene,
-                 int most_dropped);
+// Adds the deciding tests and their margins, and up to `most_dropped` dropped lights, those nearest to the
+// cell first.
+void add_margins(PixelInspection& lights, const PixelInspection& inspection, int most_dropped);
 
 // "lamp 3 1.20 of 3.00 m" and "kept by aabb +0.430 m": the two lines of a light. The second may be empty.
-std::array<std::string, 2> lines_of(const PixelLight& light);
+std::array<std::string, 2> lines_of(const LightVerdict& verdict, const Scene& scene);
 
 // Counts every pixel's lights on other threads: takes about a second for a full picture and a thousand
 // lights.

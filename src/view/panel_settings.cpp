@@ -30,10 +30,8 @@ void choose_technique(SideControls& side) {
 }
 
 void choose_setting(SideControls& side, const SettingHelp& setting) {
-  std::string key = setting.key;
-  std::ranges::replace(key, '-', '_');
   const std::string id = "##" + setting.key;
-  const char* chosen = combo(id.c_str(), to_strings(side.settings).at(key), setting.values);
+  const char* chosen = combo(id.c_str(), to_strings(side.settings).at(json_key(setting.key)), setting.values);
   if (chosen) apply_setting(side.settings, setting.key + "=" + chosen);
 }
 

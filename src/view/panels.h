@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "view/clock.h"
 #include "view/fly_camera.h"
 #include "view/listed.h"
-#include "view/motion.h"
 #include "view/side.h"
 #include "view/side_map.h"
 
@@ -40,8 +40,8 @@ struct Shown {
   std::array<const MapOfSide*, 2> maps;
   std::array<std::string, 2> map_notes;  // why a map is not available yet; empty: it is
   std::array<PlanHistory, 2>& plans;
-  std::array<std::optional<PixelLights>, 2> pixel;  // at Controls::pixel
-  bool pixel_is_new = false;                        // clicked since the last frame
+  std::array<std::optional<PixelInspection>, 2> pixel;  // at Controls::pixel
+  bool pixel_is_new = false;                            // clicked since the last frame
   std::array<std::string, 2> commands;
   std::string note;  // result of the last action
   int picture_width = 0, picture_height = 0;

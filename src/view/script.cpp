@@ -1,13 +1,13 @@
 #include "view/script.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -23,12 +23,10 @@ Error wrong(const std::string& word, const std::string& why) { return input_erro
 
 template <typename T>
 T number(const std::string& word, T least, T most) {
-  T value{};
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (failure != std::errc() || end != word.data() + word.size() || !(value >= least && value <= most)) {
+  const auto value = parse_number<T>(word);
+  if (!value || !(*value >= least && *value <= most))
     throw wrong(word, fmt::format("is not a number from {} to {}", least, most));
-  }
-  return value;
+  return *value;
 }
 
 std::string lower_case(std::string word) {

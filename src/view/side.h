@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
+#include "view/clock.h"
 #include "view/controls.h"
-#include "view/timings.h"
 
 namespace lightgrid {
 

@@ -4,6 +4,7 @@
 
 #include "passes/read_back.h"
 #include "results/metrics.h"
+#include "session/runs.h"
 
 namespace lightgrid {
 
@@ -44,6 +45,18 @@ void MapOfSide::put(const Image& image, SideMap map, const Side& side) {
   glTextureSubImage2D(texture_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, image.pixels.data());
   shown_ = map;
   shown_picture_ = side.pictures();
+}
+
+const Image& ReferencePicture::draw(const View& view, const Settings& settings) {
+  if (run_ && same_model(model_, settings)) {
+    run_->look(view);
+  } else {
+    model_ = with_model({}, settings);
+    const EveryLight forward = every_light_technique(renderer_);
+    run_ = std::make_unique<TechniqueRun>(renderer_, gpu_, view, model_, *forward.technique);
+  }
+  run_->run_frame(true);
+  return run_->image();
 }
 
 }  // namespace lightgrid

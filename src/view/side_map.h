@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "session/technique_run.h"
 #include "view/listed.h"
 #include "view/side.h"
 
@@ -41,6 +42,26 @@ class MapOfSide {
   int width_ = 0, height_ = 0;
   GlTexture texture_;
   std::string legend_;
+};
+
+// The picture of `forward`, with which both sides are compared.
+class ReferencePicture {
+ public:
+  // Both outlive it.
+  ReferencePicture(Renderer& renderer, GpuScene& gpu) : renderer_(renderer), gpu_(gpu) {}
+
+  // The scene changed: lights may have moved.
+  void scene_changed() { run_.reset(); }
+
+  // Draws this view with the model of the side's settings. Every call shades every light at every pixel: slow
+  // with many lights.
+  const Image& draw(const View& view, const Settings& settings);
+
+ private:
+  Renderer& renderer_;
+  GpuScene& gpu_;
+  std::unique_ptr<TechniqueRun> run_;
+  Settings model_;  // that run_ draws
 };
 
 }  // namespace lightgrid

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/timer.h"
 #include "base/write_file.h"
-#include "view/command_text.h"
+#include "view/controls.h"
 #include "view/interface.h"
 
 namespace lightgrid {
@@ -169,11 +169,10 @@ void Viewer::follow_pixel() {
     if (current) continue;
     pixel_[i].reset();
     if (!resolution_.resting() || controls_.playing || !sides_[i].ready()) continue;
-    const ListedFrame frame = read_listed_frame(sides_[i].run());
-    pixel_[i] = lights_at(frame, job_.scene, *controls_.pixel);
-    if (const auto inspection = inspect_pixel(sides_[i].run(), frame.depth, *controls_.pixel)) {
-      add_margins(*pixel_[i], *inspection, job_.scene, dropped_shown);
-    }
+    const ListedFrame listed = read_listed_frame(sides_[i].run());
+    pixel_[i] = lights_at(listed, *controls_.pixel);
+    if (const auto inspection = inspect_pixel(sides_[i].run(), listed.frame, *controls_.pixel))
+      add_margins(*pixel_[i], *inspection, dropped_shown);
     pixel_picture_[i] = sides_[i].pictures();
   }
 }
@@ -184,9 +183,10 @@ void Viewer::write_pixel(const std::string& file) const {
   for (int i = 0; i < 2; ++i) {
     text += fmt::format("{} {}\n", i == 0 ? "left" : "right", controls_.sides[i].technique);
     if (!pixel_[i]) continue;
-    text += fmt::format("{} listed, {} lit, {} lost\n", pixel_[i]->listed, pixel_[i]->lit, pixel_[i]->lost);
-    for (const PixelLight& light : pixel_[i]->lights) {
-      const auto [where, decided] = lines_of(light);
+    text +=
+        fmt::format("{} listed, {} lit, {} lost\n", pixel_[i]->listed(), pixel_[i]->lit(), pixel_[i]->lost());
+    for (const LightVerdict& light : pixel_[i]->lights) {
+      const auto [where, decided] = lines_of(light, job_.scene);
       text += fmt::format("{}\n  {}\n", where, decided);
     }
   }

@@ -6,12 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "view/clock.h"
+#include "view/controls.h"
 #include "view/panels.h"
-#include "view/pointer.h"
-#include "view/reference.h"
-#include "view/resolution.h"
 #include "view/screen.h"
 #include "view/script.h"
+#include "view/side_map.h"
 #include "view/window.h"
 
 namespace lightgrid {
@@ -70,7 +70,7 @@ class Viewer {
   MapOfSide maps_[2];
   bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;
-  std::array<std::optional<PixelLights>, 2> pixel_;
+  std::array<std::optional<PixelInspection>, 2> pixel_;
   PicturePixel pixel_shown_{-1, -1};  // outside: none
   bool pixel_is_new_ = false;
   size_t pixel_picture_[2] = {};

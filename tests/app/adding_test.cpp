@@ -70,18 +70,17 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
   std::map<std::string, std::vector<std::string>> texts;
   Naming expected = {
       // Defaults of commands, and the techniques that stand in for others without OpenGL.
-      {"src/app/compare.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/app/cull.cpp", {"forward_plus"}},
       {"src/app/inspect.cpp", {"forward_plus"}},
-      {"src/app/options.cpp", {"forward_plus", "visibility"}},
       {"src/app/plan.cpp", {"forward_plus"}},
       {"src/app/view.cpp", {"deferred_tiled", "forward_plus"}},
       {"src/bench/culling_run.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
+      {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},
+      {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
       // The reference.
-      {"src/compare/contestant_runs.cpp", {"forward", "visibility"}},
       {"src/frontier/brute_force.cpp", {"forward", "forward_plus", "visibility"}},
-      {"src/view/reference.cpp", {"forward"}},
+      {"src/session/runs.cpp", {"forward", "visibility"}},
       // Messages of its own passes.
       {"src/passes/light_index/blending_probe.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},

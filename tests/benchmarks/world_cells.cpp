@@ -15,12 +15,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "compare/oracle.h"
-#include "compare/run_technique.h"
 #include "renderer/culler_input.h"
 #include "scene/builtin.h"
 #include "scene/grid_lists.h"
 #include "scene/light_rigs.h"
+#include "session/oracle.h"
+#include "session/technique_run.h"
 #include "world_grid/world_cell.h"
 
 using namespace lightgrid;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <string>
 
-#include "compare/oracle.h"
-#include "compare/silhouettes.h"
+#include "session/oracle.h"
+#include "session/surfaces_in_double.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"
 

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "plan/path_plans.h"
 #include "scene/camera_path.h"
 #include "support/small_scene.h"
 

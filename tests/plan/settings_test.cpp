@@ -25,8 +25,7 @@ std::string message_of(const std::string& assignment) {
 
 TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
   for (const SettingHelp& help : setting_help()) {
-    std::string key = help.key;
-    std::replace(key.begin(), key.end(), '-', '_');
+    const std::string key = json_key(help.key);
     EXPECT_EQ(to_strings(Settings{}).at(key), help.values.front()) << "the default stands first";
     for (const std::string& value : help.values) {
       Settings settings;
@@ -36,6 +35,16 @@ TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
       others.erase(key), before.erase(key);
       EXPECT_EQ(others, before) << "no other setting moves";
     }
+  }
+}
+
+TEST(Settings, TheModelIsMadeOfTheSettingsThatItNames) {
+  for (const SettingHelp& help : setting_help()) {
+    Settings settings;
+    apply_setting(settings, help.key + "=" + help.values.back());
+    const bool names = std::ranges::count(model_settings(), help.key) > 0;
+    EXPECT_EQ(same_model(settings, Settings{}), !names) << help.key;
+    EXPECT_EQ(to_strings(with_model({}, settings)) == to_strings(settings), names) << help.key;
   }
 }
 

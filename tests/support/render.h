@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene/camera.h"
-#include "compare/run_technique.h"
+#include "session/technique_run.h"
 #include "support/devices.h"
 
 namespace lightgrid {

@@ -190,6 +190,15 @@ std::vector<float> telling_depths(const RenderView& v) {
   return depths;
 }
 
+std::vector<uint32_t> cells_at(const RenderView& v, const std::vector<float>& depth) {
+  const PixelCells cells = cells_of_pixels(v, depth);
+  std::vector<uint32_t> found;
+  for (int y = 0; y < v.view.height; ++y) {
+    for (int x = 0; x < v.view.width; ++x) found.push_back(cells.cell(x, y));
+  }
+  return found;
+}
+
 TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
   const Scene hall = find_builtin_scene("hall")->make(), small = small_scene().scene;
   const std::pair<const Scene*, View> cases[] = {{&hall, default_view(hall, 127, 73)},
@@ -200,11 +209,11 @@ TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
       run.run_frame();
       RenderView& v = run.view();
       const std::vector<float> depth = read_depth(v, v);
-      std::vector<uint32_t> expected = cells_of_pixels(v, depth);
+      std::vector<uint32_t> expected = cells_at(v, depth);
       for (size_t i = 0; i < depth.size(); ++i) expected[i] = depth[i] > 0 ? expected[i] : no_cell;
       EXPECT_EQ(shaded_cells(v, v), expected);
       const std::vector<float> telling = telling_depths(v);
-      EXPECT_EQ(cells_at_depths(v, v, telling), cells_of_pixels(v, telling));
+      EXPECT_EQ(cells_at_depths(v, v, telling), cells_at(v, telling));
     }
   }
 }

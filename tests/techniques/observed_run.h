@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "compare/oracle.h"
+#include "session/oracle.h"
 
 namespace lightgrid {
 

@@ -1,7 +1,7 @@
 // The shaders against the oracle in double, pixel by pixel.
-#include "compare/oracle_sample.h"
 #include "report/report.h"
 #include "scene/random.h"
+#include "session/oracle_sample.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "results/metrics.h"
 #include "scene/builtin.h"
 #include "scene/camera.h"
-#include "results/metrics.h"
-#include "compare/oracle.h"
-#include "compare/run_technique.h"
+#include "session/oracle.h"
+#include "session/technique_run.h"
 #include "support/devices.h"
 
 namespace lightgrid {

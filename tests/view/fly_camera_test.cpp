@@ -5,8 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "view/pointer.h"
-#include "view/resolution.h"
+#include "view/clock.h"
+#include "view/controls.h"
 
 namespace lightgrid {
 namespace {

@@ -1,9 +1,9 @@
 // Pass times of the last frames, and the command line that renders a view.
-#include "view/timings.h"
+#include "view/clock.h"
 
 #include <gmock/gmock.h>
 
-#include "view/command_text.h"
+#include "view/controls.h"
 
 namespace lightgrid {
 namespace {

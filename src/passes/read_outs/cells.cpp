@@ -2,6 +2,7 @@
 
 #include "renderer/culler_input.h"
 #include "renderer/draw.h"
+#include "scene/grid_lists.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
@@ -55,28 +56,41 @@ std::vector<uint32_t> cells_at_depths(Work& work, const Seen& seen, const std::v
   });
 }
 
-std::vector<uint32_t> cells_of_pixels(const Seen& seen, const std::vector<float>& depth) {
-  const CullView view = cull_view(seen.view, seen.plan);
-  const auto edges = slice_keys(view);
-  std::vector<uint32_t> cells;
-  cells.reserve(depth.size());
-  for (int y = 0; y < seen.view.height; ++y) {
-    for (int x = 0; x < seen.view.width; ++x) {
-      const uint slice = slice_of_key(depth_key(view, depth[cells.size()]), edges.data());
-      const uint first = cell_of_pixel(x, y, seen.params.tile_size, seen.params.tiles_x);
-      cells.push_back(cell_in_slice(first, slice, seen.params.tiles_x, seen.params.tiles_y));
-    }
-  }
-  return cells;
+PixelCells::PixelCells(CullView view, const std::vector<float>& depth, uint tile, uint across, uint down)
+    : view_(std::move(view)),
+      depth_(depth),
+      tile_(tile),
+      across_(across),
+      down_(down),
+      slices_(slice_keys(view_)),
+      z_bins_(z_bin_keys(view_)) {}
+
+float PixelCells::key(int x, int y) const {
+  return depth_key(view_, depth_[size_t(y) * size_t(view_.width) + size_t(x)]);
 }
 
-std::vector<uint32_t> z_bins_of_pixels(const Seen& seen, const std::vector<float>& depth) {
-  const CullView view = cull_view(seen.view, seen.plan);
-  const auto edges = z_bin_keys(view);
+int PixelCells::slice(int x, int y) const { return int(slice_of_key(key(x, y), slices_.data())); }
+
+uint32_t PixelCells::z_bin(int x, int y) const { return z_bin_of_key(key(x, y), z_bins_.data()); }
+
+uint32_t PixelCells::cell(int x, int y, int slice) const {
+  return cell_in_slice(cell_of_pixel(uint(x), uint(y), tile_, across_), uint(slice), across_, down_);
+}
+
+PixelCells cells_of_pixels(const Seen& seen, const std::vector<float>& depth) {
+  return {cull_view(seen.view, seen.plan), depth, seen.params.tile_size, seen.params.tiles_x,
+          seen.params.tiles_y};
+}
+
+ListedLights at_pixels(ListedLights lists, const PixelCells& cells, std::span<const uint32_t> z_bins) {
   std::vector<uint32_t> bins;
-  bins.reserve(depth.size());
-  for (const float value : depth) bins.push_back(z_bin_of_key(depth_key(view, value), edges.data()));
-  return bins;
+  for (int y = 0; y < cells.height(); ++y) {
+    for (int x = 0; x < cells.width(); ++x) {
+      lists.cell_of_pixel.push_back(cells.cell(x, y));
+      if (!z_bins.empty()) bins.push_back(cells.z_bin(x, y));
+    }
+  }
+  return z_bins.empty() ? lists : in_z_bins(lists, bins, z_bins);
 }
 
 }  // namespace lightgrid

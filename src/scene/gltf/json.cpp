@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/json_file.h"
+
 namespace lightgrid::gltf {
 namespace {
 
@@ -35,8 +37,7 @@ json parse(const Reporter& report, std::string_view text) {
   try {
     return json::parse(text.begin(), text.end(), bounded);
   } catch (const json::exception& failure) {
-    const std::string_view what = failure.what();  // "[json.exception.…] text"
-    throw report.error("{}", what.substr(std::min(what.size(), what.find(']') + 2)));
+    throw report.error("{}", fault_of(failure));
   }
 }
 

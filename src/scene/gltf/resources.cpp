@@ -1,4 +1,5 @@
 #include "scene/gltf/resources.h"
+#include "base/text.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -51,30 +52,6 @@ std::optional<std::string> percent_decoded(std::string_view text) {
     if (high < 0 || low < 0) return {};
     out += static_cast<char>(high * 16 + low);
     i += 2;
-  }
-  return out;
-}
-
-std::optional<std::vector<uint8_t>> base64_decoded(std::string_view text) {
-  static const auto values = [] {
-    std::array<int8_t, 256> table;
-    table.fill(-1);
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < digits.size(); ++i)
-      table[static_cast<uint8_t>(digits[i])] = static_cast<int8_t>(i);
-    return table;
-  }();
-  for (int pad = 0; pad < 2 && text.ends_with('='); ++pad) text.remove_suffix(1);
-  if (text.size() % 4 == 1) return {};
-  std::vector<uint8_t> out;
-  out.reserve(text.size() / 4 * 3 + 2);
-  uint32_t bits = 0;
-  int bit_count = 0;
-  for (char c : text) {
-    const int value = values[static_cast<uint8_t>(c)];
-    if (value < 0) return {};
-    bits = bits << 6 | static_cast<uint32_t>(value);
-    if ((bit_count += 6) >= 8) out.push_back(static_cast<uint8_t>(bits >> (bit_count -= 8)));
   }
   return out;
 }

@@ -1,0 +1,123 @@
+#include "session/comparison.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/text.h"
+#include "session/contestants.h"
+
+namespace lightgrid {
+namespace {
+
+const std::vector<std::string> techniques_without_opengl = {"visibility:lights=all", "visibility"};
+
+int parse_lights(const std::string& text) {
+  const auto count = parse_number<int>(text);
+  if (!count || *count < 0 || *count > most_lights)
+    throw input_error("lights {}: not a number from 0 to {}", text, most_lights);
+  return *count;
+}
+
+ReferencePixels parse_reference(const std::string& text) {
+  if (text == "auto") return ReferencePixels::automatic;
+  if (text == "full") return ReferencePixels::full;
+  if (text == "sampled") return ReferencePixels::sampled;
+  throw input_error("reference {}: not full, sampled or auto", text);
+}
+
+std::vector<SceneChoice> chosen_views(const CompareChoice& choice) {
+  std::vector<int> counts;
+  for (const std::string& text : choice.lights) counts.push_back(parse_lights(text));
+  if (counts.empty()) counts.push_back(-1);
+  std::vector<SceneChoice> views;
+  for (const std::string& scene : choice.scenes) {
+    for (const std::string& size : choice.sizes) {
+      parse_size(size);
+      for (const int lights : counts) {
+        SceneChoice& view = views.emplace_back(choice.scene);
+        view.scene = scene, view.size = size, view.lights = lights;
+      }
+    }
+  }
+  return views;
+}
+
+// A view's cost relative to the others, roughly: pixels, and pixels times lights for techniques without
+// lists.
+double cost_of(const LoadedView& view) {
+  return double(view.view.width) * view.view.height * double(64 + view.lights.size());
+}
+
+std::vector<Contestant> runnable(const Comparison& comparison, const Renderer& devices) {
+  const CompareChoice& choice = comparison.choice;
+  if (devices.gl) return comparison.contestants;
+  if (!choice.techniques.empty()) {
+    const auto needs_opengl = [](const Contestant& c) { return !own_surfaces(*c.technique, c.settings); };
+    if (std::ranges::any_of(comparison.contestants, needs_opengl)) devices.require_gl();
+    return comparison.contestants;
+  }
+  log_warning(
+      "{}; left out, since they draw with it: forward, forward_plus. The reference is visibility:lights=all",
+      devices.why_no_gl);
+  return chosen_contestants(techniques_without_opengl, chosen_settings(choice.scene), choice.compare);
+}
+
+}  // namespace
+
+const std::vector<std::string>& default_techniques() {
+  static const std::vector<std::string> names = {"forward", "forward_plus", "visibility"};
+  return names;
+}
+
+Comparison load_comparison(const CompareChoice& choice) {
+  Comparison comparison{choice, {}, {}};
+  comparison.contestants =
+      chosen_contestants(choice.techniques.empty() ? default_techniques() : choice.techniques,
+                         chosen_settings(choice.scene), choice.compare);
+  parse_reference(choice.reference);
+  parse_gl_backend(choice.devices.gl);
+  comparison.views = load_views(chosen_views(choice));
+  return comparison;
+}
+
+void run_comparison(const Comparison& comparison,
+                    const std::function<void(double done, const std::string& step)>& progress,
+                    const std::function<void(CompareReport report)>& found) {
+  const CompareChoice& choice = comparison.choice;
+  Renderer devices(choice.devices.device, parse_gl_backend(choice.devices.gl));
+  const std::vector<Contestant> contestants = runnable(comparison, devices);
+  const size_t count = comparison.views.size();
+  double total = 0, before = 0;
+  for (const LoadedView& view : comparison.views) total += cost_of(view);
+  for (size_t i = 0; i < count; ++i) {
+    const LoadedView& view = comparison.views[i];
+    const double cost = cost_of(view);
+    const std::string which = count > 1 ? fmt::format("{}/{} {}: ", i + 1, count, view.scene->name) : "";
+    Scene& scene = view.with_lights();
+    CompareOptions options{.frames = choice.timing.frames,
+                           .warmup = choice.timing.warmup,
+                           .reference = parse_reference(choice.reference),
+                           .seed = choice.scene.seed,
+                           .path = chosen_path(scene, view.view, choice.scene),
+                           .flip = choice.flip,
+                           .all_may_refuse = count > 1};
+    if (!options.path.empty()) options.advance = chosen_motion(scene, choice.scene);
+    options.progress = [&](double done, const std::string& step) {
+      if (progress) progress((before + done * cost) / total, which + step);
+    };
+    options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
+    found(compare_techniques(devices, scene, view.view, contestants, options));
+    before += cost;
+  }
+}
+
+std::vector<CompareReport> compare_views(
+    const CompareChoice& choice, const std::function<void(double done, const std::string& step)>& progress) {
+  std::vector<CompareReport> reports;
+  run_comparison(load_comparison(choice), progress,
+                 [&](CompareReport report) { reports.push_back(std::move(report)); });
+  return reports;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,49 @@
+// Techniques compared on views that are chosen by text: what `lightgrid compare` does, for any front end.
+// Error(input) names the field and its value.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "session/compare.h"
+#include "session/scene_choice.h"
+
+namespace lightgrid {
+
+// Fields as in docs/command_line.md.
+struct CompareChoice {
+  SceneChoice scene;  // of all views, but for what follows
+  // Every scene at every size with every number of lights; none: the scene's own.
+  std::vector<std::string> scenes = {"hall"}, sizes = {"1280x720"}, lights;
+  DeviceOptions devices;
+  TimingOptions timing;
+  std::vector<std::string> techniques;  // empty: default_techniques(), or those that run without OpenGL
+  std::vector<std::string> compare;
+  std::string reference = "auto";
+  bool flip = false;
+};
+const std::vector<std::string>& default_techniques();
+
+// What was chosen, with its scenes loaded.
+struct Comparison {
+  CompareChoice choice;
+  std::vector<LoadedView> views;
+  std::vector<Contestant> contestants;
+};
+
+// Reports every fault in the fields and files, before devices are opened.
+Comparison load_comparison(const CompareChoice& choice);
+
+// Opens the devices and runs the views in turn, with one progress (0 to 1) for all. Gives each report to
+// `found` as soon as it is measured. If techniques are given, throws Error(machine) where one needs OpenGL
+// and there is none; else those that need it are left out, with a warning in the log.
+void run_comparison(const Comparison& comparison,
+                    const std::function<void(double done, const std::string& step)>& progress,
+                    const std::function<void(CompareReport report)>& found);
+
+// Both: the reports of all views, with their images.
+std::vector<CompareReport> compare_views(
+    const CompareChoice& choice, const std::function<void(double done, const std::string& step)>& progress);
+
+}  // namespace lightgrid

@@ -1,0 +1,81 @@
+#include "session/oracle.h"
+
+#include "cl/transfer.h"
+#include "reference/position.h"
+#include "results/metrics.h"
+#include "session/oracle_sample.h"
+
+namespace lightgrid {
+namespace {
+
+// A row of pixels as an image, for the metrics.
+Image as_image(const std::vector<glm::dvec3>& colors) {
+  Image image(int(colors.size()), 1);
+  for (size_t i = 0; i < colors.size(); ++i) image.pixels[i] = glm::vec4(glm::vec3(colors[i]), 1);
+  return image;
+}
+
+}  // namespace
+
+Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
+  Surface surface;
+  surface.normal = glm::normalize(glm::dvec3(s.normal_roughness.pixels[pixel]));
+  surface.roughness = s.normal_roughness.pixels[pixel].w;
+  surface.base_color = s.base_color_metallic.pixels[pixel];
+  surface.metallic = s.base_color_metallic.pixels[pixel].w;
+  surface.emissive = s.emissive_occlusion.pixels[pixel];
+  surface.occlusion = s.emissive_occlusion.pixels[pixel].w;
+  surface.unlit = surface.occlusion < 0;
+  if (!s.model.pixels.empty()) {
+    const MaterialModel& model = s.models.at(size_t(s.model.pixels[pixel].r));
+    surface.subsurface_color = model.subsurface_color, surface.roll_off = model.roll_off,
+    surface.minnaert_k = model.minnaert_k;
+  }
+  if (!s.specular.pixels.empty())
+    surface.f0 = s.specular.pixels[pixel], surface.f90 = s.specular.pixels[pixel].w;
+  if (s.coat_factor.pixels.empty() || s.coat_factor.pixels[pixel].r == 0) return surface;
+  surface.coat = s.coat_factor.pixels[pixel].r;
+  surface.coat_roughness = s.coat_normal_roughness.pixels[pixel].w;
+  surface.coat_normal = glm::normalize(glm::dvec3(s.coat_normal_roughness.pixels[pixel]));
+  return surface;
+}
+
+std::vector<float> read_depth(TechniqueRun& run) {
+  RenderView& v = run.view();
+  if (!run.frame().depth) return read_depth(v, v);
+  std::vector<float> depth(v.grid().values());
+  read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(),
+              depth.size() * sizeof(float));
+  return depth;
+}
+
+std::vector<ViewLight> local_lights(const RenderView& v) {
+  return lights_in_view(v.scene, v.view, v.plan.settings.ranges, v.plan.local);
+}
+
+ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
+  const HostLists& listed = run.frame().listed;
+  return listed ? listed(depth) : list_every_light(uint32_t(run.view().plan.local.size()));
+}
+
+LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {
+  return count_pairs(run.view().view, depth, local_lights(run.view()), listed_lights(run, depth));
+}
+
+ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
+                                         const std::vector<uint32_t>& pixels) {
+  const Image with_window = as_image(oracle.shade(pixels, true)),
+              without = as_image(oracle.shade(pixels, false));
+  Image in_float(int(pixels.size()), 1);
+  for (size_t i = 0; i < pixels.size(); ++i) in_float.pixels[i] = every_light.pixels[pixels[i]];
+  return {compare_images(with_window, without), compare_images(in_float, with_window),
+          oracle.pixels_left_out()};
+}
+
+ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
+                                         const std::vector<float>& depth, size_t samples) {
+  const SurfaceOracle oracle(v, depth);
+  return measure_reference_errors(oracle, every_light, sample_pixels(oracle.pixels(), samples));
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,42 @@
+// Compares the renderer's buffers with the oracle (reference/).
+#pragma once
+
+#include "passes/read_outs/depth.h"
+#include "passes/read_outs/surfaces.h"
+#include "reference/lit_set.h"
+#include "reference/shading.h"
+#include "results/results.h"
+#include "session/technique_run.h"
+
+namespace lightgrid {
+
+// The surface at a pixel, for the oracle to shade.
+Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
+
+// The depth of the surfaces that the last frame of a run shaded: the technique's own where it rasterised in
+// OpenCL, else the depth image.
+std::vector<float> read_depth(TechniqueRun& run);
+
+// The point and spot lights in view space, in the order of lists.
+std::vector<ViewLight> local_lights(const RenderView& v);
+
+// The lights that the last frame of a run used on opaque surfaces (Frame::listed), or every point and spot light
+// at every pixel.
+ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
+
+// Compares those with the lights that reach each pixel.
+LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth);
+
+class SurfaceOracle;
+
+// Model and precision errors at `pixels`, which the oracle can shade. `every_light` is the float image of the
+// technique `forward`; only these pixels are read.
+ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
+                                         const std::vector<uint32_t>& pixels);
+
+// Model and precision errors at up to `samples` pixels without blended surfaces: shades the surfaces that
+// OpenGL read, in double. `every_light` is the float image of the technique `forward`.
+ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
+                                         const std::vector<float>& depth, size_t samples);
+
+}  // namespace lightgrid

@@ -1,0 +1,92 @@
+#include "session/oracle_sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/position.h"
+#include "results/metrics.h"
+
+namespace lightgrid {
+namespace {
+
+double largest_difference(const glm::vec4& a, const glm::vec4& b) {
+  double largest = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double difference = a[c] == b[c] ? 0 : std::abs(double(a[c]) - double(b[c]));
+    largest =
+        std::max(largest, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
+  }
+  return largest;
+}
+
+struct Sums {
+  double largest = 0, squares = 0;
+  void add(float value, double exact) {
+    const double difference = std::abs(double(value) - exact);
+    const double error = std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+    largest = std::max(largest, error), squares += error * error;
+  }
+};
+
+}  // namespace
+
+SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth)
+    : v_(v),
+      depth_(depth),
+      surfaces_(read_surfaces(v, v)),
+      lights_(lights_in_view(v.scene, v.view, v.plan.settings.ranges)) {
+  for (const uint32_t pixel : covered_pixels(depth)) {
+    surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);
+  }
+}
+
+std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels, bool window) const {
+  const auto surface_at = [&](uint32_t pixel) { return surface_of(surfaces_, pixel); };
+  const ShadeSettings settings{.brdf = v_.plan.settings.brdf, .ambient = v_.scene.ambient, .window = window};
+  return shade_pixels(v_.view, depth_, surface_at, lights_, settings, pixels);
+}
+
+Image at_pixels(const Image& image, const std::vector<uint32_t>& pixels) {
+  Image picked(int(pixels.size()), 1);
+  for (size_t i = 0; i < pixels.size(); ++i) picked.pixels[i] = image.pixels[pixels[i]];
+  return picked;
+}
+
+std::vector<uint32_t> most_different(const Image& image, const Image& reference,
+                                     const std::vector<uint32_t>& among, size_t most) {
+  std::vector<std::pair<double, uint32_t>> differences;
+  for (const uint32_t pixel : among) {
+    const double difference = largest_difference(image.pixels[pixel], reference.pixels[pixel]);
+    if (difference > 0) differences.emplace_back(-difference, pixel);
+  }
+  const auto end = differences.begin() + std::ptrdiff_t(std::min(most, differences.size()));
+  std::partial_sort(differences.begin(), end, differences.end());
+  std::vector<uint32_t> pixels;
+  for (auto at = differences.begin(); at != end; ++at) pixels.push_back(at->second);
+  return pixels;
+}
+
+OracleError oracle_error(const Image& image, const Image& reference, const std::vector<uint32_t>& pixels,
+                         const std::vector<glm::dvec3>& radiance) {
+  Sums own, of_reference;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      own.add(image.pixels[pixels[i]][c], radiance[i][c]);
+      of_reference.add(reference.pixels[pixels[i]][c], radiance[i][c]);
+    }
+  }
+  const double brightest = brightest_channel(reference);
+  const auto relative = [&](double error) {
+    return error == 0 ? 0 : brightest > 0 ? error / brightest : std::numeric_limits<double>::infinity();
+  };
+  return {relative(own.largest),
+          relative(std::sqrt(own.squares / double(std::max<size_t>(3 * pixels.size(), 1)))),
+          relative(of_reference.largest)};
+}
+
+size_t affordable_samples(size_t most, size_t lights) {
+  constexpr size_t most_pairs = 400'000'000;
+  return std::min(most, std::max<size_t>(most_pairs / std::max<size_t>(lights, 1), 100));
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,106 @@
+#include "session/technique_run.h"
+
+#include <algorithm>
+
+#include "gl/errors.h"
+#include "gl/state.h"
+#include "passes/read_back.h"
+#include "results/metrics.h"
+
+namespace lightgrid {
+
+TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+                           const Technique& technique, std::shared_ptr<TargetPool> pool)
+    : technique_(technique), view_(renderer, gpu, view, settings, technique.needs, std::move(pool)) {}
+
+TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
+                           const Technique& technique)
+    : technique_(technique),
+      own_scene_(std::make_unique<GpuScene>(renderer, scene)),
+      view_(renderer, *own_scene_, view, settings, technique.needs) {}
+
+void TechniqueRun::prepare() {
+  view_.prepare([&] { draw_frame(); });
+  frame_ = {};
+}
+
+void TechniqueRun::release() {
+  view_.release();
+  frame_ = {};
+}
+
+void TechniqueRun::draw_frame() {
+  const bool opengl = view_.renderer.gl != nullptr;
+  if (opengl) reset_gl_state();
+  frame_ = technique_.render(view_);
+  if (opengl) check_gl(technique_.name);
+}
+
+double TechniqueRun::render() {
+  const Timer timer;
+  draw_frame();
+  HostImage image(view_, view_, frame_.image, image_);
+  const double ms = timer.elapsed_ms();
+  image.keep();
+  if (view_.renderer.gl) check_gl(technique_.name);
+  return ms;
+}
+
+double TechniqueRun::run_frame(bool warmup) {
+  const double ms = render();
+  if (!warmup) frame_ms_.push_back(ms);
+  return ms;
+}
+
+void TechniqueRun::run_profiled_frames(double most_ms) {
+  struct Enabled {
+    PassTimer& timer;
+    explicit Enabled(PassTimer& t) : timer(t) { timer.enabled = true; }
+    ~Enabled() { timer.enabled = false; }  // also after an exception
+  } enabled(view_.timer);
+  const Timer timer;
+  for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
+    render();
+  }
+}
+
+// In the order of their first launch.
+static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
+  std::vector<std::pair<std::string, std::vector<double>>> by_name;
+  for (const std::vector<KernelTime>& run : pass.kernels) {
+    for (const KernelTime& kernel : run) {
+      auto found =
+          std::ranges::find(by_name, kernel.name, &std::pair<std::string, std::vector<double>>::first);
+      if (found == by_name.end()) found = by_name.insert(by_name.end(), {kernel.name, {}});
+      found->second.push_back(kernel.ms);
+    }
+  }
+  std::vector<KernelResult> results;
+  for (const auto& [name, ms] : by_name) results.push_back({name, spread_of(ms).median});
+  return results;
+}
+
+RunResult TechniqueRun::result() const {
+  RunResult result;
+  result.technique = technique_.name;
+  result.settings = settings_of(technique_, view_.plan.settings);
+  result.lights_total = int(view_.scene.lights.size());
+  result.lights_in_view = view_.plan.lights_in_view;
+  result.frame_ms = spread_of(frame_ms_);
+  for (const PassRecord& record : view_.timer.records()) {
+    result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read,
+                             record.bytes_written, kernel_results(record)});
+  }
+  result.memory_total = view_.memory_bytes();
+  result.memory_light_grid = frame_.light_grid_bytes();
+  result.world_cell = frame_.world_cell;
+  result.memory_gbuffer = view_.targets.bytes(TargetUse::gbuffer);
+  result.nan_pixels = count_nan_pixels(image_);
+  result.inf_pixels = count_inf_pixels(image_);
+  for (const Decision& decision : view_.plan.decisions) {
+    if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
+  }
+  return result;
+}
+
+}  // namespace lightgrid
