@@ -79,7 +79,7 @@ class SceneSweep {
       measure_growth(renderer_, gpu_, scene_, choice_, job_, left, file_);
       end_step("growth");
     }
-    tell_steps();
+    notice(steps_);
   }
 
  private:
@@ -94,7 +94,6 @@ class SceneSweep {
     steps_ += fmt::format("{}{} {:.0f} s", steps_.empty() ? "" : ", ", name, seconds() - step_began_s_);
     step_began_s_ = seconds();
   }
-  void tell_steps() const { notice(steps_); }
 
   FrontierRecord record_of(const ChosenPoint& point, int view) const {
     FrontierRecord record;

@@ -75,10 +75,8 @@ std::optional<SampledErrors> in_double_over(const Group& views) {
     all.pixels += view->errors.in_double->pixels;
   }
   if (sampled.empty()) return {};
-  all.picture = errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->picture; });
-  all.picture_in_float =
-      errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->picture_in_float; });
-  all.truth = errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->truth; });
+  for (const auto of : {&SampledErrors::picture, &SampledErrors::picture_in_float, &SampledErrors::truth})
+    all.*of = errors_over(sampled, [&](const FrontierRecord& v) { return (*v.errors.in_double).*of; });
   return all;
 }
 

@@ -73,24 +73,16 @@ struct Variant {
   double radius = 1;  // of the lights' ranges
 };
 
-constexpr double half_step = std::numbers::sqrt2;
-
 // Five of each series, the ends and the middle first, since the time may not suffice for all.
-const Variant variants[] = {{"lights", 128},
-                            {"lights", 2048},
-                            {"lights", 512},
-                            {"pixels", -1, 0.5},
-                            {"pixels", -1, 2},
-                            {"pixels", -1, 1},
-                            {"radius", -1, 1, 0.5},
-                            {"radius", -1, 1, 2},
-                            {"radius", -1, 1, 1},
-                            {"lights", 256},
-                            {"lights", 1024},
-                            {"pixels", -1, half_step / 2},
-                            {"pixels", -1, half_step},
-                            {"radius", -1, 1, half_step / 2},
-                            {"radius", -1, 1, half_step}};
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (const auto& steps : {std::vector{0.5, 2.0, 1.0}, {std::numbers::sqrt2 / 2, std::numbers::sqrt2}}) {
+    for (const double step : steps) all.push_back({"lights", int(512 * step * step)});
+    for (const double step : steps) all.push_back({"pixels", -1, step});
+    for (const double step : steps) all.push_back({"radius", -1, 1, step});
+  }
+  return all;
+}
 
 std::string scaled_size(const std::string& size, double side) {
   const ImageSize s = parse_size(size);
@@ -238,17 +230,17 @@ void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const Scene
   const Timer timer;
   const std::vector<ChosenPoint> points = grown_points(job);
   const std::vector<Light> own = scene.lights;
-  for (size_t i = 0; i < std::size(variants) && !points.empty(); ++i) {
+  const std::vector<Variant> all = variants();
+  for (size_t i = 0; i < all.size() && !points.empty(); ++i) {
     if (timer.elapsed_ms() / 1000 > seconds) {
       if (job.notice)
         job.notice(fmt::format("{}: growth measured in part, for the time there is", choice.scene));
       break;
     }
-    const Variant& variant = variants[i];
+    const Variant& variant = all[i];
     if (variant.lights >= 0 && !choice.lights_file.empty()) continue;
     if (job.progress)
-      job.progress(0.9 + 0.1 * double(i) / double(std::size(variants)),
-                   std::string("growth with ") + variant.series);
+      job.progress(0.9 + 0.1 * double(i) / double(all.size()), std::string("growth with ") + variant.series);
     SceneChoice varied = choice;
     varied.size = scaled_size(choice.size, variant.side);
     if (variant.lights >= 0) varied.lights = variant.lights;
