@@ -117,6 +117,8 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
                                   largest.in_words, fmt::join(figures, ", ")));
 }
 
+std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
+
 // From the largest error down, each point at the least error that it is the best within.
 void add_best_within(const FrontierAnswer& answer, const std::string& scene,
                      std::vector<std::string>& sentences) {
@@ -243,8 +245,6 @@ std::string error_in_words(double error) {
   if (text[exponent - 1] == '+') text.erase(exponent - 1, 1);
   return text;
 }
-
-std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
 
 std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;

@@ -24,6 +24,11 @@ std::string failed_gates(const RunResult& row) {
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
+// Passes all gates but is not exact.
+const RunResult* fastest_lossy(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
+}
+
 const RunResult* fastest_of_all(const CompareReport& report) {
   return fastest(report, [](const RunResult&) { return true; });
 }
@@ -197,10 +202,6 @@ const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
 
 const RunResult* fastest_exact(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return is_exact(row); });
-}
-
-const RunResult* fastest_lossy(const CompareReport& report) {
-  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
 }
 
 std::vector<std::string> telling_figures(const CompareReport& report) {
