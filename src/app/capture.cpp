@@ -49,16 +49,8 @@ std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene
   return "[" + summaries + "]";
 }
 
-int capture(CaptureOptions o) {
-  take_own_settings(o.technique, o.scene.set);
-  const Settings settings = chosen_settings(o.scene);
-  if (!o.technique.empty())
-    grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
-  parse_gl_backend(o.devices.gl);
-  if (!o.json.empty()) check_output_file("--json", o.json);
-  ChosenScene chosen = load_chosen_scene(o.scene);
-  const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
-  make_folder(o.output);
+int capture_all(const CaptureOptions& o, const Settings& settings, ChosenScene& chosen,
+                const std::vector<View>& path) {
   Renderer devices = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, devices);
   check_given_settings(settings, {&technique}, true);
@@ -69,6 +61,18 @@ int capture(CaptureOptions o) {
                    : capture_path(path, devices, chosen.scene, settings, technique, o);
   if (!o.json.empty()) write_json(o.json, summary);
   return 0;
+}
+
+int capture(CaptureOptions o) {
+  take_own_settings(o.technique, o.scene.set);
+  const Settings settings = chosen_settings(o.scene);
+  if (!o.technique.empty())
+    grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
+  parse_gl_backend(o.devices.gl);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  ChosenScene chosen = load_chosen_scene(o.scene);
+  const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
+  return with_output_folder(o.output, [&] { return capture_all(o, settings, chosen, path); });
 }
 
 }  // namespace

@@ -85,9 +85,10 @@ int compare(const CompareCommand& o) {
   const nlohmann::json earlier = o.against.empty() ? nlohmann::json() : read_results_json(o.against);
   Comparison comparison = load_comparison(o.choice);
   if (!o.json.empty()) check_output_file("--json", o.json);
-  make_folder(o.output);
-  return comparison.views.size() == 1 ? compare_one(o, std::move(comparison), earlier)
-                                      : compare_several(o, comparison, earlier);
+  return with_output_folder(o.output, [&] {
+    return comparison.views.size() == 1 ? compare_one(o, std::move(comparison), earlier)
+                                        : compare_several(o, comparison, earlier);
+  });
 }
 
 }  // namespace

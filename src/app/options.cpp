@@ -74,6 +74,18 @@ void check_output_file(const std::string& option, const std::filesystem::path& p
   }
 }
 
+int with_output_folder(const std::filesystem::path& folder, const std::function<int()>& work) {
+  std::error_code ignored;
+  const bool is_new = !std::filesystem::exists(folder, ignored);
+  make_folder(folder);
+  try {
+    return work();
+  } catch (...) {
+    if (is_new) std::filesystem::remove_all(folder, ignored);
+    throw;
+  }
+}
+
 void write_json(const std::string& destination, const std::string& text) {
   const std::string whole = text.ends_with('\n') ? text : text + '\n';
   if (destination == "-") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "app/command_line.h"
@@ -21,6 +22,9 @@ void add_technique_option(Subcommand& command, std::string& technique, const std
 // Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not
 // a folder or not writable, or it is a folder itself. Call it before long work; "-" is always valid.
 void check_output_file(const std::string& option, const std::filesystem::path& path);
+
+// Makes the folder, and does the work. If that throws, a folder that is new is removed with what was written into it.
+int with_output_folder(const std::filesystem::path& folder, const std::function<int()>& work);
 
 // Writes JSON text to a file, or to stdout for "-".
 void write_json(const std::string& destination, const std::string& text);

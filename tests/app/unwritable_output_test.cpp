@@ -130,6 +130,18 @@ TEST(FullDisk, UnderAReportEndsWithThreeAndALineThatNamesTheFile) {
   EXPECT_EQ(run.status, 3) << run.err;
   EXPECT_THAT(run.err, HasSubstr("lightgrid: " + (disk.path / "report").string()));
   EXPECT_THAT(run.err, HasSubstr("No space left on device"));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+// What was written before is removed with the folder that the run made.
+TEST(FullDisk, UnderAReportLeavesNothing) {
+  NEEDS_SMALL_DISK();
+  const TempFolder disk;
+  const ProgramRun run = run_words(
+      {"unshare", "-rm", "sh", "-c",
+       "mount -t tmpfs -o size=16k none \"$0\"; \"$@\" -o \"$0/report\"; echo status $?; ls -A \"$0\"", disk.path,
+       lightgrid_program, "compare", "spheres", "--size", "64x36", "--frames", "1", "-t", "visibility", "--gl", "none"});
+  EXPECT_EQ(run.out, "status 3\n") << run.err;
 }
 
 // As nobody where the tests run as root, whom no permission holds.
@@ -178,7 +190,8 @@ TEST(TemporaryCacheFolder, IsRemovedByAnInterrupt) {
         "env --default-signal \"$@\" & for i in $(seq 1000); do sleep 0.02; "
         "ls \"$TMPDIR\"/*/* >/dev/null 2>&1 && break; done; kill -" +
         std::string(signal) +
-        " $!; wait $!; echo $?; for i in $(seq 500); do "
+        " $!; kill -" + signal +
+        " $! 2>/dev/null; wait $!; echo $?; for i in $(seq 500); do "
         "ls \"$TMPDIR\" | grep -q . || exit 0; sleep 0.02; done; exit 1";
     const ProgramRun run =
         run_words(with_words({"sh", "-c", script, "sh", lightgrid_program},
@@ -196,7 +209,7 @@ TEST(TooLittleMemory, IsToldAsThat) {
   GTEST_SKIP() << "AddressSanitizer needs terabytes of address space";
 #endif
   const TempFolder output;
-  for (const char* limit_kb : {"200000", "250000", "300000", "340000", "400000"}) {
+  for (const char* limit_kb : {"200000", "250000", "300000", "340000", "400000", "550000"}) {
     const ProgramRun run = run_words(with_words(
         {"sh", "-c", "ulimit -v " + std::string(limit_kb) + "; exec \"$@\"", "sh", lightgrid_program},
         {"render", "hall", "--size", "640x360", "-t", "forward_plus", "-o", output.path / "x.png"}));

@@ -17,7 +17,8 @@ function showHeader() {
   byId("view").textContent = [
     ...(views.length > 1 ? [`${views.length} views`] : [
       `${first.size[0]} \u00d7 ${first.size[1]}`,
-      lights && `${wholeNumber(lights.total)} lights, ${wholeNumber(lights.in_view)} in view`]),
+      lights && `${wholeNumber(lights.total)} lights, ${wholeNumber(lights.in_view)} in view`,
+      first.exposure?.ev && `pictures exposed by ${first.exposure.ev} EV`]),
     `OpenCL: ${first.devices.cl}`,
     `OpenGL: ${first.devices.gl}`,
     `commit ${first.commit}`,
