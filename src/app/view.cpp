@@ -15,7 +15,7 @@ namespace {
 
 struct ViewOptions {
   SceneChoice scene;
-  std::string device, left = "forward_plus", right = "deferred_tiled", script, screenshot;
+  std::string device, left, right, script, screenshot;
   int frames = 60;
 };
 
@@ -35,10 +35,8 @@ std::string scene_words(const ViewOptions& o) {
   return words;
 }
 
-int view(const ViewOptions& o) {
+ViewJob make_job(const ViewOptions& o) {
   ViewJob job;
-  const Settings settings = chosen_settings(o.scene);
-  job.controls.sides = {{{find_technique(o.left).name, settings}, {find_technique(o.right).name, settings}}};
   job.controls.lights = light_motion(o.scene.light_motion);
   job.scripted = !o.script.empty() || !o.screenshot.empty();
   job.frames = o.frames;
@@ -46,16 +44,32 @@ int view(const ViewOptions& o) {
   if (job.scripted) job.controls.rate = 0;
   if (!o.script.empty()) job.script = Script::read(o.script);
   if (!o.screenshot.empty()) check_output_file("--screenshot", o.screenshot);
-  const ImageSize size = parse_size(o.scene.size);
-  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene, !job.scripted);
-  ChosenScene chosen = load_chosen_scene(o.scene);
-  job.scene = std::move(chosen.scene);
-  job.view = chosen.view;
   job.seconds = chosen_time(o.scene);
   job.scene_words = scene_words(o);
   job.camera = o.scene.camera;
-  job.device = o.device;
-  Viewer(window, std::move(job)).run();
+  return job;
+}
+
+int view(const ViewOptions& o) {
+  for (const std::string& technique : {o.left, o.right}) {
+    if (!technique.empty()) find_technique(technique);
+  }
+  const Settings settings = chosen_settings(o.scene);
+  ViewJob job = make_job(o);
+  const ImageSize size = parse_size(o.scene.size);
+  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene, !job.scripted);
+  std::unique_ptr<GlContext> context = window.make_context();
+  Interface interface(window, job.scripted);
+  interface.announce("loading " + o.scene.scene);
+  // Where OpenGL is in software, forward_plus takes many times as long.
+  const char* beside = context->software ? "visibility" : "forward_plus";
+  job.controls.sides = {{{o.left.empty() ? "visibility" : find_technique(o.left).name, settings},
+                         {o.right.empty() ? beside : find_technique(o.right).name, settings}}};
+  ChosenScene chosen = load_chosen_scene(o.scene);
+  job.scene = std::move(chosen.scene);
+  job.view = chosen.view;
+  Renderer renderer(o.device, std::move(context));
+  Viewer(window, interface, renderer, std::move(job)).run();
   return 0;
 }
 
@@ -78,8 +92,8 @@ void add_view(CommandLine& line) {
   add_scene_options(command, o->scene);
   command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
   command.option("--device", o->device, "OpenCL device, by a part of its name");
-  command.option("--left", o->left, "technique of the left side");
-  command.option("--right", o->right, "technique of the right side");
+  command.option("--left", o->left, "technique of the left side (visibility)");
+  command.option("--right", o->right, "technique of the right side (forward_plus; visibility where OpenGL is in software)");
   command.option("--script", o->script, "a file of input to replay");
   command.option("--frames", o->frames, "frames of a script, after which the program ends", 1, 1'000'000);
   command.option("--screenshot", o->screenshot, "the last frame of a script as a PNG");

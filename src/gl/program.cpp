@@ -1,5 +1,6 @@
 #include "gl/program.h"
 
+#include "base/compiling.h"
 #include "base/embedded.h"
 #include "base/error.h"
 #include "gl/bindings.h"
@@ -17,6 +18,7 @@ class Shader {
 };
 
 void compile(const Shader& shader, const std::string& path, const std::vector<std::string>& defines) {
+  tell_compiling(path);
   std::string source = "#version 450 core\n#define LIGHTGRID_GLSL\n";
   for (const std::string& name : defines) source += "#define " + name + "\n";
   source += with_includes(path);

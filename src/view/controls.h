@@ -33,7 +33,8 @@ struct PicturePixel {
 struct Controls {
   std::array<SideControls, 2> sides;  // left, right
   double line = 0.5;                  // position of the dividing line, as a fraction of the picture's width
-  double rate = 30;  // frames a second to hold while the camera moves; 0: always the full picture
+  bool picture_under = false;         // maps let the picture through
+  double rate = 30;  // frames a second to hold while something moves; 0: always the full picture
   std::optional<std::string> camera;  // target of a jump, in the form of --camera
   LightMotion lights = LightMotion::none;
   bool playing = false;
@@ -43,6 +44,7 @@ struct Controls {
   bool measure_passes = true;
   std::optional<PicturePixel> pixel;  // the inspected pixel
   std::string pixel_file;             // its lights are written there in this frame; empty: not
+  std::string times_file;             // likewise the figures of both sides
   bool screenshot = false;
   bool quit = false;
 };

@@ -18,12 +18,18 @@ class Interface {
   void begin(const Input& input, int width, int height);
   void end();  // draws them into the bound framebuffer
 
+  // Shows a line of text in the window's middle, at once: over what framebuffer 0 holds. Also after begin(), as
+  // long as there is no widget yet.
+  void announce(const std::string& text);
+
   // Whether a panel is under the pointer, or a text box has keyboard focus.
   bool takes_pointer() const;
   bool takes_keys() const;
 
  private:
-  bool scripted_;
+  Window& window_;
+  bool scripted_, begun_ = false;
+  Input input_;
 };
 
 }  // namespace lightgrid

@@ -9,13 +9,16 @@ namespace lightgrid {
 
 namespace {
 
+std::string rate_words(double frames) { return fmt::format("{:.{}f} frames/s", frames, frames < 10 ? 1 : 0); }
+
 void show_status(const Controls& controls, const Shown& shown) {
-  const double ms = shown.sides[0]->frame_ms() + shown.sides[1]->frame_ms();
   ImGui::TextUnformatted(fmt::format("{}: {} lights, {} in view", shown.scene.name, shown.scene.lights.size(),
                                      shown.sides[0]->run().view().plan.lights_in_view)
                              .c_str());
   ImGui::TextUnformatted(
-      fmt::format("{} x {}, both sides {:.1f} ms", shown.picture_width, shown.picture_height, ms).c_str());
+      fmt::format("{} x {}{}", shown.picture_width, shown.picture_height,
+                  shown.rate > 0 ? ", window " + rate_words(shown.rate) : "")
+          .c_str());
   if (shown.fraction < 1) {
     ImGui::SameLine();
     ImGui::TextColored({1, 0.8f, 0.3f, 1}, "%s",
@@ -36,6 +39,16 @@ bool section(const char* name, bool open) {
 }
 
 }  // namespace
+
+void tooltip(const std::string& text) {
+  constexpr float widest = 360;
+  if (text.empty() || !ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(widest);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
 
 void show_panels(Controls& controls, const Shown& shown) {
   ImGui::SetNextWindowPos({float(shown.picture_width), 0});
@@ -101,24 +114,55 @@ namespace {
 
 constexpr ImU32 ink = IM_COL32(255, 255, 255, 255), backdrop = IM_COL32(0, 0, 0, 170);
 
-enum class Align { left, centre, right };
+constexpr float margin = 8, gap = 6;
 
-void label(ImDrawList& draw, const std::string& text, float x, float y, Align align) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  if (align == Align::centre) x -= size.x / 2;
-  if (align == Align::right) x -= size.x;
+// `x`: of its left end, its right end if `anchor` is 1, or its middle, 0.5. Wrapped in the picture's width.
+ImVec2 label(const std::string& text, float x, float y, float anchor, float width) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - 2 * margin);
+  x = std::max(std::floor(x - anchor * size.x), margin);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.AddRectFilled({x - 4, y - 2}, {x + size.x + 4, y + size.y + 2}, backdrop, 3);
-  draw.AddText({x, y}, ink, text.c_str());
+  draw.AddText(nullptr, 0, {x, y}, ink, text.c_str(), nullptr, width - 2 * margin);
+  return size;
 }
 
-std::string name_of(const SideControls& side, const std::string& note) {
-  if (side.map == SideMap::picture) return side.technique;
-  const char* map = map_names()[int(side.map)];
-  return note.empty() ? fmt::format("{}: {}", side.technique, map)
-                      : fmt::format("{}: {} {}", side.technique, map, note);
+std::string name_of(const SideControls& side, const std::string& note, double ms) {
+  std::string name = side.technique;
+  if (side.map != SideMap::picture) name += fmt::format(": {}", map_names()[int(side.map)]);
+  if (!note.empty()) name += " " + note;
+  return ms > 0 ? fmt::format("{}  {}, {:.1f} ms", name, rate_words(1000 / ms), ms) : name;
+}
+
+// Between two columns, at the picture's lower edge.
+void colour_bar(const MapScale& scale, float left, float right, float bottom) {
+  constexpr float longest = 260, shortest = 100, high = 10, black = 18;
+  if (right - left < shortest + 2 * margin || !scale.ramp) return;
+  const float from = std::floor(left + margin + 4), to = std::floor(std::min(right - margin - 4, from + longest));
+  const float line = ImGui::GetTextLineHeight(), y = bottom - line - high - 14;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({from - 6, y - 6}, {to + 6, bottom - 4}, backdrop, 3);
+  draw.AddRectFilled({from, y}, {from + black, y + high}, IM_COL32(0, 0, 0, 255));
+  const float start = from + black + 2;
+  for (float x = start; x < to; ++x) {
+    const glm::u8vec3 c = (*scale.ramp)[size_t((x - start) / (to - start) * float(scale.ramp->size()))];
+    draw.AddRectFilled({x, y}, {x + 1, y + high}, IM_COL32(c.r, c.g, c.b, 255));
+  }
+  const auto number = [&](const std::string& text, float x, float anchor) {
+    draw.AddText({std::floor(x - anchor * ImGui::CalcTextSize(text.c_str()).x), y + high + 2}, ink, text.c_str());
+  };
+  number("0", from + black / 2, 0.5f);
+  number(scale.least, start + 2, 0);
+  if (to - from > 200) number(scale.middle, (start + to) / 2, 0.5f);
+  number(scale.most, to, 1);
 }
 
 }  // namespace
+
+// Below the left label where the picture is too narrow for both side by side.
+float second_label_y(float left_width, float left_height, float right_width, float picture_width) {
+  const bool fit = margin + left_width + gap + right_width + margin + 8 <= picture_width;
+  return fit ? first_label_y : first_label_y + left_height + gap;
+}
 
 void show_overlay(const Controls& controls, const Shown& shown) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
@@ -126,13 +170,20 @@ void show_overlay(const Controls& controls, const Shown& shown) {
   const float line = std::floor(float(controls.line) * width);
   draw.PushClipRect({0, 0}, {width, height});
   draw.AddRectFilled({line - 1, 0}, {line + 1, height}, ink);
-  label(draw, name_of(controls.sides[0], shown.map_notes[0]), 8, 4, Align::left);
-  label(draw, name_of(controls.sides[1], shown.map_notes[1]), width - 8, 4, Align::right);
+  std::string names[2];
+  for (int i = 0; i < 2; ++i) {
+    names[i] = name_of(controls.sides[i], shown.notes[i], shown.sides[i]->frame_ms());
+    if (controls.sides[i].map != SideMap::picture && shown.notes[i].empty())
+      colour_bar(shown.maps[i]->scale(), i ? line : 0, i ? width : line, height);
+  }
+  const ImVec2 left = label(names[0], margin, first_label_y, 0, width);
+  const float right_width = ImGui::CalcTextSize(names[1].c_str()).x;
+  label(names[1], width - margin, second_label_y(left.x, left.y, right_width, width), 1, width);
   if (shown.fraction < 1) {
     const std::string text = fmt::format("moving: {:.0f} x {:.0f} of {} x {} to hold {:.0f} frames a second",
                                          width * shown.fraction, height * shown.fraction, shown.picture_width,
                                          shown.picture_height, controls.rate);
-    label(draw, text, width / 2, height - 20, Align::centre);
+    label(text, width / 2, height - 20 - (ImGui::CalcTextSize(text.c_str()).x > width ? 16 : 0), 0.5f, width);
   }
   if (controls.pixel) {
     const ImVec2 at(float(controls.pixel->x) + 0.5f, height - float(controls.pixel->y) - 0.5f);

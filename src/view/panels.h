@@ -38,7 +38,7 @@ struct Shown {
   const Motion& motion;
   std::array<Side*, 2> sides;
   std::array<const MapOfSide*, 2> maps;
-  std::array<std::string, 2> map_notes;  // why a map is not available yet; empty: it is
+  std::array<std::string, 2> notes;  // why the side does not show what it should yet; empty: it does
   std::array<PlanHistory, 2>& plans;
   std::array<std::optional<PixelInspection>, 2> pixel;  // at Controls::pixel
   bool pixel_is_new = false;                            // clicked since the last frame
@@ -47,10 +47,16 @@ struct Shown {
   int picture_width = 0, picture_height = 0;
   double fraction = 1;  // drawn size as a fraction of the picture's sides
   double now_s = 0;
+  double rate = 0;  // frames a second of the window, of those that drew
 };
 
 void show_panels(Controls& controls, const Shown& shown);
 void show_overlay(const Controls& controls, const Shown& shown);
+// The upper edge of the right side's label, so that it is never over the left one's; sizes of their texts.
+inline constexpr float first_label_y = 4;
+float second_label_y(float left_width, float left_height, float right_width, float picture_width);
+// Of the last item, if the pointer is over it; wrapped.
+void tooltip(const std::string& text);
 
 // Sections of the panel, one file each.
 void show_techniques(Controls& controls, const Shown& shown);

@@ -29,11 +29,14 @@ void Screen::begin(int width, int height) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width) {
+void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width,
+                  float map_opacity) {
   const GlProgram& program = renderer_.program("shaders/screen.vert", "shaders/view.frag", {});
   glUseProgram(program.name());
   glUniform2f(program.uniform("size"), float(picture_width), float(height_));
   glUniform1f(program.uniform("line"), float(line * picture_width));
+  glUniform1f(program.uniform("exposure"), exposure);
+  glUniform1f(program.uniform("map_opacity"), map_opacity);
   glUniform1i(program.uniform("mapped_left"), left.is_map);
   glUniform1i(program.uniform("mapped_right"), right.is_map);
   bind_texture(Sampler::left_image, left.texture);
@@ -41,7 +44,12 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
   for (const Sampler side : {Sampler::left_image, Sampler::right_image})
     bind_sampler_object(side, sampler_.name());
   glViewport(0, 0, picture_width, height_);
+  if (map_opacity < 1) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  }
   draw_screen(program);
+  glDisable(GL_BLEND);
   glViewport(0, 0, width_, height_);
   unbind_sampler_objects();
 }
@@ -49,6 +57,7 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
 // Mesa gives framebuffer 0 the window's new size when a bound one is drawn into after glViewport.
 void Screen::finish() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (width_ == 0) return glClear(GL_COLOR_BUFFER_BIT);  // no frame yet
   glViewport(0, 0, width_, height_);
   glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_,
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);

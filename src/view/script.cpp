@@ -114,6 +114,11 @@ Run pixel(Words words) {
   return [file = words[0]](Controls& controls, Input&) { controls.pixel_file = file; };
 }
 
+Run times(Words words) {
+  expect_words(words, 1, "times FILE");
+  return [file = words[0]](Controls& controls, Input&) { controls.times_file = file; };
+}
+
 Run line(Words words) {
   expect_words(words, 1, "line FRACTION");
   return [at = number(words[0], 0.0, 1.0)](Controls& controls, Input&) { controls.line = at; };
@@ -139,6 +144,12 @@ Run rate(Words words) {
   return [rate = number(words[0], 0.0, 1e6)](Controls& controls, Input&) { controls.rate = rate; };
 }
 
+Run under(Words words) {
+  expect_words(words, 1, "under on|off");
+  if (words[0] != "on" && words[0] != "off") throw wrong(words[0], "is not on or off");
+  return [on = words[0] == "on"](Controls& controls, Input&) { controls.picture_under = on; };
+}
+
 Run switch_on(Words words, bool Controls::*member, bool value) {
   expect_words(words, 0, "it takes no words");
   return [member, value](Controls& controls, Input&) { controls.*member = value; };
@@ -151,8 +162,10 @@ const std::map<std::string, std::function<Run(Words)>>& actions() {
       {"technique", technique},
       {"set", set},
       {"map", map},
+      {"under", under},
       {"click", click},
       {"pixel", pixel},
+      {"times", times},
       {"line", line},
       {"camera", camera},
       {"lights", lights},

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "passes/read_back.h"
-#include "results/metrics.h"
 #include "session/runs.h"
 
 namespace lightgrid {
@@ -20,8 +19,10 @@ void MapOfSide::show_counts(SideMap wanted, Side& side, bool wait) {
                        : wanted == SideMap::lit  ? pairs->lit_of_pixel
                                                  : pairs->lost_of_pixel;
   const uint32_t top = wanted == SideMap::lost ? 1 : top_of_scale(counts);
-  legend_ = fmt::format("{} a pixel: black 0, yellow {} or more; {} pairs listed, {} lit, {} lost",
-                        map_names()[int(wanted)], top, pairs->listed, pairs->lit, pairs->lost);
+  legend_ = fmt::format("lights {} a pixel; {} pairs listed, {} lit, {} lost", map_names()[int(wanted)],
+                        pairs->listed, pairs->lit, pairs->lost);
+  scale_ = {&viridis_ramp(), top > 1 ? "1" : "", top > 3 ? fmt::format("{}", top / 2) : "",
+            fmt::format("{} or more", top)};
   put(heat_map(side.width(), side.height(), counts, top), wanted, side);
 }
 
@@ -31,8 +32,8 @@ void MapOfSide::show_difference(Side& side, const Image& reference) {
   read_back(v, v, side.run().frame().image, image);
   const ImageError error = compare_images(image, reference);
   legend_ =
-      fmt::format("difference from forward: black equal, blue 1e-7, red 1 of the brightest; greatest {:.2g}",
-                  error.max_rel);
+      fmt::format("difference from forward over its brightest: black equal, greatest {:.2g}", error.max_rel);
+  scale_ = {&difference_ramp(), "1e-7", "3e-4", "1"};
   put(difference_image(image, reference), SideMap::difference, side);
 }
 

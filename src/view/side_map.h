@@ -4,11 +4,18 @@
 #include <memory>
 #include <string>
 
+#include "results/metrics.h"
 #include "session/technique_run.h"
 #include "view/listed.h"
 #include "view/side.h"
 
 namespace lightgrid {
+
+// The colours of a map and their numbers. Black is 0.
+struct MapScale {
+  const Ramp* ramp = nullptr;
+  std::string least, middle, most;  // at the ramp's ends and between; empty: not shown
+};
 
 class MapOfSide {
  public:
@@ -30,6 +37,7 @@ class MapOfSide {
   }
   GLuint texture() const { return texture_.name(); }
   const std::string& legend() const { return legend_; }  // of the displayed map
+  const MapScale& scale() const { return scale_; }
 
  private:
   void show_counts(SideMap wanted, Side& side, bool wait);
@@ -42,6 +50,7 @@ class MapOfSide {
   int width_ = 0, height_ = 0;
   GlTexture texture_;
   std::string legend_;
+  MapScale scale_;
 };
 
 // The picture of `forward`, with which both sides are compared.

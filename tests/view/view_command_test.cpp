@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr int width = 320, height = 180;
-constexpr int label_rows = 24;  // the sides' names are drawn over the picture
+constexpr int label_rows = 44;  // the sides' names and figures are drawn over the picture
 
 bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
 
@@ -33,9 +33,10 @@ CommandOutcome run_in_display(const std::string& words) {
                      std::string(lightgrid_program) + " " + words + " 2>&1");
 }
 
-std::string view_words(const TempFolder& folder, const std::string& script, int frames) {
+std::string view_words(const TempFolder& folder, const std::string& script, int frames,
+                       const std::string& sides = "--left forward_plus --right deferred_tiled") {
   std::ofstream(folder.path / "script.txt") << script;
-  return "view spheres --size 320x180 --script " + (folder.path / "script.txt").string() + " --frames " +
+  return "view spheres " + sides + " --size 320x180 --script " + (folder.path / "script.txt").string() + " --frames " +
          std::to_string(frames) + " --screenshot " + (folder.path / "view.png").string();
 }
 
@@ -154,6 +155,21 @@ TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
     for (const auto& light : report["lights"]) EXPECT_THAT(sides[i], HasSubstr(lines_of_verdict(light)));
     EXPECT_EQ(size_t(std::count(sides[i].begin(), sides[i].end(), '\n')), 2 + 2 * report["lights"].size());
   }
+}
+
+// Both sides start with visibility where OpenGL is in software, and one picture serves both.
+TEST_F(ViewInDisplay, WritesItsTimesWithoutThoseOfCompiling) {
+  const std::string file = folder_.path / "times.txt";
+  const CommandOutcome run =
+      run_in_display(view_words(folder_, "0 times " + file + "0\n4 key down w\n9 times " + file + "\n", 10, ""));
+  ASSERT_EQ(run.status, 0) << run.output;
+  std::ifstream first(file + "0"), last(file);
+  const std::string before(std::istreambuf_iterator<char>(first), {});
+  const std::string after(std::istreambuf_iterator<char>(last), {});
+  EXPECT_THAT(before, HasSubstr("left visibility: 320x180, 0.000 ms, slowest of 0 0.000 ms\n"));
+  EXPECT_THAT(after, HasSubstr("left visibility: 320x180, "));
+  EXPECT_THAT(after, HasSubstr("ms, slowest of 7 "));
+  EXPECT_THAT(after, testing::Not(HasSubstr("window: 0.000 ")));
 }
 
 TEST_F(ViewInDisplay, EndsWithZeroWhenClosed) {

@@ -23,7 +23,7 @@ namespace {
 using testing::StartsWith;
 
 constexpr double patience_s = 100;  // for what takes a moment; less on a machine that does nothing else
-constexpr int panel_px = 420, name_rows = 24;
+constexpr int panel_px = 420, name_rows = 70;  // of labels in two lines each, where the picture is narrow
 
 int colour_distance(const PngPixels& a, int ax, int ay, const PngPixels& b, int bx, int by) {
   int greatest = 0;
@@ -47,9 +47,9 @@ class LiveView : public testing::Test {
 
   // Both sides show the same technique, so that the line is all that divides them. F12's files go into
   // folder_.
-  void start(const std::string& words) {
+  void start(const std::string& words, const std::string& environment = "") {
     const std::string command = "cd " + folder_.path.string() + " && DISPLAY=" + desktop_.name() +
-                                " LIGHTGRID_PROGRESS_S=86400 exec " + lightgrid_program + " view " + words +
+                                " LIGHTGRID_PROGRESS_S=86400 " + environment + " exec " + lightgrid_program + " view " + words +
                                 " --left forward_plus --right forward_plus 2>&1";
     program_ = popen(("echo $$; " + command).c_str(), "r");
     char line[20] = "";
@@ -215,6 +215,23 @@ TEST_F(LiveView, TakesKeysAndClicksThatAreShorterThanAFrame) {
       greatest = std::max(greatest, colour_distance(shown, x, 200, paused, x, 200));
     return greatest > 40;
   }));
+  EXPECT_EQ(end(), 0) << output_;
+}
+
+// White text on an even ground, before the picture: that something loads, then what is compiled.
+TEST_F(LiveView, TellsWhatItCompilesBeforeItsFirstPicture) {
+  start("spheres --size 320x180",
+        "LIGHTGRID_CL_CACHE=off LIGHTGRID_CL_QUICK_BUILD=all MESA_SHADER_CACHE_DISABLE=true");
+  EXPECT_TRUE(waits([&] {
+    const PngPixels shown = desktop_.picture();
+    if (shown.height != 180) return false;
+    int white = 0;
+    for (int x = 0; x < shown.width; ++x) {
+      for (int y = 85; y < 105; ++y) white += shown.at(x, y, 0) > 200 && shown.at(x, y, 2) > 200;
+    }
+    return white > 50 && shown.at(5, 5, 2) == shown.at(shown.width - 5, 175, 2);
+  }));
+  EXPECT_TRUE(shows(render({"render", "spheres", "--size", "320x180"})));
   EXPECT_EQ(end(), 0) << output_;
 }
 
