@@ -6,7 +6,8 @@
 
 namespace lightgrid {
 
-// Receives the name of the source file. Empty: nobody. Called on the thread that compiles, in the middle of a pass.
+// Receives the name of the source file. Empty: nobody. Called on the thread that compiles, in the middle of a
+// pass.
 inline std::function<void(const std::string& file)> before_compiling;
 
 inline void tell_compiling(const std::string& file) {

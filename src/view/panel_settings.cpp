@@ -10,44 +10,23 @@
 namespace lightgrid {
 namespace {
 
-// Returns the choice made in this frame, or null. `about`: a tooltip of each name.
-template <typename Names, typename About>
-const char* combo(const char* id, const std::string& current, const Names& names, const About& about) {
-  const char* chosen = nullptr;
-  ImGui::SetNextItemWidth(-1);
-  const bool open = ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge);
-  if (!open) tooltip(about(current));
-  if (!open) return nullptr;
-  for (const auto& name : names) {
-    const std::string text = name;
-    if (ImGui::Selectable(text.c_str(), text == current)) chosen = &name[0];
-    tooltip(about(text));
-  }
-  ImGui::EndCombo();
-  return chosen;
-}
-
-std::string nothing(const std::string&) { return ""; }
-
 std::string about_technique(const std::string& name) {
   const Technique& technique = find_technique(name);
   return fmt::format("{}: {}. {}", name, technique.summary, technique.source);
 }
 
 void choose_technique(SideControls& side) {
-  static const std::vector<const char*> names = [] {
-    std::vector<const char*> all;
-    for (const Technique* t : techniques()) all.push_back(t->name);
-    return all;
-  }();
-  if (const char* chosen = combo("##technique", side.technique, names, about_technique)) side.technique = chosen;
+  std::vector<std::string> names;
+  for (const Technique* t : techniques()) names.emplace_back(t->name);
+  if (const auto chosen = combo("##technique", side.technique, names, about_technique))
+    side.technique = names[*chosen];
 }
 
 void choose_setting(SideControls& side, const SettingHelp& setting) {
-  const std::string id = "##" + setting.key;
-  const char* chosen = combo(id.c_str(), to_strings(side.settings).at(json_key(setting.key)), setting.values,
-                             nothing);
-  if (chosen) apply_setting(side.settings, setting.key + "=" + chosen);
+  const std::vector<std::string> values(setting.values.begin(), setting.values.end());
+  const auto chosen =
+      combo(("##" + setting.key).c_str(), to_strings(side.settings).at(json_key(setting.key)), values);
+  if (chosen) apply_setting(side.settings, setting.key + "=" + values[*chosen]);
 }
 
 // A column of names, and one for each side.
@@ -90,8 +69,8 @@ void show_techniques(Controls& controls, const Shown& shown) {
     cells(controls, choose_technique);
     row_name("show", "the picture, or a map of its lights or errors");
     cells(controls, [](SideControls& side) {
-      const char* chosen = combo("##map", map_names()[int(side.map)], map_names(), nothing);
-      if (chosen) side.map = parse_map(chosen);
+      const std::vector<std::string> names(map_names().begin(), map_names().end());
+      if (const auto chosen = combo("##map", names[size_t(side.map)], names)) side.map = SideMap(*chosen);
     });
     ImGui::EndTable();
   }

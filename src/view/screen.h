@@ -20,9 +20,10 @@ class Screen {
   // Starts a frame of the window's size: clears and binds its framebuffer.
   void begin(int width, int height);
   // Draws into the left `picture_width` pixels, over the whole height. `line`: fraction of the picture's
-  // width. Maps let through as much of what is drawn already as their opacity leaves.
+  // width. `drawn`: the images' size; tone-mapped at that, then enlarged. Maps let through as much of what is
+  // drawn already as their opacity leaves.
   void draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width,
-            float map_opacity = 1);
+            PixelGrid drawn, float map_opacity = 1);
   // Copies into the window's own framebuffer.
   void finish();
 
@@ -33,8 +34,9 @@ class Screen {
  private:
   Renderer& renderer_;
   int width_ = 0, height_ = 0;
-  GlTexture image_;
-  GlFramebuffer framebuffer_;
+  PixelGrid small_size_;
+  GlTexture image_, small_image_;  // small: of a picture that is enlarged
+  GlFramebuffer framebuffer_, small_;
   GlSampler sampler_;
 };
 

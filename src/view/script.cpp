@@ -76,6 +76,27 @@ Run mouse(Words words) {
   };
 }
 
+Run press(Words words) {
+  expect_words(words, 1, "press NAME");
+  std::string names;
+  for (const KeyHelp& key : key_help()) {
+    if (key.press == lower_case(words[0]) && *key.press)
+      return [name = key.press](Controls&, Input& input) { input.presses.emplace_back(name); };
+    if (*key.press) names += std::string(" ") + key.press;
+  }
+  throw wrong(words[0], "is not a key to press; keys are" + names);
+}
+
+Run wheel(Words words) {
+  expect_words(words, 1, "wheel NOTCHES");
+  return [turn = number(words[0], -100.0, 100.0)](Controls&, Input& input) { input.wheel = turn; };
+}
+
+Run scene(Words words) {
+  expect_words(words, 1, "scene NAME|FILE");
+  return [name = words[0]](Controls& controls, Input&) { controls.scene = name; };
+}
+
 Run technique(Words words) {
   const std::vector<int> sides = take_sides(words);
   expect_words(words, 1, "technique [left|right] NAME");
@@ -159,6 +180,9 @@ const std::map<std::string, std::function<Run(Words)>>& actions() {
   static const std::map<std::string, std::function<Run(Words)>> table = {
       {"key", key},
       {"mouse", mouse},
+      {"press", press},
+      {"wheel", wheel},
+      {"scene", scene},
       {"technique", technique},
       {"set", set},
       {"map", map},
@@ -232,6 +256,8 @@ Script Script::read(const std::filesystem::path& path) {
 
 void Script::play(int frame, Controls& controls, Input& input) const {
   input.button = false;
+  input.wheel = 0;
+  input.presses.clear();
   for (const ScriptAction& action : actions_) {
     if (action.frame == frame) action.run(controls, input);
   }

@@ -55,7 +55,7 @@ class Side {
   bool prepared_ = false;
   bool stale_ = true;       // something changed since the last draw
   bool unmeasured_ = true;  // the last draw's time was no figure
-  bool fresh_ = true;       // the next draw's time is no figure: it creates buffers, and drivers compile in it
+  bool fresh_ = true;  // the next draw's time is no figure: it creates buffers, and drivers compile in it
   int width_ = 0, height_ = 0;
   GlTexture picture_;
   GlFramebuffer framebuffer_;

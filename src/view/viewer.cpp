@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include "base/compiling.h"
 #include "base/error.h"
 #include "base/timer.h"
@@ -23,6 +20,7 @@ constexpr PicturePixel no_pixel{-1, -1};
 constexpr size_t frames_of_rate = 30;
 constexpr double least_between_announcements_ms = 30;
 constexpr float opacity_over_picture = 0.6f;
+constexpr double note_s = 3;
 constexpr int dropped_shown = 10;  // lights that culling dropped at the clicked pixel
 
 }  // namespace
@@ -43,16 +41,22 @@ Viewer::Viewer(Window& window, Interface& interface, Renderer& renderer, ViewJob
       width_(job_.view.width),
       height_(job_.view.height) {
   if (!job_.scripted) window_.limit_size(panel_width + least_picture_px, least_picture_px);
-  before_compiling = [this](const std::string& file) { announce(file); };
+  before_compiling = [this](const std::string& file) {
+    compiled_.insert(file);
+    if (announced_.elapsed_ms() < least_between_announcements_ms) return;
+    announce(fmt::format("compiling {} ({}; they are kept for the next start)", file, compiled_.size()));
+    announced_ = Timer();
+  };
 }
 
 Viewer::~Viewer() { before_compiling = nullptr; }
 
-void Viewer::run() {
+std::optional<ViewJob> Viewer::run() {
   Timer timer;
-  for (int number = 0; !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames);
-       ++number) {
-    const bool events = window_.poll(!job_.scripted && number > 2 && idle() ? idle_wait_s : 0);
+  for (int number = job_.first_frame;
+       !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames); ++number) {
+    const bool settled = !job_.scripted && number > job_.first_frame + 2 && idle();
+    const bool events = window_.poll(settled ? idle_wait_s : 0);
     awake_frames_ = events || window_.input_waits() ? frames_after_event : std::max(awake_frames_ - 1, 0);
     seconds_ = job_.scripted ? script_step_s : std::min(timer.elapsed_ms() / 1000, longest_step_s);
     timer = Timer();
@@ -61,8 +65,32 @@ void Viewer::run() {
     window_.show();
     if (sides_ms_ > 0) between_ms_.push_back(timer.elapsed_ms());
     if (between_ms_.size() > frames_of_rate) between_ms_.pop_front();
+    if (!controls_.scene) continue;
+    if (auto next = chosen_scene(number + 1)) return next;
   }
   if (job_.scripted && !job_.screenshot.empty()) screen_.save(job_.screenshot);
+  return {};
+}
+
+// Empty if it cannot be loaded: the window tells why.
+std::optional<ViewJob> Viewer::chosen_scene(int next_frame) {
+  const std::string name = *std::exchange(controls_.scene, {});
+  try {
+    announce("loading " + name);
+    ViewJob next = job_.load(name);
+    next.scenes = job_.scenes;
+    if (std::ranges::find(next.scenes, name) == next.scenes.end()) next.scenes.push_back(name);
+    next.controls = controls_;
+    next.controls.bookmarks = {};
+    next.controls.pixel.reset();
+    next.controls.playing = false;
+    next.first_frame = next_frame;
+    return next;
+  } catch (const Error& error) {
+    if (job_.scripted) throw;
+    tell(error.what());
+    return {};
+  }
 }
 
 bool Viewer::idle() const {
@@ -75,20 +103,17 @@ bool Viewer::idle() const {
          !controls_.draw_always;
 }
 
-// The last picture with the file's name, while it is compiled. A pass may be drawing: what this changes it gets back.
-void Viewer::announce(const std::string& file) {
-  compiled_.insert(file);
-  if (announced_.elapsed_ms() < least_between_announcements_ms) return;
+// The last picture with a text, at once. A pass may be drawing: what this changes it gets back.
+void Viewer::announce(const std::string& text) {
   GLint drawn = 0, read = 0, place[4] = {};
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn);
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
   glGetIntegerv(GL_VIEWPORT, place);
   screen_.finish();
-  interface_.announce(fmt::format("compiling {} ({}; they are kept for the next start)", file, compiled_.size()));
+  interface_.announce(text);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(drawn));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read));
   glViewport(place[0], place[1], place[2], place[3]);
-  announced_ = Timer();
 }
 
 void Viewer::frame(int number) {
@@ -109,24 +134,39 @@ void Viewer::frame(int number) {
   if (std::exchange(controls_.screenshot, false)) take_screenshot();
 }
 
+void Viewer::press(const std::string& key, bool shift) {
+  if (key == "space") controls_.playing = !controls_.playing;
+  if (key == "period") controls_.step = true;
+  if (key == "f12") controls_.screenshot = true;
+  if (key == "f11" && !job_.scripted) window_.fill_screen();
+  if (key == "g") controls_.show_lights = !controls_.show_lights;
+  if (key == "h") controls_.show_keys = !controls_.show_keys;
+  if (key == "r") controls_.camera = job_.camera;
+  if (key == "escape") controls_.close_lists = true;
+  if (key != "1" && key != "2" && key != "3") return;
+  auto& bookmark = controls_.bookmarks[key[0] - '1'];
+  if (shift) bookmark = camera_.text();
+  tell(shift ? "kept as bookmark " + key : bookmark ? "" : fmt::format("shift+{} keeps this camera", key));
+  if (!shift && bookmark) controls_.camera = bookmark;
+}
+
 void Viewer::take_input(int number) {
   if (job_.scripted) job_.script.play(number, controls_, script_input_);
-  const Input input = job_.scripted ? script_input_ : window_.input();
-  interface_.begin(input, width_ + panel_width, height_);
-  const PointerResult pointed =
-      pointer_.follow(input, width_, height_, controls_.line, !interface_.takes_pointer());
+  input_ = job_.scripted ? script_input_ : window_.input();
+  interface_.begin(input_, width_ + panel_width, height_);
+  const bool over_picture = !interface_.takes_pointer();
+  const PointerResult pointed = pointer_.follow(input_, width_, height_, controls_.line, over_picture);
   if (pointed.line) controls_.line = *pointed.line;
   if (pointed.click) controls_.pixel = pointed.click;
+  if (!input_.dropped.empty()) controls_.scene = input_.dropped;
+  if (input_.wheel != 0 && over_picture) {
+    camera_.speed_m = std::clamp(camera_.speed_m * std::pow(1.2, input_.wheel), 1e-3, 1e5);
+    tell(fmt::format("{:.3g} m/s", camera_.speed_m));
+  }
   moved_ = camera_.turn(pointed.turn_x, pointed.turn_y, height_);
   if (!interface_.takes_keys()) {
-    moved_ |= camera_.move(input.held, seconds_);
-    if (!job_.scripted) {
-      if (window_.was_pressed(GLFW_KEY_SPACE)) controls_.playing = !controls_.playing;
-      if (window_.was_pressed(GLFW_KEY_PERIOD)) controls_.step = true;
-      if (window_.was_pressed(GLFW_KEY_F12)) controls_.screenshot = true;
-    }
-  } else {
-    window_.forget_presses();
+    moved_ |= camera_.move(input_.held, seconds_);
+    for (const std::string& key : input_.presses) press(key, input_.held[int(FlightKey::fast)]);
   }
   if (controls_.camera) {
     camera_.go_to(*controls_.camera, double(width_) / height_);
@@ -169,7 +209,7 @@ void Viewer::draw_sides() {
       if (sides_[i].draw(controls_.draw_always, controls_.measure_passes)) drew_ = true;
     } catch (const Error& error) {  // of the right side, which has no picture to keep
       if (job_.scripted || sides_[0].figures() == 0) throw;
-      note_ = error.what();
+      tell(error.what());
       controls_.sides[1] = controls_.sides[0];
       same_ = true;
       break;
@@ -264,6 +304,12 @@ Shown Viewer::shown() {
               .pixel_is_new = pixel_is_new_,
               .commands = {},
               .note = note_,
+              .note_is_new = now_s_ - told_s_ < note_s,
+              .scene_name = job_.name,
+              .scenes = job_.scenes,
+              .start_camera = job_.camera,
+              .view = view_,
+              .pointer = {input_.x, input_.y},
               .picture_width = width_,
               .picture_height = height_,
               .fraction = fraction_,
@@ -271,11 +317,12 @@ Shown Viewer::shown() {
               .rate = frames_a_second()};
   for (int i = 0; i < 2; ++i) {
     const SideControls& wanted = controls_.sides[i];
-    if (i == 1 && same_ && wanted.technique != controls_.sides[0].technique) shown.notes[i] = "(not drawn yet)";
+    if (i == 1 && same_ && wanted.technique != controls_.sides[0].technique)
+      shown.notes[i] = "(not drawn yet)";
     if (wanted.map != SideMap::picture && !maps_[i].shows(wanted.map, side(i))) {
       shown.notes[i] = !resolution_.resting() ? "(when the camera rests)"
-                           : controls_.playing    ? "(when paused)"
-                                                  : "(computing)";
+                       : controls_.playing    ? "(when paused)"
+                                              : "(computing)";
     }
     shown.commands[i] =
         render_command(job_.scene_words, width_, height_, camera_.text(), motion_.words(), wanted);
@@ -292,23 +339,30 @@ void Viewer::show(const Shown& shown) {
     images[i] = {map ? maps_[i].texture() : side(i).picture(), map};
   }
   screen_.begin(width_ + panel_width, height_);
+  const PixelGrid drawn{drawn_width_, drawn_height_};
   const bool under = controls_.picture_under && (images[0].is_map || images[1].is_map);
-  if (under) screen_.draw(pictures[0], pictures[1], controls_.line, width_);
-  screen_.draw(images[0], images[1], controls_.line, width_, under ? opacity_over_picture : 1);
+  if (under) screen_.draw(pictures[0], pictures[1], controls_.line, width_, drawn);
+  screen_.draw(images[0], images[1], controls_.line, width_, drawn, under ? opacity_over_picture : 1);
   show_overlay(controls_, shown);
   show_panels(controls_, shown);
   interface_.end();
   screen_.finish();
 }
 
+void Viewer::tell(const std::string& note) {
+  note_ = note;
+  told_s_ = now_s_;
+}
+
 void Viewer::take_screenshot() {
   std::filesystem::path path;
   std::error_code unreadable;
+  int number = 0;
   do {
-    path = fmt::format("lightgrid_view_{:03}.png", screenshots_++);
+    path = fmt::format("{}_{:03}.png", screenshot_name(job_.name, controls_.sides), number++);
   } while (std::filesystem::exists(path, unreadable));
   screen_.save(path);
-  note_ = path.string();
+  tell(path.string());
 }
 
 }  // namespace lightgrid

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -10,7 +11,6 @@
 
 #include "view/clock.h"
 #include "view/controls.h"
-#include "view/interface.h"
 #include "view/panels.h"
 #include "view/screen.h"
 #include "view/script.h"
@@ -20,6 +20,7 @@
 namespace lightgrid {
 
 struct ViewJob {
+  std::string name;  // of the scene: a built-in one's or a file's
   Scene scene;
   View view;                      // of the picture; the window adds its panel
   std::string scene_words;        // the scene and its lights as command-line options
@@ -31,6 +32,10 @@ struct ViewJob {
   Script script{"", ""};
   int frames = 0;
   std::filesystem::path screenshot;  // of the last frame; empty: not saved
+
+  std::function<ViewJob(const std::string& name)> load;  // another scene, with the start's options
+  std::vector<std::string> scenes;                       // to choose from
+  int first_frame = 0;
 };
 
 class Viewer {
@@ -39,12 +44,14 @@ class Viewer {
   Viewer(Window& window, Interface& interface, Renderer& renderer, ViewJob job);
   ~Viewer();
 
-  // Returns when the window is closed or the script ends.
-  void run();
+  // Returns when the window is closed, the script ends, or with a job when another scene was chosen.
+  std::optional<ViewJob> run();
 
  private:
   void frame(int number);
-  void announce(const std::string& file);
+  void press(const std::string& key, bool shift);
+  std::optional<ViewJob> chosen_scene(int next_frame);
+  void announce(const std::string& text);
   Side& side(int i) { return sides_[same_ ? 0 : i]; }
   const Side& side(int i) const { return sides_[same_ ? 0 : i]; }
   void take_input(int number);
@@ -55,6 +62,7 @@ class Viewer {
   void write_times(const std::string& file) const;
   void show(const Shown& shown);
   Shown shown();
+  void tell(const std::string& note);
   void take_screenshot();
   double frames_a_second() const;  // of frames that drew; 0: none yet
   bool idle() const;
@@ -92,8 +100,9 @@ class Viewer {
   std::set<std::string> compiled_;  // files
   bool moved_ = false, drew_ = false;
   int awake_frames_ = 0;  // to draw before the next wait for events
-  int screenshots_ = 0;
   std::string note_;
+  double told_s_ = -1e9;  // when
+  Input input_;           // of this frame
 };
 
 }  // namespace lightgrid

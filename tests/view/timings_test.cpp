@@ -34,6 +34,12 @@ TEST(Labels, NeverCoverEachOther) {
   EXPECT_GE(second_label_y(200, 26, 100, 280), first_label_y + 26 + 4) << "of two lines";
 }
 
+TEST(Screenshots, AreNamedByTheSceneAndItsTechniques) {
+  const SideControls left{.technique = "visibility"}, right{.technique = "forward_plus"};
+  EXPECT_EQ(screenshot_name("hall", {left, right}), "hall_visibility_forward_plus");
+  EXPECT_EQ(screenshot_name("../my models/a b.c.glb", {left, left}), "a_b_c_visibility");
+}
+
 TEST(CommandText, QuotesWhatAShellWouldRead) {
   EXPECT_EQ(shell_word("eye:1,-2.5,3"), "eye:1,-2.5,3");
   EXPECT_EQ(shell_word("a b"), "'a b'");
