@@ -24,15 +24,9 @@ std::string failed_gates(const RunResult& row) {
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
-// The row of least median time among those that `counts` accepts; null if there is none.
-template <typename Counts>
-const RunResult* fastest(const CompareReport& report, const Counts& counts) {
-  const RunResult* best = nullptr;
-  for (const auto& row : report.rows) {
-    const bool timed = row.frame_ms.runs > 0;
-    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
-  }
-  return best;
+// Passes all gates but is not exact.
+const RunResult* fastest_lossy(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
 }
 
 const RunResult* fastest_of_all(const CompareReport& report) {
@@ -40,10 +34,6 @@ const RunResult* fastest_of_all(const CompareReport& report) {
 }
 
 size_t index_of(const CompareReport& report, const RunResult& row) { return &row - report.rows.data(); }
-
-std::string name_of(const CompareReport& report, const RunResult& row) {
-  return row_names(report)[index_of(report, row)];
-}
 
 // Mean over the pixels; negative if not counted.
 double listed_per_pixel(const CompareReport& report, const RunResult& row) {
@@ -59,11 +49,11 @@ std::string time_figure(const CompareReport& report, const RunResult& row, const
   const auto runs = time.runs > 1 ? fmt::format("median of {}", time.runs) : "one run";
   if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
     return fmt::format("{} is {} times faster than {}: {} ms against {} ms a frame ({})",
-                       name_of(report, row), short_number(reference->frame_ms.median / time.median),
+                       row_name(report, row), short_number(reference->frame_ms.median / time.median),
                        report.reference, short_number(time.median), short_number(reference->frame_ms.median),
                        runs);
   }
-  return fmt::format("{} takes {} ms a frame ({})", name_of(report, row), short_number(time.median), runs);
+  return fmt::format("{} takes {} ms a frame ({})", row_name(report, row), short_number(time.median), runs);
 }
 
 bool same_colour(const glm::vec4& a, const glm::vec4& b) {
@@ -126,7 +116,7 @@ std::string image_clause(const RunResult& row) {
 }
 
 std::string fastest_clause(const CompareReport& report, const RunResult& row) {
-  return fmt::format("{} is the fastest at {} ms a frame", name_of(report, row),
+  return fmt::format("{} is the fastest at {} ms a frame", row_name(report, row),
                      short_number(row.frame_ms.median));
 }
 
@@ -135,7 +125,7 @@ std::string unbeaten_clause(const CompareReport& report, const RunResult& refere
       fastest(report, [&](const RunResult& row) { return &row != &reference && is_exact(row); });
   if (!next) return fastest_clause(report, reference);
   return fmt::format("Nothing beats {}: {} ms a frame; {} comes next at {} ms", report.reference,
-                     short_number(reference.frame_ms.median), name_of(report, *next),
+                     short_number(reference.frame_ms.median), row_name(report, *next),
                      short_number(next->frame_ms.median));
 }
 
@@ -146,7 +136,7 @@ std::string close_clause(const CompareReport& report, const RunResult& winner) {
     if (&row == &winner || !is_exact(row) || row.frame_ms.runs == 0 ||
         row.frame_ms.min > winner.frame_ms.median)
       continue;
-    close.push_back(fmt::format("{} ({} ms)", name_of(report, row), short_number(row.frame_ms.median)));
+    close.push_back(fmt::format("{} ({} ms)", row_name(report, row), short_number(row.frame_ms.median)));
   }
   return close.empty() ? "" : fmt::format(". Within the spread of the runs is {}", fmt::join(close, ", "));
 }
@@ -154,7 +144,7 @@ std::string close_clause(const CompareReport& report, const RunResult& winner) {
 std::string winner_clause(const CompareReport& report, const RunResult& row, const RunResult& reference) {
   const auto why = why_faster(report, row, reference);
   const double ratio = reference.frame_ms.median / std::max(row.frame_ms.median, 1e-9);
-  return fmt::format("{} wins: {} ms a frame, {} times faster than {}{}{}{}", name_of(report, row),
+  return fmt::format("{} wins: {} ms a frame, {} times faster than {}{}{}{}", row_name(report, row),
                      short_number(row.frame_ms.median), short_number(ratio), report.reference,
                      why.empty() ? "" : ", ", why, image_clause(row));
 }
@@ -162,20 +152,20 @@ std::string winner_clause(const CompareReport& report, const RunResult& row, con
 // The fastest of those that fail a gate.
 std::string failing_clause(const CompareReport& report, const RunResult& row) {
   const bool visible = row.error && !is_exact(*row.error);
-  return fmt::format(". {} is quicker still ({} ms) but has {}{}", name_of(report, row),
+  return fmt::format(". {} is quicker still ({} ms) but has {}{}", row_name(report, row),
                      short_number(row.frame_ms.median), failed_gates(row),
                      visible ? ", and its image " + error_in_words(row) : "");
 }
 
 std::string lossy_clause(const CompareReport& report, const RunResult& row) {
-  return fmt::format(". {} is quicker ({} ms) but lossy: its image {}", name_of(report, row),
+  return fmt::format(". {} is quicker ({} ms) but lossy: its image {}", row_name(report, row),
                      short_number(row.frame_ms.median), error_in_words(row));
 }
 
 // The sentence for a technique whose picture is another one: "visibility draws 34 frames a second (29.4 ms);
 // its image differs by …".
 std::string other_picture_figure(const CompareReport& report, const RunResult& row) {
-  return fmt::format("{} draws {} frames a second ({} ms); its image {}", name_of(report, row),
+  return fmt::format("{} draws {} frames a second ({} ms); its image {}", row_name(report, row),
                      short_number(1000 / std::max(row.frame_ms.median, 1e-9)),
                      short_number(row.frame_ms.median), error_in_words(row));
 }
@@ -201,12 +191,17 @@ bool is_exact(const ImageError& error) {
 
 bool is_exact(const RunResult& row) { return passes_gates(row) && (!row.error || is_exact(*row.error)); }
 
-const RunResult* fastest_exact(const CompareReport& report) {
-  return fastest(report, [](const RunResult& row) { return is_exact(row); });
+const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
+  const RunResult* best = nullptr;
+  for (const auto& row : report.rows) {
+    const bool timed = row.frame_ms.runs > 0;
+    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
+  }
+  return best;
 }
 
-const RunResult* fastest_lossy(const CompareReport& report) {
-  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
+const RunResult* fastest_exact(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return is_exact(row); });
 }
 
 std::vector<std::string> telling_figures(const CompareReport& report) {
@@ -230,13 +225,13 @@ std::string verdict(const CompareReport& report) {
   const auto* failing = fastest(report, [](const RunResult& r) { return !passes_gates(r); });
   if (!quickest) return "Nothing was timed.";
   if (!row && !lossy) {
-    return fmt::format("No technique passes: {} has {}.", name_of(report, *quickest),
+    return fmt::format("No technique passes: {} has {}.", row_name(report, *quickest),
                        failed_gates(*quickest));
   }
   if (!row) {
     const auto text = fmt::format(
         "No technique is exact: {} is the fastest that fails no gate, {} ms a frame, but its image {}",
-        name_of(report, *lossy), short_number(lossy->frame_ms.median), error_in_words(*lossy));
+        row_name(report, *lossy), short_number(lossy->frame_ms.median), error_in_words(*lossy));
     return text + (quicker(failing, *lossy) ? failing_clause(report, *failing) : "") + ".";
   }
   const auto* reference = reference_row(report);

@@ -10,7 +10,6 @@
 #include "report/report.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
-#include "results/reduce.h"
 
 namespace lightgrid {
 namespace {

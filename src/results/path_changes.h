@@ -1,5 +1,5 @@
-// Where the plans of a report's techniques change along a camera path: each change once, however many of
-// them have it.
+// The places on a camera path where the plans of a report's techniques change: each change is listed once,
+// however many of them have it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,7 @@ struct SharedPlanChange {
   std::vector<size_t> rows;  // of the report, rising
 };
 
-// By frame, and within a frame as the first row has them. Of the rows with RunResult::moving.
+// The changes of rows with RunResult::moving, by frame, and within a frame as the first row has them.
 std::vector<SharedPlanChange> shared_plan_changes(const CompareReport& report);
 
 // The value of `plan_changes` (docs/results_json.md).

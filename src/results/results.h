@@ -40,8 +40,8 @@ struct OracleError {
   double of_reference_max_rel = 0;
 };
 
-// Of a technique that rasterises by its own code: the pixels whose opaque triangle is not the one that OpenGL
-// shows, and the difference at the others, relative to the reference's brightest channel.
+// A technique that rasterises by its own code shows another opaque triangle than OpenGL at some pixels. The
+// difference is measured at the others, relative to the reference's brightest channel.
 struct SilhouetteError {
   uint64_t silhouettes = 0;
   uint64_t blended = 0;  // further pixels that are not compared: a blended surface covers them or a neighbour
@@ -93,7 +93,7 @@ struct MovingResult {
   std::vector<PlanChange> plan_changes;  // by frame
 };
 
-// Of the whole process, along a camera path.
+// The whole process's memory along a camera path.
 struct PathMemory {
   size_t frames = 0;  // after which `bytes` were resident: 100, or half of a short path
   size_t bytes = 0, bytes_at_end = 0;
@@ -111,7 +111,8 @@ struct RunResult {
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
-  std::optional<double> world_cell;  // that world_grid's lists were built with
+  std::string built_by;                      // as in Frame
+  std::map<std::string, double> built_with;  // the same
   std::optional<PairCounts> pairs;   // absent without the oracle
   std::optional<ImageError> error;   // technique error: this image against the float image with every light
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "gl/errors.h"
-#include "gl/state.h"
+#include "gl/bindings.h"
+#include "gl/gl.h"
 #include "passes/read_back.h"
 #include "results/metrics.h"
 
@@ -39,7 +39,7 @@ void TechniqueRun::draw_frame() {
 double TechniqueRun::render() {
   const Timer timer;
   draw_frame();
-  HostImage image(view_, view_, frame_.image, image_);
+  HostImage image(view_, frame_.image, image_);
   const double ms = timer.elapsed_ms();
   image.keep();
   if (view_.renderer.gl) check_gl(technique_.name);
@@ -93,7 +93,7 @@ RunResult TechniqueRun::result() const {
   }
   result.memory_total = view_.memory_bytes();
   result.memory_light_grid = frame_.light_grid_bytes();
-  result.world_cell = frame_.world_cell;
+  result.built_by = frame_.built_by, result.built_with = frame_.built_with;
   result.memory_gbuffer = view_.targets.bytes(TargetUse::gbuffer);
   result.nan_pixels = count_nan_pixels(image_);
   result.inf_pixels = count_inf_pixels(image_);

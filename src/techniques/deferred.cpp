@@ -2,23 +2,27 @@
 // covers.
 #include "passes/fill_gbuffer.h"
 #include "passes/find_object_lights.h"
-#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  const GBuffer gbuffer = fill_gbuffer(v, v);
-  shade_light_volumes(v, v, v.caches.light_volumes, gbuffer);
-  shade_blended(v, v, gbuffer.image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
-  return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v, v.caches.light_volumes)};
+  const GBuffer gbuffer = fill_gbuffer(v);
+  shade_light_volumes(v, v.caches.light_volumes, gbuffer);
+  shade_blended(v, gbuffer.image, find_blended_object_lights(v, v.caches.blended_object_lights));
+  return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v.caches.light_volumes)};
+}
+
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  needs.stencil = settings.volume_culling == VolumeCulling::stencil;
 }
 
 extern const Technique deferred{.name = "deferred",
                                 .summary = "geometry buffer, then light volumes",
                                 .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-                                .needs = {.light_volumes = true},
+                                .needs = {.adapt = adapt},
                                 .settings = {"brdf", "buffer-bits", "volume-culling", "volume-mesh"},
                                 .render = render,
                                 .listed_by = ListedBy::pixel};

@@ -1,7 +1,7 @@
 // Lights are added up at the samples of a volume; surfaces read the volume, however many lights there are.
 #include "passes/build_voxels.h"
 #include "passes/cull_lights.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 
@@ -12,27 +12,32 @@ static Frame render(RenderView& v) {
   std::optional<LightSource> exact, exact_blended;  // without voxel-lights-exact there is no grid
   if (v.plan.light_grid) {
     const DepthBounds& bounds = bounds_of(v, surfaces);
-    exact = from_grid(v, v, frame.grid.emplace(cull_lights(v, v, v.culler(), v.opaque_grid(), bounds)));
+    exact = from_grid(v, frame.grid.emplace(cull_lights(v, v.culler(), v.opaque_grid(), bounds)));
     if (v.plan.blend_grid)
       exact_blended = from_grid(
-          v, v, frame.blend_grid.emplace(cull_lights_for_blended(v, v, v.culler(), v.blend_grid(), bounds)));
+          v, frame.blend_grid.emplace(cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds)));
   }
   const TileDistances& distances = distances_of(v, surfaces);
   const VoxelVolume voxels =
-      build_voxels(v, v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
-  const LightSource lights = from_voxels(v, v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
+      build_voxels(v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
+  const LightSource lights = from_voxels(v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
   frame.listed = exact ? exact->listed : lights.listed;
   frame.image = shade(v, surfaces, lights);
-  blend(v, surfaces, exact_blended ? from_voxels(v, v, v.caches.voxels, voxels, &*exact_blended) : lights,
+  blend(v, surfaces, exact_blended ? from_voxels(v, v.caches.voxels, voxels, &*exact_blended) : lights,
         frame.image);
   return frame;
+}
+
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  if (settings.voxel_lights_exact == 0)
+    needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
 }
 
 extern const Technique voxel_lights{
     .name = "voxel_lights",
     .summary = "a volume of irradiance and mean directions: lights cost by the sample, not by the pixel",
     .source = "Geldreich: Light Indexed Deferred Rendering, on Halo Wars, 2009",
-    .needs = {.light_grid = true, .lists = true, .chosen_raster = true, .exact_lights = true},
+    .needs = {.light_grid = true, .lists = true, .chosen_raster = true, .adapt = adapt},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
                  "cull-test", "depth-bounds", "tile", "raster", "texels", "kernel-shape", "portable",
                  "group-size"},

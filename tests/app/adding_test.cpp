@@ -1,5 +1,6 @@
-// The places that a technique, a light source, a cull test, an error measure, a column of the light table and
-// an answer of light_reaches need: the source files that name them are counted (docs/overview.md#how-to-add).
+// The places that a technique, its setting, a light source, a cull test, an error measure, a column of the
+// light table and an answer of light_reaches need: the source files that name them are counted
+// (docs/overview.md#how-to-add).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <set>
 
 #include "results/error_measures.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "support/paths.h"
 #include "support/read_files.h"
 #include "techniques/technique.h"
@@ -74,16 +75,15 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/app/inspect.cpp", {"forward_plus"}},
       {"src/app/plan.cpp", {"forward_plus"}},
       {"src/app/view.cpp", {"forward_plus", "visibility"}},
-      {"src/bench/culling_run.cpp", {"forward_plus"}},
+      {"src/bench/runs.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
-      {"src/frontier/precision.cpp", {"forward_plus", "visibility"}},
       {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
       // The reference.
-      {"src/frontier/brute_force.cpp", {"forward", "visibility"}},
+      {"src/frontier/brute_force.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/session/runs.cpp", {"forward", "visibility"}},
       // Messages of its own passes.
-      {"src/passes/light_index/blending_probe.cpp", {"lidr"}},
+      {"src/passes/light_index/blending.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
@@ -97,6 +97,26 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
     expected["src/techniques/" + name + ".cpp"] = {name};
     EXPECT_EQ(mentions(registry, name).size(), 2u) << name;
   }
+  EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+// Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
+// techniques`,
+// --set and JSON files follow.
+TEST(Adding, ASettingOfATechniqueTakesItsFile) {
+  std::map<std::string, std::vector<std::string>> texts;
+  Naming expected;
+  const std::regex own("OwnSetting<(\\w+)> (\\w+)\\{\\s*\"([^\"]+)\"");
+  for (const Technique* t : techniques()) {
+    const std::string path = std::string("src/techniques/") + t->name + ".cpp", text = code_of(text_at(path));
+    for (std::sregex_iterator at(text.begin(), text.end(), own), end; at != end; ++at) {
+      const std::string key = (*at)[3];
+      EXPECT_TRUE(reads_setting(*t, key)) << key;
+      texts[key] = {'"' + key + '"', '"' + key + '=', (*at)[1].str() + "::", (*at)[2].str() + ".of("};
+      expected[path].insert(key);
+    }
+  }
+  EXPECT_THAT(texts, testing::Contains(testing::Key("prepass-lights")));
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
 }
 
@@ -129,7 +149,7 @@ TEST(Adding, ALightSourceTakesItsBuilderAndTheChoiceOfItsLoop) {
 TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   std::map<std::string, std::vector<std::string>> texts;
   std::set<std::string> all;
-  const std::string numbers = text_at("src/shared/cull_settings.h");
+  const std::string numbers = text_at("src/shared/cull_tests.h");
   const std::regex number("#define CULL_(\\w+) \\d");
   for (std::sregex_iterator at(numbers.begin(), numbers.end(), number), end; at != end; ++at) {
     std::string upper = (*at)[1], lower = upper;
@@ -142,11 +162,7 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
   }
   EXPECT_EQ(all.size(), std::size(cull_tests));
   const Naming expected = {
-      {"src/shared/cull_settings.h", all},
-      {"kernels/culling/light_cell_tests.h", {"exact", "planes", "sphere"}},
-      // The default.
-      {"src/culling/light_culler.h", {"planes_aabb"}},
-      {"src/plan/settings.h", {"planes_aabb"}},
+      {"src/shared/cull_tests.h", all},
       // Kernels that compute more, or less, for one test.
       {"kernels/culling/bin_cells.h", {"exact"}},
       {"kernels/culling/bin_tiles.h", {"exact"}},
@@ -158,7 +174,11 @@ TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
       {"src/verify/depth_bounds.cpp", {"exact"}},
       {"src/verify/lists.cpp", {"exact"}},
   };
-  EXPECT_THAT(differences(files_that_name({"src", "kernels"}, texts), expected), IsEmpty());
+  Naming found = files_that_name({"src", "kernels"}, texts);
+  const std::string text = "kernels/culling/light_cell_tests.h";
+  EXPECT_THAT(found[text], testing::IsSupersetOf({"exact", "planes", "sphere"}));
+  found.erase(text);  // any test may have a text of its own there
+  EXPECT_THAT(differences(found, expected), IsEmpty());
 }
 
 // Its field, and its function with its row in error_measures.cpp.
@@ -180,6 +200,8 @@ TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
       {"src/results/error_measures.cpp", all},
       // What the frontier tells of two pictures beside the one that a sample is of.
       {"src/frontier/answer_files.cpp", {"max_rel"}},
+      // Figures of the oracle and of surfaces have these names too.
+      {"src/report/report.cpp", {"max_rel", "rmse_rel"}},
   };
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
 }
@@ -201,7 +223,7 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   for (const char* text : {"light.cone.", "light.cone = (float4)"}) texts["cone"].push_back(text);
   const Naming expected = {
       {"src/shared/light_table.h", all},
-      {"src/renderer/light_table.cpp", all},
+      {"src/renderer/upload/lights.cpp", all},
       // Readers: the range alone; a cone's part in what arrives, also at samples of voxel light buffers.
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone"}},
@@ -237,7 +259,6 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       {"src/reference/shading.cpp", {"arrives", "asks"}},
       {"src/reference/light_sums.cpp", {"arrives", "asks"}},
       {"src/reference/lit_set.cpp", {"asks"}},
-      {"src/reference/voxel_sample.cpp", {"asks"}},
   };
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }

@@ -1,5 +1,5 @@
 // The frontier's page in a real browser, and its plots as it saves them.
-#include "frontier/answer_files.h"
+#include "frontier/answer.h"
 
 #include <algorithm>
 #include <cmath>

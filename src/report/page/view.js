@@ -14,6 +14,40 @@ function speedUp(view, row) {
 const DIFFERENCE_NOTE = "Difference: black is equal, blue 1e-7 to red 1 of the reference's brightest channel, white NaN.";
 const heatNote = (view) => `Lights: black is none, violet few, yellow ${wholeNumber(view.page.heat_top)} and more.`;
 
+// The before/after slider: any two pictures, cut at the position of the range input.
+let sliderChoices = [];
+
+function showSliderSide(side) {
+  const chosen = (s) => sliderChoices[byId(`${s}-picture`).value];
+  byId(`${side}-image`).src = chosen(side).url;
+  byId(`${side}-image`).alt = chosen(side).label;
+  const notes = ["left", "right"].map((s) => chosen(s)?.note).filter(Boolean);
+  byId("slider-legend").textContent = [...new Set(notes)].join(" ");
+}
+
+// groups: [{ label, choices: [{ label, url, note }] }]; left and right: the labels shown first.
+function showSlider(groups, left, right) {
+  sliderChoices = groups.flatMap((group) => group.choices);
+  byId("slider").closest("section").hidden = sliderChoices.length === 0;
+  if (sliderChoices.length === 0) return;
+  for (const [side, first] of [["left", left], ["right", right]]) {
+    const select = byId(`${side}-picture`);
+    select.replaceChildren(...groups.map((group) => make("optgroup", { label: group.label },
+      ...group.choices.map((c) => make("option", { value: sliderChoices.indexOf(c) }, c.label)))));
+    select.value = Math.max(0, sliderChoices.findIndex((choice) => choice.label === first));
+  }
+  showSliderSide("left");
+  showSliderSide("right");
+}
+
+function startSlider() {
+  for (const side of ["left", "right"]) byId(`${side}-picture`).addEventListener("change", () => showSliderSide(side));
+  const cut = byId("cut");
+  const move = () => byId("slider").style.setProperty("--cut", `${cut.value}%`);
+  cut.addEventListener("input", move);
+  move();
+}
+
 function showPictures(view) {
   const { rows, lit, reference, reduced, folder } = view.page;
   const choicesOf = (pick, suffix, note) =>
@@ -148,6 +182,47 @@ function showSkipped(view) {
     make("li", {}, line, names.length < ranRows(view).length ? ` (${names.join(", ")})` : ""));
   const all = [...refused, ...lines];
   byId("skipped").replaceChildren(...(all.length > 0 ? all : [make("li", {}, "Nothing was left out.")]));
+}
+
+// Where the plan changed along the camera's path.
+const MOST_CHANGES_SHOWN = 20;
+
+// Changes of one frame with one reason are one line: [{ frame, effects, to, why, rows }].
+function linesOfChanges(changes) {
+  const lines = new Map();
+  for (const { frame, effect, to, why, rows } of changes) {
+    const key = JSON.stringify([frame, to, why, rows]);
+    if (!lines.has(key)) lines.set(key, { frame, effects: [], to, why, rows });
+    lines.get(key).effects.push(effect);
+  }
+  return [...lines.values()];
+}
+
+function tableOfChanges(view, lines) {
+  const cells = ({ frame, effects, to, why, rows }) => [
+    wholeNumber(frame),
+    effects.join(", ") + (rows ? ` (${rows.map((row) => view.page.rows[row].name).join(", ")})` : ""),
+    `${to === "on" ? "off" : "on"} \u2192 ${to}`,
+    why,
+  ];
+  const line = (tag, texts) => make("tr", {}, ...texts.map((text) => make(tag, {}, text)));
+  return make("div", { class: "scrolls" }, make("table", { class: "changes" },
+    make("thead", {}, line("th", ["Frame", "Effects", "Plan", "Why"])),
+    make("tbody", {}, ...lines.map((change) => line("td", cells(change))))));
+}
+
+function showPlanChanges(view) {
+  const part = byId("plan-changes"), moving = view.results.moving;
+  part.hidden = !moving;
+  part.replaceChildren();
+  if (!moving) return;
+  part.append(make("h3", {}, "Changed along the path"));
+  const lines = linesOfChanges(moving.plan_changes);
+  const shown = lines.slice(0, MOST_CHANGES_SHOWN), rest = lines.slice(MOST_CHANGES_SHOWN);
+  part.append(lines.length > 0 ? tableOfChanges(view, shown) : make("p", {}, "All frames have one plan."));
+  if (rest.length === 0) return;
+  const summary = make("summary", {}, `${wholeNumber(rest.length)} more`);
+  part.append(make("details", {}, summary, tableOfChanges(view, rest)));
 }
 
 // Returns the functions that redraw when the width changes.

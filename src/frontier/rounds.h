@@ -1,0 +1,61 @@
+// Times of points, taken in rounds: frames beside the baseline's, culling, and frames of variants of the
+// scene.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/timer.h"
+#include "frontier/measure.h"
+
+namespace lightgrid {
+
+// A point of which at least one view has been measured.
+struct MeasuredPoint {
+  PointRun run;
+  std::vector<FrontierRecord> records;  // one a view, open in the file
+  double picture_s = 0;
+  bool slow = false;  // far from the front: few rounds tell how far
+  int rounds() const { return int(records.front().frame_ms.size()); }
+};
+
+constexpr int slow_rounds = 3;  // of slow points
+
+// Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
+// A point counts with the baseline run beside it. Slow points are left out of late rounds. The first round
+// does not count, and has no slow points: drivers compile in it what they dropped.
+struct TimeRounds {
+  const FrontierJob& job;
+  const Timer& timer;  // of the scene
+  double until_s;      // of `timer`: a round that would end later is not begun
+  std::span<const View> views;
+  std::vector<MeasuredPoint>& points;  // with a record for each of `views`
+  PointRun& baseline;
+  RecordFile& file;
+
+  // Until the ratios are certain or the time is over. Returns the number of rounds that count: those that the
+  // points have from an earlier process too.
+  int run();
+
+ private:
+  void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
+  double timed(MeasuredPoint& point, size_t view);
+  bool are_certain() const;
+};
+
+// Completes all records of the points in the file.
+void complete(const std::vector<MeasuredPoint>& points, RecordFile& file);
+
+// How long points that differ in the cull test alone take to cull, for the intervals of break-evens: rounds
+// in which each of the points that have such a partner draws one profiled frame of `view`, the first of its
+// records, in alternating order. Twelve rounds, as far as `seconds` allow; none if they do not allow six.
+void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,
+                        RecordFile& file);
+
+// How times grow with lights, pixels and the lights' ranges: the techniques among the job's points, each as
+// it is, beside the baseline, on scattered lights (128 to 2048), on sizes (half to twice a side) and on
+// ranges (half to twice). Ends when `seconds` have passed. The scene is left as it was.
+void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
+                    const FrontierJob& job, double seconds, RecordFile& file);
+
+}  // namespace lightgrid
