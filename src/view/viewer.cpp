@@ -58,9 +58,10 @@ std::optional<ViewJob> Viewer::run() {
     const bool settled = !job_.scripted && number > job_.first_frame + 2 && idle();
     const bool events = window_.poll(settled ? idle_wait_s : 0);
     awake_frames_ = events || window_.input_waits() ? frames_after_event : std::max(awake_frames_ - 1, 0);
-    seconds_ = job_.scripted ? script_step_s : std::min(timer.elapsed_ms() / 1000, longest_step_s);
+    const double passed_s = job_.scripted ? script_step_s : timer.elapsed_ms() / 1000;
+    seconds_ = std::min(passed_s, longest_step_s);
     timer = Timer();
-    now_s_ += seconds_;
+    now_s_ += passed_s;
     frame(number);
     window_.show();
     if (sides_ms_ > 0) between_ms_.push_back(timer.elapsed_ms());

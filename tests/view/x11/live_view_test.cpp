@@ -8,11 +8,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
 #include <thread>
 
+#include "support/gltf_builder.h"
 #include "support/run_command.h"
 #include "support/run_program.h"
 #include "view/x11/desktop.h"
@@ -228,6 +230,24 @@ TEST_F(LiveView, FillsTheScreenAndGoesBack) {
   EXPECT_TRUE(has_size(1280, 1024));
   desktop_.tap("F11");
   EXPECT_TRUE(has_size(320 + panel_px, 180));
+  EXPECT_EQ(end(), 0) << output_;
+}
+
+// One that cannot be loaded leaves the window as it is.
+TEST_F(LiveView, OpensAFileThatIsDropped) {
+  start("spheres --size 320x180");
+  const PngPixels spheres = render({"render", "spheres", "--size", "320x180"});
+  ASSERT_TRUE(shows(spheres));
+  EXPECT_TRUE(desktop_.drop("/nonexistent.gltf", patience_s));
+  EXPECT_TRUE(waits([&] { return difference(desktop_.picture(), spheres, 320, 180) > 50; })) << "tells so";
+  EXPECT_TRUE(shows(spheres));
+  const auto file = folder_.path / "one triangle.gltf";
+  std::ofstream(file) << GltfBuilder::triangle().text();
+  EXPECT_TRUE(desktop_.drop(folder_.path.string() + "/one%20triangle.gltf", patience_s));
+  ASSERT_TRUE(desktop_.find_window("lightgrid: " + file.string(), patience_s));
+  EXPECT_TRUE(waits([&] { return difference(desktop_.picture(), spheres, 320, 180) > 50; }));
+  desktop_.tap("F12");
+  EXPECT_TRUE(waits([&] { return read_png(folder_.path / "one_triangle_forward_plus_000.png").width > 0; }));
   EXPECT_EQ(end(), 0) << output_;
 }
 
