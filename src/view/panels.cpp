@@ -36,7 +36,7 @@ void show_status(Controls& controls, const Shown& shown) {
   if (shown.fraction < 1) {
     ImGui::SameLine();
     ImGui::TextColored({1, 0.8f, 0.3f, 1}, "%s",
-                       fmt::format("(moving: drawn at {:.0f} %)", 100 * shown.fraction).c_str());
+                       fmt::format("(drawn at {:.0f} %)", 100 * shown.fraction).c_str());
   }
   ImGui::TextDisabled("drag: look, WASD QE: fly, click: lights, H: all keys");
   for (size_t i = 0; i < 2; ++i) {
@@ -297,7 +297,7 @@ void show_overlay(const Controls& controls, const Shown& shown) {
   const float right_width = ImGui::CalcTextSize(names[1].c_str()).x;
   label(names[1], width - margin, second_label_y(left.x, left.y, right_width, width), 1, width);
   if (shown.fraction < 1) {
-    const std::string text = fmt::format("moving: {:.0f} x {:.0f} of {} x {} to hold {:.0f} frames a second",
+    const std::string text = fmt::format("drawn at {:.0f} x {:.0f} of {} x {} to hold {:.0f} frames a second",
                                          width * shown.fraction, height * shown.fraction, shown.picture_width,
                                          shown.picture_height, controls.rate);
     label(text, width / 2, height - 20 - (ImGui::CalcTextSize(text.c_str()).x > width ? 16 : 0), 0.5f, width);
