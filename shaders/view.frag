@@ -6,6 +6,8 @@ uniform vec2 size;        // of the picture, pixels
 uniform float line;       // pixels from its left
 uniform int mapped_left;  // 1: colours of a map, without tone mapping
 uniform int mapped_right;
+uniform float exposure;     // of pictures, before the tone map
+uniform float map_opacity;  // of maps, over what is drawn already
 
 layout(location = 0) out vec4 color;
 
@@ -39,6 +41,6 @@ void main() {
   vec3 linear = left ? image_at(left_image, gl_FragCoord.xy) : image_at(right_image, gl_FragCoord.xy);
   bool mapped = (left ? mapped_left : mapped_right) != 0;
   bool is_nan = any(isnan(linear));
-  color =
-      vec4(is_nan && !mapped ? vec3(1, 0, 1) : srgb(clamp(mapped ? linear : tone_map(linear), 0.0, 1.0)), 1);
+  vec3 shown = srgb(clamp(mapped ? linear : tone_map(exposure * linear), 0.0, 1.0));
+  color = vec4(is_nan && !mapped ? vec3(1, 0, 1) : shown, mapped ? map_opacity : 1.0);
 }

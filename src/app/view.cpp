@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
+#include "scene/builtin.h"
 #include "techniques/technique.h"
 #ifdef LIGHTGRID_VIEW
 #include "view/controls.h"
@@ -15,7 +16,7 @@ namespace {
 
 struct ViewOptions {
   SceneChoice scene;
-  std::string device, left = "forward_plus", right = "deferred_tiled", script, screenshot;
+  std::string device, left, right, script, screenshot;
   int frames = 60;
 };
 
@@ -35,10 +36,12 @@ std::string scene_words(const ViewOptions& o) {
   return words;
 }
 
-int view(const ViewOptions& o) {
+// Without the scene.
+ViewJob make_job(const ViewOptions& o) {
   ViewJob job;
-  const Settings settings = chosen_settings(o.scene);
-  job.controls.sides = {{{find_technique(o.left).name, settings}, {find_technique(o.right).name, settings}}};
+  job.name = o.scene.scene;
+  for (const BuiltinScene& scene : builtin_scenes()) job.scenes.push_back(scene.name);
+  if (!find_builtin_scene(job.name)) job.scenes.push_back(job.name);
   job.controls.lights = light_motion(o.scene.light_motion);
   job.scripted = !o.script.empty() || !o.screenshot.empty();
   job.frames = o.frames;
@@ -46,16 +49,50 @@ int view(const ViewOptions& o) {
   if (job.scripted) job.controls.rate = 0;
   if (!o.script.empty()) job.script = Script::read(o.script);
   if (!o.screenshot.empty()) check_output_file("--screenshot", o.screenshot);
-  const ImageSize size = parse_size(o.scene.size);
-  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene, !job.scripted);
-  ChosenScene chosen = load_chosen_scene(o.scene);
-  job.scene = std::move(chosen.scene);
-  job.view = chosen.view;
   job.seconds = chosen_time(o.scene);
   job.scene_words = scene_words(o);
   job.camera = o.scene.camera;
-  job.device = o.device;
-  Viewer(window, std::move(job)).run();
+  return job;
+}
+
+void load(ViewJob& job, const SceneChoice& choice) {
+  ChosenScene chosen = load_chosen_scene(choice);
+  job.scene = std::move(chosen.scene);
+  job.view = chosen.view;
+}
+
+// What belongs to the first scene alone is left out: its camera, its file of lights, its time.
+ViewJob load_other(ViewOptions o, const std::string& scene) {
+  o.scene.scene = scene;
+  o.scene.camera = o.scene.lights_file = o.scene.time = "";
+  ViewJob job = make_job(o);
+  load(job, o.scene);
+  job.load = [o](const std::string& name) { return load_other(o, name); };
+  return job;
+}
+
+int view(const ViewOptions& o) {
+  for (const std::string& technique : {o.left, o.right}) {
+    if (!technique.empty()) find_technique(technique);
+  }
+  const Settings settings = chosen_settings(o.scene);
+  ViewJob job = make_job(o);
+  const ImageSize size = parse_size(o.scene.size);
+  Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene, !job.scripted);
+  std::unique_ptr<GlContext> context = window.make_context();
+  Interface interface(window, job.scripted);
+  interface.announce("loading " + o.scene.scene);
+  // Where OpenGL is in software, forward_plus takes many times as long.
+  const char* beside = context->software ? "visibility" : "forward_plus";
+  job.controls.sides = {{{o.left.empty() ? "visibility" : find_technique(o.left).name, settings},
+                         {o.right.empty() ? beside : find_technique(o.right).name, settings}}};
+  load(job, o.scene);
+  job.load = [o](const std::string& name) { return load_other(o, name); };
+  Renderer renderer(o.device, std::move(context));
+  for (std::optional<ViewJob> next = std::move(job); next;) {
+    window.set_title("lightgrid: " + next->name);
+    next = Viewer(window, interface, renderer, std::move(*next)).run();
+  }
   return 0;
 }
 
@@ -78,8 +115,9 @@ void add_view(CommandLine& line) {
   add_scene_options(command, o->scene);
   command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
   command.option("--device", o->device, "OpenCL device, by a part of its name");
-  command.option("--left", o->left, "technique of the left side");
-  command.option("--right", o->right, "technique of the right side");
+  command.option("--left", o->left, "technique of the left side (visibility)");
+  command.option("--right", o->right,
+                 "technique of the right side (forward_plus; visibility where OpenGL is in software)");
   command.option("--script", o->script, "a file of input to replay");
   command.option("--frames", o->frames, "frames of a script, after which the program ends", 1, 1'000'000);
   command.option("--screenshot", o->screenshot, "the last frame of a script as a PNG");

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/compiling.h"
 #include "base/embedded.h"
 #include "cl/error.h"
 #include "cl/program_file.h"
@@ -132,6 +133,7 @@ cl::Program ProgramCache::load_or_build(const std::string& kernel_file, const st
       }
     }
   }
+  tell_compiling("kernels/" + kernel_file + ".cl");
   cl::Program program = build_source(device_, kernel_file, options, source);
   ++counts_.built;
   if (!file.empty()) {

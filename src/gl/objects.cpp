@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/compiling.h"
 #include "base/embedded.h"
 #include "base/error.h"
 #include "gl/bindings.h"
@@ -155,6 +156,7 @@ void compile(const Shader& shader, const std::string& path, const std::vector<st
 GlProgram::GlProgram(const std::string& vertex, const std::string& fragment,
                      const std::vector<std::string>& defines)
     : object_(glCreateProgram()) {
+  tell_compiling(fragment);
   const Shader vertex_shader(GL_VERTEX_SHADER), fragment_shader(GL_FRAGMENT_SHADER);
   compile(vertex_shader, vertex, defines);
   compile(fragment_shader, fragment, defines);
@@ -165,6 +167,7 @@ GlProgram::GlProgram(const std::string& vertex, const std::string& fragment,
 
 GlProgram::GlProgram(const std::string& compute, const std::vector<std::string>& defines)
     : object_(glCreateProgram()) {
+  tell_compiling(compute);
   const Shader shader(GL_COMPUTE_SHADER);
   compile(shader, compute, defines);
   glAttachShader(name(), shader.name);

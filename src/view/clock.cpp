@@ -74,8 +74,9 @@ double Resolution::next(bool moving, double seconds, double rate) {
   since_move_s_ = moving ? 0 : since_move_s_ + seconds;
   drawn_ = 1;
   if (resting() || rate <= 0) return drawn_;
+  if (full_ms_ == 0) return drawn_ = fraction_;
   constexpr std::array fractions = {1.0, 0.75, 0.5, 0.375, 0.25};
-  const double budget_ms = 1000 / rate;
+  const double budget_ms = std::max(1000 / rate - window_ms_, 250 / rate);
   for (const double fraction : fractions) {
     drawn_ = fraction;
     if (full_ms_ * fraction * fraction <= budget_ms) break;
@@ -86,8 +87,9 @@ double Resolution::next(bool moving, double seconds, double rate) {
   return drawn_;
 }
 
-void Resolution::measured(double frame_ms) {
+void Resolution::measured(double frame_ms, double window_ms) {
   const double full = frame_ms / (drawn_ * drawn_);
+  window_ms_ = window_ms_ == 0 ? window_ms : 0.7 * window_ms_ + 0.3 * window_ms;
   full_ms_ = full_ms_ == 0 ? full : 0.7 * full_ms_ + 0.3 * full;
 }
 

@@ -38,22 +38,28 @@ class Motion {
   std::optional<double> seconds_;  // empty: at rest, until something plays
 };
 
-// The size of the picture while the camera moves.
+// The size of the picture while something moves.
 class Resolution {
  public:
+  // `starts_small`: as if something moved just now, at half the size until a time is known.
+  explicit Resolution(bool starts_small = false)
+      : fraction_(starts_small ? 0.5 : 1), since_move_s_(starts_small ? 0 : seconds_to_rest) {}
+
   // The fraction of the picture's width and height to draw: 1 at rest, and if `rate` (frames a second) is 0.
-  // `moving`: the camera moved in this frame. It is at rest `seconds_to_rest` after its last move.
+  // `moving`: something moved in this frame. It is at rest `seconds_to_rest` after its last move.
   double next(bool moving, double seconds, double rate);
   bool resting() const { return since_move_s_ >= seconds_to_rest; }
-  // Time of a frame drawn at the fraction from the last next().
-  void measured(double frame_ms);
+  // Time of a frame drawn at the fraction from the last next(), without compiling, and that of the window's
+  // own work in it, which does not depend on the fraction.
+  void measured(double frame_ms, double window_ms = 0);
 
   static constexpr double seconds_to_rest = 0.15;
 
  private:
-  double fraction_ = 1;  // while moving
-  double full_ms_ = 0;   // estimate for a full picture; 0: not measured yet
-  double since_move_s_ = seconds_to_rest;
+  double fraction_;     // while moving
+  double full_ms_ = 0;  // estimate for a full picture; 0: not measured yet
+  double window_ms_ = 0;
+  double since_move_s_;
   double drawn_ = 1;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -64,6 +65,37 @@ PointerResult Pointer::follow(const Input& input, int width, int height, double 
   x_ = input.x;
   y_ = input.y;
   return result;
+}
+
+const std::vector<KeyHelp>& key_help() {
+  static const std::vector<KeyHelp> keys = {
+      {"", "drag", "turns the camera; the line: moves it"},
+      {"", "W S, A D, E Q", "flies forward and back, aside, up and down; shift: faster"},
+      {"", "wheel", "changes the speed"},
+      {"", "click", "shows the lights at a pixel"},
+      {"r", "R", "the camera of the start"},
+      {"1", "1, 2, 3", "a bookmark; with shift: keeps this camera as one"},
+      {"2", "", ""},
+      {"3", "", ""},
+      {"g", "G", "signs at the lights; pointed at: name, strength, range"},
+      {"space", "space, period", "plays or pauses; one step"},
+      {"period", "", ""},
+      {"h", "H", "this list"},
+      {"f11", "F11", "fills the screen"},
+      {"f12", "F12", "saves a screenshot into the working folder"},
+      {"escape", "escape", "closes lists, and this one"},
+      {"", "drop a file", "opens it"},
+  };
+  return keys;
+}
+
+std::string screenshot_name(const std::string& scene, const std::array<SideControls, 2>& sides) {
+  std::string name = std::filesystem::path(scene).stem().string() + "_" + sides[0].technique;
+  if (sides[1].technique != sides[0].technique) name += "_" + sides[1].technique;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_') c = '_';
+  }
+  return name;
 }
 
 std::string shell_word(const std::string& word) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "plan/settings.h"
 #include "scene/light_motion.h"
@@ -33,8 +34,11 @@ struct PicturePixel {
 struct Controls {
   std::array<SideControls, 2> sides;  // left, right
   double line = 0.5;                  // position of the dividing line, as a fraction of the picture's width
-  double rate = 30;  // frames a second to hold while the camera moves; 0: always the full picture
-  std::optional<std::string> camera;  // target of a jump, in the form of --camera
+  bool picture_under = false;         // maps let the picture through
+  double rate = 30;  // frames a second to hold while something moves; 0: always the full picture
+  std::optional<std::string> camera;                    // target of a jump, in the form of --camera
+  std::array<std::optional<std::string>, 3> bookmarks;  // cameras
+  std::optional<std::string> scene;                     // to load: a name or a file
   LightMotion lights = LightMotion::none;
   bool playing = false;
   bool step = false;              // advance one frame, then pause
@@ -43,6 +47,10 @@ struct Controls {
   bool measure_passes = true;
   std::optional<PicturePixel> pixel;  // the inspected pixel
   std::string pixel_file;             // its lights are written there in this frame; empty: not
+  std::string times_file;             // likewise the figures of both sides
+  bool show_lights = false;           // signs at their places
+  bool show_keys = false;
+  bool close_lists = false;  // in this frame
   bool screenshot = false;
   bool quit = false;
 };
@@ -54,7 +62,16 @@ struct Input {
   bool button = false;         // the left one
   // Where the button went down in this frame; without it, at the position of the frame before.
   std::optional<std::array<double, 2>> pressed;
+  double wheel = 0;                  // notches, away from the user
+  std::vector<std::string> presses;  // of keys, by KeyHelp::press
+  std::string dropped;               // a file; empty: none
 };
+
+// What a hand can do in the window, for its list of keys.
+struct KeyHelp {
+  const char *press, *shown, *does;  // press: the key's name in scripts; empty where it is not one key
+};
+const std::vector<KeyHelp>& key_help();
 
 enum class FlightKey { forward, left, back, right, down, up, fast };  // W A S D Q E shift
 
@@ -77,6 +94,9 @@ class Pointer {
   double x_ = 0, y_ = 0;  // in the last frame
   double moved_px_ = 0;   // since it was pressed
 };
+
+// "hall_visibility_forward_plus": a name of a file for a scene, by name or path, and both sides.
+std::string screenshot_name(const std::string& scene, const std::array<SideControls, 2>& sides);
 
 // Quotes a word for a shell.
 std::string shell_word(const std::string& word);

@@ -1,6 +1,7 @@
 // Techniques, maps and settings of both sides, as controls generated from the table of settings.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "techniques/technique.h"
@@ -9,30 +10,23 @@
 namespace lightgrid {
 namespace {
 
-// Returns the choice made in this frame, or null.
-template <typename Names>
-const char* combo(const char* id, const std::string& current, const Names& names) {
-  const char* chosen = nullptr;
-  ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo(id, current.c_str())) return nullptr;
-  for (const auto& name : names) {
-    const std::string text = name;
-    if (ImGui::Selectable(text.c_str(), text == current)) chosen = &name[0];
-  }
-  ImGui::EndCombo();
-  return chosen;
+std::string about_technique(const std::string& name) {
+  const Technique& technique = find_technique(name);
+  return fmt::format("{}: {}. {}", name, technique.summary, technique.source);
 }
 
 void choose_technique(SideControls& side) {
   std::vector<std::string> names;
   for (const Technique* t : techniques()) names.emplace_back(t->name);
-  if (const char* chosen = combo("##technique", side.technique, names)) side.technique = chosen;
+  if (const auto chosen = combo("##technique", side.technique, names, about_technique))
+    side.technique = names[*chosen];
 }
 
 void choose_setting(SideControls& side, const SettingHelp& setting) {
-  const std::string id = "##" + setting.key;
-  const char* chosen = combo(id.c_str(), to_strings(side.settings).at(json_key(setting.key)), setting.values);
-  if (chosen) apply_setting(side.settings, setting.key + "=" + chosen);
+  const std::vector<std::string> values(setting.values.begin(), setting.values.end());
+  const auto chosen =
+      combo(("##" + setting.key).c_str(), to_strings(side.settings).at(json_key(setting.key)), values);
+  if (chosen) apply_setting(side.settings, setting.key + "=" + values[*chosen]);
 }
 
 // A column of names, and one for each side.
@@ -49,7 +43,7 @@ void row_name(const char* name, const std::string& meaning) {
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name);
-  if (ImGui::IsItemHovered() && !meaning.empty()) ImGui::SetTooltip("%s", meaning.c_str());
+  tooltip(meaning);
 }
 
 // A table cell for each side, filled by `control`.
@@ -75,16 +69,19 @@ void show_techniques(Controls& controls, const Shown& shown) {
     cells(controls, choose_technique);
     row_name("show", "the picture, or a map of its lights or errors");
     cells(controls, [](SideControls& side) {
-      const char* chosen = combo("##map", map_names()[int(side.map)], map_names());
-      if (chosen) side.map = parse_map(chosen);
+      const std::vector<std::string> names(map_names().begin(), map_names().end());
+      if (const auto chosen = combo("##map", names[size_t(side.map)], names)) side.map = SideMap(*chosen);
     });
     ImGui::EndTable();
   }
+  bool any_map = false;
   for (int i = 0; i < 2; ++i) {
-    if (controls.sides[i].map != SideMap::picture && shown.map_notes[i].empty()) {
+    any_map |= controls.sides[i].map != SideMap::picture;
+    if (controls.sides[i].map != SideMap::picture && shown.notes[i].empty()) {
       ImGui::TextWrapped("%s: %s", i ? "right" : "left", shown.maps[i]->legend().c_str());
     }
   }
+  if (any_map) ImGui::Checkbox("picture under maps", &controls.picture_under);
 }
 
 void show_settings(Controls& controls) {

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "view/clock.h"
 #include "view/fly_camera.h"
-#include "view/listed.h"
 #include "view/side.h"
 #include "view/side_map.h"
 
@@ -38,24 +38,41 @@ struct Shown {
   const Motion& motion;
   std::array<Side*, 2> sides;
   std::array<const MapOfSide*, 2> maps;
-  std::array<std::string, 2> map_notes;  // why a map is not available yet; empty: it is
+  std::array<std::string, 2> notes;  // why the side does not show what it should yet; empty: it does
   std::array<PlanHistory, 2>& plans;
   std::array<std::optional<PixelInspection>, 2> pixel;  // at Controls::pixel
   bool pixel_is_new = false;                            // clicked since the last frame
   std::array<std::string, 2> commands;
   std::string note;  // result of the last action
+  bool note_is_new = false;
+  const std::string& scene_name;
+  const std::vector<std::string>& scenes;
+  const std::string& start_camera;
+  const View& view;                          // of the drawn picture
+  std::array<double, 2> pointer = {-1, -1};  // from the window's upper left
   int picture_width = 0, picture_height = 0;
   double fraction = 1;  // drawn size as a fraction of the picture's sides
   double now_s = 0;
+  double rate = 0;  // frames a second of the window, of those that drew
 };
 
 void show_panels(Controls& controls, const Shown& shown);
 void show_overlay(const Controls& controls, const Shown& shown);
+// The upper edge of the right side's label, so that it is never over the left one's; sizes of their texts.
+inline constexpr float first_label_y = 4;
+float second_label_y(float left_width, float left_height, float right_width, float picture_width);
+// Of the last item, if the pointer is over it; wrapped.
+void tooltip(const std::string& text);
+// A list to choose from, over the width that is left. Returns the choice made in this frame. `about`: a
+// tooltip of each name. Escape closes it.
+std::optional<size_t> combo(const char* id, const std::string& current, const std::vector<std::string>& names,
+                            const std::function<std::string(const std::string&)>& about = {});
 
-// Sections of the panel, one file each.
+// Sections of the panel.
 void show_techniques(Controls& controls, const Shown& shown);
 void show_settings(Controls& controls);
 void show_times(Controls& controls, const Shown& shown);
+void show_camera(Controls& controls, const Shown& shown);
 void show_motion(Controls& controls, const Shown& shown);
 void show_pixel(Controls& controls, const Shown& shown);
 void show_plan(const Shown& shown);

@@ -28,19 +28,39 @@ void Screen::begin(int width, int height) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width) {
+void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width,
+                  PixelGrid drawn, float map_opacity) {
+  const PixelGrid full{picture_width, height_};
+  if (drawn != full && drawn != small_size_) {
+    small_size_ = drawn;
+    small_image_ = make_texture_2d(GL_RGBA8, drawn.width, drawn.height);
+    small_ = make_framebuffer({small_image_.name()}, 0);
+  }
+  if (drawn != full) glBindFramebuffer(GL_FRAMEBUFFER, small_.name());
   const GlProgram& program = renderer_.program("shaders/screen.vert", "shaders/view.frag", {});
   glUseProgram(program.name());
-  glUniform2f(program.uniform("size"), float(picture_width), float(height_));
-  glUniform1f(program.uniform("line"), float(line * picture_width));
+  glUniform2f(program.uniform("size"), float(drawn.width), float(drawn.height));
+  glUniform1f(program.uniform("line"), float(line * drawn.width));
+  glUniform1f(program.uniform("exposure"), exposure);
+  glUniform1f(program.uniform("map_opacity"), map_opacity);
   glUniform1i(program.uniform("mapped_left"), left.is_map);
   glUniform1i(program.uniform("mapped_right"), right.is_map);
   bind_texture(Sampler::left_image, left.texture);
   bind_texture(Sampler::right_image, right.texture);
   for (const Sampler side : {Sampler::left_image, Sampler::right_image})
     bind_sampler_object(side, sampler_.name());
-  glViewport(0, 0, picture_width, height_);
+  glViewport(0, 0, drawn.width, drawn.height);
+  if (map_opacity < 1) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  }
   draw_screen(program);
+  glDisable(GL_BLEND);
+  if (drawn != full) {
+    glBlitNamedFramebuffer(small_.name(), framebuffer_.name(), 0, 0, drawn.width, drawn.height, 0, 0,
+                           full.width, full.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  }
   glViewport(0, 0, width_, height_);
   unbind_sampler_objects();
 }
@@ -48,6 +68,7 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
 // Mesa gives framebuffer 0 the window's new size when a bound one is drawn into after glViewport.
 void Screen::finish() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (width_ == 0) return glClear(GL_COLOR_BUFFER_BIT);  // no frame yet
   glViewport(0, 0, width_, height_);
   glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_,
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -20,18 +20,23 @@ class Screen {
   // Starts a frame of the window's size: clears and binds its framebuffer.
   void begin(int width, int height);
   // Draws into the left `picture_width` pixels, over the whole height. `line`: fraction of the picture's
-  // width.
-  void draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width);
+  // width. `drawn`: the images' size; tone-mapped at that, then enlarged. Maps let through as much of what is
+  // drawn already as their opacity leaves.
+  void draw(const ScreenImage& left, const ScreenImage& right, double line, int picture_width,
+            PixelGrid drawn, float map_opacity = 1);
   // Copies into the window's own framebuffer.
   void finish();
 
   void save(const std::filesystem::path& path);  // the last frame as a PNG
 
+  float exposure = 1;  // pictures are multiplied by it before the tone map; maps are not
+
  private:
   Renderer& renderer_;
   int width_ = 0, height_ = 0;
-  GlTexture image_;
-  GlFramebuffer framebuffer_;
+  PixelGrid small_size_;
+  GlTexture image_, small_image_;  // small: of a picture that is enlarged
+  GlFramebuffer framebuffer_, small_;
   GlSampler sampler_;
 };
 

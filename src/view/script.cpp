@@ -76,6 +76,27 @@ Run mouse(Words words) {
   };
 }
 
+Run press(Words words) {
+  expect_words(words, 1, "press NAME");
+  std::string names;
+  for (const KeyHelp& key : key_help()) {
+    if (key.press == lower_case(words[0]) && *key.press)
+      return [name = key.press](Controls&, Input& input) { input.presses.emplace_back(name); };
+    if (*key.press) names += std::string(" ") + key.press;
+  }
+  throw wrong(words[0], "is not a key to press; keys are" + names);
+}
+
+Run wheel(Words words) {
+  expect_words(words, 1, "wheel NOTCHES");
+  return [turn = number(words[0], -100.0, 100.0)](Controls&, Input& input) { input.wheel = turn; };
+}
+
+Run scene(Words words) {
+  expect_words(words, 1, "scene NAME|FILE");
+  return [name = words[0]](Controls& controls, Input&) { controls.scene = name; };
+}
+
 Run technique(Words words) {
   const std::vector<int> sides = take_sides(words);
   expect_words(words, 1, "technique [left|right] NAME");
@@ -114,6 +135,11 @@ Run pixel(Words words) {
   return [file = words[0]](Controls& controls, Input&) { controls.pixel_file = file; };
 }
 
+Run times(Words words) {
+  expect_words(words, 1, "times FILE");
+  return [file = words[0]](Controls& controls, Input&) { controls.times_file = file; };
+}
+
 Run line(Words words) {
   expect_words(words, 1, "line FRACTION");
   return [at = number(words[0], 0.0, 1.0)](Controls& controls, Input&) { controls.line = at; };
@@ -139,6 +165,12 @@ Run rate(Words words) {
   return [rate = number(words[0], 0.0, 1e6)](Controls& controls, Input&) { controls.rate = rate; };
 }
 
+Run under(Words words) {
+  expect_words(words, 1, "under on|off");
+  if (words[0] != "on" && words[0] != "off") throw wrong(words[0], "is not on or off");
+  return [on = words[0] == "on"](Controls& controls, Input&) { controls.picture_under = on; };
+}
+
 Run switch_on(Words words, bool Controls::*member, bool value) {
   expect_words(words, 0, "it takes no words");
   return [member, value](Controls& controls, Input&) { controls.*member = value; };
@@ -148,11 +180,16 @@ const std::map<std::string, std::function<Run(Words)>>& actions() {
   static const std::map<std::string, std::function<Run(Words)>> table = {
       {"key", key},
       {"mouse", mouse},
+      {"press", press},
+      {"wheel", wheel},
+      {"scene", scene},
       {"technique", technique},
       {"set", set},
       {"map", map},
+      {"under", under},
       {"click", click},
       {"pixel", pixel},
+      {"times", times},
       {"line", line},
       {"camera", camera},
       {"lights", lights},
@@ -219,6 +256,8 @@ Script Script::read(const std::filesystem::path& path) {
 
 void Script::play(int frame, Controls& controls, Input& input) const {
   input.button = false;
+  input.wheel = 0;
+  input.presses.clear();
   for (const ScriptAction& action : actions_) {
     if (action.frame == frame) action.run(controls, input);
   }

@@ -1,9 +1,13 @@
 #include "view/side.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/timer.h"
 
 namespace lightgrid {
+
+static constexpr size_t median_frames = 15;
 
 bool Side::choose(const SideControls& wanted, const View& view) {
   const auto settings = to_strings(wanted.settings);
@@ -16,13 +20,15 @@ bool Side::choose(const SideControls& wanted, const View& view) {
   try {
     auto run = std::make_unique<TechniqueRun>(renderer_, gpu_, view, wanted.settings,
                                               find_technique(wanted.technique));
-    run->prepare();
     run_ = std::move(run);
   } catch (const Error& error) {
     if (!run_) throw;
     problem_ = error.what();
     return false;
   }
+  prepared_ = false;
+  fresh_ = true;
+  frame_ms_.clear();
   return true;
 }
 
@@ -32,25 +38,48 @@ void Side::look(const View& view, const SceneChanges& changes) {
 }
 
 bool Side::draw(bool again, bool measure_passes) {
-  if (!problem_.empty() || !(stale_ || again)) return false;
+  if (!problem_.empty() || !(stale_ || unmeasured_ || again)) return false;
   RenderView& v = run_->view();
-  v.timer.clear();
-  v.timer.enabled = measure_passes;
-  const Timer timer;
+  const RendererCounts before = renderer_.counts();
+  double ms = 0;
   try {
+    if (!fresh_ && !std::exchange(prepared_, true)) {
+      run_->prepare();
+      fresh_ = true;
+    }
+    v.timer.clear();
+    v.timer.enabled = measure_passes;
+    const Timer timer;
     run_->draw_frame();
     keep_picture();
+    glFinish();
+    ms = timer.elapsed_ms();
   } catch (const Error& error) {
+    v.timer.enabled = false;
     problem_ = error.what();
+    if (picture_number_ == 0) throw;
     return false;
   }
-  glFinish();
-  frame_ms_ = timer.elapsed_ms();
   v.timer.enabled = false;
-  if (measure_passes) timings_.add(frame_times(v.timer.records()));
-  pictures_ += stale_;
+  const RendererCounts after = renderer_.counts();
+  const bool compiled = after.gl_programs != before.gl_programs || after.cl_programs != before.cl_programs;
+  unmeasured_ = std::exchange(fresh_, false) || compiled || !prepared_;
+  if (!unmeasured_) {
+    if (measure_passes) timings_.add(frame_times(v.timer.records()));
+    frame_ms_.push_back(ms);
+    if (frame_ms_.size() > median_frames) frame_ms_.pop_front();
+    slowest_ms_ = std::max(slowest_ms_, ms);
+    ++figures_;
+  }
+  static size_t pictures = 0;
+  if (stale_) picture_number_ = ++pictures;
   stale_ = false;
   return true;
+}
+
+double Side::frame_ms() const {
+  if (frame_ms_.empty()) return 0;
+  return spread_of({frame_ms_.begin(), frame_ms_.end()}).median;
 }
 
 void Side::keep_picture() {
@@ -58,6 +87,7 @@ void Side::keep_picture() {
   if (view.width != width_ || view.height != height_) {
     width_ = view.width;
     height_ = view.height;
+    frame_ms_.clear();
     picture_ = make_texture_2d(GL_RGBA32F, width_, height_);
     framebuffer_ = make_framebuffer({picture_.name()}, 0);
   }

@@ -1,9 +1,12 @@
 // A window on a scene: two techniques side by side, controlled by a user or a script.
 #pragma once
 
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "view/clock.h"
@@ -16,14 +19,12 @@
 
 namespace lightgrid {
 
-class Interface;
-
 struct ViewJob {
+  std::string name;  // of the scene: a built-in one's or a file's
   Scene scene;
   View view;                      // of the picture; the window adds its panel
   std::string scene_words;        // the scene and its lights as command-line options
   std::string camera;             // the value of --camera
-  std::string device;             // OpenCL, by a part of its name
   std::optional<double> seconds;  // of the scene's animations; empty: at rest
   Controls controls;              // initial values
 
@@ -31,35 +32,47 @@ struct ViewJob {
   Script script{"", ""};
   int frames = 0;
   std::filesystem::path screenshot;  // of the last frame; empty: not saved
+
+  std::function<ViewJob(const std::string& name)> load;  // another scene, with the start's options
+  std::vector<std::string> scenes;                       // to choose from
+  int first_frame = 0;
 };
 
 class Viewer {
  public:
-  // The window has room for the picture and its panel.
-  Viewer(Window& window, ViewJob job);
+  // All outlive it. The window has room for the picture and its panel.
+  Viewer(Window& window, Interface& interface, Renderer& renderer, ViewJob job);
   ~Viewer();
 
-  // Returns when the window is closed or the script ends.
-  void run();
+  // Returns when the window is closed, the script ends, or with a job when another scene was chosen.
+  std::optional<ViewJob> run();
 
  private:
   void frame(int number);
+  void press(const std::string& key, bool shift);
+  std::optional<ViewJob> chosen_scene(int next_frame);
+  void announce(const std::string& text);
+  Side& side(int i) { return sides_[same_ ? 0 : i]; }
+  const Side& side(int i) const { return sides_[same_ ? 0 : i]; }
   void take_input(int number);
   void draw_sides();
   void follow_maps();
   void follow_pixel();
   void write_pixel(const std::string& file) const;
+  void write_times(const std::string& file) const;
   void show(const Shown& shown);
   Shown shown();
+  void tell(const std::string& note);
   void take_screenshot();
+  double frames_a_second() const;  // of frames that drew; 0: none yet
   bool idle() const;
 
   Window& window_;
   ViewJob job_;
-  Renderer renderer_;
+  Interface& interface_;
+  Renderer& renderer_;
   GpuScene gpu_;
   Screen screen_;
-  std::unique_ptr<Interface> interface_;
   Controls& controls_;
   FlyCamera camera_;
   Motion motion_;
@@ -67,6 +80,7 @@ class Viewer {
   Resolution resolution_;
   ReferencePicture reference_;
   Side sides_[2];
+  bool same_ = false;  // both sides show the left one's picture
   MapOfSide maps_[2];
   bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;
@@ -80,10 +94,15 @@ class Viewer {
   View view_;                               // of the drawn part
   double seconds_ = 0, now_s_ = 0;          // of this frame, and since the start
   double fraction_ = 1;
+  double sides_ms_ = 0;            // of this frame; 0: not both are figures
+  std::deque<double> between_ms_;  // the last frames that drew figures, from start to start
+  Timer announced_;
+  std::set<std::string> compiled_;  // files
   bool moved_ = false, drew_ = false;
   int awake_frames_ = 0;  // to draw before the next wait for events
-  int screenshots_ = 0;
   std::string note_;
+  double told_s_ = -1e9;  // when
+  Input input_;           // of this frame
 };
 
 }  // namespace lightgrid

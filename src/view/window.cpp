@@ -3,10 +3,16 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <map>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
 
 #include "base/error.h"
 #include "gl/gl.h"
@@ -58,6 +64,16 @@ class WindowGlContext final : public GlContext {
   GLFWwindow* window_;
 };
 
+void choose_style() {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 0;
+  style.WindowBorderSize = 0;
+  style.FrameRounding = 3;
+  style.ItemSpacing = {6, 3};
+  style.Colors[ImGuiCol_WindowBg] = {0.09f, 0.10f, 0.12f, 1};
+}
+
 }  // namespace
 
 Window::Window(int width, int height, const std::string& title, bool fits_screen) {
@@ -104,11 +120,29 @@ void Window::receive_events() {
     window.any_event_ = true;
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int, int action, int) {
-    if (action == GLFW_PRESS) ++window_of(handle).presses_[key];
+    static const std::map<int, const char*> names = {{GLFW_KEY_SPACE, "space"},
+                                                     {GLFW_KEY_PERIOD, "period"},
+                                                     {GLFW_KEY_ESCAPE, "escape"},
+                                                     {GLFW_KEY_F11, "f11"},
+                                                     {GLFW_KEY_F12, "f12"},
+                                                     {GLFW_KEY_1, "1"},
+                                                     {GLFW_KEY_2, "2"},
+                                                     {GLFW_KEY_3, "3"},
+                                                     {GLFW_KEY_G, "g"},
+                                                     {GLFW_KEY_H, "h"},
+                                                     {GLFW_KEY_R, "r"}};
+    const auto name = names.find(key);
+    if (action == GLFW_PRESS && name != names.end()) window_of(handle).presses_.push_back(name->second);
     window_of(handle).any_event_ = true;
   });
-  glfwSetScrollCallback(window_,
-                        [](GLFWwindow* handle, double, double) { window_of(handle).any_event_ = true; });
+  glfwSetScrollCallback(window_, [](GLFWwindow* handle, double, double notches) {
+    window_of(handle).wheel_ += notches;
+    window_of(handle).any_event_ = true;
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** paths) {
+    if (count > 0) window_of(handle).dropped_ = paths[0];
+    window_of(handle).any_event_ = true;
+  });
   glfwSetCharCallback(window_, [](GLFWwindow* handle, unsigned) { window_of(handle).any_event_ = true; });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) { window_of(handle).any_event_ = true; });
   glfwSetFramebufferSizeCallback(window_,
@@ -139,6 +173,21 @@ bool Window::poll(double seconds) {
   }
   return any_event_;
 }
+
+void Window::fill_screen() {
+  auto& [x, y, width, height] = place_before_;
+  GLFWmonitor* screen = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = screen ? glfwGetVideoMode(screen) : nullptr;
+  if (glfwGetWindowMonitor(window_)) {
+    glfwSetWindowMonitor(window_, nullptr, x, y, width, height, 0);
+  } else if (mode) {
+    glfwGetWindowPos(window_, &x, &y);
+    glfwGetWindowSize(window_, &width, &height);
+    glfwSetWindowMonitor(window_, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 bool Window::closing() const { return glfwWindowShouldClose(window_); }
 
@@ -178,14 +227,71 @@ Input Window::input() {
   input.x = at.x * scale_x;
   input.y = at.y * scale_y;
   input.button = button_;
+  input.wheel = std::exchange(wheel_, 0);
+  input.dropped = std::exchange(dropped_, "");
+  if (!presses_.empty()) {
+    input.presses = {presses_.front()};
+    presses_.pop_front();
+  }
   return input;
 }
 
-bool Window::was_pressed(int key) {
-  const auto found = presses_.find(key);
-  if (found == presses_.end()) return false;
-  if (--found->second == 0) presses_.erase(found);
-  return true;
+Interface::Interface(Window& window, bool scripted) : window_(window), scripted_(scripted) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  choose_style();
+  if (!ImGui_ImplGlfw_InitForOpenGL(window.handle(), !scripted) || !ImGui_ImplOpenGL3_Init("#version 450")) {
+    throw machine_error("view: Dear ImGui does not start on this OpenGL");
+  }
+  glClearColor(0.09f, 0.10f, 0.12f, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
 }
+
+Interface::~Interface() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Interface::begin(const Input& input, int width, int height) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGuiIO& io = ImGui::GetIO();
+  if (scripted_) {
+    io.DisplaySize = {float(width), float(height)};
+    io.DisplayFramebufferScale = {1, 1};
+    io.DeltaTime = 1.f / 60;
+    io.MouseWheel += float(input.wheel);
+  }
+  io.MousePos = {float(input.x), float(input.y)};
+  io.MouseDown[0] = input.button;
+  ImGui::NewFrame();
+  begun_ = true;
+  input_ = input;
+}
+
+void Interface::end() {
+  begun_ = false;
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Interface::announce(const std::string& text) {
+  const bool again = begun_;
+  if (!again) begin({}, window_.width(), window_.height());
+  const ImVec2 size = ImGui::GetIO().DisplaySize, room = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 at(std::floor((size.x - room.x) / 2), std::floor(size.y / 2));
+  ImDrawList& draw = *ImGui::GetForegroundDrawList();
+  draw.AddRectFilled({at.x - 12, at.y - 8}, {at.x + room.x + 12, at.y + room.y + 8},
+                     IM_COL32(23, 26, 31, 255), 4);
+  draw.AddText(at, IM_COL32(255, 255, 255, 255), text.c_str());
+  end();
+  window_.show();
+  if (again) begin(input_, int(size.x), int(size.y));
+}
+
+bool Interface::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
+
+bool Interface::takes_keys() const { return ImGui::GetIO().WantTextInput; }
 
 }  // namespace lightgrid

@@ -1,8 +1,8 @@
-// A window with an OpenGL 4.5 core context, and its input.
+// A window with an OpenGL 4.5 core context, its input, and Dear ImGui in it.
 #pragma once
 
+#include <array>
 #include <deque>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -35,13 +35,13 @@ class Window {
   int width() const;  // pixels of its framebuffer
   int height() const;
 
+  void fill_screen();  // or back to the size before
+  void set_title(const std::string& title);
+
   // The input of one frame. It has at most one press or release of the button, at the position where that
-  // happened: clicks that are shorter than a frame are kept for the following frames.
+  // happened, and at most one press of a key: what is shorter than a frame is kept for the following frames.
   Input input();
-  bool input_waits() const { return !button_changes_.empty(); }
-  // Whether a key was pressed, by GLFW's number; each press is returned once.
-  bool was_pressed(int key);
-  void forget_presses() { presses_.clear(); }
+  bool input_waits() const { return !button_changes_.empty() || !presses_.empty(); }
 
   GLFWwindow* handle() const { return window_; }
 
@@ -53,14 +53,44 @@ class Window {
     bool down;
     Point at;
   };
-  void receive_events();  // sets callbacks for what input(), poll() and was_pressed() return
+  void receive_events();  // sets callbacks for what input() and poll() return
 
   GLFWwindow* window_ = nullptr;
   Point pointer_;
   std::deque<ButtonChange> button_changes_;
   bool button_ = false;  // after the changes that input() returned
-  std::map<int, int> presses_;
+  std::deque<std::string> presses_;
+  double wheel_ = 0;
+  std::string dropped_;
+  std::array<int, 4> place_before_{};  // of a window that fills the screen
   bool any_event_ = false;
+};
+
+// Dear ImGui: its lifetime and its frames.
+class Interface {
+ public:
+  // The window outlives it and its context is current. `scripted`: its size comes from begin(), and the
+  // user's keys are not read.
+  Interface(Window& window, bool scripted);
+  ~Interface();
+  Interface(const Interface&) = delete;
+
+  // Widgets are made between the two. `width`, `height`: of the picture with its panels.
+  void begin(const Input& input, int width, int height);
+  void end();  // draws them into the bound framebuffer
+
+  // Shows a line of text in the window's middle, at once: over what framebuffer 0 holds. Also after begin(),
+  // as long as there is no widget yet.
+  void announce(const std::string& text);
+
+  // Whether a panel is under the pointer, or a text box has keyboard focus.
+  bool takes_pointer() const;
+  bool takes_keys() const;
+
+ private:
+  Window& window_;
+  bool scripted_, begun_ = false;
+  Input input_;
 };
 
 }  // namespace lightgrid

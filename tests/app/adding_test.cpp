@@ -74,7 +74,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/app/cull.cpp", {"forward_plus"}},
       {"src/app/inspect.cpp", {"forward_plus"}},
       {"src/app/plan.cpp", {"forward_plus"}},
-      {"src/app/view.cpp", {"deferred_tiled", "forward_plus"}},
+      {"src/app/view.cpp", {"forward_plus", "visibility"}},
       {"src/bench/runs.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
       {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},

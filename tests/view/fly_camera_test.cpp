@@ -205,6 +205,15 @@ TEST(Resolution, DropsWhileTheCameraMovesAndIsFullAtRest) {
   EXPECT_TRUE(resolution.resting());
 }
 
+TEST(Resolution, StartsSmallAndLeavesTimeForTheWindow) {
+  Resolution resolution(true);
+  EXPECT_EQ(resolution.next(false, 0.01, 30), 0.5);
+  EXPECT_FALSE(resolution.resting());
+  resolution.measured(5, 15);  // of 33 ms: 18 are left, and a full picture takes 20
+  EXPECT_EQ(resolution.next(true, 0.01, 30), 0.75);
+  EXPECT_EQ(resolution.next(false, 1, 30), 1);
+}
+
 TEST(Resolution, StaysFullWhereNoRateIsHeld) {
   Resolution resolution;
   resolution.measured(1e6);

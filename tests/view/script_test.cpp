@@ -49,7 +49,8 @@ TEST(Script, HoldsTheButtonInFramesThatDrag) {
 TEST(Script, ChoosesForOneSideOrBoth) {
   const Script script(
       "0 technique left clustered\n0 technique RIGHT forward\n"
-      "0 set tile=32\n0 set right brdf=blinn\n0 map right lost\n0 line 0.25\n0 click 3 4 # a comment\n",
+      "0 set tile=32\n0 set right brdf=blinn\n0 map right lost\n0 line 0.25\n0 under on\n0 click 3 4 # a "
+      "comment\n",
       "fly.txt");
   Controls controls;
   Input input;
@@ -63,7 +64,21 @@ TEST(Script, ChoosesForOneSideOrBoth) {
   EXPECT_EQ(controls.sides[0].map, SideMap::picture);
   EXPECT_EQ(controls.sides[1].map, SideMap::lost);
   EXPECT_EQ(controls.line, 0.25);
+  EXPECT_TRUE(controls.picture_under);
   EXPECT_EQ(controls.pixel, (PicturePixel{3, 4}));
+}
+
+TEST(Script, PressesAKeyAndTurnsTheWheelInOneFrame) {
+  const Script script("0 press H\n0 press escape\n0 wheel -2\n1 scene hall\n", "fly.txt");
+  Controls controls;
+  Input input;
+  script.play(0, controls, input);
+  EXPECT_THAT(input.presses, testing::ElementsAre("h", "escape"));
+  EXPECT_EQ(input.wheel, -2);
+  script.play(1, controls, input);
+  EXPECT_TRUE(input.presses.empty());
+  EXPECT_EQ(input.wheel, 0);
+  EXPECT_EQ(controls.scene, "hall");
 }
 
 TEST(Script, NamesTheLineAndTheWordThatIsWrong) {
@@ -82,6 +97,10 @@ TEST(Script, NamesTheLineAndTheWordThatIsWrong) {
                                                        {"5 map red", "\"red\""},
                                                        {"5 line 1.5", "\"1.5\""},
                                                        {"5 line nan", "\"nan\""},
+                                                       {"5 under there", "\"there\""},
+                                                       {"5 press x", "keys are r 1 2 3 g space"},
+                                                       {"5 wheel up", "\"up\""},
+                                                       {"5 scene", "scene NAME|FILE"},
                                                        {"5 lights jump", "jump"},
                                                        {"5 play on", "\"on\""},
                                                        {"99999999999 play", "\"99999999999\""}};

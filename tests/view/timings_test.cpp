@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "view/controls.h"
+#include "view/panels.h"
 
 namespace lightgrid {
 namespace {
@@ -25,6 +26,18 @@ TEST(Timings, AddsUpAPassThatRanTwice) {
       frame_times({{.name = "cull", .on = "cl", .ms = {1, 2}}, {.name = "idle", .on = "gl", .ms = {}}});
   ASSERT_EQ(frame.passes.size(), 1u);
   EXPECT_EQ(frame.passes[0].ms, 3);
+}
+
+TEST(Labels, NeverCoverEachOther) {
+  EXPECT_EQ(second_label_y(100, 13, 100, 280), first_label_y) << "side by side";
+  EXPECT_GE(second_label_y(200, 13, 100, 280), first_label_y + 13 + 4) << "with their margins, below";
+  EXPECT_GE(second_label_y(200, 26, 100, 280), first_label_y + 26 + 4) << "of two lines";
+}
+
+TEST(Screenshots, AreNamedByTheSceneAndItsTechniques) {
+  const SideControls left{.technique = "visibility"}, right{.technique = "forward_plus"};
+  EXPECT_EQ(screenshot_name("hall", {left, right}), "hall_visibility_forward_plus");
+  EXPECT_EQ(screenshot_name("../my models/a b.c.glb", {left, left}), "a_b_c_visibility");
 }
 
 TEST(CommandText, QuotesWhatAShellWouldRead) {

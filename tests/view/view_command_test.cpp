@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr int width = 320, height = 180;
-constexpr int label_rows = 24;  // the sides' names are drawn over the picture
+constexpr int label_rows = 44;  // the sides' names and figures are drawn over the picture
 
 bool has_xvfb() { return run_command("command -v xvfb-run").status == 0; }
 
@@ -33,10 +33,11 @@ CommandOutcome run_in_display(const std::string& words) {
                      std::string(lightgrid_program) + " " + words + " 2>&1");
 }
 
-std::string view_words(const TempFolder& folder, const std::string& script, int frames) {
+std::string view_words(const TempFolder& folder, const std::string& script, int frames,
+                       const std::string& sides = "--left forward_plus --right deferred_tiled") {
   std::ofstream(folder.path / "script.txt") << script;
-  return "view spheres --size 320x180 --script " + (folder.path / "script.txt").string() + " --frames " +
-         std::to_string(frames) + " --screenshot " + (folder.path / "view.png").string();
+  return "view spheres " + sides + " --size 320x180 --script " + (folder.path / "script.txt").string() +
+         " --frames " + std::to_string(frames) + " --screenshot " + (folder.path / "view.png").string();
 }
 
 // The greatest difference of two pictures' channels between two columns, below the labels.
@@ -154,6 +155,82 @@ TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
     for (const auto& light : report["lights"]) EXPECT_THAT(sides[i], HasSubstr(lines_of_verdict(light)));
     EXPECT_EQ(size_t(std::count(sides[i].begin(), sides[i].end(), '\n')), 2 + 2 * report["lights"].size());
   }
+}
+
+// Both sides start with visibility where OpenGL is in software, and one picture serves both.
+TEST_F(ViewInDisplay, WritesItsTimesWithoutThoseOfCompiling) {
+  const std::string file = folder_.path / "times.txt";
+  const CommandOutcome run = run_in_display(
+      view_words(folder_, "0 times " + file + "0\n4 key down w\n9 times " + file + "\n", 10, ""));
+  ASSERT_EQ(run.status, 0) << run.output;
+  std::ifstream first(file + "0"), last(file);
+  const std::string before(std::istreambuf_iterator<char>(first), {});
+  const std::string after(std::istreambuf_iterator<char>(last), {});
+  EXPECT_THAT(before, HasSubstr("left visibility: 320x180, 0.000 ms, slowest of 0 0.000 ms\n"));
+  EXPECT_THAT(after, HasSubstr("left visibility: 320x180, "));
+  EXPECT_THAT(after, HasSubstr("ms, slowest of 7 "));
+  EXPECT_THAT(after, testing::Not(HasSubstr("window: 0.000 ")));
+}
+
+// Its own camera, a bookmark of it, and R; and a turn of the wheel, after which the same key leads elsewhere.
+TEST_F(ViewInDisplay, GoesBackToABookmarkAndToTheStart) {
+  const std::string keep = "1 key down shift\n1 press 1\n2 key up shift\n",
+                    fly = "2 key down w\n6 key up w\n";
+  const auto shot_of = [&](const std::string& script) {
+    EXPECT_EQ(run_in_display(view_words(folder_, "0 line 1\n0 mouse move 90 90\n" + script, 12)).status, 0);
+    return read_png(folder_.path / "view.png");
+  };
+  const PngPixels flown = shot_of(fly);
+  const PngPixels picture = render(folder_, {"-t", "forward_plus"});
+  EXPECT_GT(greatest_difference(flown, picture, 0, width - 2), 50);
+  EXPECT_GT(greatest_difference(shot_of("1 wheel 5\n" + fly), flown, 0, width - 2), 50);
+  EXPECT_LE(greatest_difference(shot_of(keep + fly + "7 press 1\n"), picture, 0, width - 2), 2);
+  EXPECT_LE(greatest_difference(shot_of(fly + "7 press r\n"), picture, 0, width - 2), 2);
+}
+
+// The list of techniques opens over the rows below it: none of them shows a time.
+TEST_F(ViewInDisplay, ShowsKeysAndListsUntilEscape) {
+  const auto shot_of = [&](const std::string& script) {
+    EXPECT_EQ(run_in_display(view_words(folder_, script, 20)).status, 0);
+    return read_png(folder_.path / "view.png");
+  };
+  const std::string open = "3 mouse move 500 92\n4 mouse drag 500 92\n5 mouse move 500 92\n8 press h\n";
+  const PngPixels closed = shot_of("3 mouse move 500 92\n"), opened = shot_of(open);
+  const PngPixels escaped = shot_of(open + "15 press escape\n");
+  const auto differ = [&](const PngPixels& a, const PngPixels& b, int first, int last) {
+    int count = 0;
+    for (int y = 112; y < height; ++y) {
+      for (int x = first; x < last; ++x) count += std::abs(int(a.at(x, y, 0)) - int(b.at(x, y, 0))) > 30;
+    }
+    return count;
+  };
+  constexpr int panel = 420;
+  EXPECT_GT(differ(closed, opened, 80, width), 500) << "keys";
+  EXPECT_GT(differ(closed, opened, width + 130, width + 230), 100) << "a list";
+  EXPECT_EQ(differ(closed, escaped, 0, width + panel), 0);
+}
+
+TEST_F(ViewInDisplay, ShowsSignsAtLightsOnDemand) {
+  const auto shot_of = [&](const std::string& script) {
+    EXPECT_EQ(run_in_display(view_words(folder_, script, 6)).status, 0);
+    return read_png(folder_.path / "view.png");
+  };
+  const PngPixels without = shot_of(""), with = shot_of("1 press g\n");
+  EXPECT_GT(greatest_difference(with, without, 0, width), 100);
+  EXPECT_EQ(greatest_difference(shot_of("1 press g\n3 press g\n"), without, 0, width), 0);
+}
+
+TEST_F(ViewInDisplay, OpensAnotherSceneAndNamesOneThatCannotBe) {
+  const CommandOutcome run = run_in_display(view_words(folder_, "0 line 1\n2 scene terrain\n", 6));
+  ASSERT_EQ(run.status, 0) << run.output;
+  const std::string path = folder_.path / "render.png";
+  const ProgramRun other =
+      run_program({"render", "terrain", "-t", "forward_plus", "--size", "320x180", "-o", path});
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_LE(greatest_difference(read_png(folder_.path / "view.png"), read_png(path), 0, width - 2), 2);
+  const CommandOutcome missing = run_in_display(view_words(folder_, "2 scene /nonexistent.glb\n", 6));
+  EXPECT_EQ(WEXITSTATUS(missing.status), 2);
+  EXPECT_THAT(missing.output, HasSubstr("/nonexistent.glb"));
 }
 
 TEST_F(ViewInDisplay, EndsWithZeroWhenClosed) {

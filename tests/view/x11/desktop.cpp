@@ -161,6 +161,46 @@ void Desktop::button(bool down, int x, int y) {
   parts_->send(event, down ? ButtonPressMask : ButtonReleaseMask);
 }
 
+bool Desktop::drop(const std::string& path, double seconds) {
+  Display* x = parts_->x;
+  const Atom list = parts_->atom("text/uri-list"), selection = parts_->atom("XdndSelection");
+  const Window source = XCreateSimpleWindow(x, DefaultRootWindow(x), 0, 0, 1, 1, 0, 0, 0);
+  XSetSelectionOwner(x, selection, source, CurrentTime);
+  const auto tell = [&](const char* message, long second, long third) {
+    XEvent event{};
+    event.xclient.type = ClientMessage;
+    event.xclient.window = parts_->window;
+    event.xclient.message_type = parts_->atom(message);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] = long(source);
+    event.xclient.data.l[1] = second;
+    event.xclient.data.l[2] = third;
+    parts_->send(event, NoEventMask);
+  };
+  tell("XdndEnter", 5L << 24, long(list));
+  tell("XdndPosition", 0, 50 << 16 | 50);
+  tell("XdndDrop", 0, CurrentTime);
+  XEvent asked{};
+  const bool fetched =
+      within(seconds, [&] { return XCheckTypedWindowEvent(x, source, SelectionRequest, &asked); });
+  if (fetched) {
+    const std::string text = "file://" + path + "\r\n";
+    const XSelectionRequestEvent& request = asked.xselectionrequest;
+    XChangeProperty(x, request.requestor, request.property, request.target, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(text.data()), int(text.size()));
+    XEvent answer{};
+    answer.xselection.type = SelectionNotify;
+    answer.xselection.requestor = request.requestor;
+    answer.xselection.selection = request.selection;
+    answer.xselection.target = request.target;
+    answer.xselection.property = request.property;
+    XSendEvent(x, request.requestor, False, NoEventMask, &answer);
+    XSync(x, False);
+  }
+  XDestroyWindow(x, source);
+  return fetched;
+}
+
 std::optional<std::string> Desktop::clipboard(double seconds) {
   Display* x = parts_->x;
   const Window asking = parts_->ask_for_clipboard(x);

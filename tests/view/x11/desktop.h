@@ -33,6 +33,9 @@ class Desktop {
   void button(bool down, int x, int y);
   void click(int x, int y) { point(x, y), button(true, x, y), button(false, x, y); }
 
+  // Drops a file as a file manager does (XDND). Returns whether the window's program fetched its name.
+  bool drop(const std::string& path, double seconds);
+
   std::optional<std::string> clipboard(double seconds);  // text that the window's program answers with
   // Another program wants the clipboard's text and ends before it has it.
   void want_clipboard_and_leave();
