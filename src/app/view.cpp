@@ -32,6 +32,7 @@ std::string scene_words(const ViewOptions& o) {
   if (!s.ambient.empty()) words += " --ambient " + shell_word(s.ambient);
   if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
+  if (!s.exposure.empty()) words += " --exposure " + s.exposure;
   if (!o.device.empty()) words += " --device " + shell_word(o.device);
   return words;
 }
@@ -52,6 +53,7 @@ ViewJob make_job(const ViewOptions& o) {
   job.seconds = chosen_time(o.scene);
   job.scene_words = scene_words(o);
   job.camera = o.scene.camera;
+  job.expose = [choice = o.scene](const Image& image) { return chosen_exposure(choice, image); };
   return job;
 }
 
@@ -113,6 +115,7 @@ void add_view(CommandLine& line) {
   Subcommand command = line.add("view", "a window: fly through a scene, two techniques side by side",
                                 [o] { return view(*o); });
   add_scene_options(command, o->scene);
+  add_exposure_option(command, o->scene);
   command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
   command.option("--device", o->device, "OpenCL device, by a part of its name");
   command.option("--left", o->left, "technique of the left side (visibility)");

@@ -331,7 +331,23 @@ Shown Viewer::shown() {
   return shown;
 }
 
+void Viewer::expose() {
+  const Side& left = side(0);
+  if (exposed_ || left.picture() == 0) return;
+  exposed_ = true;
+  Exposure exposure = job_.expose ? job_.expose({}) : Exposure();
+  if (exposure.automatic) {
+    Image image(left.width(), left.height());
+    glGetTextureImage(left.picture(), 0, GL_RGBA, GL_FLOAT, GLsizei(image.pixels.size() * sizeof image.pixels[0]),
+                      image.pixels.data());
+    exposure = job_.expose(image);
+    if (exposure.ev != 0) tell(fmt::format("pictures are exposed by {:+g} EV (--exposure)", exposure.ev));
+  }
+  screen_.exposure = exposure.scale();
+}
+
 void Viewer::show(const Shown& shown) {
+  expose();
   ScreenImage images[2], pictures[2];
   for (int i = 0; i < 2; ++i) {
     const bool map =

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "base/image.h"
 #include "view/clock.h"
 #include "view/controls.h"
 #include "view/panels.h"
@@ -27,6 +28,7 @@ struct ViewJob {
   std::string camera;             // the value of --camera
   std::optional<double> seconds;  // of the scene's animations; empty: at rest
   Controls controls;              // initial values
+  std::function<Exposure(const Image&)> expose;  // of the scene's pictures, by its first one
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
   Script script{"", ""};
@@ -61,6 +63,7 @@ class Viewer {
   void write_pixel(const std::string& file) const;
   void write_times(const std::string& file) const;
   void show(const Shown& shown);
+  void expose();  // once
   Shown shown();
   void tell(const std::string& note);
   void take_screenshot();
@@ -73,6 +76,7 @@ class Viewer {
   Renderer& renderer_;
   GpuScene gpu_;
   Screen screen_;
+  bool exposed_ = false;
   Controls& controls_;
   FlyCamera camera_;
   Motion motion_;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "support/exported_level.h"
 #include "support/png_pixels.h"
 #include "support/run_command.h"
 #include "support/run_program.h"
@@ -260,6 +261,24 @@ TEST(ViewCommand, EndsWithTwoAndNamesTheLineAndTheWordOfAScript) {
   EXPECT_THAT(run.err, HasSubstr("wrong.txt:2: \"jump\""));
   EXPECT_EQ(run_program({"view", "spheres", "--script", "/nonexistent"}, {"DISPLAY="}).status, 2);
   EXPECT_EQ(run_program({"view", "spheres", "--left", "nosuch"}, {"DISPLAY="}).status, 2);
+}
+
+// A level in candela is white as it is.
+TEST(ViewCommand, ExposesTheFirstPictureOfAFile) {
+  if (!has_xvfb()) GTEST_SKIP() << "no xvfb-run";
+  const ModelFolder folder;
+  const std::string level = folder.write("level.gltf", exported_level(20).text());
+  const auto mean = [&](const std::string& more) {
+    const std::string picture = folder.path / "view.png";
+    const CommandOutcome run = run_in_display("view " + level + " --left visibility --right visibility --size 320x180 " +
+                                              "--frames 3 --screenshot " + picture + more);
+    EXPECT_EQ(run.status, 0) << run.output;
+    return mean_of(read_png(picture), 0, width);
+  };
+  EXPECT_GT(mean(" --exposure 0"), 245);
+  const double exposed = mean("");
+  EXPECT_GT(exposed, 60);
+  EXPECT_LT(exposed, 200);
 }
 
 }  // namespace
