@@ -29,6 +29,8 @@ CompareReport without_images(const CompareReport& report) {
   rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
   rest.rows = report.rows;
   rest.reference_surfaces = report.reference_surfaces;
+  rest.brightest = report.brightest, rest.covered_pixels = report.covered_pixels;
+  rest.own_surfaces = report.own_surfaces;
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
   return rest;
@@ -37,7 +39,8 @@ CompareReport without_images(const CompareReport& report) {
 ReportView finished_view(const fs::path& folder, const CompareReport& report, bool exr, size_t most_bytes) {
   ReportView view;
   view.verdict = verdict(report);
-  view.figures = telling_figures(report);
+  view.choices = choices(report);
+  view.figures = remarks(report);
   view.pictures = save_pictures(folder, report, exr, most_bytes);
   view.report = without_images(report);
   return view;

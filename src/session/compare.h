@@ -37,7 +37,8 @@ struct CompareOptions {
 };
 
 // Runs the contestants interleaved, frame by frame. The reference is `forward`, or without OpenGL
-// `visibility:lights=all`, run in addition if it is not among them. Errors are against its image; pairs are
+// `visibility:lights=all`, run in addition if it is not among them. Errors are against its image, and
+// those of light on surfaces drawn in OpenCL also against one frame of `visibility:lights=all`; pairs are
 // counted on opaque surfaces, by reference/lit_set.h. A contestant that throws Error, or runs out of memory,
 // becomes a row with `refused`, even if only reading its lists fails. If no contestant renders, the first
 // reason is thrown, unless all_may_refuse. If the reference is a sample (which needs OpenGL), contestants

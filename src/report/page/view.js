@@ -6,10 +6,15 @@ const referenceOf = (view) =>
     view.results.rows[view.page.reference_row];  // undefined if the reference is no row that ran
 const ranRows = (view) => view.results.rows.filter((row) => !row.refused);
 
+// Whether it draws its surfaces in OpenCL and the reference does not.
+const hasOwnSurfaces = (view, row) => Boolean(row.error?.silhouettes ?? (row.same_surfaces && row.same_surfaces.reference !== view.results.reference.technique));
+
 function speedUp(view, row) {
   const reference = referenceOf(view);
   return reference && row.frame_ms.median ? reference.frame_ms.median / row.frame_ms.median : null;
 }
+
+const brightestInWords = ({ results: { reference } }) => `the brightest channel of ${reference.technique}'s image (${shortNumber(reference.brightest ?? 0)} of radiance)`;
 
 const DIFFERENCE_NOTE = "Difference: black is equal, blue 1e-7 to red 1 of the reference's brightest channel, white NaN.";
 const heatNote = (view) => `Lights: black is none, violet few, yellow ${wholeNumber(view.page.heat_top)} and more.`;
@@ -40,11 +45,13 @@ const columnsOf = (view) => [
   { title: "Lost pairs", value: (row) => row.pairs?.lost ?? null, text: wholeNumber, gate: true },
   { title: "Wrong pairs", value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (row) => row.nan_pixels, text: wholeNumber, gate: true },
-  ...page.measures.map(({ key, title }) => ({ title, value: (row) => row.error?.[key] ?? null, text: errorNumber })),
+  ...page.measures.map(({ key, title }) => ({ title, value: (row) => row.same_surfaces?.[key] ?? null, text: errorNumber })),
+  ...(view.results.own_surfaces?.error
+    ? [{ title: "Surfaces off, RMSE", value: (row) => (hasOwnSurfaces(view, row) ? view.results.own_surfaces.error.rmse_rel : null), text: errorNumber }] : []),
   ...(view.results.rows.some((row) => typeof row.error?.flip_mean === "number")
     ? [{ title: "FLIP, mean", value: (row) => row.error?.flip_mean ?? null, text: errorNumber }] : []),
-  { title: "Off the oracle", value: (row) => row.error?.oracle?.max_rel ?? null, text: errorNumber },
-  { title: "Off double surfaces", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
+  { title: "Off the oracle, largest", value: (row) => (hasOwnSurfaces(view, row) ? null : row.error?.oracle?.max_rel ?? null), text: errorNumber },
+  { title: "Off double surfaces, RMSE", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
   { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
   { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },
   { title: "Light grid", value: (row) => row.memory_bytes.light_grid, text: byteNumber },
@@ -64,12 +71,14 @@ function showErrors(view) {
   const measured = ranRows(view).filter((row) => row.error && row !== referenceOf(view));
   const { technique, pixels } = view.results.reference, all = view.results.size[0] * view.results.size[1];
   const where = pixels < all ? ` at ${wholeNumber(pixels)} of ${wholeNumber(all)} pixels` : "";
-  add('Technique', `This picture against ${technique}${where}, which shades every light in float:`,
+  add('Technique', `This picture against every light in float on the same surfaces${where}:`,
       ...measured.map(
-          (row) => `${nameOf(view, row)}: ${errorInWords(row.error)}${silhouettesInWords(row.error)}${
-              oracleInWords(row.error.oracle, technique)}.`),
+          (row) => `${nameOf(view, row)}: ${row.same_surfaces ? `${row.same_surfaces.reference}, ${errorInWords(row.same_surfaces)}` : `not known, ${view.results.own_surfaces?.why_not ?? unknown}`}${
+              hasOwnSurfaces(view, row) ? '' : oracleInWords(row.error.oracle, technique)}.`),
       ...(measured.length === 0 ? [unknown + '.'] : []));
   const judged = ranRows(view).filter((row) => row.error?.surfaces?.pixels > 0);
+  const own = view.results.own_surfaces?.error;
+  if (own) add("Surfaces drawn in OpenCL", `Every light on them against ${technique}: ${errorInWords(own)}${silhouettesInWords(own)}.`);
   if (judged.length > 0) {
     const { surfaces } = view.results.reference;
     add("Surfaces", `Each picture against light and surfaces both in double, textures included, at ${wholeNumber(surfaces.pixels)} pixels:`,
@@ -113,9 +122,9 @@ function techniqueCard(view, row) {
   const summary = [
     milliseconds(row.frame_ms.median ?? 0) + " a frame",
     !isReference && ratio !== null && `${shortNumber(ratio)} times the speed of ${reference}`,
-    isReference ? "the reference" : row.error && errorInWords(row.error),
+    isReference ? "the reference" : row.same_surfaces && `light: ${errorInWords(row.same_surfaces)}`,
     row.inf_pixels > 0 && `${wholeNumber(row.inf_pixels)} pixels pass the largest float`,
-    row.overflow > 0 && `${wholeNumber(row.overflow)} list entries did not fit`,
+    row.overflow > 0 && `${wholeNumber(row.overflow)} lit lights left out${pictures.why_lost}`,
   ];
   const figures = [];
   if (pictures.image !== null) figures.push(figure(pictures.image, "Picture"));
@@ -154,8 +163,12 @@ function showSkipped(view) {
 function showView(view) {
   byId("view-title").textContent = view.page.title;
   byId("verdict").textContent = view.page.verdict;
+  byId("choices").replaceChildren(...view.page.choices.map(({ what, name, figure, why, sure }) =>
+    make("div", { class: "choice-card" }, make("h3", {}, what), make("p", {}, make("strong", {}, nameElement(name)), ` ${figure}`),
+      make("p", {}, why), make("p", { class: "quiet" }, sure))));
   byId("figures").replaceChildren(...view.page.figures.map((line) => make("li", {}, line)));
   for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference.technique;
+  for (const element of document.querySelectorAll(".brightest")) element.textContent = brightestInWords(view);
   showPictures(view);
   showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : ""));
   showErrors(view);
