@@ -15,9 +15,7 @@
 #include "base/timer.h"
 #include "base/version.h"
 #include "base/write_file.h"
-#include "frontier/answer_files.h"
-#include "frontier/gate.h"
-#include "frontier/machine.h"
+#include "frontier/answer.h"
 #include "frontier/measure.h"
 
 namespace lightgrid {

@@ -3,23 +3,28 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 namespace lightgrid {
 namespace {
 
 using nlohmann::json;
 
-constexpr int max_depth = 16;
+constexpr int most_file_depth = 16;
 constexpr size_t longest_value_told = 60;
+
+// For json::parse: throws "PLACE nested deeper than 16".
+json::parser_callback_t at_most_deep(int max_depth, const std::string& place) {
+  return [=](int depth, json::parse_event_t, json&) {
+    if (depth > max_depth) throw input_error("{}nested deeper than {}", place, max_depth);
+    return true;
+  };
+}
 
 json parse(const std::string& path) {
   const std::string text = read_small_file(path, max_json_file_bytes, "this file");
-  const auto shallow = [&](int depth, json::parse_event_t, json&) {
-    if (depth > max_depth) throw input_error("{}: nested deeper than {}", path, max_depth);
-    return true;
-  };
   try {
-    return json::parse(text, shallow);
+    return json::parse(text, at_most_deep(most_file_depth, path + ": "));
   } catch (const json::parse_error& error) {
     throw input_error("{}: is not JSON: {}", path, fault_of(error));
   } catch (const json::exception& error) {
@@ -33,6 +38,13 @@ std::string told(const json& value) {
   size_t end = longest_value_told;
   while (end > 0 && (text[end] & 0xc0) == 0x80) --end;  // keeps characters whole
   return text.substr(0, end) + "…";
+}
+
+std::string shown(const json& value) {
+  if (value.is_structured()) return value.type_name();
+  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  if (text.size() > 60) text = text.substr(0, 60) + "...";
+  return text;
 }
 
 }  // namespace
@@ -57,18 +69,106 @@ std::string fault_of(const json::exception& error) {
   return end == std::string::npos ? what : what.substr(end + 2);
 }
 
+json exact_number(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+}
+
+json parsed_json(const std::string& text, int max_depth) {
+  try {
+    return json::parse(text, at_most_deep(max_depth, "is "));
+  } catch (const json::exception&) {
+    throw input_error("is not JSON");
+  }
+}
+
+json finite_number(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+JsonFields::JsonFields(const json& object, std::string within) : object_(object), within_(std::move(within)) {
+  if (object.is_object()) return;
+  if (within_.empty()) throw input_error("{} is not an object", shown(object));
+  throw input_error("{}: {} is not an object", within_.substr(0, within_.size() - 1), shown(object));
+}
+
+bool JsonFields::has(const std::string& name) const {
+  return object_.contains(name) && !object_[name].is_null();
+}
+
+const json& JsonFields::at(const std::string& name) const {
+  if (!has(name)) throw input_error("{}{} is missing", within_, name);
+  return object_[name];
+}
+
+std::string JsonFields::text(const std::string& name) const {
+  const json& value = at(name);
+  if (!value.is_string()) throw input_error("{}{}: {} is not a text", within_, name, shown(value));
+  return value.get<std::string>();
+}
+
+bool JsonFields::flag(const std::string& name) const {
+  const json& value = at(name);
+  if (!value.is_boolean())
+    throw input_error("{}{}: {} is neither true nor false", within_, name, shown(value));
+  return value.get<bool>();
+}
+
+double JsonFields::checked_number(const std::string& name, const json& value) const {
+  if (value.is_number()) return value.get<double>();
+  if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (value == "inf") return std::numeric_limits<double>::infinity();
+  if (value == "-inf") return -std::numeric_limits<double>::infinity();
+  throw input_error("{}{}: {} is not a number", within_, name, shown(value));
+}
+
+double JsonFields::number(const std::string& name) const { return checked_number(name, at(name)); }
+
+std::optional<double> JsonFields::optional_number(const std::string& name) const {
+  return has(name) ? std::optional(number(name)) : std::nullopt;
+}
+
+uint64_t JsonFields::count(const std::string& name) const {
+  const json& value = at(name);
+  const bool counts = value.is_number_unsigned() || (value.is_number_integer() && value.get<int64_t>() >= 0);
+  if (!counts) throw input_error("{}{}: {} is not a whole number", within_, name, shown(value));
+  return value.get<uint64_t>();
+}
+
+int JsonFields::whole(const std::string& name, int low) const {
+  const json& value = at(name);
+  if (!value.is_number_integer())
+    throw input_error("{}{}: {} is not a whole number", within_, name, shown(value));
+  const double number = value.get<double>();
+  const bool fits = number >= low && number <= std::numeric_limits<int>::max();
+  if (!fits)
+    throw input_error("{}{}: {} is not a whole number of at least {}", within_, name, shown(value), low);
+  return value.get<int>();
+}
+
+std::vector<double> JsonFields::numbers(const std::string& name) const {
+  const json& array = at(name);
+  if (!array.is_array()) throw input_error("{}{}: {} is not an array", within_, name, shown(array));
+  std::vector<double> values;
+  for (const json& value : array) values.push_back(checked_number(name, value));
+  return values;
+}
+
+JsonFields JsonFields::object(const std::string& name) const {
+  return JsonFields(at(name), within_ + name + ".");
+}
+
+std::vector<std::string> JsonFields::names() const {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : object_.items()) all.push_back(name);
+  return all;
+}
+
 JsonFile::JsonFile(const std::filesystem::path& path) : path_(path.string()), json_(parse(path_)) {
   if (!json_.is_object()) throw input_error("{}: is {}, not an object", path_, json_.type_name());
 }
 
-bool JsonFile::has(const std::string& field) const {
-  return json_.contains(field) && !json_[field].is_null();
-}
+bool JsonFile::has(const std::string& field) const { return JsonFields(json_).has(field); }
 
-const json& JsonFile::at(const std::string& field) const {
-  if (!has(field)) throw input_error("{}: {} is missing", path_, field);
-  return json_[field];
-}
+const json& JsonFile::at(const std::string& field) const { return JsonFields(json_, path_ + ": ").at(field); }
 
 Error JsonFile::error(const std::string& field, const json& value, const std::string& fault) const {
   return input_error("{}: {} {} {}", path_, field, told(value), fault);

@@ -1,8 +1,9 @@
-// A small JSON file of this program or another, read field by field. Each field is checked; a fault is an
-// Error(input) of one line that names file, field and value.
+// JSON, read field by field with each field checked, and numbers that JSON does not have.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,41 @@
 #include "base/error.h"
 
 namespace lightgrid {
+
+// JSON has no NaN and no infinity. For those who lose nothing they are the texts "nan", "inf" and "-inf".
+nlohmann::json exact_number(double value);
+
+// For other readers: null if it is not finite.
+nlohmann::json finite_number(double value);
+
+// The value of a text. Throws Error(input): "is not JSON", "is nested deeper than 8".
+nlohmann::json parsed_json(const std::string& text, int max_depth);
+
+// An object, read field by field. All functions throw Error(input) that names the field: `lights: 2.5 is not
+// a whole number`. Fields that nobody reads are ignored.
+class JsonFields {
+ public:
+  // `within`: of which field it is the value, for messages: "errors.".
+  explicit JsonFields(const nlohmann::json& object, std::string within = "");
+
+  bool has(const std::string& name) const;  // and not null
+  std::string text(const std::string& name) const;
+  bool flag(const std::string& name) const;
+  double number(const std::string& name) const;  // as exact_number writes it
+  std::optional<double> optional_number(const std::string& name) const;
+  uint64_t count(const std::string& name) const;
+  int whole(const std::string& name, int low) const;
+  std::vector<double> numbers(const std::string& name) const;
+  JsonFields object(const std::string& name) const;
+  const nlohmann::json& at(const std::string& name) const;
+  std::vector<std::string> names() const;
+
+ private:
+  double checked_number(const std::string& name, const nlohmann::json& value) const;
+
+  const nlohmann::json& object_;
+  std::string within_;
+};
 
 inline constexpr uintmax_t max_json_file_bytes = 1 << 20;
 
@@ -21,6 +57,8 @@ std::string read_small_file(const std::filesystem::path& path, uintmax_t most, c
 // What the parser says, without its own prefix.
 std::string fault_of(const nlohmann::json::exception& error);
 
+// A small JSON file of this program or another. Each field is checked; a fault is an Error(input) of one line
+// that names file, field and value.
 class JsonFile {
  public:
   // Reads the whole file. It must hold an object, and at most max_json_file_bytes.

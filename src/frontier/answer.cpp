@@ -1,6 +1,7 @@
 // Records of all parts become one answer.
 #include "frontier/answer.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -8,7 +9,7 @@
 #include "base/error.h"
 #include "frontier/answer_steps.h"
 #include "frontier/record_file.h"
-#include "frontier/statistics.h"
+#include "results/words.h"
 
 namespace lightgrid {
 namespace {
@@ -56,6 +57,11 @@ double times_longer(const BaselineTimes& first, const BaselineTimes& other) {
   return of_other > 0 ? of_first / of_other : 0;
 }
 
+bool errors_are_finite(const PointErrors& errors) {
+  return std::isfinite(errors.total.max_rel) && std::isfinite(errors.total.rmse_rel) &&
+         std::isfinite(errors.technique.max_rel) && std::isfinite(errors.technique.rmse_rel);
+}
+
 }  // namespace
 
 std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
@@ -88,6 +94,47 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
     for (double& ms : r.cull_ms) ms *= factor;
   }
   return records;
+}
+
+std::string label_in_series(const FrontierRecord& r) {
+  if (r.series == "lights")
+    return fmt::format("{}, {} lights", r.point.label, with_commas(uint64_t(r.lights)));
+  if (r.series == "pixels") return fmt::format("{}, {} × {}", r.point.label, r.width, r.height);
+  if (r.series == "radius") return fmt::format("{}, radius × {:g}", r.point.label, r.radius_scale);
+  return r.point.label;
+}
+
+std::vector<Failure> failures_of(Records records) {
+  std::vector<Failure> failures;
+  for (const Group& views :
+       grouped(accepted(records, [](const FrontierRecord&) { return true; }),
+               [](const FrontierRecord& r) { return point_key(r.point) + label_in_series(r); })) {
+    FrontierPoint point = views.back()->point;
+    point.label = label_in_series(*views.back());
+    const auto add = [&](const char* cause, const std::string& why) {
+      failures.push_back({point, cause, why});
+    };
+    std::string refused;
+    uint64_t lost = 0, wrong = 0, nan_pixels = 0, overflow = 0;
+    bool finite = true;
+    for (const FrontierRecord* r : views) {
+      if (refused.empty()) refused = r->refused;
+      if (!r->refused.empty()) continue;
+      lost += r->pairs.lost, wrong += r->pairs.wrong;
+      nan_pixels += r->nan_pixels, overflow += r->overflow;
+      finite &= errors_are_finite(r->errors);
+    }
+    if (!refused.empty()) add("refused", "refused: " + refused);
+    if (lost) add("lost", with_commas(lost) + " lit pairs are not listed");
+    if (wrong) add("wrong", with_commas(wrong) + " listed pairs are no light, or twice the same");
+    if (nan_pixels) {
+      add("NaN", with_commas(nan_pixels) + " pixels are NaN");
+    } else if (!finite) {
+      add("NaN", "its error is not finite");
+    }
+    if (overflow) add("overflow", with_commas(overflow) + " list entries did not fit");
+  }
+  return failures;
 }
 
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {

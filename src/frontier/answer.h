@@ -1,6 +1,9 @@
-// What the records say: for each point its figures over the views, the Pareto front of each scene, ties,
-// break-evens, growth, failures, and sentences in plain words.
+// The answer that records give: for each point its figures over the views, the Pareto front of each scene,
+// ties, break-evens, growth, failures, and sentences in plain words.
 #pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 #include "frontier/record.h"
 
@@ -88,5 +91,41 @@ struct FrontierAnswer {
 
 // Pure. Throws Error(input) if the parts are not of one sweep (check_same_sweep).
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
+
+// frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row
+// a run of such a row) and culling.csv (one row a round in which its culling was timed).
+nlohmann::json to_json(const FrontierAnswer& answer);
+std::string csv_text(const FrontierAnswer& answer);
+std::string samples_csv_text(const FrontierAnswer& answer);
+std::string cull_csv_text(const FrontierAnswer& answer);
+
+// One self-contained HTML file made of frontier/page/*, parts of report/page/* and frontier.json. Pictures
+// are those that records name (FrontierRecord::image) in `pictures`, in at most `most_picture_bytes` of text
+// (page_pictures); without such files the page shows none.
+std::string page_text(const FrontierAnswer& answer, const std::filesystem::path& pictures = {},
+                      size_t most_picture_bytes = size_t(24) << 20);
+
+// Writes all of these. Pictures that records name are looked for in `pictures` and copied into DIR/pictures
+// if they are elsewhere; the page holds at most `page_bytes` of them.
+void write_answer(const std::filesystem::path& folder, const FrontierAnswer& answer,
+                  const std::vector<std::filesystem::path>& pictures, size_t page_bytes);
+
+// A frontier held against an earlier one: what got worse.
+struct GateResult {
+  std::vector<std::string> worse;  // one sentence each; empty: the gate is passed
+  std::vector<std::string> told;   // what was not compared, and why; no failure
+};
+
+// frontier.json, as to_json(FrontierAnswer) gives it. Throws Error(input) that names the file.
+nlohmann::json read_frontier_json(const std::filesystem::path& path);
+
+// Points are the same if scene, label, averaged frames and size agree. Worse is: an error that is more
+// than 1.001 times the earlier one and 1e-9 larger, or finite no more; more pairs lost or wrong, or more
+// pixels with NaN, than earlier; a ratio whose 95 % interval lies above the earlier one's; a refusal of what
+// ran earlier. A point of other views, or that is on one side only, is told. Throws Error(input) that names
+// `earlier_name` and the field if `earlier` is malformed, is of another seed or baseline, or has no point to
+// compare.
+GateResult held_against(const nlohmann::json& now, const nlohmann::json& earlier,
+                        const std::string& earlier_name);
 
 }  // namespace lightgrid

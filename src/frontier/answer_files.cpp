@@ -1,14 +1,14 @@
-#include "frontier/answer_files.h"
-
+// The files of an answer: docs/frontier_json.md.
+#include <algorithm>
 #include <cmath>
 
+#include "base/embedded.h"
 #include "base/error.h"
 #include "base/write_file.h"
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
 #include "frontier/pictures.h"
-#include "frontier/record_file.h"
-#include "frontier/statistics.h"
+#include "report/report.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -104,47 +104,33 @@ json failure_json(const Failure& f) {
   return out;
 }
 
-// A column of frontier.csv: its name, and where its value is in a row (as a JSON pointer).
-struct Column {
-  std::string name, pointer;
-  bool of_refused = true;  // shown of records that were refused too
-};
-
-std::vector<Column> csv_columns() {
-  std::vector<Column> all;
-  for (const char* name :
-       {"row",           "commit",      "seed",         "shard",     "cl",        "gl",       "scene",
-        "label",         "technique",   "settings",     "frames",    "series",    "view",     "width",
-        "height",        "lights",      "radius_scale", "refused",   "runs",      "frame_ms", "frame_ms_low",
-        "frame_ms_high", "baseline_ms", "ratio",        "ratio_low", "ratio_high"})
-    all.push_back({name, std::string("/") + name});
-  for (const char* name : {"bytes_moved", "memory_bytes", "covered_pixels"})
-    all.push_back({name, std::string("/") + name, false});
-  for (const char* name : {"listed", "lit", "lost", "wrong"})
-    all.push_back({name, std::string("/pairs/") + name, false});
-  for (const char* name : {"nan_pixels", "overflow"}) all.push_back({name, std::string("/") + name, false});
-  const auto add_measures = [&](const std::string& name, const std::string& pointer, bool of_refused) {
-    for (const ErrorMeasure& m : frontier_error_measures())
-      all.push_back({name + "_" + m.key, pointer + "/" + m.key, of_refused});
+std::vector<CsvColumn> csv_columns() {
+  std::vector<CsvColumn> all;
+  const auto add_measures = [&](const std::string& within, const std::string& prefix) {
+    for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
   };
+  add_columns(all, {"row",       "commit",    "seed",         "shard",         "cl",           "gl",
+                    "scene",     "label",     "technique",    "settings",      "frames",       "series",
+                    "view",      "width",     "height",       "lights",        "radius_scale", "refused",
+                    "runs",      "frame_ms",  "frame_ms_low", "frame_ms_high", "baseline_ms",  "ratio",
+                    "ratio_low", "ratio_high"});
+  add_columns(all, {"bytes_moved", "memory_bytes", "covered_pixels"});
+  add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
+  add_columns(all, {"nan_pixels", "overflow"});
   for (const auto& [key, ignored] : kinds_of_error) {
     const std::string kind = key;
-    add_measures(kind, "/errors/" + kind, false);
-    all.push_back({kind + "_flip_mean", "/errors/" + kind + "/flip_mean"});
+    add_measures("/errors/" + kind, kind + "_");
+    add_columns(all, {"flip_mean"}, "/errors/" + kind, kind + "_");
   }
-  for (const char* name : {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel"})
-    all.push_back({name, std::string("/errors/") + name});
-  all.push_back({"flip_start", "/flip_exposures/0"});
-  all.push_back({"flip_stop", "/flip_exposures/1"});
-  all.push_back({"flip_count", "/flip_exposures/2"});
-  all.push_back({"image", "/image"});
-  const std::string sampled = "/errors/in_double/";
-  all.push_back({"in_double_pixels", sampled + "pixels"});
-  add_measures("in_double", sampled + "picture", true);
-  for (const auto& [of, kind] : {std::pair{"float_total", "picture_in_float"}, {"float_truth", "truth"}}) {
-    for (const char* measure : {"max_rel", "rmse_rel"})
-      all.push_back({fmt::format("in_double_{}_{}", of, measure), sampled + kind + "/" + measure});
-  }
+  add_columns(all, {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel"}, "/errors");
+  for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
+    all.push_back({name, std::string("/flip_exposures/") + index});
+  add_columns(all, {"image"});
+  const std::string sampled = "/errors/in_double";
+  add_columns(all, {"pixels"}, sampled, "in_double_");
+  add_measures(sampled + "/picture", "in_double_");
+  add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/picture_in_float", "in_double_float_total_");
+  add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/truth", "in_double_float_truth_");
   return all;
 }
 
@@ -157,9 +143,15 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
   for (const FrontierMachine& machine : answer.machines) {
     if (machine.shard == r.shard) fields.update({{"cl", machine.cl_device}, {"gl", machine.gl_device}});
   }
-  std::vector<std::string> settings;
-  for (const auto& [key, value] : r.point.settings) settings.push_back(key + "=" + value);
-  fields["settings"] = fmt::format("{}", fmt::join(settings, " "));
+  fields["settings"] = settings_field(r.point.settings);
+  if (!r.refused.empty()) {  // what it would have drawn
+    for (const char* key :
+         {"bytes_moved", "memory_bytes", "covered_pixels", "pairs", "nan_pixels", "overflow"})
+      fields.erase(key);
+    for (const auto& [kind, ignored] : kinds_of_error) {
+      for (const ErrorMeasure& m : frontier_error_measures()) fields["errors"][kind].erase(m.key);
+    }
+  }
   std::vector<double> ratios;
   for (size_t run = 0; run < r.frame_ms.size(); ++run) ratios.push_back(r.frame_ms[run] / r.baseline_ms[run]);
   const MedianInterval frame = median_interval(r.frame_ms);
@@ -176,12 +168,6 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
 }
 
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
-
-std::string csv_field(const json& value) {
-  if (value.is_string()) return value;
-  if (value.is_number_float()) return figure(value);
-  return value.is_null() ? "" : value.dump();
-}
 
 // Into `to`, what records name and is not there yet.
 void collect_pictures(const fs::path& to, const FrontierAnswer& answer,
@@ -200,6 +186,41 @@ void collect_pictures(const fs::path& to, const FrontierAnswer& answer,
       }
     }
   }
+}
+
+// The first picture that a record of the point names.
+std::string picture_of(const FrontierAnswer& answer, const FrontierPoint& point) {
+  const std::string key = point_key(point);
+  for (const FrontierRecord& r : answer.part.records) {
+    if (!r.image.empty() && r.series.empty() && point_key(r.point) == key) return r.image;
+  }
+  return "";
+}
+
+// frontier.json, with the pictures of each point and what the page says of each scene.
+json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
+  json data = to_json(answer);
+  data["pictures"] = pictures.urls;
+  data["reduced"] = pictures.reduced;
+  for (size_t i = 0; i < answer.points.size(); ++i) {
+    const auto found = pictures.by_name.find(picture_of(answer, answer.points[i].point));
+    data["points"][i]["pictures"] = found == pictures.by_name.end() ? json() : json(found->second);
+  }
+  data["scenes"] = json::array();
+  for (const std::string& scene : scenes_of(answer)) {
+    const SceneWords words = words_of_scene(answer, scene);
+    data["scenes"].push_back({{"key", scene},
+                              {"title", scene_in_words(scene)},
+                              {"opening", words.opening},
+                              {"notes", words.notes}});
+  }
+  // In the order of their colors.
+  data["techniques"] =
+      distinct(answer.part.records, [](const FrontierRecord& r) { return r.point.technique; });
+  for (const ErrorMeasure& measure : frontier_error_measures())
+    data["measures"].push_back({{"key", measure.key}, {"title", measure.frontier_title}});
+  data["measures"].push_back({{"key", "flip_mean"}, {"title", "FLIP, mean"}});
+  return data;
 }
 
 }  // namespace
@@ -227,22 +248,9 @@ json to_json(const FrontierAnswer& answer) {
 }
 
 std::string csv_text(const FrontierAnswer& answer) {
-  const std::vector<Column> columns = csv_columns();
-  std::vector<std::string> fields;
-  for (const Column& column : columns) fields.push_back(column.name);
-  std::string text = csv_line(fields);
-  for (size_t row = 0; row < answer.part.records.size(); ++row) {
-    const json values = csv_row(answer, row);
-    const bool refused = !answer.part.records[row].refused.empty();
-    fields.clear();
-    for (const Column& column : columns) {
-      const json::json_pointer at(column.pointer);
-      const bool shown = (column.of_refused || !refused) && values.contains(at);
-      fields.push_back(shown ? csv_field(values[at]) : "");
-    }
-    text += csv_line(fields);
-  }
-  return text;
+  std::vector<json> rows;
+  for (size_t row = 0; row < answer.part.records.size(); ++row) rows.push_back(csv_row(answer, row));
+  return csv_table(csv_columns(), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {
@@ -263,6 +271,25 @@ std::string samples_csv_text(const FrontierAnswer& answer) {
       text += fmt::format("{},{},{},{}\n", row, run, figure(r.frame_ms[run]), figure(r.baseline_ms[run]));
   }
   return text;
+}
+
+std::string page_text(const FrontierAnswer& answer, const std::filesystem::path& pictures,
+                      size_t most_picture_bytes) {
+  std::vector<std::string> names;
+  if (!pictures.empty()) {
+    for (const FrontierRecord& r : answer.part.records) names.push_back(r.image);
+  }
+  std::string style = embedded_file("report/page/style.css"), script;
+  style += embedded_file("frontier/page/frontier.css");
+  for (const char* name :
+       {"report/page/elements.js", "report/page/table.js", "report/page/plot.js", "frontier/page/figures.js",
+        "frontier/page/front.js", "frontier/page/costs.js", "frontier/page/frontier.js"}) {
+    script += embedded_file(name);
+  }
+  const json data = page_data_of(answer, page_pictures(pictures, names, most_picture_bytes));
+  const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
+  return filled(embedded_file("frontier/page/index.html"),
+                {{"style", style}, {"script", script}, {"page", script_json(text)}});
 }
 
 void write_answer(const fs::path& folder, const FrontierAnswer& answer, const std::vector<fs::path>& pictures,

@@ -1,8 +1,12 @@
-// The steps of answer_of: each is a pure function of records, or of what earlier steps found.
+// The steps of answer_of, each a pure function of records or of what earlier steps found, and their
+// statistics.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frontier/answer.h"
@@ -10,6 +14,14 @@
 namespace lightgrid {
 
 using Records = std::span<const FrontierRecord>;
+using Group = std::vector<const FrontierRecord*>;
+
+// The records that a test accepts, in their order.
+Group accepted(Records records, const std::function<bool(const FrontierRecord& record)>& test);
+
+// Groups of equal keys, in the order of their first records.
+std::vector<Group> grouped(const Group& records,
+                           const std::function<std::string(const FrontierRecord& record)>& key_of);
 
 // The settings by which two points differ other than in the keys `without`.
 std::map<std::string, std::string> settings_without(const FrontierPoint& point,
@@ -21,6 +33,7 @@ std::string point_key(const FrontierPoint& point, std::span<const std::string> w
 // The name of the pass whose times are those of culling, and what pairs of a break-even differ in.
 inline constexpr const char* cull_pass = "cull_lights";
 inline const std::vector<std::string> cull_test_alone = {"cull_test"};
+bool has_cull_time(const FrontierRecord& record);  // of a point of the front that ran, and has a cull test
 
 // Records whose times may be compared: those of another kind of machine (devices, drivers, processor,
 // threads) are multiplied by how much longer or shorter the same baseline took on the first kind of machine
@@ -52,11 +65,28 @@ std::vector<Failure> failures_of(Records records);
 std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene);
 std::vector<std::string> sentences_of(const FrontierAnswer& answer);
 
+// What the page says of a scene above its table of errors, and below it.
+struct SceneWords {
+  std::vector<std::string> opening, notes;
+};
+SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene);
+
 // "forward", or of a series "forward, 10,000 lights".
 std::string label_in_series(const FrontierRecord& record);
 
 // "hall" for "scenes/hall.glb".
 std::string scene_in_words(const std::string& scene);
+
+// What `text_of` says of the items, each text once, in the order of the items.
+template <typename Items, typename TextOf>
+std::vector<std::string> distinct(const Items& items, const TextOf& text_of) {
+  std::vector<std::string> texts;
+  for (const auto& item : items) {
+    const std::string text = text_of(item);
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+  }
+  return texts;
+}
 
 // Scenes in the order of their first points.
 std::vector<std::string> scenes_of(const FrontierAnswer& answer);
@@ -64,7 +94,31 @@ std::vector<std::string> scenes_of(const FrontierAnswer& answer);
 // Three significant digits: "0.310", "31.0", "3,100"; "0" for 0.
 std::string three_digits(double value);
 
-std::string error_in_words(double error);  // "1.2e-3", "0"
 std::string percent_of(double error);      // "0.1 %"
+
+// The median and its 95 % confidence interval by order statistics of the binomial distribution (Hollander,
+// Wolfe and Chicken, Nonparametric Statistical Methods, 2014). Below six samples no such interval exists: it
+// is the whole range. NaN samples are left out everywhere. Throws nothing; zeros without samples.
+MedianInterval median_interval(std::span<const double> samples);
+
+// The two-sided p value of the Mann-Whitney U test, with midranks for ties: exact up to 20 samples in all
+// without ties, by the normal approximation with tie and continuity corrections beyond. 1 if either is empty.
+double mann_whitney_p(std::span<const double> a, std::span<const double> b);
+
+// For points (x, y), smaller is better in both: true where no other point is at most as large in both and
+// smaller in one. Points that are equal in both are all on the front. NaN and infinite points never are.
+std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points);
+
+// The value that Student's t with `dof` degrees of freedom stays below with probability p. Infinite for dof
+// < 1.
+double student_t_quantile(double p, int dof);
+
+// The exponent b of y = c x^b through samples by least squares in logarithms, and its 95 % interval
+// (Student's t). Samples that are not positive and finite are left out. Fewer than three distinct x: low and
+// high are infinite; fewer than two: exponent and factor are zero.
+struct PowerLaw {
+  double exponent = 0, low = 0, high = 0, factor = 0;
+};
+PowerLaw power_law(std::span<const std::pair<double, double>> samples);
 
 }  // namespace lightgrid

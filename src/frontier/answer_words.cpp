@@ -7,6 +7,7 @@
 #include <set>
 
 #include "frontier/answer_steps.h"
+#include "plan/settings.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -19,34 +20,32 @@ using Points = std::vector<PointFigures>;
 
 // Below six runs there is no interval: median_interval.
 std::string ratio_in_words(const MedianInterval& ratio) {
-  const std::string what =
-      ratio.runs < 6 ? fmt::format("{} run{}", ratio.runs, ratio.runs == 1 ? "" : "s") : "95 % interval";
+  if (ratio.runs == 1)
+    return three_digits(ratio.median) + " times (one run: the budget was too short for an interval)";
+  const std::string what = ratio.runs < 6 ? fmt::format("{} runs", ratio.runs) : "95 % interval";
   return fmt::format("{} times ({} {} to {})", three_digits(ratio.median), what, three_digits(ratio.low),
                      three_digits(ratio.high));
 }
 
-// " (~ a, b and 3 more)": points that are not ranked against this one.
+// " (~ clustered)" or " (~ 43 others)": points that are not ranked against this one.
 std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
   if (tied.empty()) return "";
-  std::string words;
-  for (size_t i = 0; i < std::min<size_t>(tied.size(), 2); ++i) {
-    words += (i ? ", " : "") + points[tied[i]].point.label;
-  }
-  return fmt::format(" (~ {}{})", words, tied.size() > 2 ? fmt::format(" and {} more", tied.size() - 2) : "");
+  return tied.size() == 1 ? fmt::format(" (~ {})", points[tied[0]].point.label)
+                          : fmt::format(" (~ {} others)", tied.size());
 }
 
-// Whether two points are meant to show the same: the settings that change the model agree.
+// True if two points are meant to show the same: the settings that change the model agree.
 bool same_model(const PointFigures& a, const PointFigures& b) {
-  const auto value_of = [](const PointFigures& p, const std::string& key, const std::string& otherwise) {
-    const auto found = p.point.settings.find(key);
-    return found == p.point.settings.end() ? otherwise : found->second;
+  static const auto defaults = to_strings(Settings{});
+  const auto agree = [&](const std::string& setting) {
+    const std::string key = json_key(setting);
+    const auto value_of = [&](const PointFigures& p) {
+      const auto found = p.point.settings.find(key);
+      return found == p.point.settings.end() ? defaults.at(key) : found->second;
+    };
+    return value_of(a) == value_of(b);
   };
-  for (const auto& [key, otherwise] :
-       {std::pair("brdf", "ggx"), std::pair("range", "scene"), std::pair("window", "khr"),
-        std::pair("cutoff", ""), std::pair("alpha", ""), std::pair("light_seed", "")}) {
-    if (value_of(a, key, otherwise) != value_of(b, key, otherwise)) return false;
-  }
-  return a.point.frames == b.point.frames;
+  return a.point.frames == b.point.frames && std::ranges::all_of(model_settings(), agree);
 }
 
 const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string& scene) {
@@ -69,13 +68,12 @@ int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene)
   return best;
 }
 
-std::vector<int> tied_same_picture(const FrontierAnswer& answer, int best) {
-  std::vector<int> tied;
-  for (const int other : answer.points[best].tied_with) {
+std::vector<int> tied_same_picture(const FrontierAnswer& answer, const PointFigures& best) {
+  std::vector<int> tied = best.tied_with;
+  std::erase_if(tied, [&](int other) {
     const PointFigures& p = answer.points[other];
-    if (same_model(p, answer.points[best]) && p.errors.technique.max_rel <= same_picture)
-      tied.push_back(other);
-  }
+    return !same_model(p, best) || !(p.errors.technique.max_rel <= same_picture);
+  });
   return tied;
 }
 
@@ -84,7 +82,7 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
   const int best = fastest_same_picture(answer, scene);
   if (best < 0) return;
   const PointFigures& p = answer.points[best];
-  const std::string tied = ties_in_words(answer.points, tied_same_picture(answer, best));
+  const std::string tied = ties_in_words(answer.points, tied_same_picture(answer, p));
   if (p.point.label == answer.part.baseline) {
     sentences.push_back(
         fmt::format("In {} no point that computes the same picture (to 1e-5 of the brightest channel) is "
@@ -117,7 +115,7 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
                                   largest.in_words, fmt::join(figures, ", ")));
 }
 
-// From the largest error down, each point at the least error that it is the best within.
+// A line a step: from the largest error down, each point at the least error that it is the best within.
 void add_best_within(const FrontierAnswer& answer, const std::string& scene,
                      std::vector<std::string>& sentences) {
   std::vector<const BestWithin*> steps;
@@ -126,23 +124,20 @@ void add_best_within(const FrontierAnswer& answer, const std::string& scene,
     if (steps.empty() || steps.back()->point != best->point) steps.push_back(nullptr);
     steps.back() = &*best;
   }
-  std::vector<std::string> words;
   for (const BestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
-    words.push_back(fmt::format("{}{} use {}{}, {} times {}", percent_of(step->error),
-                                words.empty() ? " (RMSE) in " + scene_in_words(scene) : "", p.point.label,
-                                ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
-                                answer.part.baseline));
+    sentences.push_back(fmt::format("Error up to {} (RMSE) in {}: {}{}, {} times {}.", percent_of(step->error),
+                                    scene_in_words(scene), p.point.label,
+                                    ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
+                                    answer.part.baseline));
   }
-  if (!words.empty())
-    sentences.push_back(fmt::format("If you can bear an error of {}.", fmt::join(words, "; of ")));
 }
 
 bool is_of_technique(const std::string& label, const std::string& technique) {
   return label == technique || label.starts_with(technique + ":");
 }
 
-// Of the costs of a scene, the one with the most pairs of cull tests to hold it to.
+// Tells the cost of a scene that the most pairs of cull tests are held to.
 void add_break_even(const FrontierAnswer& answer, const std::string& scene,
                     std::vector<std::string>& sentences) {
   const ShadingCost* best = nullptr;
@@ -167,7 +162,7 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
                   most_undecided > 0 ? fmt::format(" ({} undecided)", most_undecided) : ""));
 }
 
-// Of the baseline, or of the series' first point.
+// Tells the baseline's growth, or that of the series' first point.
 void add_growth(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   const Growth* told[] = {nullptr, nullptr, nullptr};
   const std::string quantities[] = {"lights", "pixels", "radius"};
@@ -191,13 +186,12 @@ void add_growth(const FrontierAnswer& answer, const std::string& scene, std::vec
 void add_failures(const FrontierAnswer& answer, const std::string& scene,
                   std::vector<std::string>& sentences) {
   std::vector<std::string> parts;
-  std::set<std::string> failed;
-  for (const auto& [cause, words] :
-       std::vector<std::pair<std::string, std::string>>{{"refused", "refused"},
-                                                        {"lost", "with lost lights"},
-                                                        {"wrong", "with wrong lights"},
-                                                        {"NaN", "with NaN"},
-                                                        {"overflow", "with lists that overflow"}}) {
+  std::set<std::string> failed, all;
+  for (const auto& [cause, words] : {std::pair<const char*, const char*>{"refused", "refused"},
+                                     {"lost", "with lost lights"},
+                                     {"wrong", "with wrong lights"},
+                                     {"NaN", "with NaN"},
+                                     {"overflow", "with lists that overflow"}}) {
     size_t count = 0;
     for (const Failure& f : answer.failures) {
       if (f.cause != cause || f.point.scene != scene) continue;
@@ -207,7 +201,6 @@ void add_failures(const FrontierAnswer& answer, const std::string& scene,
     if (count) parts.push_back(fmt::format("{} {}", with_commas(count), words));
   }
   if (parts.empty()) return;
-  std::set<std::string> all;
   for (const FrontierRecord& r : answer.part.records) {
     if (r.point.scene == scene) all.insert(label_in_series(r));
   }
@@ -224,12 +217,7 @@ std::string scene_in_words(const std::string& scene) {
 }
 
 std::vector<std::string> scenes_of(const FrontierAnswer& answer) {
-  std::vector<std::string> scenes;
-  for (const FrontierRecord& r : answer.part.records) {
-    if (std::find(scenes.begin(), scenes.end(), r.point.scene) == scenes.end())
-      scenes.push_back(r.point.scene);
-  }
-  return scenes;
+  return distinct(answer.part.records, [](const FrontierRecord& r) { return r.point.scene; });
 }
 
 std::string three_digits(double value) {
@@ -239,16 +227,6 @@ std::string three_digits(double value) {
   const std::string rounded = fmt::format("{:.2e}", value);  // 0.9999 has the exponent of 1.00
   const int decimals = std::clamp(2 - std::stoi(rounded.substr(rounded.find('e') + 1)), 0, 9);
   return fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string error_in_words(double error) {
-  if (!std::isfinite(error)) return "not finite";
-  if (error == 0) return "0";
-  std::string text = fmt::format("{:.1e}", error);  // "1.2e-03"
-  const size_t exponent = text.find('e') + 2;
-  while (text[exponent] == '0' && exponent + 1 < text.size()) text.erase(exponent, 1);
-  if (text[exponent - 1] == '+') text.erase(exponent - 1, 1);
-  return text;
 }
 
 std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
@@ -261,6 +239,16 @@ std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const 
   add_growth(answer, scene, sentences);
   add_failures(answer, scene, sentences);
   return sentences;
+}
+
+SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene) {
+  SceneWords words;
+  add_fastest(answer, scene, words.opening);
+  if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
+  add_failures(answer, scene, words.opening);
+  add_break_even(answer, scene, words.notes);
+  add_growth(answer, scene, words.notes);
+  return words;
 }
 
 std::vector<std::string> sentences_of(const FrontierAnswer& answer) {

@@ -6,13 +6,14 @@
 #include <concepts>
 #include <nlohmann/json.hpp>
 
-#include "frontier/json_fields.h"
+#include "base/json_file.h"
 #include "frontier/record.h"
 #include "results/error_measures.h"
 
 namespace lightgrid {
 
-// What a reader demands: whole numbers are at least `low`, and a field that is not required keeps its value.
+// The demands of a reader: whole numbers are at least `low`, and a field that is not required keeps its
+// value.
 struct FieldRule {
   int low = 0;
   bool required = true;
@@ -67,7 +68,7 @@ void visit_fields(T& e, Visit&& visit) {
   visit("temporal_rmse_rel", e.temporal_rmse_rel);
 }
 
-// What is measured, without what came out.
+// The measured thing, without its figures.
 template <Is<FrontierRecord> T, typename Visit>
 void visit_identity(T& r, Visit&& visit) {
   visit_fields(r.point, visit);

@@ -1,4 +1,4 @@
-#include "frontier/gate.h"
+#include "frontier/answer.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "frontier/json_fields.h"
+#include "base/json_file.h"
 #include "results/error_measures.h"
 
 namespace lightgrid {
@@ -29,31 +29,30 @@ std::string name_of(const JsonFields& fields) {
   return fmt::format("{}, {}{}", fields.text("scene"), fields.text("label"), averaged);
 }
 
-const json& array_in(const json& frontier, const char* name) {
+// Calls visit(entry, fields) for each entry of an array of the frontier.
+template <typename Visit>
+void for_each_entry(const json& frontier, const char* name, const Visit& visit) {
   const json& array = JsonFields(frontier).at(name);
   if (!array.is_array()) throw input_error("{}: is not an array", name);
-  return array;
+  for (size_t i = 0; i < array.size(); ++i)
+    visit(array[i], JsonFields(array[i], fmt::format("{}[{}].", name, i)));
 }
 
 std::map<std::string, GatePoint> points_of(const json& frontier) {
   std::map<std::string, GatePoint> points;
-  const json& array = array_in(frontier, "points");
-  for (size_t i = 0; i < array.size(); ++i) {
-    const JsonFields fields(array[i], fmt::format("points[{}].", i));
+  for_each_entry(frontier, "points", [&](const json& point, const JsonFields& fields) {
     const std::string name = name_of(fields);
-    points[name + (fields.has("size") ? fields.at("size").dump() : "")] = {&array[i], name};
-  }
+    points[name + (fields.has("size") ? fields.at("size").dump() : "")] = {&point, name};
+  });
   return points;
 }
 
 std::map<std::string, std::string> refusals_of(const json& frontier) {
   std::map<std::string, std::string> refusals;
-  const json& array = array_in(frontier, "failures");
-  for (size_t i = 0; i < array.size(); ++i) {
-    const JsonFields fields(array[i], fmt::format("failures[{}].", i));
+  for_each_entry(frontier, "failures", [&](const json&, const JsonFields& fields) {
     if (fields.has("cause") && fields.text("cause") == "refused")
       refusals[name_of(fields)] = fields.text("why");
-  }
+  });
   return refusals;
 }
 
@@ -80,8 +79,8 @@ class PointComparison {
                    earlier_pairs.count("lost"));
     compare_counts("pairs of a pixel and a light are wrong", pairs.count("wrong"),
                    earlier_pairs.count("wrong"));
-    const auto nan_pixels = [](const JsonFields& point) {
-      return point.has("nan_pixels") ? point.count("nan_pixels") : 0;
+    const auto nan_pixels = [](const JsonFields& p) {
+      return p.has("nan_pixels") ? p.count("nan_pixels") : 0;
     };
     compare_counts("pixels are NaN", nan_pixels(now_), nan_pixels(earlier_));
     compare_ratios();
@@ -202,16 +201,10 @@ json read_frontier_json(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!std::filesystem::is_regular_file(path, ignored) || !file)
     throw input_error("{}: no such file", path.string());
-  const auto shallow = [](int depth, json::parse_event_t, json&) {
-    if (depth > 16) throw input_error("is nested deeper than 16");
-    return true;
-  };
   try {
-    json frontier = json::parse(file, shallow);
+    json frontier = parsed_json({std::istreambuf_iterator<char>(file), {}}, 16);
     JsonFields(frontier).at("points");
     return frontier;
-  } catch (const json::exception&) {
-    throw input_error("{}: is not JSON", path.string());
   } catch (const Error& error) {
     throw input_error("{}: {}", path.string(), error.what());
   }

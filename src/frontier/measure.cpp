@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cstdlib>
+#include <fstream>
 #include <span>
 
 #include "base/error.h"
 #include "base/timer.h"
-#include "frontier/cull_times.h"
-#include "frontier/growth_series.h"
-#include "frontier/scene_views.h"
-#include "frontier/time_rounds.h"
+#include "frontier/rounds.h"
 #include "frontier/view_figures.h"
 
 namespace lightgrid {
@@ -27,12 +25,25 @@ constexpr double slow_factor = 1.25, beaten_factor = 3;
 // With less time a point, as many points as possible are worth more than FLIP and flicker.
 constexpr double seconds_a_point_with_flip = 2;
 
-FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
-  const Contestant& c = point.contestant;
-  return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
+std::string first_line(const char* path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
 }
 
-// Of a picture with all its frames.
+// The value of the first line "KEY : VALUE" of /proc/cpuinfo.
+std::string cpu_info(const std::string& key) {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const size_t colon = line.find(':');
+    if (line.starts_with(key) && colon != std::string::npos && colon + 2 <= line.size())
+      return line.substr(colon + 2);
+  }
+  return "";
+}
+
+// The time of a picture with all its frames.
 double seconds_of_passes(const FrontierRecord& record) {
   double ms = 0;
   for (const auto& [name, pass_ms] : record.pass_ms) ms += pass_ms;
@@ -59,7 +70,8 @@ class SceneSweep {
       measure_figures();
       measure_cull_tests();
       measure_times();
-      complete();
+      complete(measured_, file_);
+      measured_.clear();
     }
     baseline_.reset();
     if (job_.growth) {
@@ -67,7 +79,7 @@ class SceneSweep {
       measure_growth(renderer_, gpu_, scene_, choice_, job_, left, file_);
       end_step("growth");
     }
-    tell_steps();
+    notice(steps_);
   }
 
  private:
@@ -82,7 +94,6 @@ class SceneSweep {
     steps_ += fmt::format("{}{} {:.0f} s", steps_.empty() ? "" : ", ", name, seconds() - step_began_s_);
     step_began_s_ = seconds();
   }
-  void tell_steps() const { notice(steps_); }
 
   FrontierRecord record_of(const ChosenPoint& point, int view) const {
     FrontierRecord record;
@@ -119,7 +130,7 @@ class SceneSweep {
   }
 
   double until() const { return job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0); }
-  // Whether a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
+  // True if a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
   bool fits(double more, int rounds, int views) const {
     double round_s = 0;
     for (const MeasuredPoint& m : measured_) {
@@ -213,30 +224,19 @@ class SceneSweep {
   }
 
   void measure_cull_tests() {
-    std::vector<PointOnView> points;
-    for (MeasuredPoint& m : measured_) points.push_back({m.run, m.records.front()});
-    measure_cull_times(points, views_.front(), until() - seconds(), file_);
+    measure_cull_times(measured_, views_.front(), until() - seconds(), file_);
     end_step("cull tests");
   }
 
   void measure_times() {
-    TimeRounds rounds{job_, timer_, until(), std::span(views_).first(size_t(used_views_)), measured_,
-                      *baseline_, file_};
+    TimeRounds rounds{job_,      timer_,     until(), std::span(views_).first(size_t(used_views_)),
+                      measured_, *baseline_, file_};
     const int done = rounds.run();
     notice(fmt::format("{} points, {} views, {} rounds", measured_.size(), used_views_, done));
     end_step("rounds");
   }
 
-  void complete() {
-    std::vector<std::string> keys;
-    for (const MeasuredPoint& m : measured_) {
-      for (const FrontierRecord& record : m.records) keys.push_back(record_key(record));
-    }
-    file_.complete(keys);
-    measured_.clear();
-  }
-
-  // Of a view's time, what it takes without FLIP and flicker: a low estimate.
+  // The share of a view's time that is left without FLIP and flicker: a low estimate.
   static constexpr double share_without_flip = 0.4;
 
   Renderer& renderer_;
@@ -257,6 +257,26 @@ class SceneSweep {
 };
 
 }  // namespace
+
+double load_average() {
+  double loads[1] = {0};
+  return getloadavg(loads, 1) == 1 ? loads[0] : 0;
+}
+
+FrontierMachine machine_of(const Renderer& renderer) {
+  FrontierMachine m;
+  const ClDeviceInfo& device = renderer.cl->info();
+  m.cl_device = device.name, m.cl_driver = device.platform + " " + device.driver;
+  m.gl_device = renderer.gl ? renderer.gl->renderer : "none";
+  m.gl_driver = renderer.gl ? renderer.gl->version : "none";
+  m.cpu = cpu_info("model name");
+  const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  m.governor = governor.empty() ? "unknown" : governor;
+  m.clock_mhz = std::atof(cpu_info("cpu MHz").c_str());
+  m.threads = device.compute_units;
+  m.load_at_start = m.load_at_end = load_average();
+  return m;
+}
 
 void measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file) {
   ChosenScene chosen = load_chosen_scene(choice);

@@ -33,4 +33,8 @@ struct FrontierJob {
 // record with the reason.
 void measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file);
 
+// The machine that a part is measured on.
+FrontierMachine machine_of(const Renderer& renderer);
+double load_average();  // of the last minute; 0: unknown
+
 }  // namespace lightgrid

@@ -5,85 +5,83 @@
 
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
-#include "frontier/statistics.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr double tie_alpha = 0.05;  // of the Mann-Whitney test
 
-using ViewRecords = std::vector<const FrontierRecord*>;
-
-// The mean, or the root mean square, of one figure over the views; NaN if one is NaN.
-template <typename Figure>
-double mean_over(const ViewRecords& views, const Figure& figure) {
+// One figure of several views, each NaN if one view's is.
+double mean_over(const std::vector<double>& figures) {
   double sum = 0;
-  for (const FrontierRecord* view : views) sum += figure(*view);
-  return sum / double(views.size());
+  for (const double figure : figures) sum += figure;
+  return sum / double(figures.size());
+}
+
+double rms_over(std::vector<double> figures) {
+  for (double& figure : figures) figure *= figure;
+  return std::sqrt(mean_over(figures));
+}
+
+double largest_over(const std::vector<double>& figures) {
+  double largest = 0;
+  for (const double figure : figures) {
+    const bool is_nan = std::isnan(figure) || std::isnan(largest);
+    largest = is_nan ? std::numeric_limits<double>::quiet_NaN() : std::max(largest, figure);
+  }
+  return largest;
 }
 
 template <typename Figure>
-double rms_over(const ViewRecords& views, const Figure& figure) {
-  return std::sqrt(mean_over(views, [&](const FrontierRecord& v) { return figure(v) * figure(v); }));
+std::vector<double> figures_of_views(const Group& views, const Figure& figure) {
+  std::vector<double> figures;
+  for (const FrontierRecord* view : views) figures.push_back(figure(*view));
+  return figures;
 }
 
-// Over the views that have it.
-template <typename Figure, typename Over>
-std::optional<double> over_present(const ViewRecords& views, const Figure& figure, const Over& over) {
-  ViewRecords present;
-  std::copy_if(views.begin(), views.end(), std::back_inserter(present),
-               [&](const FrontierRecord* view) { return figure(*view).has_value(); });
-  if (present.empty()) return {};
-  return over(present, [&](const FrontierRecord& view) { return *figure(view); });
+// The same of the views that have it.
+template <typename Figure>
+std::vector<double> present_figures(const Group& views, const Figure& figure) {
+  std::vector<double> figures;
+  for (const FrontierRecord* view : views) {
+    if (const std::optional<double> present = figure(*view)) figures.push_back(*present);
+  }
+  return figures;
 }
-
-double max_or_nan(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
-}
-
-constexpr auto mean_of_views = [](const ViewRecords& views, const auto& figure) {
-  return mean_over(views, figure);
-};
-constexpr auto rms_of_views = [](const ViewRecords& views, const auto& figure) {
-  return rms_over(views, figure);
-};
 
 // `of` gives a view's figures.
 template <typename Of>
-ImageError errors_over(const ViewRecords& views, const Of& of) {
+ImageError errors_over(const Group& views, const Of& of) {
   ImageError all;
   for (const ErrorMeasure& measure : frontier_error_measures()) {
-    const auto figure = [&](const FrontierRecord& v) { return of(v).*measure.value; };
-    double& joined = all.*measure.value;
-    if (measure.over_views == OverViews::root_mean_square) joined = rms_over(views, figure);
-    if (measure.over_views == OverViews::mean) joined = mean_over(views, figure);
-    if (measure.over_views != OverViews::largest) continue;
-    for (const FrontierRecord* view : views) joined = max_or_nan(joined, figure(*view));
+    const auto figures =
+        figures_of_views(views, [&](const FrontierRecord& v) { return of(v).*measure.value; });
+    all.*measure.value = measure.over_views == OverViews::largest ? largest_over(figures)
+                         : measure.over_views == OverViews::mean  ? mean_over(figures)
+                                                                  : rms_over(figures);
   }
-  all.flip_mean = over_present(
-      views, [&](const FrontierRecord& v) { return of(v).flip_mean; }, mean_of_views);
+  const auto flip = present_figures(views, [&](const FrontierRecord& v) { return of(v).flip_mean; });
+  if (!flip.empty()) all.flip_mean = mean_over(flip);
   return all;
 }
 
 // Over the views that have a sample.
-std::optional<SampledErrors> in_double_over(const ViewRecords& views) {
+std::optional<SampledErrors> in_double_over(const Group& views) {
   SampledErrors all;
-  ViewRecords sampled;
+  Group sampled;
   for (const FrontierRecord* view : views) {
     if (!view->errors.in_double) continue;
     sampled.push_back(view);
     all.pixels += view->errors.in_double->pixels;
   }
   if (sampled.empty()) return {};
-  all.picture = errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->picture; });
-  all.picture_in_float =
-      errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->picture_in_float; });
-  all.truth = errors_over(sampled, [](const FrontierRecord& v) { return v.errors.in_double->truth; });
+  for (const auto of : {&SampledErrors::picture, &SampledErrors::picture_in_float, &SampledErrors::truth})
+    all.*of = errors_over(sampled, [&](const FrontierRecord& v) { return (*v.errors.in_double).*of; });
   return all;
 }
 
 // For each run, the sum over views of `times`; as many runs as every view has.
-std::vector<double> sums_over(const ViewRecords& views, std::vector<double> FrontierRecord::*times) {
+std::vector<double> sums_over(const Group& views, std::vector<double> FrontierRecord::*times) {
   size_t runs = std::numeric_limits<size_t>::max();
   for (const FrontierRecord* view : views) {
     runs = std::min({runs, view->frame_ms.size(), view->baseline_ms.size()});
@@ -95,7 +93,7 @@ std::vector<double> sums_over(const ViewRecords& views, std::vector<double> Fron
   return sums;
 }
 
-PointFigures over_views(const ViewRecords& views) {
+PointFigures over_views(const Group& views) {
   PointFigures all;
   all.point = views.front()->point;
   all.views = int(views.size());
@@ -114,8 +112,8 @@ PointFigures over_views(const ViewRecords& views) {
   all.errors.in_double = in_double_over(views);
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
-    all.errors.*spread = over_present(
-        views, [&](const FrontierRecord& v) { return v.errors.*spread; }, rms_of_views);
+    const auto figures = present_figures(views, [&](const FrontierRecord& v) { return v.errors.*spread; });
+    if (!figures.empty()) all.errors.*spread = rms_over(figures);
   }
   uint64_t bytes_moved = 0, counted = 0;  // views that were profiled
   for (const FrontierRecord* view : views) {
@@ -153,22 +151,32 @@ std::string point_key(const FrontierPoint& point, std::span<const std::string> w
   return key + "\n" + std::to_string(point.frames);
 }
 
-std::vector<PointFigures> figures_of(Records records) {
-  std::vector<std::string> keys;  // in the order of first records
-  std::map<std::string, ViewRecords> views;
+Group accepted(Records records, const std::function<bool(const FrontierRecord&)>& test) {
+  Group accepted;
   for (const FrontierRecord& record : records) {
-    if (!record.series.empty()) continue;
-    const std::string key = point_key(record.point);
-    ViewRecords& of_point = views[key];
-    if (of_point.empty()) keys.push_back(key);
-    of_point.push_back(&record);
+    if (test(record)) accepted.push_back(&record);
   }
+  return accepted;
+}
+
+std::vector<Group> grouped(const Group& records,
+                           const std::function<std::string(const FrontierRecord&)>& key_of) {
+  std::map<std::string, size_t> indices;
+  std::vector<Group> groups;
+  for (const FrontierRecord* record : records) {
+    const auto [place, added] = indices.try_emplace(key_of(*record), groups.size());
+    if (added) groups.emplace_back();
+    groups[place->second].push_back(record);
+  }
+  return groups;
+}
+
+std::vector<PointFigures> figures_of(Records records) {
+  const Group of_front = accepted(records, [](const FrontierRecord& r) { return r.series.empty(); });
   std::vector<PointFigures> points;
-  for (const std::string& key : keys) {
-    const ViewRecords& of_point = views[key];
-    const bool ran =
-        std::all_of(of_point.begin(), of_point.end(), [](const auto* view) { return view->refused.empty(); });
-    if (ran) points.push_back(over_views(of_point));
+  for (const Group& views : grouped(of_front, [](const FrontierRecord& r) { return point_key(r.point); })) {
+    if (std::ranges::all_of(views, [](const FrontierRecord* view) { return view->refused.empty(); }))
+      points.push_back(over_views(views));
   }
   return points;
 }
@@ -207,11 +215,7 @@ std::vector<int> tied_and_no_worse(const std::vector<PointFigures>& points, int 
 }
 
 std::vector<BestWithin> best_within_of(const std::vector<PointFigures>& points) {
-  std::vector<std::string> scenes;
-  for (const PointFigures& p : points) {
-    if (std::find(scenes.begin(), scenes.end(), p.point.scene) == scenes.end())
-      scenes.push_back(p.point.scene);
-  }
+  const auto scenes = distinct(points, [](const PointFigures& p) { return p.point.scene; });
   std::vector<BestWithin> all;
   for (const std::string& scene : scenes) {
     for (const double error : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
+#include "base/timer.h"
+#include "cl/error.h"
+#include "results/metrics.h"
 #include "session/contestants.h"
 
 namespace lightgrid {
@@ -85,10 +89,8 @@ std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
 }
 
 int frames_of(const std::string& text) {
-  int frames = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), frames);
-  if (failure != std::errc() || end != text.data() + text.size() || frames < 1 || frames > 1024)
-    throw input_error("vary frames: {} is not a number from 1 to 1024", text);
+  const int frames = parse_number<int>(text).value_or(0);
+  if (frames < 1 || frames > 1024) throw input_error("vary frames: {} is not a number from 1 to 1024", text);
   return frames;
 }
 
@@ -156,8 +158,7 @@ std::string label_of(const Contestant& contestant, int frames) {
   const auto own = settings_of(*contestant.technique, contestant.settings), plain = to_strings(Settings{});
   std::string differing;
   for (const SettingHelp& help : setting_help()) {
-    std::string key = help.key;
-    std::ranges::replace(key, '-', '_');
+    const std::string key = json_key(help.key);
     const auto found = own.find(key);
     const bool given = contestant.settings.given.contains(help.key);
     if (found == own.end() || (found->second == plain.at(key) && !(given && key == "slices"))) continue;
@@ -165,6 +166,79 @@ std::string label_of(const Contestant& contestant, int frames) {
   }
   if (frames > 1) differing += fmt::format("{}frames={}", differing.empty() ? "" : ",", frames);
   return contestant.technique->name + (differing.empty() ? "" : ":" + differing);
+}
+
+FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
+  const Contestant& c = point.contestant;
+  return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
+}
+
+void PointRun::attempt(const std::function<void()>& work) {
+  if (!refused_.empty()) return;
+  if (const std::optional<Error> failure = failure_of(work)) refused_ = failure->what(), run_.reset();
+}
+
+PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,
+                   std::shared_ptr<TargetPool> pool)
+    : point_(point) {
+  attempt([&] {
+    run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, point.contestant.settings,
+                                          *point.contestant.technique, std::move(pool));
+  });
+}
+
+uint32_t PointRun::seed(int frame) const {
+  return point_.contestant.settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
+}
+
+void PointRun::go_to_frame(int number) {
+  frame_ = number;
+  if (point_.frames > 1 || !has_random_ranges()) return;
+  attempt([&] { run_->draw_ranges(seed(0)); });
+}
+
+void PointRun::look(const View& view) {
+  attempt([&] { run_->look(view); });
+}
+
+void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {
+  for (int frame = 0; frame < point_.frames; ++frame) {
+    if (point_.frames > 1) run_->draw_ranges(seed(frame));
+    run_->run_frame(true);
+    if (point_.frames > 1) add(run_->image());
+  }
+}
+
+double PointRun::draw() {
+  double ms = 0;
+  attempt([&] {
+    const Timer timer;
+    bool first = true;
+    draw_frames([&](const Image& image) {
+      if (std::exchange(first, false)) mean_ = Image(image.width, image.height);
+      const float weight = 1.0f / float(point_.frames);
+      for (size_t i = 0; i < mean_.pixels.size(); ++i) mean_.pixels[i] += image.pixels[i] * weight;
+    });
+    ms = timer.elapsed_ms();
+  });
+  return ms;
+}
+
+void PointRun::draw_for_errors() {
+  attempt([&] {
+    PictureMoments moments;
+    draw_frames([&](const Image& image) { moments.add(image); });
+    if (point_.frames == 1) return;
+    mean_ = moments.mean();
+    deviation_ = moments.deviation();
+  });
+}
+
+void PointRun::draw_first_frame() {
+  attempt([&] {
+    if (point_.frames > 1) run_->draw_ranges(seed(0));
+    run_->run_frame(true);
+  });
 }
 
 }  // namespace lightgrid

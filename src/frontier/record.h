@@ -1,6 +1,6 @@
-// What a frontier measures: one record for each point and view. Everything that the answer states (fronts,
-// ties, break-evens, growth, failures) is computed from records alone, so that parts measured by several
-// processes are joined by joining their records.
+// The measurements of a frontier: one record for each point and view. Everything that the answer states
+// (fronts, ties, break-evens, growth, failures) is computed from records alone, so that parts measured by
+// several processes are joined by joining their records.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ struct PointErrors {
   ImageError technique;  // the picture against brute force of the same meaning
   ImageError total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
-  // Of random ranges, over at least 16 seeds, relative like the others: root mean square over pixels of the
-  // mean's error and of the standard deviation of one frame.
+  // The noise of random ranges over at least 16 seeds, relative like the others: root mean square over pixels
+  // of the mean's error and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.
@@ -60,8 +60,8 @@ struct FrontierRecord {
   std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
   std::map<std::string, double> pass_ms;      // medians of profiled frames
-  // Of culling, one a round: entry i of points that differ in the cull test alone was taken in one round.
-  // Empty: no such point, or another view than the first.
+  // Times of culling, one a round: entry i of points that differ in the cull test alone was taken in one
+  // round. Empty: no such point, or another view than the first.
   std::vector<double> cull_ms;
   uint64_t bytes_moved = 0;  // sum of the passes' counted bytes, on the first view; otherwise 0
   uint64_t memory_bytes = 0;
@@ -74,7 +74,7 @@ struct FrontierRecord {
   int shard = 0;  // of the part that holds it, set by RecordFile and read_part: its times are of that machine
 };
 
-// What does not change between records of one process, and what a sceptic asks for.
+// The circumstances of all records of one process.
 struct FrontierMachine {
   std::string cl_device, gl_device, cl_driver, gl_driver;
   std::string cpu, governor;                  // governor: "unknown" where the system does not tell

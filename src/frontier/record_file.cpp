@@ -5,13 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_file.h"
 #include "base/write_file.h"
-#include "frontier/json_fields.h"
 
 namespace lightgrid {
 namespace {
@@ -38,55 +37,6 @@ void check_machine(const fs::path& path, const FrontierMachine& there, const Fro
   same("OpenGL driver", there.gl_driver, here.gl_driver);
   same("CPU", there.cpu, here.cpu);
   same("threads", std::to_string(there.threads), std::to_string(here.threads));
-}
-
-std::vector<fs::path> part_files(const fs::path& folder) {
-  std::error_code failure;
-  if (!fs::is_directory(folder, failure)) throw input_error("{}: no such folder", folder.string());
-  std::vector<fs::path> files;
-  fs::directory_iterator entries(folder, failure);
-  if (failure) throw input_error("{}: cannot be read: {}", folder.string(), failure.message());
-  for (const auto& entry : entries) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("records-") && name.ends_with(".jsonl")) files.push_back(entry.path());
-  }
-  if (files.empty())
-    throw input_error("{}: holds no part of a frontier (records-I-of-N.jsonl)", folder.string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-// Tells "WHAT of N shards: 0, 1, 2", at most ten of them.
-void tell_shards(const char* what, int of, const std::vector<int>& shards, const Notice& notice) {
-  constexpr size_t most = 10;
-  if (shards.empty()) return;
-  const size_t shown = std::min(shards.size(), most);
-  notice(fmt::format("{} of {} shards: {}{}", what, of,
-                     fmt::join(shards.begin(), shards.begin() + shown, ", "),
-                     shards.size() > most ? fmt::format(" and {} more", shards.size() - most) : ""));
-}
-
-// How many views a part measured depends on the time that its machine had.
-void tell_different_views(const std::vector<FrontierPart>& parts, const Notice& notice) {
-  std::map<std::string, std::map<int, int>> views;  // by scene: of each shard
-  for (const FrontierPart& part : parts) {
-    for (const FrontierRecord& r : part.records) {
-      int& count = views[r.point.scene][part.shard];
-      if (r.series.empty()) count = std::max(count, r.view + 1);
-    }
-  }
-  for (auto& [scene, counts] : views) {
-    std::erase_if(counts, [](const auto& of_shard) { return of_shard.second == 0; });
-    if (counts.empty()) continue;
-    const auto [least, most] =
-        std::ranges::minmax_element(counts, [](const auto& a, const auto& b) { return a.second < b.second; });
-    const auto first_of = [&](int count) {
-      return std::ranges::find(counts, count, &std::pair<const int, int>::second)->first;
-    };
-    if (least->second == most->second) continue;
-    notice(fmt::format("{}: {} views in shard {}, {} in shard {}: points of different views are compared",
-                       scene, least->second, least->first, most->second, first_of(most->second)));
-  }
 }
 
 }  // namespace
@@ -141,7 +91,7 @@ RecordFile::RecordFile(const fs::path& path, const FrontierPart& part, const Not
 
 RecordFile::~RecordFile() { close(file_); }
 
-// What is known then is what reading the line again would tell.
+// The line is taken as it would be read from the file.
 void RecordFile::add(const json& line) {
   const std::string text = line_text(line);
   write_text(text);
@@ -198,60 +148,6 @@ void RecordFile::write_text(const std::string& text) {
     }
     written += static_cast<size_t>(count);
   }
-}
-
-FrontierPart read_part(const fs::path& path, const Notice& notice) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) throw input_error("{}: no such file", path.string());
-  PartLines lines = read_part_lines(path, notice);
-  if (!lines.described) throw input_error("{}: not a part of a frontier", path.string());
-  return std::move(lines.part);
-}
-
-std::vector<FrontierPart> read_parts(const std::vector<fs::path>& folders, const Notice& notice) {
-  if (folders.empty()) throw input_error("no folder of parts is named");
-  std::map<int, std::pair<fs::path, FrontierPart>> by_shard;
-  for (const fs::path& folder : folders) {
-    for (const fs::path& file : part_files(folder)) {
-      FrontierPart part = read_part(file, notice);
-      if (!by_shard.empty()) {
-        const auto& [first_file, first] = by_shard.begin()->second;
-        check_same_sweep(file.string(), part, first, first_file.string());
-      }
-      const int shard = part.shard;
-      const auto [place, added] = by_shard.try_emplace(shard, file, std::move(part));
-      if (!added) {
-        throw input_error("{}: shard {} is there twice, also in {}", file.string(), shard,
-                          place->second.first.string());
-      }
-    }
-  }
-
-  std::vector<FrontierPart> parts;
-  std::vector<int> missing, unfinished;
-  const int shards = by_shard.begin()->second.second.shards;
-  for (int shard = 0; shard < shards; ++shard) {
-    const auto found = by_shard.find(shard);
-    if (found == by_shard.end()) {
-      missing.push_back(shard);
-      continue;
-    }
-    if (!found->second.second.finished) unfinished.push_back(shard);
-    parts.push_back(std::move(found->second.second));
-  }
-  if (!notice) return parts;
-  tell_shards("missing", shards, missing, notice);
-  tell_shards("not finished", shards, unfinished, notice);
-  tell_different_views(parts, notice);
-  return parts;
-}
-
-bool in_shard(size_t index, int shard, int shards) {
-  if (shards < 1 || shard < 0 || shard >= shards) {
-    throw input_error("shard {}/{}: there are no such parts; of N parts the first is 0/N and the last N-1/N",
-                      shard, shards);
-  }
-  return index % static_cast<size_t>(shards) == static_cast<size_t>(shard);
 }
 
 }  // namespace lightgrid

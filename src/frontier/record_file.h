@@ -35,7 +35,7 @@ FrontierPart part_of(const nlohmann::json& header);
 // "records-3-of-16.jsonl", for shard 3 of 16: parts of one sweep may share a folder.
 std::filesystem::path part_path(const std::filesystem::path& folder, int shard, int shards);
 
-// What the lines of a part say. Lines are read in order, both from the file and as they are written to it.
+// The content of a part's lines. Lines are read in order, both from the file and as they are written to it.
 struct PartLines {
   FrontierPart part;                           // its records: those that are complete
   bool described = false;                      // the first line was read
@@ -122,7 +122,7 @@ std::vector<FrontierPart> read_parts(const std::vector<std::filesystem::path>& f
 void check_same_sweep(const std::string& place, const FrontierPart& part, const FrontierPart& other,
                       const std::string& wanted);
 
-// Whether point `index` of the request is in shard `shard` of `shards`: every shards-th of them, so that each
+// True if point `index` of the request is in shard `shard` of `shards`: every shards-th of them, so that each
 // shard has all scenes' costs in like shares. Of points, not of views: times are summed over the views of a
 // point, and those of two machines cannot be. Throws Error(input) for less than one shard and for a shard
 // that is not there.

@@ -1,4 +1,4 @@
-#include "frontier/statistics.h"
+#include "frontier/answer_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ std::vector<double> without_nan(std::span<const double> samples) {
   return kept;
 }
 
-// Of Binomial(n, 1/2). By logarithms: 2^-n underflows from n = 1075 on.
+// The probability of k under Binomial(n, 1/2), by logarithms: 2^-n underflows from n = 1075 on.
 double binomial_probability(int n, int k) {
   return std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) -
                   n * std::numbers::ln2);

@@ -1,4 +1,5 @@
-// The figures of points on one view, all but their times: errors, FLIP, flicker, pairs, bytes.
+// The views of a scene on which a frontier measures, and the figures of points on one of them, all but their
+// times: errors, FLIP, flicker, pairs, bytes.
 #pragma once
 
 #include <array>
@@ -9,8 +10,6 @@
 #include "frontier/brute_force.h"
 #include "frontier/measure.h"
 #include "frontier/pictures.h"
-#include "frontier/point_run.h"
-#include "frontier/precision.h"
 
 namespace lightgrid {
 
@@ -59,7 +58,14 @@ class ViewFigures {
   uint64_t seed_;
 };
 
-// Whether a point's surfaces are those of the rasteriser in OpenCL.
+// `count` views along the camera path; without one, turned about the camera's place. In an order whose every
+// prefix is spread over the path.
+std::vector<View> frontier_views(const Scene& scene, const View& start, const SceneChoice& choice, int count);
+
+// Frames of a camera that turns from `start` by a quarter of a degree a frame.
+std::vector<View> slow_turn(const Scene& scene, const View& start, int frames);
+
+// True if a point's surfaces are those of the rasteriser in OpenCL.
 bool has_own_surfaces(const ChosenPoint& point);
 
 }  // namespace lightgrid

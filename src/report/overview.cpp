@@ -1,4 +1,4 @@
-#include "report/overview.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 
@@ -74,10 +74,6 @@ void sort_by_count(std::vector<Tally>& tallies) {
                    [](const Tally& a, const Tally& b) { return a.places.size() > b.places.size(); });
 }
 
-std::string row_name(const CompareReport& report, const RunResult& row) {
-  return row_names(report)[size_t(&row - report.rows.data())];
-}
-
 std::string winners_sentence(const std::vector<ReportView>& views, const std::vector<std::string>& names) {
   std::vector<Tally> tallies;
   for (size_t i = 0; i < views.size(); ++i) {
@@ -124,12 +120,7 @@ std::string faster_sentence(const std::vector<ReportView>& views, const std::vec
 
 // The fastest exact row of a technique; null if there is none.
 const RunResult* best_of(const CompareReport& report, const std::string& technique) {
-  const RunResult* best = nullptr;
-  for (const RunResult& row : report.rows) {
-    if (row.technique != technique || row.frame_ms.runs == 0 || !is_exact(row)) continue;
-    if (!best || row.frame_ms.median < best->frame_ms.median) best = &row;
-  }
-  return best;
+  return fastest(report, [&](const RunResult& row) { return row.technique == technique && is_exact(row); });
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/write_file.h"
-#include "report/overview.h"
-#include "report/report_page.h"
-#include "report/results_csv.h"
+#include "results/error_measures.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -46,13 +47,117 @@ ReportView finished_view(const fs::path& folder, const CompareReport& report, bo
   return view;
 }
 
+std::vector<CsvColumn> csv_columns() {
+  std::vector<CsvColumn> all;
+  add_columns(all, {"commit", "cl", "gl", "scene", "size"});
+  all.push_back({"lights", "/lights/total"});
+  all.push_back({"in_view", "/lights/in_view"});
+  add_columns(all, {"technique", "settings", "row", "refused"});
+  for (const char* key : {"min", "median", "max"})
+    all.push_back({std::string(key) + "_ms", std::string("/frame_ms/") + key});
+  add_columns(all, {"runs"}, "/frame_ms");
+  all.push_back({"memory", "/memory_bytes/total"});
+  add_columns(all, {"light_grid", "gbuffer"}, "/memory_bytes");
+  add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
+  for (const ErrorMeasure& measure : error_measures()) add_columns(all, {measure.key}, "/error");
+  add_columns(all, {"bit_identical"}, "/error");
+  add_columns(all, {"nan_pixels", "overflow"});
+  add_columns(all, {"max_rel", "rmse_rel", "of_reference_max_rel"}, "/error/oracle", "oracle_");
+  add_columns(all, {"reference_pixels"});
+  add_columns(all, {"pixels", "sum_rel", "max_rel", "rmse_rel", "p99_rel"}, "/error/surfaces", "surfaces_");
+  add_columns(all, {"reference", "bit_identical", "max_rel", "rmse_rel"}, "/same_surfaces", "same_surfaces_");
+  return all;
+}
+
+// A row as in results.json, with what is said of its view and its name.
+nlohmann::json csv_row(const CompareReport& report, const RunResult& row, const std::string& name) {
+  nlohmann::json fields = to_json(row);
+  fields.update({{"commit", report.commit},
+                 {"cl", report.cl_device},
+                 {"gl", report.gl_device},
+                 {"scene", report.scene},
+                 {"size", fmt::format("{}x{}", report.width, report.height)},
+                 {"settings", settings_field(row.settings)},
+                 {"row", name},
+                 {"reference_pixels", report.reference_pixels}});
+  if (!row.refused.empty()) fields["nan_pixels"] = fields["overflow"] = nullptr;
+  return fields;
+}
+
+// The settings of `row` that differ in another row of its technique: "tile=32,cull-test=aabb".
+std::string differing_settings(const std::vector<RunResult>& rows, const RunResult& row,
+                               const std::string& ignored) {
+  std::vector<std::string> differing;
+  for (const auto& setting : row.settings) {
+    if (setting.first == ignored) continue;
+    const bool differs = std::any_of(rows.begin(), rows.end(), [&](const RunResult& other) {
+      const auto found = other.settings.find(setting.first);
+      return other.technique == row.technique && (found == other.settings.end() || *found != setting);
+    });
+    if (differs) differing.push_back(spelled_setting(setting.first) + "=" + setting.second);
+  }
+  return fmt::format("{}", fmt::join(differing, ","));
+}
+
+// `names`, with -2, -3 and so on appended to repetitions.
+std::vector<std::string> made_distinct(std::vector<std::string> names) {
+  std::map<std::string, int> seen;
+  for (std::string& name : names) {
+    const int number = ++seen[name];
+    if (number > 1) name += fmt::format("-{}", number);
+  }
+  return names;
+}
+
 }  // namespace
 
+std::vector<std::string> row_names_without(const CompareReport& report, const std::string& key) {
+  std::vector<std::string> names;
+  for (const RunResult& row : report.rows) {
+    const std::string settings = differing_settings(report.rows, row, key);
+    names.push_back(settings.empty() ? row.technique : row.technique + ":" + settings);
+  }
+  return names;
+}
+
+std::vector<std::string> row_names(const CompareReport& report) {
+  return made_distinct(row_names_without(report, ""));
+}
+
+std::string row_name(const CompareReport& report, const RunResult& row) {
+  return row_names(report)[size_t(&row - report.rows.data())];
+}
+
+std::string file_stem(const std::string& name) {
+  std::string stem = name;
+  for (char& c : stem) {
+    const bool plain =
+        std::isalnum(static_cast<unsigned char>(c)) || std::string_view("._=+-").find(c) != std::string::npos;
+    if (!plain) c = '-';
+  }
+  return stem;
+}
+
+std::vector<std::string> file_stems(const std::vector<std::string>& names) {
+  std::vector<std::string> stems;
+  for (const std::string& name : names) stems.push_back(file_stem(name));
+  return made_distinct(std::move(stems));
+}
 
 nlohmann::json to_json(const std::vector<ReportView>& views) {
   nlohmann::json list = nlohmann::json::array();
   for (const ReportView& view : views) list.push_back(to_json(view.report));
   return {{"views", list}};
+}
+
+std::string results_csv(const std::vector<ReportView>& views) {
+  std::vector<nlohmann::json> rows;
+  for (const ReportView& view : views) {
+    const auto names = row_names(view.report);
+    for (size_t i = 0; i < names.size(); ++i)
+      rows.push_back(csv_row(view.report, view.report.rows[i], names[i]));
+  }
+  return csv_table(csv_columns(), rows);
 }
 
 void write_report(const fs::path& folder, const CompareReport& report) {

@@ -3,10 +3,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "results/results.h"
 #include "report/view_pictures.h"
+#include "results/results.h"
 
 namespace lightgrid {
 
@@ -43,7 +47,7 @@ class ViewsReport {
 
   const ReportView& add(CompareReport report);
   const std::vector<ReportView>& views() const { return views_; }
-  std::vector<std::string> sentences() const;  // statements over all views (overview.h)
+  std::vector<std::string> sentences() const;  // statements over all views (overview_sentences)
   std::string json_text() const;               // the text of results.json
   void write() const;                          // results.json, results.csv, index.html
 
@@ -59,6 +63,8 @@ nlohmann::json to_json(const std::vector<ReportView>& views);
 // A distinct name for each row: its technique and, if it has several rows, the settings in which they differ:
 // "forward_plus:tile=32". Rows that differ in none are NAME, NAME-2 and so on.
 std::vector<std::string> row_names(const CompareReport& report);
+
+std::string row_name(const CompareReport& report, const RunResult& row);  // one of the report's
 
 // The same without the setting `key` and without numbers: one name for the rows that differ in it alone.
 std::vector<std::string> row_names_without(const CompareReport& report, const std::string& key);
@@ -101,5 +107,31 @@ using RowTest = std::function<bool(const RunResult& row)>;
 const RunResult* fastest(const CompareReport& report, const RowTest& counts);
 const RunResult* fastest_exact(const CompareReport& report);
 const RunResult* fastest_lossy(const CompareReport& report);  // passes all gates but is not exact
+
+// The page of a comparison: one self-contained HTML file made of report/page/* and the figures. It loads
+// nothing from elsewhere. Embeds results.json unchanged in <script id="results">, so that both have the same
+// figures, and each distinct picture once. A single view is shown alone; several are shown one at a time,
+// below the statements over all.
+std::string report_page(const std::vector<ReportView>& views);
+
+// The rows of several views as one table: a heading, then a line a row and view (docs/results_json.md,
+// results.csv), with fields quoted as in RFC 4180. Unmeasured fields are empty.
+std::string results_csv(const std::vector<ReportView>& views);
+
+// Statements over all views, one sentence each: which technique is the fastest exact one in how many views
+// and where; which are faster but lossy, and where; which of forward_plus and clustered is faster in which
+// view, if both ran.
+std::vector<std::string> overview_sentences(const std::vector<ReportView>& views);
+
+// Which of the two is faster in which views; a technique counts by its fastest exact row. Empty if no view
+// has both. No clear difference: the median of the faster is not below every run of the other.
+std::string faster_where(const std::vector<ReportView>& views, const std::string& a, const std::string& b);
+
+// For pages of one file, this one and the frontier's.
+// Safe inside <script>: contains no "<", so no "</script>" either. JSON in, JSON of the same value out.
+std::string script_json(const std::string& text);
+
+// Replaces each {{name}} of the template, in order; inserted text is not scanned again.
+std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values);
 
 }  // namespace lightgrid

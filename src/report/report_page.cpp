@@ -1,14 +1,11 @@
-#include "report/report_page.h"
+#include "report/report.h"
 
-#include <map>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "base/embedded.h"
 #include "base/image.h"
+#include "base/text.h"
 #include "report/charts.h"
-#include "report/overview.h"
-#include "report/page_template.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
 #include "results/words.h"
@@ -135,10 +132,34 @@ json page_data(const std::vector<ReportView>& views) {
 
 }  // namespace
 
+std::string script_json(const std::string& text) {
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values) {
+  std::string text;
+  while (true) {
+    const size_t open = page.find("{{"), close = page.find("}}", open);
+    if (open == page.npos || close == page.npos) return text.append(page);
+    text.append(page.substr(0, open));
+    text.append(values.at(page.substr(open + 2, close - open - 2)));
+    page.remove_prefix(close + 2);
+  }
+}
+
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
-  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "plot.js", "charts.js",
-                           "matrix.js", "changes.js", "view.js", "report.js"}) {
+  for (const char* name :
+       {"elements.js", "slider.js", "bars.js", "table.js", "plot.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
   const json results =

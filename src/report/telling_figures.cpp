@@ -24,10 +24,6 @@ std::string failed_gates(const RunResult& row) {
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
-std::string name_of(const CompareReport& report, const RunResult& row) {
-  return row_names(report)[size_t(&row - report.rows.data())];
-}
-
 double pixels_with_surfaces(const CompareReport& report) {
   return report.covered_pixels ? double(report.covered_pixels) : double(report.width) * report.height;
 }
@@ -47,16 +43,16 @@ std::string time_figure(const CompareReport& report, const RunResult& row, const
   const Spread& time = row.frame_ms;
   const auto runs = time.runs > 1 ? fmt::format("median of {}", time.runs) : "one run";
   if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
-    return fmt::format("{} is {} times faster than {}: {} against {} a frame ({})", name_of(report, row),
+    return fmt::format("{} is {} times faster than {}: {} against {} a frame ({})", row_name(report, row),
                        short_number(reference->frame_ms.median / time.median), report.reference,
                        ms_in_words(row), ms_in_words(*reference), runs);
   }
-  return fmt::format("{} takes {} a frame ({})", name_of(report, row), ms_in_words(row), runs);
+  return fmt::format("{} takes {} a frame ({})", row_name(report, row), ms_in_words(row), runs);
 }
 
 std::string error_clause(const ImageError& error) {
-  return fmt::format("by RMSE {} and at most {} of the brightest channel", short_error(error.rmse_rel),
-                     short_error(error.max_rel));
+  return fmt::format("by RMSE {} and at most {} of the brightest channel", error_in_words(error.rmse_rel),
+                     error_in_words(error.max_rel));
 }
 
 // "its light is every light's on its own surfaces (visibility:lights=all), bit for bit".
@@ -99,8 +95,8 @@ std::string surfaces_figure(const CompareReport& report) {
   const auto& reference = report.reference_surfaces;
   if (!own || !reference || own->pixels == 0) return line;
   const double a = own->rmse_rel, b = reference->rmse_rel;
-  return line + fmt::format("; from surfaces in double they are RMSE {} off, {}'s {}{}", short_error(a),
-                            report.reference, short_error(b),
+  return line + fmt::format("; from surfaces in double they are RMSE {} off, {}'s {}{}", error_in_words(a),
+                            report.reference, error_in_words(b),
                             a < b   ? ": OpenCL's are nearer"
                             : b < a ? fmt::format(": {}'s are nearer", report.reference)
                                     : "");
@@ -139,7 +135,7 @@ std::string how_sure(const CompareReport& report, const RunResult& row, const Ro
   const RunResult* next =
       fastest(report, [&](const RunResult& other) { return &other != &row && counts(other); });
   if (!next) return words;
-  const std::string name = fmt::format("{} ({})", name_of(report, *next), ms_in_words(*next));
+  const std::string name = fmt::format("{} ({})", row_name(report, *next), ms_in_words(*next));
   if (time.max < next->frame_ms.min) return words + ": each faster than all of the next, " + name;
   if (time.median < next->frame_ms.min) return words + ": the median is below all frames of the next, " + name;
   return words + ": not surely faster than " + name;
@@ -147,7 +143,7 @@ std::string how_sure(const CompareReport& report, const RunResult& row, const Ro
 
 Choice fastest_choice(const CompareReport& report, const char* what, const RunResult& row,
                       const RowTest& counts) {
-  return {what, name_of(report, row), ms_in_words(row), "", how_sure(report, row, counts)};
+  return {what, row_name(report, row), ms_in_words(row), "", how_sure(report, row, counts)};
 }
 
 std::string visible_in_words(const RunResult& row) {
@@ -159,7 +155,7 @@ std::string visible_in_words(const RunResult& row) {
 
 // Quicker than the best, and why it does not count.
 std::string quicker_figure(const CompareReport& report, const RunResult& row) {
-  const std::string name = fmt::format("{} is quicker ({}) but ", name_of(report, row), ms_in_words(row));
+  const std::string name = fmt::format("{} is quicker ({}) but ", row_name(report, row), ms_in_words(row));
   const std::string light = light_clause(report, row);
   if (!passes_gates(row)) return name + "has " + failed_gates(row) + (light.empty() ? "" : "; " + light);
   const std::string visible = visible_in_words(row);
@@ -250,7 +246,7 @@ std::vector<std::string> telling_figures(const CompareReport& report) {
 std::string verdict(const CompareReport& report) {
   const RunResult *row = fastest_exact(report), *best = best_row(report), *reference = reference_row(report);
   if (!best) return "Nothing was timed.";
-  const std::string name = name_of(report, *best);
+  const std::string name = row_name(report, *best);
   if (!passes_gates(*best)) return fmt::format("No technique passes: {} has {}.", name, failed_gates(*best));
   if (!row)
     return fmt::format("No technique is exact: {} is the fastest that fails no gate, {} a frame; {}.", name,
@@ -261,7 +257,7 @@ std::string verdict(const CompareReport& report) {
     const RunResult* next =
         fastest(report, [&](const RunResult& other) { return &other != reference && is_exact(other); });
     return fmt::format("Nothing exact beats {}{}.", name,
-                       next ? fmt::format("; {} comes next at {}", name_of(report, *next), ms_in_words(*next))
+                       next ? fmt::format("; {} comes next at {}", row_name(report, *next), ms_in_words(*next))
                             : "");
   }
   const std::string why = why_faster(report, *row, *reference);
@@ -283,7 +279,9 @@ std::vector<Choice> choices(const CompareReport& report) {
         all.emplace_back(fastest_choice(report, "Fastest that nobody can tell apart", *alike, looks_exact));
     choice.why = alike == row ? "the same: nothing quicker looks like every light" : visible_in_words(*alike);
     if (alike->overflow) choice.why += "; it has " + failed_gates(*alike);
-    if (alike == row) choice.sure.clear();
+    const std::string rule = fmt::format("FLIP as displayed may be above {} at one pixel of {}", visible_flip,
+                                         with_commas(uint64_t(1 / most_visible)));
+    choice.sure = alike == row ? rule : rule + "; " + choice.sure;
   }
   const RunResult *least = nullptr, *next = nullptr;
   for (const RunResult& other : report.rows) {
@@ -292,11 +290,11 @@ std::vector<Choice> choices(const CompareReport& report) {
     else if (!next || other.memory_total < next->memory_total) next = &other;
   }
   if (least) {
-    Choice& choice = all.emplace_back(Choice{"Least memory, exact", name_of(report, *least),
+    Choice& choice = all.emplace_back(Choice{"Least memory, exact", row_name(report, *least),
                                              bytes_in_words(least->memory_total), "", ""});
     choice.why = fmt::format("{} a frame", ms_in_words(*least));
     if (next)
-      choice.why += fmt::format("; the next, {}, takes {}", name_of(report, *next),
+      choice.why += fmt::format("; the next, {}, takes {}", row_name(report, *next),
                                 bytes_in_words(next->memory_total));
     choice.sure = "counted by allocations";
   }

@@ -26,6 +26,38 @@ uint64_t count_inf_pixels(const Image& image);
 // The largest finite colour channel; at least 0.
 float brightest_channel(const Image& image);
 
+// The mean of pictures and how far they scatter, per channel.
+class PictureMoments {
+ public:
+  void add(const Image& image);
+  int count() const { return count_; }
+  Image mean() const;
+  // Root mean square, over pixels and channels, of one picture's standard deviation. At least two pictures.
+  double deviation() const;
+
+ private:
+  int count_ = 0, width_ = 0, height_ = 0;
+  std::vector<glm::dvec3> sum_, squares_;
+};
+
+// How much a picture's difference from the truth changes from frame to frame: flicker that the scene does not
+// have.
+class ChangeOfError {
+ public:
+  void add(const Image& image, const Image& truth);
+  // Root mean square over pixels, channels and all changes; 0 before the second frame.
+  double rmse() const;
+
+ private:
+  std::vector<glm::vec3> last_;
+  double squares_ = 0;
+  size_t channels_ = 0;
+};
+
+// The bias: the root mean square error of a mean of `count` random pictures, less the share of their scatter
+// in it. 0 where the error is no larger than that share.
+double bias_rmse(double rmse_of_mean, double deviation, int count);
+
 // |a - b| of the largest channel on a log scale: black is equal, then difference_ramp() from blue (1e-7 of
 // the reference's brightest channel and below) to red (1 and above); white is NaN in either. Linear RGB, to
 // be stored without a tone map (srgb_bytes_as_is).
@@ -43,5 +75,20 @@ Image heat_map(int width, int height, const std::vector<uint32_t>& counts, uint3
 using Ramp = std::vector<glm::u8vec3>;
 const Ramp& difference_ramp();
 const Ramp& viridis_ramp();  // Smith and van der Walt 2015
+
+// Pictures reduced for a page: blocks of factor × factor pixels become one; blocks at the upper and right
+// edges may be cut. The number of blocks along a side.
+inline int blocks_along(int side, int factor) { return (side + factor - 1) / factor; }
+
+// The mean of each block; NaN stays NaN.
+Image mean_of_blocks(const Image& image, int factor);
+
+// The largest count of each block.
+std::vector<uint32_t> largest_of_blocks(const std::vector<uint32_t>& counts, int width, int height,
+                                        int factor);
+
+// For each block the pixel of `picture` where `image` differs most from `reference`; NaN counts as the
+// largest difference.
+Image worst_of_blocks(const Image& picture, const Image& image, const Image& reference, int factor);
 
 }  // namespace lightgrid

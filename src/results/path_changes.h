@@ -1,5 +1,5 @@
-// Where the plans of a report's techniques change along a camera path: each change once, however many of
-// them have it.
+// The places on a camera path where the plans of a report's techniques change: each change is listed once,
+// however many of them have it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_file.h"
 #include "base/text.h"
 #include "plan/settings.h"
 #include "results/error_measures.h"
@@ -13,9 +14,6 @@ namespace lightgrid {
 namespace {
 
 using nlohmann::json;
-
-// JSON has neither infinity nor NaN.
-json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 json value_of(const std::string& setting) {
   if (setting == "true" || setting == "false") return setting == "true";
@@ -27,10 +25,10 @@ json value_of(const std::string& setting) {
 json to_json(const std::optional<SurfacesError>& error) {
   if (!error) return {};
   return {{"pixels", error->pixels},
-          {"sum_rel", finite_or_null(error->sum_rel)},
-          {"max_rel", finite_or_null(error->max_rel)},
-          {"rmse_rel", finite_or_null(error->rmse_rel)},
-          {"p99_rel", finite_or_null(error->p99_rel)}};
+          {"sum_rel", finite_number(error->sum_rel)},
+          {"max_rel", finite_number(error->max_rel)},
+          {"rmse_rel", finite_number(error->rmse_rel)},
+          {"p99_rel", finite_number(error->p99_rel)}};
 }
 
 json to_json(const std::optional<DisplayedFlip>& flip) {
@@ -41,7 +39,7 @@ json to_json(const std::optional<DisplayedFlip>& flip) {
 json measures_json(const ImageError& error) {
   json values = {{"bit_identical", error.bit_identical}, {"displayed_flip", to_json(error.displayed)}};
   for (const ErrorMeasure& measure : error_measures())
-    values[measure.key] = finite_or_null(error.*measure.value);
+    values[measure.key] = finite_number(error.*measure.value);
   return values;
 }
 
@@ -56,9 +54,9 @@ json same_surfaces_json(const RunResult& row) {
 json to_json(const ImageError& error) {
   json oracle;
   if (error.oracle) {
-    oracle = {{"max_rel", finite_or_null(error.oracle->max_rel)},
-              {"rmse_rel", finite_or_null(error.oracle->rmse_rel)},
-              {"of_reference_max_rel", finite_or_null(error.oracle->of_reference_max_rel)}};
+    oracle = {{"max_rel", finite_number(error.oracle->max_rel)},
+              {"rmse_rel", finite_number(error.oracle->rmse_rel)},
+              {"of_reference_max_rel", finite_number(error.oracle->of_reference_max_rel)}};
   }
   json silhouettes, inside;
   if (const auto& apart = error.silhouettes) {
@@ -66,12 +64,12 @@ json to_json(const ImageError& error) {
     silhouettes = {{"pixels", apart->silhouettes},
                    {"share", pixels > 0 ? double(apart->silhouettes) / pixels : 0}};
     inside = {{"pixels", apart->inside},
-              {"max_rel", finite_or_null(apart->max_rel)},
-              {"rmse_rel", finite_or_null(apart->rmse_rel)},
-              {"p99_rel", finite_or_null(apart->p99_rel)}};
+              {"max_rel", finite_number(apart->max_rel)},
+              {"rmse_rel", finite_number(apart->rmse_rel)},
+              {"p99_rel", finite_number(apart->p99_rel)}};
   }
   json values = measures_json(error);
-  values.update({{"flip_mean", error.flip_mean ? finite_or_null(*error.flip_mean) : json()},
+  values.update({{"flip_mean", error.flip_mean ? finite_number(*error.flip_mean) : json()},
                  {"oracle", oracle},
                  {"silhouettes", silhouettes},
                  {"inside", inside},
@@ -92,9 +90,9 @@ json to_json(const PairCounts& pairs) {
 
 json to_json(const Spread& times) {
   const bool timed = times.runs > 0;
-  return {{"min", timed ? finite_or_null(times.min) : json()},
-          {"median", timed ? finite_or_null(times.median) : json()},
-          {"max", timed ? finite_or_null(times.max) : json()},
+  return {{"min", timed ? finite_number(times.min) : json()},
+          {"median", timed ? finite_number(times.median) : json()},
+          {"max", timed ? finite_number(times.max) : json()},
           {"runs", times.runs}};
 }
 
@@ -108,11 +106,11 @@ json memory_json(const RunResult& result) {
 json to_json(const PassResult& pass) {
   json kernels = json::array();
   for (const KernelResult& kernel : pass.kernels) {
-    kernels.push_back({{"name", kernel.name}, {"median_ms", finite_or_null(kernel.median_ms)}});
+    kernels.push_back({{"name", kernel.name}, {"median_ms", finite_number(kernel.median_ms)}});
   }
   return {{"name", pass.name},
           {"on", pass.on},
-          {"median_ms", finite_or_null(pass.median_ms)},
+          {"median_ms", finite_number(pass.median_ms)},
           {"bytes_read", pass.bytes_read},
           {"bytes_written", pass.bytes_written},
           {"kernels", std::move(kernels)}};
@@ -125,11 +123,11 @@ json to_json(const MovingResult& m) {
       {"resting_ms", to_json(m.resting_ms)},
       {"over_resting", to_json(m.over_resting)},
       {"error",
-       {{"max_abs", finite_or_null(m.max_abs)},
-        {"max_rel", finite_or_null(m.max_rel)},
-        {"rmse_rel", finite_or_null(m.rmse_rel)}}},
+       {{"max_abs", finite_number(m.max_abs)},
+        {"max_rel", finite_number(m.max_rel)},
+        {"rmse_rel", finite_number(m.rmse_rel)}}},
       {"temporal",
-       {{"max_rel", finite_or_null(m.temporal_max_rel)}, {"rmse_rel", finite_or_null(m.temporal_rmse_rel)}}},
+       {{"max_rel", finite_number(m.temporal_max_rel)}, {"rmse_rel", finite_number(m.temporal_rmse_rel)}}},
       {"pairs", to_json(m.pairs)},
       {"nan_pixels", m.nan_pixels},
       {"gl_programs_compiled", m.gl_programs},
@@ -152,7 +150,7 @@ json settings_json(const std::map<std::string, std::string>& settings) {
   return out;
 }
 
-// Of a pass whose result serves many frames: the frame's median, which is without it, with its share.
+// A pass whose result serves many frames is not in the frame's median; its share is added here.
 static json build_json(const PassResult& pass, double frame_ms, std::optional<double> world_cell) {
   const auto shared = [&](int frames) { return frame_ms + pass.median_ms / frames; };
   return {{"pass", pass.name},
@@ -236,7 +234,7 @@ json to_json(const CompareReport& report) {
               {"reference",
                {{"technique", report.reference},
                 {"pixels", report.reference_pixels},
-                {"brightest", finite_or_null(report.brightest)},
+                {"brightest", finite_number(report.brightest)},
                 {"surfaces", to_json(report.reference_surfaces)}}},
               {"reference_errors", reference_errors},
               {"own_surfaces", to_json(report.own_surfaces)},

@@ -40,8 +40,8 @@ struct OracleError {
   double of_reference_max_rel = 0;
 };
 
-// Of a technique that rasterises by its own code: the pixels whose opaque triangle is not the one that OpenGL
-// shows, and the difference at the others, relative to the reference's brightest channel.
+// A technique that rasterises by its own code shows another opaque triangle than OpenGL at some pixels. The
+// difference is measured at the others, relative to the reference's brightest channel.
 struct SilhouetteError {
   uint64_t silhouettes = 0;
   uint64_t blended = 0;  // further pixels that are not compared: a blended surface covers them or a neighbour
@@ -102,7 +102,7 @@ struct MovingResult {
   std::vector<PlanChange> plan_changes;  // by frame
 };
 
-// Of the whole process, along a camera path.
+// The whole process's memory along a camera path.
 struct PathMemory {
   size_t frames = 0;  // after which `bytes` were resident: 100, or half of a short path
   size_t bytes = 0, bytes_at_end = 0;

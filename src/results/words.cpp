@@ -3,10 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
 namespace lightgrid {
+namespace {
+
+std::string csv_field(const nlohmann::json& value) {
+  if (value.is_null()) return "";
+  if (value.is_number_float()) {
+    const double number = value.get<double>();
+    return std::isfinite(number) ? fmt::format("{}", number) : "";
+  }
+  if (!value.is_string()) return value.dump();
+  const std::string& field = value.get_ref<const std::string&>();
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string quoted = "\"";
+  for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
 
 std::string with_commas(uint64_t value) {
   auto text = std::to_string(value);
@@ -19,7 +37,7 @@ std::string short_number(double value) {
   return value >= 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
 }
 
-std::string short_error(double value) {
+std::string error_in_words(double value) {
   if (!std::isfinite(value)) return "not finite";
   if (value == 0) return "0";
   std::string text = fmt::format("{:.1e}", value);  // "6.2e-03"
@@ -52,21 +70,31 @@ std::string view_in_words(const CompareReport& report) {
                      with_commas(lights), lights == 1 ? "" : "s");
 }
 
-namespace {
-
-std::string quoted_field(const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-  std::string text = "\"";
-  for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
+std::string settings_field(const std::map<std::string, std::string>& settings) {
+  std::string field;
+  for (const auto& [key, value] : settings) field += (field.empty() ? "" : " ") + key + "=" + value;
+  return field;
 }
 
-}  // namespace
+void add_columns(std::vector<CsvColumn>& columns, std::initializer_list<const char*> keys,
+                 const std::string& within, const std::string& prefix) {
+  for (const char* key : keys) columns.push_back({prefix + key, within + "/" + key});
+}
 
-std::string csv_line(const std::vector<std::string>& fields) {
-  std::string line;
-  for (size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + quoted_field(fields[i]);
-  return line + "\n";
+std::string csv_table(const std::vector<CsvColumn>& columns, const std::vector<nlohmann::json>& rows) {
+  std::string text;
+  for (const CsvColumn& column : columns) text += (text.empty() ? "" : ",") + csv_field(column.name);
+  text += "\n";
+  for (const nlohmann::json& row : rows) {
+    const char* separator = "";
+    for (const CsvColumn& column : columns) {
+      const nlohmann::json::json_pointer at(column.pointer);
+      text += separator + (row.contains(at) ? csv_field(row[at]) : "");
+      separator = ",";
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace lightgrid

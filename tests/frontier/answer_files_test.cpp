@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "frontier/answer_files.h"
+#include "frontier/answer.h"
 #include "frontier/some_records.h"
 #include "support/csv_table.h"
 #include "support/read_files.h"

@@ -1,10 +1,9 @@
-#include "frontier/gate.h"
+#include "frontier/answer.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
-#include "frontier/answer_files.h"
 #include "frontier/faults.h"
 #include "frontier/some_records.h"
 #include "support/temp_folder.h"

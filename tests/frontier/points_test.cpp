@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "frontier/scene_views.h"
+#include "frontier/view_figures.h"
 #include "scene/builtin.h"
 
 namespace lightgrid {

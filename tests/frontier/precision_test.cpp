@@ -1,4 +1,4 @@
-#include "frontier/precision.h"
+#include "frontier/brute_force.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "frontier/answer_files.h"
+#include "frontier/answer.h"
 #include "frontier/some_records.h"
 #include "support/paths.h"
 #include "support/run_command.h"

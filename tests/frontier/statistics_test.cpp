@@ -1,4 +1,4 @@
-#include "frontier/statistics.h"
+#include "frontier/answer_steps.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "report/overview.h"
+#include "report/report.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "report/results_csv.h"
+#include "report/report.h"
 
 #include <gmock/gmock.h>
 

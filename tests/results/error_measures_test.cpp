@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/results_csv.h"
+#include "report/report.h"
 #include "results/metrics.h"
 
 namespace lightgrid {

@@ -1,4 +1,4 @@
-#include "results/reduce.h"
+#include "results/metrics.h"
 
 #include <gmock/gmock.h>
 

@@ -33,7 +33,7 @@ function shortCount(value) {
 }
 
 const milliseconds = (value) => `${shortNumber(value)} ms`;
-const errorNumber = (value) => (value === 0 ? "0" : value.toExponential(1));
+const errorNumber = (value) => (value === 0 ? "0" : value.toExponential(1).replace("+", ""));
 
 function byteNumber(value) {
   for (const unit of ["B", "KiB", "MiB"]) {

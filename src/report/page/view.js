@@ -19,16 +19,29 @@ const brightestInWords = ({ results: { reference } }) => `the brightest channel 
 const DIFFERENCE_NOTE = "Difference: black is equal, blue 1e-7 to red 1 of the reference's brightest channel, white NaN.";
 const heatNote = (view) => `Lights: black is none, violet few, yellow ${wholeNumber(view.page.heat_top)} and more.`;
 
+// A color of a difference or of a heat map as the number that it stands for.
+function differenceValue(color) {
+  if (color.every((c) => c === 0)) return "equal";
+  if (color.every((c) => c === 255)) return "NaN";
+  const share = shareOnRamp(page.difference_legend, color);
+  return share === null ? "" : `${share === 0 ? "at most " : ""}${errorNumber(10 ** (7 * share - 7))}`;
+}
+const heatValue = (top) => (color) => {
+  const share = color.every((c) => c === 0) ? 0 : shareOnRamp(page.heat_legend, color);
+  return share === null ? "" : share === 1 ? `${wholeNumber(top)} or more` : `about ${wholeNumber(Math.round(share * top))}`;
+};
+
 function showPictures(view) {
   const { rows, lit, reference, reduced, folder } = view.page;
-  const choicesOf = (pick, suffix, note) =>
-    rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note }));
-  const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view) }] : [];
+  const lights = heatValue(view.page.heat_top);
+  const choicesOf = (pick, suffix, note, value) =>
+    rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note, value, reduced }));
+  const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view), value: lights, reduced }] : [];
   const name = referenceOf(view) ? nameOf(view, referenceOf(view)) : view.results.reference.technique;
   const groups = [
-    { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference) }]), ...choicesOf((row) => row.image, "")] },
-    { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },
-    { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote(view)), ...litChoices] },
+    { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference), reduced }]), ...choicesOf((row) => row.image, "")] },
+    { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE, differenceValue) },
+    { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote(view), lights), ...litChoices] },
   ].filter((group) => group.choices.length > 0);
   const fastest = rows.find((row) => row.winner && row.name !== name) ?? rows.find((row) => row.name !== name && row.image !== null);
   showSlider(groups, name, fastest?.name ?? "");
@@ -53,7 +66,6 @@ const columnsOf = (view) => [
   { title: "Off the oracle, largest", value: (row) => (hasOwnSurfaces(view, row) ? null : row.error?.oracle?.max_rel ?? null), text: errorNumber },
   { title: "Off double surfaces, RMSE", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
   { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
-  { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },
   { title: "Light grid", value: (row) => row.memory_bytes.light_grid, text: byteNumber },
   { title: "G-buffer", value: (row) => row.memory_bytes.gbuffer, text: byteNumber },
   { title: "Memory, all", value: (row) => row.memory_bytes.total, text: byteNumber },
@@ -159,6 +171,47 @@ function showSkipped(view) {
   byId("skipped").replaceChildren(...(all.length > 0 ? all : [make("li", {}, "Nothing was left out.")]));
 }
 
+// Where the plan changed along the camera's path.
+const MOST_CHANGES_SHOWN = 20;
+
+// Changes of one frame with one reason are one line: [{ frame, effects, to, why, rows }].
+function linesOfChanges(changes) {
+  const lines = new Map();
+  for (const { frame, effect, to, why, rows } of changes) {
+    const key = JSON.stringify([frame, to, why, rows]);
+    if (!lines.has(key)) lines.set(key, { frame, effects: [], to, why, rows });
+    lines.get(key).effects.push(effect);
+  }
+  return [...lines.values()];
+}
+
+function tableOfChanges(view, lines) {
+  const cells = ({ frame, effects, to, why, rows }) => [
+    wholeNumber(frame),
+    effects.join(", ") + (rows ? ` (${rows.map((row) => view.page.rows[row].name).join(", ")})` : ""),
+    `${to === "on" ? "off" : "on"} \u2192 ${to}`,
+    why,
+  ];
+  const line = (tag, texts) => make("tr", {}, ...texts.map((text) => make(tag, {}, text)));
+  return make("div", { class: "scrolls" }, make("table", { class: "changes" },
+    make("thead", {}, line("th", ["Frame", "Effects", "Plan", "Why"])),
+    make("tbody", {}, ...lines.map((change) => line("td", cells(change))))));
+}
+
+function showPlanChanges(view) {
+  const part = byId("plan-changes"), moving = view.results.moving;
+  part.hidden = !moving;
+  part.replaceChildren();
+  if (!moving) return;
+  part.append(make("h3", {}, "Changed along the path"));
+  const lines = linesOfChanges(moving.plan_changes);
+  const shown = lines.slice(0, MOST_CHANGES_SHOWN), rest = lines.slice(MOST_CHANGES_SHOWN);
+  part.append(lines.length > 0 ? tableOfChanges(view, shown) : make("p", {}, "All frames have one plan."));
+  if (rest.length === 0) return;
+  const summary = make("summary", {}, `${wholeNumber(rest.length)} more`);
+  part.append(make("details", {}, summary, tableOfChanges(view, rest)));
+}
+
 // Returns the functions that redraw when the width changes.
 function showView(view) {
   byId("view-title").textContent = view.page.title;
@@ -171,6 +224,7 @@ function showView(view) {
   for (const element of document.querySelectorAll(".brightest")) element.textContent = brightestInWords(view);
   showPictures(view);
   showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : ""));
+  byId("figures-copy").replaceChildren(...copyButtons(() => byId("figures-table")));
   showErrors(view);
   byId("techniques").replaceChildren(...ranRows(view).map((row) => techniqueCard(view, row)));
   showSkipped(view);
@@ -178,8 +232,8 @@ function showView(view) {
   byId("settings-part").hidden = view.page.charts.length === 0;
   const rows = ranRows(view);
   return [
-    showBars(byId("time-bars"), byId("pass-legend"), rows.map((row) => timeBar(nameOf(view, row), row)), "the rest of the frame", milliseconds, byId("own-scale")),
-    showBars(byId("memory-bars"), byId("memory-legend"), rows.map((row) => memoryBar(nameOf(view, row), row)), "scene, images, lights", byteNumber, null),
+    showBars(byId("time-bars"), byId("pass-legend"), rows.map((row) => timeBar(nameOf(view, row), row)), "the rest of the frame", stageOf, milliseconds, byId("own-scale")),
+    showBars(byId("memory-bars"), byId("memory-legend"), rows.map((row) => memoryBar(nameOf(view, row), row)), "scene, images, lights", (name, names) => ({ name, color: colorNumber(names.indexOf(name)) }), byteNumber, null),
     showCharts(byId("settings-charts"), view.page.charts),
   ];
 }

@@ -1,11 +1,12 @@
-// What a tighter cull test must save, and what it saves: docs/frontier.md#break-even.
+// What a tighter cull test must save, and what it saves (docs/frontier.md#break-even); and how frame time
+// grows.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "base/timer.h"
 #include "frontier/answer_steps.h"
-#include "frontier/statistics.h"
 
 namespace lightgrid {
 namespace {
@@ -15,23 +16,36 @@ constexpr const char* shading_passes[] = {"shade_forward", "shade_tiles",       
                                           "shade_objects", "shade_light_volumes", "fill_light_buffer"};
 const std::vector<std::string> bounds_and_test = {"cull_test", "depth_bounds"};
 
-bool has_cull_time(const FrontierRecord& r) {
-  return r.series.empty() && r.refused.empty() && r.pass_ms.contains(cull_pass) &&
-         r.point.settings.contains("cull_test");
-}
-
 // Passes are profiled on the first view of a point; pairs are taken from the same one.
-std::vector<const FrontierRecord*> profiled(Records records) {
-  std::vector<const FrontierRecord*> first;
-  std::set<std::string> keys;
-  for (const FrontierRecord& r : records) {
-    if (has_cull_time(r) && keys.insert(point_key(r.point)).second) first.push_back(&r);
-  }
+Group profiled(Records records) {
+  Group first;
+  for (const Group& views :
+       grouped(accepted(records, has_cull_time), [](const FrontierRecord& r) { return point_key(r.point); }))
+    first.push_back(views.front());
   return first;
 }
 
-// Of culling, `a` over `b`: the differences of the rounds in which one process measured both; otherwise that
-// of the medians.
+std::string key_on_view(const FrontierRecord& r, const std::vector<std::string>& without) {
+  return point_key(r.point, without) + "\n" + std::to_string(r.view);
+}
+
+// The time of all passes that shade; none if there is no such pass.
+std::optional<double> shading_ms(const FrontierRecord& r) {
+  std::optional<double> ms;
+  for (const char* pass : shading_passes) {
+    const auto found = r.pass_ms.find(pass);
+    if (found != r.pass_ms.end()) ms = ms.value_or(0) + found->second;
+  }
+  return ms;
+}
+
+std::string brdf_of(const FrontierRecord& r) {
+  const auto brdf = r.point.settings.find("brdf");
+  return brdf == r.point.settings.end() ? "" : brdf->second;
+}
+
+// How much longer `a` culls than `b`: the differences of the rounds in which one process measured both;
+// otherwise the difference of the medians.
 MedianInterval extra_ms_of(const FrontierRecord& a, const FrontierRecord& b) {
   std::vector<double> differences;
   const size_t rounds = a.shard == b.shard ? std::min(a.cull_ms.size(), b.cull_ms.size()) : 0;
@@ -83,19 +97,23 @@ struct Deviations {
   }
 };
 
+double place_in_series(const FrontierRecord& r) {
+  if (r.series == "lights") return r.lights;
+  if (r.series == "pixels") return double(r.width) * r.height;
+  return r.radius_scale;
+}
+
 }  // namespace
 
+bool has_cull_time(const FrontierRecord& r) {
+  return r.series.empty() && r.refused.empty() && r.pass_ms.contains(cull_pass) &&
+         r.point.settings.contains("cull_test");
+}
+
 std::vector<BreakEven> break_evens_of(Records records) {
-  std::vector<std::string> keys;
-  std::map<std::string, std::vector<const FrontierRecord*>> groups;  // that differ in the cull test alone
-  for (const FrontierRecord* r : profiled(records)) {
-    const std::string key = point_key(r->point, cull_test_alone) + "\n" + std::to_string(r->view);
-    if (!groups.contains(key)) keys.push_back(key);
-    groups[key].push_back(r);
-  }
   std::vector<BreakEven> all;
-  for (const std::string& key : keys) {
-    const auto& group = groups[key];
+  for (const Group& group :
+       grouped(profiled(records), [](const FrontierRecord& r) { return key_on_view(r, cull_test_alone); })) {
     for (size_t a = 0; a < group.size(); ++a) {
       for (size_t b = a + 1; b < group.size(); ++b) all.push_back(break_even_of(*group[a], *group[b]));
     }
@@ -106,49 +124,55 @@ std::vector<BreakEven> break_evens_of(Records records) {
 // One slope through groups of samples that each have an intercept of their own: all that differs between the
 // samples of a group is the cull test and the depth bounds.
 std::vector<ShadingCost> shading_costs_of(Records records) {
+  Group shaded = profiled(records);
+  std::erase_if(shaded, [](const FrontierRecord* r) { return !shading_ms(*r); });
   std::vector<ShadingCost> costs;
-  std::vector<std::map<std::string, std::vector<PairsAndMs>>> groups;  // of each cost
-  for (const FrontierRecord* record : profiled(records)) {
-    const FrontierRecord& r = *record;
-    double ms = 0;
-    bool shades = false;
-    for (const char* pass : shading_passes) {
-      const auto found = r.pass_ms.find(pass);
-      if (found == r.pass_ms.end()) continue;
-      ms += found->second;
-      shades = true;
-    }
-    if (!shades) continue;
-    const auto brdf = r.point.settings.find("brdf");
-    const ShadingCost cost{r.point.scene, r.point.technique,
-                           brdf == r.point.settings.end() ? "" : brdf->second};
-    size_t index = 0;
-    while (index < costs.size() &&
-           (costs[index].scene != cost.scene || costs[index].technique != cost.technique ||
-            costs[index].brdf != cost.brdf)) {
-      ++index;
-    }
-    if (index == costs.size()) costs.push_back(cost), groups.emplace_back();
-    const std::string group = point_key(r.point, bounds_and_test) + "\n" + std::to_string(r.view);
-    groups[index][group].push_back({double(r.pairs.listed), ms});
-  }
-  std::vector<ShadingCost> measured;
-  for (size_t i = 0; i < costs.size(); ++i) {
+  for (const Group& group : grouped(shaded, [](const FrontierRecord& r) {
+         return r.point.scene + "\n" + r.point.technique + "\n" + brdf_of(r);
+       })) {
+    std::map<std::string, std::vector<PairsAndMs>> samples;
+    for (const FrontierRecord* r : group)
+      samples[key_on_view(*r, bounds_and_test)].push_back({double(r->pairs.listed), *shading_ms(*r)});
     Deviations of;
-    for (const auto& [group, samples] : groups[i]) of.add(samples);
-    if (of.pairs_squared == 0 || !(of.pairs_ms > 0))
-      continue;  // nothing varied, or noise outweighs the lists
+    for (const auto& [key, of_group] : samples) of.add(of_group);
+    // Nothing varied, or noise outweighs the lists.
+    if (of.pairs_squared == 0 || !(of.pairs_ms > 0)) continue;
     const double slope = of.pairs_ms / of.pairs_squared;
     const double residuals = std::max(of.ms_squared - slope * of.pairs_ms, 0.0);
     const double half = of.degrees_of_freedom < 1
                             ? std::numeric_limits<double>::infinity()
                             : student_t_quantile(0.975, of.degrees_of_freedom) *
                                   std::sqrt(residuals / of.degrees_of_freedom / of.pairs_squared);
-    costs[i].ns_per_pixel_light = ns_per_ms * slope;
-    costs[i].low = ns_per_ms * (slope - half), costs[i].high = ns_per_ms * (slope + half);
-    measured.push_back(costs[i]);
+    const FrontierRecord& first = *group.front();
+    costs.push_back({first.point.scene, first.point.technique, brdf_of(first), ns_per_ms * slope,
+                     ns_per_ms * (slope - half), ns_per_ms * (slope + half)});
   }
-  return measured;
+  return costs;
+}
+
+std::vector<Growth> growth_of(Records records) {
+  const Group timed = accepted(records, [](const FrontierRecord& r) {
+    return !r.series.empty() && r.refused.empty() && !r.frame_ms.empty();
+  });
+  std::vector<Growth> curves;
+  for (const Group& group : grouped(timed, [](const FrontierRecord& r) {
+         return r.point.scene + "\n" + r.point.label + "\n" + r.series;
+       })) {
+    std::map<double, std::vector<double>> medians;  // by x, one a view
+    for (const FrontierRecord* r : group)
+      medians[place_in_series(*r)].push_back(spread_of(r->frame_ms).median);
+    if (medians.size() < 2) continue;
+    const FrontierRecord& first = *group.front();
+    Growth& curve = curves.emplace_back(Growth{first.point.scene, first.point.label, first.series});
+    for (const auto& [x, of_views] : medians) {
+      double sum = 0;
+      for (const double ms : of_views) sum += ms;
+      curve.samples.emplace_back(x, sum / double(of_views.size()));
+    }
+    const PowerLaw law = power_law(curve.samples);
+    curve.exponent = law.exponent, curve.low = law.low, curve.high = law.high;
+  }
+  return curves;
 }
 
 }  // namespace lightgrid

@@ -1,18 +1,20 @@
-// The lines of a part: docs/frontier_json.md#lines.
+// Parts as they are read: their lines (docs/frontier_json.md#lines), and all parts of a sweep.
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "frontier/json_fields.h"
+#include "base/json_file.h"
 #include "frontier/record_file.h"
 
 namespace lightgrid {
 namespace {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 constexpr size_t max_line_bytes = size_t(64) << 20;  // a thousand views of a thousand runs take 40 million
-constexpr int max_depth = 8;
+constexpr int max_depth = 8;                         // of a line
 constexpr char first_key[] = "lightgrid_frontier";
 
 std::string first_text() { return fmt::format("{{\"{}\":1,", first_key); }
@@ -31,15 +33,49 @@ LineEnd read_line(std::istream& stream, std::string& line) {
   return LineEnd::file;
 }
 
-json parsed(const std::string& line) {
-  const auto shallow = [](int depth, json::parse_event_t, json&) {
-    if (depth > max_depth) throw input_error("is nested deeper than {}", max_depth);
-    return true;
-  };
-  try {
-    return json::parse(line, shallow);
-  } catch (const json::exception&) {
-    throw input_error("is not JSON");
+std::vector<fs::path> part_files(const fs::path& folder) {
+  std::error_code failure;
+  if (!fs::is_directory(folder, failure)) throw input_error("{}: no such folder", folder.string());
+  std::vector<fs::path> files;
+  fs::directory_iterator entries(folder, failure);
+  if (failure) throw input_error("{}: cannot be read: {}", folder.string(), failure.message());
+  for (const auto& entry : entries) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("records-") && name.ends_with(".jsonl")) files.push_back(entry.path());
+  }
+  if (files.empty())
+    throw input_error("{}: holds no part of a frontier (records-I-of-N.jsonl)", folder.string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Tells "WHAT of N shards: 0, 1, 2", at most ten of them.
+void tell_shards(const char* what, int of, const std::vector<int>& shards, const Notice& notice) {
+  constexpr size_t most = 10;
+  if (shards.empty()) return;
+  const size_t shown = std::min(shards.size(), most);
+  notice(fmt::format("{} of {} shards: {}{}", what, of,
+                     fmt::join(shards.begin(), shards.begin() + shown, ", "),
+                     shards.size() > most ? fmt::format(" and {} more", shards.size() - most) : ""));
+}
+
+// How many views a part measured depends on the time that its machine had.
+void tell_different_views(const std::vector<FrontierPart>& parts, const Notice& notice) {
+  std::map<std::string, std::map<int, int>> views;  // by scene and shard
+  for (const FrontierPart& part : parts) {
+    for (const FrontierRecord& r : part.records) {
+      if (!r.series.empty()) continue;
+      int& count = views[r.point.scene][part.shard];
+      count = std::max(count, r.view + 1);
+    }
+  }
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  for (const auto& [scene, counts] : views) {
+    const auto least = std::ranges::min_element(counts, fewer),
+               most = std::ranges::max_element(counts, fewer);
+    if (least->second == most->second) continue;
+    notice(fmt::format("{}: {} views in shard {}, {} in shard {}: points of different views are compared",
+                       scene, least->second, least->first, most->second, most->first));
   }
 }
 
@@ -129,7 +165,7 @@ PartLines read_part_lines(const std::filesystem::path& path, const Notice& notic
     if (end == LineEnd::too_long) throw input_error("{}: is longer than {} MiB", place, max_line_bytes >> 20);
     if (end == LineEnd::newline) {
       try {
-        lines.take(parsed(line), place, notice);
+        lines.take(parsed_json(line, max_depth), place, notice);
       } catch (const Error& error) {
         const char* advice =
             number == 1 ? "not a part of a frontier" : "without this line it is measured again";
@@ -139,7 +175,7 @@ PartLines read_part_lines(const std::filesystem::path& path, const Notice& notic
       continue;
     }
     lines.half_line = !line.empty();
-    // Of another file that has no newline nothing may be cut off.
+    // Another file without a newline stays whole.
     if (lines.half_line && number == 1 &&
         line.compare(0, first_text().size(), first_text(), 0, line.size()) != 0) {
       throw input_error("{}: not a part of a frontier", place);
@@ -147,6 +183,60 @@ PartLines read_part_lines(const std::filesystem::path& path, const Notice& notic
     if (lines.half_line && notice) notice(fmt::format("{}: is half-written and left out", place));
     return lines;
   }
+}
+
+FrontierPart read_part(const fs::path& path, const Notice& notice) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) throw input_error("{}: no such file", path.string());
+  PartLines lines = read_part_lines(path, notice);
+  if (!lines.described) throw input_error("{}: not a part of a frontier", path.string());
+  return std::move(lines.part);
+}
+
+std::vector<FrontierPart> read_parts(const std::vector<fs::path>& folders, const Notice& notice) {
+  if (folders.empty()) throw input_error("no folder of parts is named");
+  std::map<int, std::pair<fs::path, FrontierPart>> by_shard;
+  for (const fs::path& folder : folders) {
+    for (const fs::path& file : part_files(folder)) {
+      FrontierPart part = read_part(file, notice);
+      if (!by_shard.empty()) {
+        const auto& [first_file, first] = by_shard.begin()->second;
+        check_same_sweep(file.string(), part, first, first_file.string());
+      }
+      const int shard = part.shard;
+      const auto [place, added] = by_shard.try_emplace(shard, file, std::move(part));
+      if (!added) {
+        throw input_error("{}: shard {} is there twice, also in {}", file.string(), shard,
+                          place->second.first.string());
+      }
+    }
+  }
+
+  std::vector<FrontierPart> parts;
+  std::vector<int> missing, unfinished;
+  const int shards = by_shard.begin()->second.second.shards;
+  for (int shard = 0; shard < shards; ++shard) {
+    const auto found = by_shard.find(shard);
+    if (found == by_shard.end()) {
+      missing.push_back(shard);
+      continue;
+    }
+    if (!found->second.second.finished) unfinished.push_back(shard);
+    parts.push_back(std::move(found->second.second));
+  }
+  if (!notice) return parts;
+  tell_shards("missing", shards, missing, notice);
+  tell_shards("not finished", shards, unfinished, notice);
+  tell_different_views(parts, notice);
+  return parts;
+}
+
+bool in_shard(size_t index, int shard, int shards) {
+  if (shards < 1 || shard < 0 || shard >= shards) {
+    throw input_error("shard {}/{}: there are no such parts; of N parts the first is 0/N and the last N-1/N",
+                      shard, shards);
+  }
+  return index % static_cast<size_t>(shards) == static_cast<size_t>(shard);
 }
 
 }  // namespace lightgrid

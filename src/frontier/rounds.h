@@ -1,4 +1,5 @@
-// Times of a scene's points, in rounds: each point beside the baseline.
+// Times of points, taken in rounds: frames beside the baseline's, culling, and frames of variants of the
+// scene.
 #pragma once
 
 #include <span>
@@ -6,14 +7,13 @@
 
 #include "base/timer.h"
 #include "frontier/measure.h"
-#include "frontier/point_run.h"
 
 namespace lightgrid {
 
 // A point of which at least one view has been measured.
 struct MeasuredPoint {
   PointRun run;
-  std::vector<FrontierRecord> records;  // one a view, those of the file
+  std::vector<FrontierRecord> records;  // one a view, open in the file
   double picture_s = 0;
   bool slow = false;  // far from the front: few rounds tell how far
   int rounds() const { return int(records.front().frame_ms.size()); }
@@ -42,5 +42,20 @@ struct TimeRounds {
   double timed(MeasuredPoint& point, size_t view);
   bool are_certain() const;
 };
+
+// Completes all records of the points in the file.
+void complete(const std::vector<MeasuredPoint>& points, RecordFile& file);
+
+// How long points that differ in the cull test alone take to cull, for the intervals of break-evens: rounds
+// in which each of the points that have such a partner draws one profiled frame of `view`, the first of its
+// records, in alternating order. Twelve rounds, as far as `seconds` allow; none if they do not allow six.
+void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,
+                        RecordFile& file);
+
+// How times grow with lights, pixels and the lights' ranges: the techniques among the job's points, each as
+// it is, beside the baseline, on scattered lights (128 to 2048), on sizes (half to twice a side) and on
+// ranges (half to twice). Ends when `seconds` have passed. The scene is left as it was.
+void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
+                    const FrontierJob& job, double seconds, RecordFile& file);
 
 }  // namespace lightgrid

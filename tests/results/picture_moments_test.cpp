@@ -1,5 +1,3 @@
-#include "frontier/errors.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,0 +1,261 @@
+#include "frontier/rounds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "frontier/answer_steps.h"
+#include "scene/random.h"
+
+namespace lightgrid {
+namespace {
+
+void add_time(const MeasuredPoint& point, size_t view, double ms, double beside,
+              std::vector<TimeOfRecord>& times) {
+  const FrontierRecord& record = point.records[view];
+  if (record.refused.empty()) times.push_back({record_key(record), ms, beside, point.run.refused()});
+}
+
+bool is_refused(const FrontierRecord& record) { return !record.refused.empty(); }
+
+// The ratio of each round, over all views.
+std::vector<double> ratios_of(const MeasuredPoint& point) {
+  std::vector<double> ratios;
+  for (size_t round = 0; round < size_t(point.rounds()); ++round) {
+    double ms = 0, beside = 0;
+    for (const FrontierRecord& record : point.records)
+      ms += record.frame_ms[round], beside += record.baseline_ms[round];
+    ratios.push_back(ms / beside);
+  }
+  return ratios;
+}
+
+constexpr size_t least_cull_rounds = 6, most_cull_rounds = 12;
+constexpr double share_of_cull_rounds = 0.1;  // of the time that is left
+
+// The points that another one differs from in the cull test alone.
+std::vector<MeasuredPoint*> with_partner(std::vector<MeasuredPoint>& points) {
+  const auto group_of = [](const MeasuredPoint* m) {
+    return point_key(m->records.front().point, cull_test_alone);
+  };
+  std::map<std::string, int> sizes;
+  std::vector<MeasuredPoint*> culled;
+  for (MeasuredPoint& m : points) {
+    if (!has_cull_time(m.records.front())) continue;
+    culled.push_back(&m);
+    ++sizes[group_of(&m)];
+  }
+  std::erase_if(culled, [&](const MeasuredPoint* m) { return sizes[group_of(m)] < 2; });
+  return culled;
+}
+
+// One profiled frame's.
+double culling_ms(PointRun& point) {
+  TechniqueRun& run = point.run();
+  run.run_profiled_frames(0);
+  double ms = 0;
+  for (const PassRecord& pass : run.view().timer.records()) {
+    if (pass.name == cull_pass && !pass.ms.empty()) ms += pass.ms.back();
+  }
+  return ms;
+}
+
+constexpr int growth_rounds = 4;
+
+// A variant of the scene, by one of its three sizes.
+struct Variant {
+  const char* series;
+  int lights = -1;    // scattered; -1: the scene's own
+  double side = 1;    // of the image's sides
+  double radius = 1;  // of the lights' ranges
+};
+
+// Five of each series, the ends and the middle first, since the time may not suffice for all.
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (const auto& steps : {std::vector{0.5, 2.0, 1.0}, {std::numbers::sqrt2 / 2, std::numbers::sqrt2}}) {
+    for (const double step : steps) all.push_back({"lights", int(512 * step * step)});
+    for (const double step : steps) all.push_back({"pixels", -1, step});
+    for (const double step : steps) all.push_back({"radius", -1, 1, step});
+  }
+  return all;
+}
+
+std::string scaled_size(const std::string& size, double side) {
+  const ImageSize s = parse_size(size);
+  return fmt::format("{}x{}", std::max(int(s.width * side), 1), std::max(int(s.height * side), 1));
+}
+
+// Techniques that cull, at their defaults, in the order of the points.
+std::vector<ChosenPoint> grown_points(const FrontierJob& job) {
+  std::vector<ChosenPoint> grown;
+  for (const ChosenPoint& point : job.points) {
+    if (point.label == point.contestant.technique->name && point.contestant.technique->needs.light_grid)
+      grown.push_back(point);
+  }
+  return grown;
+}
+
+// Times `points` on a variant, whose record without a point is `base`.
+void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, GpuScene& gpu, const View& view,
+                  const FrontierJob& job, FrontierRecord base, RecordFile& file) {
+  const auto pool = std::make_shared<TargetPool>();
+  std::vector<MeasuredPoint> measured;
+  for (const ChosenPoint& point : points) {
+    base.point = described(base.point.scene, point);
+    if (file.has(record_key(base))) continue;
+    measured.push_back({PointRun(renderer, gpu, view, point, pool), {base}});
+    measured.back().records.front().refused = measured.back().run.refused();
+    file.begin(measured.back().records.front());
+  }
+  if (measured.empty()) return;
+  PointRun baseline(renderer, gpu, view, job.baseline, pool);
+  FrontierJob rounds = job;
+  rounds.progress = nullptr;  // its steps are variants
+  rounds.least_rounds = rounds.most_rounds = growth_rounds;
+  const Timer timer;
+  TimeRounds{rounds,   timer, std::numeric_limits<double>::infinity(), std::span(&view, 1), measured,
+             baseline, file}
+      .run();
+  complete(measured, file);
+}
+
+}  // namespace
+
+int TimeRounds::run() {
+  int done = 0;
+  for (const MeasuredPoint& point : points) done = std::max(done, point.rounds());
+  double longest_s = 0;
+  for (bool warm_up = true; done < job.most_rounds; warm_up = false) {
+    const double before = timer.elapsed_ms() / 1000;
+    if (done > 0 && before + longest_s > until_s) break;
+    if (done >= job.least_rounds && are_certain()) break;
+    std::vector<TimeOfRecord> times;
+    for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, times);
+    if (warm_up) continue;
+    file.add_times(times);
+    for (MeasuredPoint& point : points) {
+      for (FrontierRecord& record : point.records) record = file.open_records().at(record_key(record));
+    }
+    ++done;
+    longest_s = std::max(longest_s, timer.elapsed_ms() / 1000 - before);
+  }
+  return done;
+}
+
+void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& times) {
+  std::vector<size_t> order;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const bool out = points[i].slow && (round == 0 || points[i].rounds() >= slow_rounds);
+    if (!out && points[i].run.refused().empty()) order.push_back(i);
+  }
+  Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
+  for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
+  baseline.look(views[view]);
+  baseline.draw();
+  double beside = baseline.draw();
+  for (size_t i = 0; i < order.size(); i += 2) {
+    if (job.progress)
+      job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
+                   fmt::format("times, round {}", round));
+    MeasuredPoint& first = points[order[i]];
+    add_time(first, view, timed(first, view), beside, times);
+    if (i + 1 == order.size()) break;
+    MeasuredPoint& second = points[order[i + 1]];
+    const double ms = timed(second, view);
+    beside = baseline.draw();
+    add_time(second, view, ms, beside, times);
+  }
+}
+
+double TimeRounds::timed(MeasuredPoint& point, size_t view) {
+  point.run.look(views[view]);
+  return point.run.draw();
+}
+
+// True if each ratio's interval is narrow enough.
+bool TimeRounds::are_certain() const {
+  return std::ranges::all_of(points, [&](const MeasuredPoint& point) {
+    if (std::ranges::any_of(point.records, is_refused)) return true;
+    if (point.slow && point.rounds() >= slow_rounds) return true;
+    const MedianInterval ratio = median_interval(ratios_of(point));
+    return ratio.high - ratio.low <= job.interval_width * ratio.median;
+  });
+}
+
+void complete(const std::vector<MeasuredPoint>& points, RecordFile& file) {
+  std::vector<std::string> keys;
+  for (const MeasuredPoint& m : points) {
+    for (const FrontierRecord& record : m.records) keys.push_back(record_key(record));
+  }
+  file.complete(keys);
+}
+
+void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,
+                        RecordFile& file) {
+  std::vector<MeasuredPoint*> culled = with_partner(points);
+  if (culled.empty()) return;
+  // Without pass times it is not known what a frame takes.
+  double round_s = 0;
+  size_t begun = most_cull_rounds;
+  for (const MeasuredPoint* m : culled) {
+    const FrontierRecord& record = m->records.front();
+    for (const auto& [name, ms] : record.pass_ms) round_s += ms / 1000;
+    begun = std::min(begun, record.cull_ms.size());
+  }
+  const Timer timer;
+  const auto fits = [&](size_t rounds) {
+    return timer.elapsed_ms() / 1000 + double(rounds) * round_s <= share_of_cull_rounds * seconds;
+  };
+  if (begun == 0 && !fits(least_cull_rounds)) return;
+  for (MeasuredPoint* m : culled) m->run.look(view);
+  for (size_t round = begun; round < most_cull_rounds; ++round) {
+    if (round >= least_cull_rounds && !fits(1)) break;
+    std::map<std::string, double> times;
+    std::ranges::reverse(culled);
+    for (MeasuredPoint* m : culled) {
+      FrontierRecord& record = m->records.front();
+      record.cull_ms.push_back(culling_ms(m->run));
+      times[record_key(record)] = record.cull_ms.back();
+    }
+    file.add_cull_times(times);
+  }
+}
+
+void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
+                    const FrontierJob& job, double seconds, RecordFile& file) {
+  const Timer timer;
+  const std::vector<ChosenPoint> points = grown_points(job);
+  const std::vector<Light> own = scene.lights;
+  const std::vector<Variant> all = variants();
+  for (size_t i = 0; i < all.size() && !points.empty(); ++i) {
+    if (timer.elapsed_ms() / 1000 > seconds) {
+      if (job.notice)
+        job.notice(fmt::format("{}: growth measured in part, for the time there is", choice.scene));
+      break;
+    }
+    const Variant& variant = all[i];
+    if (variant.lights >= 0 && !choice.lights_file.empty()) continue;
+    if (job.progress)
+      job.progress(0.9 + 0.1 * double(i) / double(all.size()), std::string("growth with ") + variant.series);
+    SceneChoice varied = choice;
+    varied.size = scaled_size(choice.size, variant.side);
+    if (variant.lights >= 0) varied.lights = variant.lights;
+    scene.lights = own;
+    const View view = choose_view(scene, varied);
+    for (Light& light : scene.lights) light.radius_m *= float(variant.radius);
+    FrontierRecord record;
+    record.point.scene = choice.scene;
+    record.series = variant.series;
+    record.width = view.width, record.height = view.height;
+    record.lights = int(scene.lights.size());
+    record.radius_scale = variant.radius;
+    time_variant(points, renderer, gpu, view, job, record, file);
+  }
+  scene.lights = own;
+}
+
+}  // namespace lightgrid
