@@ -1,4 +1,4 @@
-# The float twin of the culling kernels (src/verify/float_twin.h) compiles the kernels' own headers as C++: once for
+# The float twin of the culling kernels (src/verify/float_twin.cpp) compiles the kernels' own headers as C++: once for
 # each setting that is a macro there. Its sources are excluded from the folder's list and added as objects.
 set(float_twin_sources twin/cells.cpp twin/depth.cpp)
 
@@ -14,8 +14,10 @@ function(lightgrid_twin_objects source name)
 endfunction()
 
 function(lightgrid_float_twin)
-  # One for each row of cull_tests.
-  file(STRINGS ${PROJECT_SOURCE_DIR}/src/shared/cull_settings.h rows REGEX "^    {CullTest::")
+  # One for each row of cull_tests; a new row configures anew.
+  set(table ${PROJECT_SOURCE_DIR}/src/shared/cull_tests.h)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+  file(STRINGS ${table} rows REGEX "^    {CullTest::")
   list(LENGTH rows tests)
   math(EXPR last "${tests} - 1")
   foreach(test RANGE ${last})

@@ -30,7 +30,7 @@ install(TARGETS ${library_targets} EXPORT lightgridTargets
 # include each other by relative paths, where they are found first even if a user has a folder of that name.
 set(public_headers
   base/error.h base/pixel_grid.h
-  shared/cull_params.h shared/cull_settings.h shared/language.h shared/light_grid.h
+  shared/cull_params.h shared/cull_settings.h shared/cull_tests.h shared/language.h shared/light_grid.h
   shared/raster_instance.h shared/slices.h shared/view_params.h
   cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h cl/transfer.h
   culling/cull_view.h culling/light_culler.h

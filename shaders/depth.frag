@@ -1,5 +1,5 @@
 // The depth prepass writes depth alone; masked surfaces first test their mask.
-// LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/passes/shade_blended.cpp.
+// LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/passes/shade_forward.cpp.
 #if defined(LIMIT) || defined(MASK)
 #include "shaders/common/material.glsl"
 #endif

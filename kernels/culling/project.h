@@ -4,7 +4,7 @@
 #include "kernels/common/pack.h"
 #include "shared/cull_constants.h"
 #include "shared/cull_params.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 #ifndef CULL_TEST
 #define CULL_TEST CULL_PLANES_AABB

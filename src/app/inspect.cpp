@@ -16,7 +16,6 @@
 #include "capture/frame_lists.h"
 #include "capture/list_accuracy.h"
 #include "inspect/inspect.h"
-#include "inspect/inspect_maps.h"
 #include "session/contestants.h"
 
 namespace lightgrid {

@@ -13,7 +13,7 @@
 #include "app/verify_hunt.h"
 #include "base/error.h"
 #include "results/results.h"
-#include "verify/replay.h"
+#include "verify/run.h"
 
 namespace lightgrid {
 namespace {

@@ -105,13 +105,6 @@ std::string JsonFields::text(const std::string& name) const {
   return value.get<std::string>();
 }
 
-bool JsonFields::flag(const std::string& name) const {
-  const json& value = at(name);
-  if (!value.is_boolean())
-    throw input_error("{}{}: {} is neither true nor false", within_, name, shown(value));
-  return value.get<bool>();
-}
-
 double JsonFields::checked_number(const std::string& name, const json& value) const {
   if (value.is_number()) return value.get<double>();
   if (value == "nan") return std::numeric_limits<double>::quiet_NaN();

@@ -31,7 +31,6 @@ class JsonFields {
 
   bool has(const std::string& name) const;  // and not null
   std::string text(const std::string& name) const;
-  bool flag(const std::string& name) const;
   double number(const std::string& name) const;  // as exact_number writes it
   std::optional<double> optional_number(const std::string& name) const;
   uint64_t count(const std::string& name) const;

@@ -8,7 +8,7 @@
 namespace lightgrid {
 namespace {
 
-// Of shaders/pixels_to_buffer.comp.
+// A variant of shaders/pixels_to_buffer.comp.
 struct CopiedPixel {
   GLenum format, type;
   const char* define;
@@ -20,8 +20,8 @@ constexpr CopiedPixel copied_pixels[] = {
     {GL_RGBA, GL_UNSIGNED_SHORT, "UNORM16_4", 8},
 };
 
-// Of shaders/buffer_to_image.comp. The image is bound as integers of the same channels and bits, so that a
-// copy keeps each bit, that of a NaN too.
+// A variant of shaders/buffer_to_image.comp. The image is bound as integers of the same channels and bits, so
+// that a copy keeps each bit, that of a NaN too.
 struct WrittenPixel {
   GLenum format, type;
   const char *bits, *channels, *image;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/pixel_grid.h"
-#include "gl/program.h"
+#include "gl/objects.h"
 
 namespace lightgrid {
 

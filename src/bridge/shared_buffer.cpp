@@ -10,7 +10,7 @@
 
 #include "cl/error.h"
 #include "cl/transfer.h"
-#include "gl/errors.h"
+#include "gl/gl.h"
 #include "gl/objects.h"
 
 namespace lightgrid {

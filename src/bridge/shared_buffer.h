@@ -59,7 +59,7 @@ class SharedBuffer {
   // After GL wrote the first `bytes` (by glReadPixels, say): waits for GL and makes them visible to OpenCL.
   void hand_to_cl(size_t bytes);
 
-  // The same of several buffers of one device, with one wait for all where memory is imported, and to OpenCL
+  // The same for several buffers of one device, with one wait for all where memory is imported, and to OpenCL
   // everywhere. No buffer twice.
   struct Written {
     SharedBuffer* buffer;

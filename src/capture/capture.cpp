@@ -1,10 +1,10 @@
 #include "capture/capture.h"
 
 #include "cl/transfer.h"
-#include "gl/state.h"
+#include "gl/bindings.h"
 #include "passes/depth_prepass.h"
 #include "passes/rasterize.h"
-#include "passes/read_outs/depth.h"
+#include "passes/read_outs.h"
 
 namespace lightgrid {
 
@@ -20,10 +20,10 @@ CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes)
   std::vector<float> depth(view_.grid().values());
   if (opengl_) {
     reset_gl_state();
-    depth_prepass(view_, view_);
-    depth = read_depth(view_, view_);
+    depth_prepass(view_);
+    depth = read_depth(view_);
   } else {
-    read_buffer(*view_.renderer.cl, "reading depth", rasterize(view_, view_, view_.caches).depth().values,
+    read_buffer(*view_.renderer.cl, "reading depth", rasterize(view_, view_.caches).depth().values,
                 depth.data(), depth.size() * sizeof(float));
   }
   const Scene& scene = gpu_.scene();

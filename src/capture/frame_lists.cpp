@@ -1,6 +1,6 @@
 #include "capture/frame_lists.h"
 
-#include "renderer/culler_input.h"
+#include "renderer/upload/culler_input.h"
 #include "scene/grid_lists.h"
 
 namespace lightgrid {

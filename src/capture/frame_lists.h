@@ -2,7 +2,7 @@
 #pragma once
 
 #include "capture/frame_file.h"
-#include "passes/read_outs/cells.h"
+#include "passes/read_outs.h"
 #include "reference/lit_set.h"
 
 namespace lightgrid {

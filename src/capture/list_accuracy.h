@@ -6,7 +6,7 @@
 
 #include "capture/frame_file.h"
 #include "plan/settings.h"
-#include "reference/lit_blocks.h"
+#include "reference/lit_set.h"
 
 namespace lightgrid {
 

@@ -9,6 +9,7 @@
 #include "culling/culler_state.h"
 #include "culling/depth_ranges.h"
 #include "culling/light_arrays.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

@@ -139,7 +139,7 @@ enum class DepthFormat { d32f, d24, d16 };
 
 // shared/cull_settings.h describes the choices and their sources.
 struct CullerOptions {
-  CullTest cull_test = CullTest::planes_aabb;
+  CullTest cull_test = default_cull_test;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the grid is the same
   int tile = 16;                               // pixels a side: 8, 16, 32 or 64

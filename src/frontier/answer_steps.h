@@ -23,11 +23,8 @@ Group accepted(Records records, const std::function<bool(const FrontierRecord& r
 std::vector<Group> grouped(const Group& records,
                            const std::function<std::string(const FrontierRecord& record)>& key_of);
 
-// The settings by which two points differ other than in the keys `without`.
-std::map<std::string, std::string> settings_without(const FrontierPoint& point,
-                                                    std::span<const std::string> without);
-
-// A technique with settings, as text that is equal for equal points of a scene.
+// A technique with settings other than those of the keys `without`, as text that is equal for equal points of
+// a scene.
 std::string point_key(const FrontierPoint& point, std::span<const std::string> without = {});
 
 // The name of the pass whose times are those of culling, and what pairs of a break-even differ in.
@@ -52,17 +49,12 @@ void rank_points(std::vector<PointFigures>& points);
 // For errors of 1e-6, 1e-5, ... 1e-1 and each scene, where a point is within it.
 std::vector<BestWithin> best_within_of(const std::vector<PointFigures>& points);
 
-// Points of `points` whose total error is at most that of points[index] and whose ratio does not differ from
-// its own.
-std::vector<int> tied_and_no_worse(const std::vector<PointFigures>& points, int index, double error);
-
 std::vector<BreakEven> break_evens_of(Records records);
 std::vector<ShadingCost> shading_costs_of(Records records);
 std::vector<Growth> growth_of(Records records);
 std::vector<Failure> failures_of(Records records);
 
 // One paragraph a scene. A sentence whose figures are missing is left out.
-std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene);
 std::vector<std::string> sentences_of(const FrontierAnswer& answer);
 
 // What the page says of a scene above its table of errors, and below it.
@@ -93,8 +85,6 @@ std::vector<std::string> scenes_of(const FrontierAnswer& answer);
 
 // Three significant digits: "0.310", "31.0", "3,100"; "0" for 0.
 std::string three_digits(double value);
-
-std::string percent_of(double error);      // "0.1 %"
 
 // The median and its 95 % confidence interval by order statistics of the binomial distribution (Hollander,
 // Wolfe and Chicken, Nonparametric Statistical Methods, 2014). Below six samples no such interval exists: it

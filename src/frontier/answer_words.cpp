@@ -115,6 +115,8 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
                                   largest.in_words, fmt::join(figures, ", ")));
 }
 
+std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
+
 // A line a step: from the largest error down, each point at the least error that it is the best within.
 void add_best_within(const FrontierAnswer& answer, const std::string& scene,
                      std::vector<std::string>& sentences) {
@@ -229,9 +231,8 @@ std::string three_digits(double value) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
-std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
 
-std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
+static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;
   add_fastest(answer, scene, sentences);
   add_best_within(answer, scene, sentences);

@@ -86,7 +86,7 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
   opengl_->look(view);
   opengl_->run_frame(true);
   RenderView& v = opengl_->view();
-  const std::vector<float> depth = read_depth(v, v);
+  const std::vector<float> depth = read_depth(v);
   const SurfaceOracle oracle(v, depth);
   const size_t lights = std::max<size_t>(v.scene.lights.size(), 1);
   Sample& all = samples_[0];
@@ -96,7 +96,7 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
   brightest_ = opengl.brightest();
   judge(all, opengl, with_ranges);
   if (!own) return;
-  const ShownTriangles shown = read_triangles(v, v);
+  const ShownTriangles shown = read_triangles(v);
   visibility_->look(view);
   visibility_->run_frame(true);
   const std::vector<SceneTriangle> triangles = own_triangles(*visibility_);

@@ -136,18 +136,22 @@ bool is_ranked(const PointFigures& p) {
          std::isfinite(p.errors.total.rmse_rel);
 }
 
-}  // namespace
-
-std::map<std::string, std::string> settings_without(const FrontierPoint& point,
-                                                    std::span<const std::string> without) {
-  std::map<std::string, std::string> settings = point.settings;
-  for (const std::string& key : without) settings.erase(key);
-  return settings;
+// Points whose total error is at most `error` and whose ratio does not differ from that of points[index].
+std::vector<int> tied_and_no_worse(const std::vector<PointFigures>& points, int index, double error) {
+  std::vector<int> tied;
+  for (const int other : points[index].tied_with) {
+    if (is_ranked(points[other]) && points[other].errors.total.rmse_rel <= error) tied.push_back(other);
+  }
+  return tied;
 }
+
+}  // namespace
 
 std::string point_key(const FrontierPoint& point, std::span<const std::string> without) {
   std::string key = point.scene + "\n" + point.technique;
-  for (const auto& [name, value] : settings_without(point, without)) key += "\n" + name + "=" + value;
+  for (const auto& [name, value] : point.settings) {
+    if (std::ranges::find(without, name) == without.end()) key += "\n" + name + "=" + value;
+  }
   return key + "\n" + std::to_string(point.frames);
 }
 
@@ -204,14 +208,6 @@ void rank_points(std::vector<PointFigures>& points) {
     }
   }
   for (PointFigures& p : points) std::sort(p.tied_with.begin(), p.tied_with.end());
-}
-
-std::vector<int> tied_and_no_worse(const std::vector<PointFigures>& points, int index, double error) {
-  std::vector<int> tied;
-  for (const int other : points[index].tied_with) {
-    if (is_ranked(points[other]) && points[other].errors.total.rmse_rel <= error) tied.push_back(other);
-  }
-  return tied;
 }
 
 std::vector<BestWithin> best_within_of(const std::vector<PointFigures>& points) {

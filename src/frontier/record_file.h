@@ -123,9 +123,9 @@ void check_same_sweep(const std::string& place, const FrontierPart& part, const 
                       const std::string& wanted);
 
 // True if point `index` of the request is in shard `shard` of `shards`: every shards-th of them, so that each
-// shard has all scenes' costs in like shares. Of points, not of views: times are summed over the views of a
-// point, and those of two machines cannot be. Throws Error(input) for less than one shard and for a shard
-// that is not there.
+// shard has all scenes' costs in like shares. Points are shared out, not views: times are summed over the
+// views of a point, and those of two machines cannot be. Throws Error(input) for less than one shard and for
+// a shard that is not there.
 bool in_shard(size_t index, int shard, int shards);
 
 }  // namespace lightgrid

@@ -1,6 +1,7 @@
 #include "gl/bindings.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <span>
@@ -91,6 +92,24 @@ void assign_bindings(GLuint program, const std::string& files) {
     glGetActiveUniformBlockName(program, i, longest_name, nullptr, text);
     glUniformBlockBinding(program, i, number_of(listed_blocks, files, "uniform block", text));
   }
+}
+
+void reset_gl_state() {
+  for (const GLenum test : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST})
+    glDisable(test);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ZERO);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glCullFace(GL_BACK);
+  glFrontFace(GL_CCW);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glStencilFunc(GL_ALWAYS, 0, ~0u);
+  glStencilMask(~0u);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glBindVertexArray(0);
+  unbind_sampler_objects();
 }
 
 }  // namespace lightgrid

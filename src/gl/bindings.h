@@ -72,4 +72,8 @@ inline void bind_block(UniformBlock block, GLuint buffer) {
 // program, or if the driver lets a shader read fewer textures.
 void assign_bindings(GLuint program, const std::string& files);
 
+// Resets everything that passes enable, mask and bind to the state of a new context. Each frame starts with
+// it, so that an exception in the middle of a pass does not affect the next frame.
+void reset_gl_state();
+
 }  // namespace lightgrid

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "base/error.h"
-#include "gl/backends.h"
 #include "gl/gl.h"
 
 namespace lightgrid {

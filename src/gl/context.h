@@ -44,4 +44,10 @@ class GlContext {
   void begin(const std::string& name, const std::function<void()>& release);
 };
 
+// The backends, one file each. They open their library at run time; if that fails, they throw Error(machine)
+// with the reason in one clause.
+std::unique_ptr<GlContext> create_osmesa_context();
+// Hardware first. With `hardware_only`, software renderers are rejected.
+std::unique_ptr<GlContext> create_egl_context(bool hardware_only);
+
 }  // namespace lightgrid

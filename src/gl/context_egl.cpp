@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "gl/backends.h"
+#include "gl/context.h"
 #include "gl/gl.h"
 
 namespace lightgrid {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "gl/backends.h"
+#include "gl/context.h"
 #include "gl/gl.h"
 
 namespace lightgrid {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -52,5 +54,23 @@ GlVertexArray make_vertex_array();
 // A framebuffer of colour attachments and a depth texture (0: none), possibly with stencil; checked for
 // completeness.
 GlFramebuffer make_framebuffer(const std::vector<GLuint>& colors, GLuint depth);
+
+class GlProgram {
+ public:
+  // Vertex and fragment shader by their embedded paths, each after "#define NAME" for every name in
+  // `defines`. A compile error throws Error(machine) with the log: drivers differ in what they accept.
+  GlProgram(const std::string& vertex, const std::string& fragment, const std::vector<std::string>& defines);
+  // A compute shader, likewise.
+  GlProgram(const std::string& compute, const std::vector<std::string>& defines);
+
+  GLuint name() const { return object_.name(); }
+  GLint uniform(const std::string& name) const;  // -1 if the program does not have it; cached
+
+ private:
+  void link(const std::string& files) const;
+
+  GlObject<GlKind::program> object_;
+  mutable std::map<std::string, GLint> uniforms_;
+};
 
 }  // namespace lightgrid

@@ -6,11 +6,11 @@
 
 #include "capture/frame_lists.h"
 #include "reference/attenuation.h"
-#include "reference/cone_cell.h"
+#include "reference/cell.h"
 #include "reference/lit_set.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -19,54 +19,27 @@ namespace {
 constexpr double far_away = 1e18;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
-
-struct Box {
-  glm::dvec3 min, max;  // x, y and distance
-};
-
-Box box_of(const Cell& cell) {
-  const double near = std::max(cell.near, -far_away), far = std::min(cell.far, far_away);
-  const double a = cell.scale_at(near), b = cell.scale_at(far);
-  return {{std::min(cell.x0 * a, cell.x0 * b), std::min(cell.y0 * a, cell.y0 * b), near},
-          {std::max(cell.x1 * a, cell.x1 * b), std::max(cell.y1 * a, cell.y1 * b), far}};
-}
-
-double planes_margin(const Cell& cell, const glm::dvec3& p, double radius) {
-  const double d = cell.orthographic ? 1 : -p.z, tip = cell.orthographic ? 0 : 1;
-  const auto side = [&](double value, double slope, double inward) {
-    return inward * (value - slope * d) / std::sqrt(1 + tip * slope * slope);
-  };
-  return radius + std::min({side(p.x, cell.x0, 1), side(p.x, cell.x1, -1), side(p.y, cell.y0, 1),
-                            side(p.y, cell.y1, -1)});
-}
-
 // Distance from the cone's surface, outside it, to the sphere around the box.
-double cone_margin(const Box& box, const LightBounds& light, double reach) {
-  glm::dvec3 centre = 0.5 * (box.min + box.max);
-  centre.z = -centre.z;
-  const glm::dvec3 to_centre = centre - light.position;
+double cone_margin(const CellBox& box, const LightBounds& light) {
+  const glm::dvec3 to_centre = box.centre() - light.position;
   const double along = glm::dot(to_centre, light.direction);
   const double across = glm::length(to_centre - along * light.direction);
   const double sine = std::sqrt(std::max(0.0, 1 - light.cos_outer * light.cos_outer));
-  return reach - std::max(across * light.cos_outer - along * sine, -along);
+  return box.radius() - std::max(across * light.cos_outer - along * sine, -along);
 }
 
 TestMargins margins_of(const Cell& cell, const LightBounds& light) {
   const glm::dvec3& p = light.position;
   const double r = light.radius_m;
-  const Box box = box_of(cell);
-  const glm::dvec3 place(p.x, p.y, -p.z);
-  const double reach = 0.5 * glm::length(box.max - box.min);
+  const CellBox box = box_around(cell);
   TestMargins m;
-  m.interval = r + std::min(place.z - cell.near, cell.far - place.z);
-  m.planes = planes_margin(cell, p, r);
-  m.aabb = r - std::hypot(outside(place.x, box.min.x, box.max.x), outside(place.y, box.min.y, box.max.y),
-                          outside(place.z, box.min.z, box.max.z));
+  m.interval = r + std::min(-p.z - cell.near, cell.far + p.z);
+  m.planes = r - outside_of_sides(cell, p);
+  m.aabb = r - box.distance(p);
   const bool bounded = std::isfinite(cell.near) && std::isfinite(cell.far);
-  m.sphere = bounded ? r + reach - glm::length(place - 0.5 * (box.min + box.max)) : endless;
+  m.sphere = bounded ? r + box.radius() - glm::length(p - box.centre()) : endless;
   m.exact = r - distance_to_cell(cell, p);
-  if (light.cos_outer >= 0) m.cone = bounded ? cone_margin(box, light, reach) : endless;
+  if (light.cos_outer >= 0) m.cone = bounded ? cone_margin(box, light) : endless;
   return m;
 }
 
@@ -209,17 +182,6 @@ double z_bin_margin(const FrameGrid& grid, uint32_t bin, const LightBounds& ligh
   return light.radius_m + std::min(-light.position.z - near, far + light.position.z);
 }
 
-Cell cell_of(const View& view, const PixelInspection& pixel) {
-  Cell cell;
-  cell.x0 = view_x_of_pixel(view, pixel.x0 + cell_inset),
-  cell.x1 = view_x_of_pixel(view, pixel.x1 - cell_inset);
-  cell.y0 = view_y_of_pixel(view, pixel.y0 + cell_inset),
-  cell.y1 = view_y_of_pixel(view, pixel.y1 - cell_inset);
-  cell.near = pixel.near_m, cell.far = pixel.far_m;
-  cell.orthographic = view.orthographic;
-  return cell;
-}
-
 int count_lit(const ViewLight& light, const std::vector<glm::dvec3>& surfaces) {
   return int(
       std::count_if(surfaces.begin(), surfaces.end(), [&](const glm::dvec3& p) { return is_lit(light, p); }));
@@ -252,7 +214,8 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   const PixelCells cells = cells_of(frame, grid);
   const uint32_t at = cells.cell(x, y, pixel.slice), bin = cells.z_bin(x, y);
   const bool empty = !(pixel.near_m <= pixel.far_m);
-  const Cell cell = cell_of(frame.view, pixel);
+  const Cell cell = cell_of_pixels(frame.view, pixel.x0 + cell_inset, pixel.y0 + cell_inset,
+                                   pixel.x1 - cell_inset, pixel.y1 - cell_inset, pixel.near_m, pixel.far_m);
   const std::vector<DepthInterval> pieces = pieces_of(cell, surfaces, settings.depth_bounds);
   const glm::dvec3 here = pixel.covered ? position_from_depth(frame.view, x, y, pixel.depth) : glm::dvec3(0);
   for (uint32_t i = 0; i < lights.size(); ++i) {

@@ -1,10 +1,12 @@
 // Why a light is or is not in the list of a pixel, and where lights are listed but do not light the image.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "capture/frame_culler.h"
+#include "results/results.h"
 
 namespace lightgrid {
 
@@ -59,5 +61,23 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
 std::string inspection_table(const CapturedFrame& frame, const PixelInspection& pixel, int most_dropped);
 std::string inspection_json(const CapturedFrame& frame, const PixelInspection& pixel, const FrameGrid& grid,
                             int most_dropped);
+
+// Maps of listed lights, listed but unlit ones, and lost ones.
+struct InspectionMaps {
+  PairCounts pairs;
+  uint64_t covered = 0;                                 // pixels with a surface
+  uint32_t top = 1;                                     // end of the scale of the three maps
+  std::vector<uint32_t> listed, false_positives, lost;  // lights per pixel, row 0 at the bottom
+};
+
+InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid);
+
+// "pairs" as in results.json, and how many pixels show a surface.
+std::string inspection_json(const CapturedFrame& frame, const InspectionMaps& maps, const FrameGrid& grid);
+
+// Writes listed.png, false_positives.png and lost.png; creates the folder if missing. Black is 0; the scale
+// ends at `top`.
+void write_inspection_maps(const std::filesystem::path& folder, const CapturedFrame& frame,
+                           const InspectionMaps& maps);
 
 }  // namespace lightgrid

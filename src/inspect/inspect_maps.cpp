@@ -1,4 +1,4 @@
-#include "inspect/inspect_maps.h"
+#include "inspect/inspect.h"
 
 #include <algorithm>
 

@@ -10,9 +10,8 @@
 
 #include "cl/launch.h"
 #include "cl/transfer.h"
-#include "passes/voxels/grouped_lights.h"
-#include "passes/voxels/listed_voxels.h"
-#include "renderer/cl_lights.h"
+#include "passes/voxels/voxel_inputs.h"
+#include "renderer/upload/lights.h"
 
 namespace lightgrid {
 namespace {
@@ -53,19 +52,12 @@ GlTexture make_volume(GLenum format, glm::uvec3 size) {
 
 class VoxelBuffers : public PassCache {
  public:
-  explicit VoxelBuffers(Work& work, const Seen& seen) : lanes(shades_in_lanes(work, seen)) {
-    follow(work, seen);
-  }
+  explicit VoxelBuffers(Work& work) : kernels(work, "voxels") { follow(work); }
 
-  bool follow(Work& work, const Seen& seen) override {
-    axes = voxel_axes(seen.view, seen.plan.settings.voxel_space);
-    lights.update(work, seen, axes);
-    std::string defines = defines_of(seen);
-    if (defines != defines_) {
-      defines_ = std::move(defines);
-      kernel_ = {};
-      filled.reset();
-    }
+  bool follow(Work& work) override {
+    axes = voxel_axes(work.view, work.plan.settings.voxel_space);
+    lights.update(work, axes);
+    if (kernels.use(defines_of(work))) filled.reset();
     return true;
   }
 
@@ -75,19 +67,12 @@ class VoxelBuffers : public PassCache {
     return bytes + texture_bytes;
   }
 
-  NamedKernel& kernel(Work& work) {
-    if (!kernel_)
-      kernel_ = NamedKernel(*work.renderer.kernels,
-                            lanes ? "voxels/cpu/build_voxels" : "voxels/gpu/build_voxels", defines_);
-    return kernel_;
-  }
-
   std::string lookup_defines(const Seen& seen) const {
     return fmt::format(" -DVOXEL_BITS={}{}", seen.plan.settings.voxel_bits,
                        axes.log_depth ? " -DVOXELS_LOG" : "");
   }
 
-  const bool lanes;
+  PassKernels kernels;
   VoxelAxes axes;
   GroupedLights lights;
   PlacedVoxels placed;
@@ -104,13 +89,10 @@ class VoxelBuffers : public PassCache {
  private:
   std::string defines_of(const Seen& seen) const {
     std::string defines = lookup_defines(seen);
-    if (lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
+    if (kernels.lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
     for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
-
-  std::string defines_;
-  NamedKernel kernel_;
 };
 
 namespace {
@@ -130,10 +112,10 @@ float stored_scale(const VoxelBuffers& s, int bits) {
   return float(std::exp2(std::floor(std::log2(brightest_half / most))));
 }
 
-void place(Work& work, const Seen& seen, VoxelBuffers& s, const TileDistances& distances) {
+void place(Work& work, VoxelBuffers& s, const TileDistances& distances) {
   auto pass = work.timer.pass("place_voxels", "cl");
-  s.placed = place_voxels(seen, s.axes, visible_box(seen, distances));
-  const int bits = seen.plan.settings.voxel_bits;
+  s.placed = place_voxels(work, s.axes, visible_box(work, distances));
+  const int bits = work.plan.settings.voxel_bits;
   VoxelGrid& grid = s.placed.grid;
   grid.groups = s.lights.groups();
   grid.scale = stored_scale(s, bits);
@@ -151,30 +133,30 @@ void place(Work& work, const Seen& seen, VoxelBuffers& s, const TileDistances& d
 
 }  // namespace
 
-VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache,
-                         const TileDistances& distances, const DepthBuffer& depth) {
-  VoxelBuffers& s = cache.of(work, seen);
+VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDistances& distances,
+                         const DepthBuffer& depth) {
+  VoxelBuffers& s = cache.of(work);
   s.shaded_from = depth;
-  NamedKernel& kernel = s.kernel(work);
-  place(work, seen, s, distances);
-  const size_t bytes = volume_bytes(seen);
+  NamedKernel& kernel = s.kernels.of("build_voxels");
+  place(work, s, distances);
+  const size_t bytes = volume_bytes(work);
   const BridgeKind bridge =
-      seen.plan.settings.raster == RasterApi::opencl ? BridgeKind::none : work.renderer.bridge;
+      work.plan.settings.raster == RasterApi::opencl ? BridgeKind::none : work.renderer.bridge;
   if (!s.irradiance) s.irradiance.emplace(*work.renderer.cl, bridge, bytes);
   if (!s.directions) s.directions.emplace(*work.renderer.cl, bridge, bytes);
-  VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(seen), 2 * bytes};
+  VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(work), 2 * bytes};
   FilledWith needed{s.placed.grid, s.placed.slices, s.lights.version()};
-  if (seen.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
+  if (work.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
   auto pass = work.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
   const cl::NDRange items(g.size_x / VOXEL_GROUP_X * VOXEL_GROUP_ITEMS, g.size_y / VOXEL_GROUP_Y, g.size_z);
-  kernel.launch(*work.renderer.cl, "build_voxels", s.lanes ? bricks : items,
-                s.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1),
+  kernel.launch(*work.renderer.cl, "build_voxels", s.kernels.lanes ? bricks : items,
+                s.kernels.lanes ? cl::NDRange(1, 1, 1) : cl::NDRange(VOXEL_GROUP_ITEMS, 1, 1),
                 {{"boxes", s.lights.boxes.buffer()},
                  {"places", s.lights.places.buffer()},
                  {"colors", s.lights.colors.buffer()},
-                 {"cones", seen.plan.spots ? s.lights.cones.buffer() : cl::Buffer()},
+                 {"cones", work.plan.spots ? s.lights.cones.buffer() : cl::Buffer()},
                  {"grid", s.grid.buffer()},
                  {"slices", s.slices.buffer()},
                  {"irradiance", s.irradiance->cl_buffer()},
@@ -186,11 +168,11 @@ VoxelVolume build_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cac
 }
 
 // Two 3D textures, interpolated between samples, and a uniform block; once a frame.
-static void voxels_to_gl(Work& work, const Seen& seen, const VoxelVolume& volume, VoxelBuffers& s) {
+static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s) {
   if (!s.lookup_stale) return;
   auto pass = work.timer.pass("voxels_to_gl", "gl");
   const VoxelGrid& g = s.placed.grid;
-  const bool half = seen.plan.settings.voxel_bits == 16;
+  const bool half = work.plan.settings.voxel_bits == 16;
   if (!s.irradiance_texture) {
     const glm::uvec3 size(g.size_x, g.size_y, g.size_z);
     const GLenum format = half ? GL_RGBA16F : GL_RGBA32F;
@@ -214,19 +196,18 @@ static void voxels_to_gl(Work& work, const Seen& seen, const VoxelVolume& volume
 }
 
 // The lights of any of the eight samples around each pixel of the last frame.
-static ListedLights listed_of_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache) {
-  const VoxelBuffers& s = cache.of(work, seen);
-  return list_voxels(work, seen, {s.axes, s.placed, {}, {}}, s.shaded_from);
+static ListedLights listed_of_voxels(Work& work, Cached<VoxelBuffers>& cache) {
+  const VoxelBuffers& s = cache.of(work);
+  return list_voxels(work, {s.axes, s.placed, {}, {}}, s.shaded_from);
 }
 
-LightSource from_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
+LightSource from_voxels(Work& work, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
                         const LightSource* grid) {
-  const std::string exact = std::to_string(seen.plan.settings.voxel_lights_exact);
-  const auto in_gl = [&work, &seen, &cache, volume, exact,
-                      grid = grid ? std::optional(*grid) : std::nullopt] {
-    VoxelBuffers& s = cache.of(work, seen);
-    voxels_to_gl(work, seen, volume, s);
-    GlLightLoop loop = light_loop(seen);
+  const std::string exact = std::to_string(work.plan.settings.voxel_lights_exact);
+  const auto in_gl = [&work, &cache, volume, exact, grid = grid ? std::optional(*grid) : std::nullopt] {
+    VoxelBuffers& s = cache.of(work);
+    voxels_to_gl(work, volume, s);
+    GlLightLoop loop = light_loop(work);
     loop.defines.emplace_back("LIGHTS_VOXELS");
     if (s.axes.log_depth) loop.defines.emplace_back("VOXELS_LOG");
     loop.textures = {{Sampler::voxel_irradiance, s.irradiance_texture.name()},
@@ -244,16 +225,16 @@ LightSource from_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cach
                 {"directions", volume.directions->cl_buffer()},
                 {"voxels", volume.lookup}};
   return LightSource(in_gl, in_cl, volume.bytes + (grid ? grid->bytes : 0),
-                     [&work, &seen, &cache](auto&) { return listed_of_voxels(work, seen, cache); });
+                     [&work, &cache](auto&) { return listed_of_voxels(work, cache); });
 }
 
-ReadVoxels read_voxels(Work& work, const Seen& seen, Cached<VoxelBuffers>& cache) {
-  VoxelBuffers& s = cache.of(work, seen);
+ReadVoxels read_voxels(Work& work, Cached<VoxelBuffers>& cache) {
+  VoxelBuffers& s = cache.of(work);
   ReadVoxels read{s.axes, s.placed, {}, {}};
   const size_t samples = size_t(s.placed.grid.size_x) * s.placed.grid.size_y * s.placed.grid.size_z;
   const auto values = [&](SharedBuffer& from) {
     std::vector<glm::vec4> all(samples);
-    if (seen.plan.settings.voxel_bits == 32) {
+    if (work.plan.settings.voxel_bits == 32) {
       read_buffer(*work.renderer.cl, "reading voxels", from.cl_buffer(), all.data(), samples * sizeof all[0]);
     } else {
       std::vector<uint64_t> halves(samples);

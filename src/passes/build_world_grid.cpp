@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
-#include "renderer/culler_input.h"
+#include "renderer/upload/culler_input.h"
 #include "shared/pixel_position.h"
 
 namespace lightgrid {
 
 class ViewOfWorldGrid : public PassCache {
  public:
-  explicit ViewOfWorldGrid(Work& work, const Seen& seen) { follow(work, seen); }
+  explicit ViewOfWorldGrid(Work& work) { follow(work); }
 
-  bool follow(Work& work, const Seen& seen) override {
-    const Settings& s = seen.plan.settings;
-    const WorldGridKey key{s.world_grid, s.world_cell, seen.plan.index_bits, s.ranges,
+  bool follow(Work& work) override {
+    const Settings& s = work.plan.settings;
+    const WorldGridKey key{s.world_grid, s.world_cell, work.plan.index_bits, s.ranges,
                            s.raster == RasterApi::opengl};
     if (!grid || key != key_) grid = work.gpu.world_grid(work.renderer, key);
     key_ = key;
@@ -22,8 +22,8 @@ class ViewOfWorldGrid : public PassCache {
 
   size_t memory_bytes() const override { return grid->memory_bytes() + 2 * sizeof(WorldViewParams); }
 
-  void put_view(Work& work, const Seen& seen) {
-    params = world_view_params(grid->layout(), seen.view);
+  void put_view(Work& work) {
+    params = world_view_params(grid->layout(), work.view);
     in_cl.put(*work.renderer.cl, "uploading the view", std::vector<WorldViewParams>{params});
   }
 
@@ -39,7 +39,7 @@ class ViewOfWorldGrid : public PassCache {
 
 namespace {
 
-// As shared/pixel_position.h, which C++ compiles for perspective views alone.
+// shared/pixel_position.h does the same, but C++ compiles it for perspective views alone.
 glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
   if (!seen.view.orthographic) return position_of_pixel(x, y, depth, seen.params);
   const ViewParams& p = seen.params;
@@ -47,12 +47,12 @@ glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
           (depth - p.depth_b) * p.depth_a};
 }
 
-// Whether the lists are right now, since few lights moved since they were.
-bool update_world_grid(Work& work, const Seen& seen, SharedWorldGrid& grid) {
-  if (!grid.serves(seen.view, grid.lights_version())) return false;
+// Brings the lists up to date where few lights moved since they were right. Returns false if a build is due.
+bool update_world_grid(Work& work, SharedWorldGrid& grid) {
+  if (!grid.serves(work.view, grid.lights_version())) return false;
   const auto changed = work.gpu.lights_changed_since(grid.lights_version());
   if (!changed) return false;
-  const std::vector<int>& local = seen.plan.local;
+  const std::vector<int>& local = work.plan.local;
   std::vector<uint32_t> moved;  // numbers in lists
   std::vector<int> of_scene;
   for (const int light : *changed) {
@@ -61,13 +61,13 @@ bool update_world_grid(Work& work, const Seen& seen, SharedWorldGrid& grid) {
     moved.push_back(uint32_t(found - local.begin())), of_scene.push_back(light);
   }
   auto pass = work.timer.pass("update_world_grid", "cl");
-  const std::vector<CullLight> lights = cull_lights_of(seen.scene, of_scene, seen.plan.settings.ranges);
+  const std::vector<CullLight> lights = cull_lights_of(work.scene, of_scene, work.plan.settings.ranges);
   if (!grid.update(moved, lights, work.gpu.lights_version())) return false;
   pass.moves(moved.size() * 16 + grid.list_bytes(), grid.list_bytes());
   return true;
 }
 
-GlLightLoop grid_to_gl(Work& work, const Seen& seen, ViewOfWorldGrid& state) {
+GlLightLoop grid_to_gl(Work& work, ViewOfWorldGrid& state) {
   SharedWorldGrid& grid = *state.grid;
   {
     auto pass = work.timer.pass("grid_to_gl", "gl");
@@ -76,7 +76,7 @@ GlLightLoop grid_to_gl(Work& work, const Seen& seen, ViewOfWorldGrid& state) {
   }
   if (!state.in_gl) state.in_gl = make_buffer(sizeof state.params, nullptr, GL_DYNAMIC_STORAGE_BIT);
   glNamedBufferSubData(state.in_gl.name(), 0, sizeof state.params, &state.params);
-  GlLightLoop loop = light_loop(seen);
+  GlLightLoop loop = light_loop(work);
   loop.defines.emplace_back("LIGHTS_WORLD");
   if (!grid.layout().everywhere.empty()) loop.defines.emplace_back("WORLD_EVERYWHERE");
   loop.textures = {{Sampler::world_cells, grid.texture(WorldArray::cells)},
@@ -101,17 +101,17 @@ ClLightLoop grid_in_cl(const ViewOfWorldGrid& state) {
 
 // Rounds as C++ does. A device may round the position differently and then read a neighbouring cell's list,
 // which serves the position as well.
-ListedLights listed_of_world_grid(Work& work, const Seen& seen, Cached<ViewOfWorldGrid>& cache,
+ListedLights listed_of_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache,
                                   const std::vector<float>& depth) {
-  const ViewOfWorldGrid& state = cache.of(work, seen);
+  const ViewOfWorldGrid& state = cache.of(work);
   const HostWorldGrid host = state.grid->read();
   ListedLights lists;
   std::map<uint64_t, uint32_t> cell_of_range;
   lists.cell_of_pixel.reserve(depth.size());
-  for (int y = 0; y < seen.view.height; ++y) {
-    for (int x = 0; x < seen.view.width; ++x) {
+  for (int y = 0; y < work.view.height; ++y) {
+    for (int x = 0; x < work.view.width; ++x) {
       const float here = depth[lists.cell_of_pixel.size()];
-      const glm::vec3 position = pixel_position(seen, float(x) + 0.5f, float(y) + 0.5f, here > 0 ? here : 1);
+      const glm::vec3 position = pixel_position(work, float(x) + 0.5f, float(y) + 0.5f, here > 0 ? here : 1);
       const glm::uvec2 range = host.range_at(world_position(position, state.params));
       const auto [found, added] =
           cell_of_range.try_emplace(uint64_t(range.x) << 32 | range.y, uint32_t(cell_of_range.size()));
@@ -129,25 +129,25 @@ ListedLights listed_of_world_grid(Work& work, const Seen& seen, Cached<ViewOfWor
 
 }  // namespace
 
-LightSource build_world_grid(Work& work, const Seen& seen, Cached<ViewOfWorldGrid>& cache) {
-  ViewOfWorldGrid& state = cache.of(work, seen);
+LightSource build_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
+  ViewOfWorldGrid& state = cache.of(work);
   SharedWorldGrid& grid = *state.grid;
-  const bool right = grid.serves(seen.view, work.gpu.lights_version());
+  const bool right = grid.serves(work.view, work.gpu.lights_version());
   // A build has a time where passes are timed.
-  if (work.timer.enabled || (!right && !update_world_grid(work, seen, grid))) {
+  if (work.timer.enabled || (!right && !update_world_grid(work, grid))) {
     auto pass = work.timer.pass("build_world_grid", "cl");
-    cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges, state.lights);
-    grid.build(state.lights, world_box(seen.scene), seen.view, work.gpu.lights_version());
-    pass.moves(seen.plan.local.size() * 16, grid.list_bytes());
+    cull_lights_of(work.scene, work.plan.local, work.plan.settings.ranges, state.lights);
+    grid.build(state.lights, world_box(work.scene), work.view, work.gpu.lights_version());
+    pass.moves(work.plan.local.size() * 16, grid.list_bytes());
   }
-  state.put_view(work, seen);
-  return LightSource(
-      [&work, &seen, &state] { return grid_to_gl(work, seen, state); }, grid_in_cl(state), grid.list_bytes(),
-      [&work, &seen, &cache](auto& depth) { return listed_of_world_grid(work, seen, cache, depth); });
+  state.put_view(work);
+  return LightSource([&work, &state] { return grid_to_gl(work, state); }, grid_in_cl(state),
+                     grid.list_bytes(),
+                     [&work, &cache](auto& depth) { return listed_of_world_grid(work, cache, depth); });
 }
 
-const SharedWorldGrid& built_world_grid(Work& work, const Seen& seen, Cached<ViewOfWorldGrid>& cache) {
-  return *cache.of(work, seen).grid;
+const SharedWorldGrid& built_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
+  return *cache.of(work).grid;
 }
 
 }  // namespace lightgrid

@@ -2,29 +2,29 @@
 #include "passes/cull_lights.h"
 
 #include "cl/transfer.h"
-#include "passes/read_outs/cells.h"
+#include "passes/read_outs.h"
 #include "scene/grid_lists.h"
 
 namespace lightgrid {
 namespace {
 
-ViewGrid cull(Work& work, const Seen& seen, LightCuller& culler, const char* name, const TileBounds& bounds,
+ViewGrid cull(Work& work, LightCuller& culler, const char* name, const TileBounds& bounds,
               SharedGridStorage& storage) {
   auto pass = work.timer.pass(name, "cl");
   const ViewGrid grid{culler.cull(bounds, storage), &storage};
-  pass.moves(seen.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
+  pass.moves(work.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
   return grid;
 }
 
-// As lists, or as masks.
-GlLightLoop grid_to_gl(Work& work, const Seen& seen, const ViewGrid& grid) {
+// The grid has lists or masks.
+GlLightLoop grid_to_gl(Work& work, const ViewGrid& grid) {
   auto pass = work.timer.pass("grid_to_gl", "gl");
   pass.moves(grid.bytes(), grid.bytes());
   SharedGridStorage& storage = *grid.storage;
-  GlLightLoop loop = light_loop(seen);
+  GlLightLoop loop = light_loop(work);
   loop.defines.emplace_back(grid.mask_bytes ? "LIGHTS_MASKS" : "LIGHTS_GRID");
-  if (seen.plan.slices > 1) loop.defines.emplace_back("SLICES");
-  if (seen.plan.z_bins > 1) loop.defines.emplace_back("Z_BINS");
+  if (work.plan.slices > 1) loop.defines.emplace_back("SLICES");
+  if (work.plan.z_bins > 1) loop.defines.emplace_back("Z_BINS");
   if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
   if (grid.mask_bytes) {
     storage.masks_.buffer->hand_to_gl(grid.mask_bytes);
@@ -69,35 +69,32 @@ void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lis
   }
 }
 
-ListedLights listed_of_grid(Work& work, const Seen& seen, const ViewGrid& grid,
-                            const std::vector<float>& depth) {
+ListedLights listed_of_grid(Work& work, const ViewGrid& grid, const std::vector<float>& depth) {
   ListedLights lists;
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  if (seen.plan.settings.grid_lists == GridLists::masks) {
+  if (work.plan.settings.grid_lists == GridLists::masks) {
     add_masks(read_shared<uint32_t>(work, grid.storage->masks_, cells * grid.mask_words), cells, lists);
   } else {
     add_lists(work, grid, cells, lists);
   }
-  return at_pixels(std::move(lists), cells_of_pixels(seen, depth),
+  return at_pixels(std::move(lists), cells_of_pixels(work, depth),
                    read_shared<uint32_t>(work, grid.storage->z_bins_, grid.z_bin_bytes / 4));
 }
 
 }  // namespace
 
-ViewGrid cull_lights(Work& work, const Seen& seen, LightCuller& culler, SharedGridStorage& storage,
-                     const DepthBounds& bounds) {
-  return cull(work, seen, culler, "cull_lights", bounds.opaque, storage);
+ViewGrid cull_lights(Work& work, LightCuller& culler, SharedGridStorage& storage, const DepthBounds& bounds) {
+  return cull(work, culler, "cull_lights", bounds.opaque, storage);
 }
 
-ViewGrid cull_lights_for_blended(Work& work, const Seen& seen, LightCuller& culler,
-                                 SharedGridStorage& storage, const DepthBounds& bounds) {
-  return cull(work, seen, culler, "cull_lights_for_blended", bounds.blend, storage);
+ViewGrid cull_lights_for_blended(Work& work, LightCuller& culler, SharedGridStorage& storage,
+                                 const DepthBounds& bounds) {
+  return cull(work, culler, "cull_lights_for_blended", bounds.blend, storage);
 }
 
-LightSource from_grid(Work& work, const Seen& seen, const ViewGrid& grid) {
-  return LightSource([&work, &seen, grid] { return grid_to_gl(work, seen, grid); }, grid_in_cl(grid),
-                     grid.bytes(),
-                     [&work, &seen, grid](auto& depth) { return listed_of_grid(work, seen, grid, depth); });
+LightSource from_grid(Work& work, const ViewGrid& grid) {
+  return LightSource([&work, grid] { return grid_to_gl(work, grid); }, grid_in_cl(grid), grid.bytes(),
+                     [&work, grid](auto& depth) { return listed_of_grid(work, grid, depth); });
 }
 
 }  // namespace lightgrid

@@ -7,12 +7,11 @@ namespace lightgrid {
 
 // The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane. Kept in the view's
 // storage.
-ViewGrid cull_lights(Work& work, const Seen& seen, LightCuller& culler, SharedGridStorage& storage,
-                     const DepthBounds& bounds);
-ViewGrid cull_lights_for_blended(Work& work, const Seen& seen, LightCuller& culler,
-                                 SharedGridStorage& storage, const DepthBounds& bounds);
+ViewGrid cull_lights(Work& work, LightCuller& culler, SharedGridStorage& storage, const DepthBounds& bounds);
+ViewGrid cull_lights_for_blended(Work& work, LightCuller& culler, SharedGridStorage& storage,
+                                 const DepthBounds& bounds);
 
 // The lights of the pixel's cell.
-LightSource from_grid(Work& work, const Seen& seen, const ViewGrid& grid);
+LightSource from_grid(Work& work, const ViewGrid& grid);
 
 }  // namespace lightgrid

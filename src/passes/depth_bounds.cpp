@@ -3,27 +3,27 @@
 
 namespace lightgrid {
 
-DepthBuffer depth_to_cl(Work& work, const Seen& seen, const DepthImage& depth) {
-  const size_t bytes = seen.grid().values() * 4;
+DepthBuffer depth_to_cl(Work& work, const DepthImage& depth) {
+  const size_t bytes = work.grid().values() * 4;
   auto pass = work.timer.pass("depth_to_cl", "gl");
   SharedBuffer& copy = work.shared_pixels("depth", 4);
   work.renderer.pixel_copies.to_buffer({depth.framebuffer, GL_DEPTH_ATTACHMENT, work.targets.depth()},
-                                       GL_DEPTH_COMPONENT, GL_FLOAT, seen.grid(), copy.gl_buffer());
+                                       GL_DEPTH_COMPONENT, GL_FLOAT, work.grid(), copy.gl_buffer());
   copy.hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return {copy.cl_buffer()};
 }
 
-DepthBounds depth_bounds(Work& work, const Seen& seen, LightCuller& culler, const DepthBuffer& depth) {
-  if (seen.plan.settings.depth_bounds == DepthBoundsMode::none) return culler.depth_bounds({});
+DepthBounds depth_bounds(Work& work, LightCuller& culler, const DepthBuffer& depth) {
+  if (work.plan.settings.depth_bounds == DepthBoundsMode::none) return culler.depth_bounds({});
   auto pass = work.timer.pass("depth_bounds", "cl");
-  pass.moves(seen.grid().values() * 4, size_t(seen.params.tiles_x) * seen.params.tiles_y * 8);
+  pass.moves(work.grid().values() * 4, size_t(work.params.tiles_x) * work.params.tiles_y * 8);
   return culler.depth_bounds({depth.values});
 }
 
-TileDistances tile_distances(Work& work, const Seen& seen, LightCuller& culler, const DepthBounds& bounds) {
+TileDistances tile_distances(Work& work, LightCuller& culler, const DepthBounds& bounds) {
   TileDistances distances;
-  if (seen.plan.settings.depth_bounds == DepthBoundsMode::none) return distances;
+  if (work.plan.settings.depth_bounds == DepthBoundsMode::none) return distances;
   auto pass = work.timer.pass("tile_distances", "cl");
   distances.intervals = culler.read_bounds(bounds.opaque);
   const size_t bytes = distances.intervals.size() * sizeof(DepthInterval);
@@ -31,8 +31,8 @@ TileDistances tile_distances(Work& work, const Seen& seen, LightCuller& culler, 
   return distances;
 }
 
-DrawList visible_surfaces(Work& work, const Seen& seen, const TileDistances& distances) {
-  return without_hidden(seen.opaque, work.gpu.in_gl(), seen.transforms, seen.params, distances);
+DrawList visible_surfaces(Work& work, const TileDistances& distances) {
+  return without_hidden(work.opaque, work.gpu.in_gl(), work.transforms, work.params, distances);
 }
 
 }  // namespace lightgrid

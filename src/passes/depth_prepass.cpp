@@ -1,34 +1,61 @@
 // Depth first, so that each pixel is shaded once and culling has depth bounds for each tile.
 #include "passes/depth_prepass.h"
 
-#include "renderer/draw.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
+
+// Reversed depth: float's fine steps near 0 serve the far distances (Reed, "Depth Precision Visualized",
+// 2015).
+static void begin_depth(const Seen& seen, GLuint framebuffer, GLenum test) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, seen.grid().width, seen.grid().height);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(test);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  const float nothing = 0.0f;
+  glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &nothing);
+}
 
 // Alpha masks read more than positions.
 static uint32_t features_of_depth(uint32_t features) {
   return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
-DepthImage depth_prepass(Work& work, const Seen& seen) {
+DepthImage depth_prepass(Work& work) {
   auto pass = work.timer.pass("depth_prepass", "gl");
   const GLuint framebuffer = work.depth_framebuffer();
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, seen.grid().width, seen.grid().height);
-  // Reversed depth: float's fine steps near 0 serve the far distances (Reed, "Depth Precision Visualized",
-  // 2015).
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  const float nothing = 0.0f;
-  glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &nothing);
-
-  draw_list(work, seen, seen.opaque, DrawStreams::positions_where_possible,
+  begin_depth(work, framebuffer, GL_GREATER);
+  draw_list(work, work.opaque, DrawStreams::positions_where_possible,
             work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
-  pass.moves(work.gpu.in_gl().geometry_bytes(), seen.grid().values() * 4);
+  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * 4);
   return {framebuffer};
+}
+
+// Masks and normal maps read more than vertices.
+static uint32_t features_of_normals(uint32_t features) {
+  constexpr uint32_t places = feature_textured | feature_uv1 | feature_uv_transform;
+  uint32_t read = 0;
+  if (features & feature_mask) read |= places | feature_vertex_color | feature_base_color_map | feature_mask;
+  if (features & feature_normal_map) read |= places | feature_normal_map;
+  return features & read;
+}
+
+NormalImage fill_normals(Work& work) {
+  auto pass = work.timer.pass("fill_normals", "gl");
+  const NormalImage normals = normal_image_of(work);
+  begin_depth(work, normals.framebuffer, GL_GEQUAL);
+  const float nothing[4] = {0, 0, 0, 0};
+  glClearNamedFramebufferfv(normals.framebuffer, GL_COLOR, 0, nothing);
+  std::vector<std::string> defines;
+  if (normals.layout->define) defines.emplace_back(normals.layout->define);
+  draw_list(work, work.opaque, DrawStreams::all,
+            work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
+                           features_of_normals}));
+  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + normals.layout->image.bytes));
+  return normals;
 }
 
 }  // namespace lightgrid

@@ -2,9 +2,14 @@
 #pragma once
 
 #include "passes/common/frame.h"
+#include "passes/common/light_buffer.h"
 
 namespace lightgrid {
 
-DepthImage depth_prepass(Work& work, const Seen& seen);
+DepthImage depth_prepass(Work& work);
+
+// Draws normals with the depth, in one pass over the geometry, in the format of the setting normals. Where
+// surfaces have equal depth it keeps the last one's normal, as the material pass shades it.
+NormalImage fill_normals(Work& work);
 
 }  // namespace lightgrid

@@ -2,7 +2,7 @@
 #include "passes/fill_gbuffer.h"
 
 #include "passes/common/light_source.h"
-#include "renderer/draw.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 namespace {
@@ -21,46 +21,45 @@ void clear(const Seen& seen, const GBuffer& gbuffer) {
     glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.attachment(i), nothing);
 }
 
-void draw_surfaces(Work& work, const Seen& seen, const GBuffer& gbuffer, const DrawList& surfaces) {
+// with_depth: writes the depth too, else tests it. Where depths are equal the last surface wins, as in
+// forward shading.
+GBuffer draw_surfaces(Work& work, const DrawList& surfaces, BaseLighting lit, bool with_depth) {
+  auto pass = work.timer.pass("fill_gbuffer", "gl");
+  const GBuffer gbuffer = gbuffer_of(work, lit);
+  glDepthFunc(with_depth ? GL_GEQUAL : GL_EQUAL);
+  glDepthMask(with_depth ? GL_TRUE : GL_FALSE);
+  if (with_depth) {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    const float nothing = 0.0f;
+    glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, gbuffer.framebuffer);
-  glViewport(0, 0, seen.grid().width, seen.grid().height);
-  clear(seen, gbuffer);
+  glViewport(0, 0, work.grid().width, work.grid().height);
+  clear(work, gbuffer);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  GlLightLoop loop = base_lighting(seen);
+  GlLightLoop loop = base_lighting(work);
   if (gbuffer.layout->define) loop.defines.emplace_back(gbuffer.layout->define);
   if (gbuffer.base_lighting == BaseLighting::in_image) loop.defines.emplace_back("BASE_LIGHTING");
   if (gbuffer.textures[gbuffer_coat]) loop.defines.emplace_back("COATS");
   if (gbuffer.textures[gbuffer_specular]) loop.defines.emplace_back("SPECULAR_IMAGE");
   loop.bind(work);
-  draw_list(work, seen, surfaces, DrawStreams::all,
+  draw_list(work, surfaces, DrawStreams::all,
             work.programs({"shaders/scene.vert", "shaders/gbuffer.frag", loop.defines}));
+  const size_t depth_bytes = work.grid().values() * 4, bytes = work.grid().values() * written_bytes(gbuffer);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + (with_depth ? 0 : depth_bytes),
+             bytes + (with_depth ? depth_bytes : 0));
+  return gbuffer;
 }
 
 }  // namespace
 
-GBuffer fill_gbuffer(Work& work, const Seen& seen, BaseLighting base_lighting) {
-  auto pass = work.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(work, seen, base_lighting);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glDepthFunc(GL_GEQUAL);  // of equal depths the last wins, as in forward shading
-  glDepthMask(GL_TRUE);
-  const float nothing = 0.0f;
-  glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
-  draw_surfaces(work, seen, gbuffer, seen.opaque);
-  pass.moves(work.gpu.in_gl().geometry_bytes(), seen.grid().values() * (4 + written_bytes(gbuffer)));
-  return gbuffer;
+GBuffer fill_gbuffer(Work& work, BaseLighting base_lighting) {
+  return draw_surfaces(work, work.opaque, base_lighting, true);
 }
 
-GBuffer fill_gbuffer(Work& work, const Seen& seen, const DrawList& surfaces, BaseLighting base_lighting) {
-  auto pass = work.timer.pass("fill_gbuffer", "gl");
-  const GBuffer gbuffer = gbuffer_of(work, seen, base_lighting);
-  glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE);
-  draw_surfaces(work, seen, gbuffer, surfaces);
-  pass.moves(work.gpu.in_gl().geometry_bytes() + seen.grid().values() * 4,
-             seen.grid().values() * written_bytes(gbuffer));
-  return gbuffer;
+GBuffer fill_gbuffer(Work& work, const DrawList& surfaces, BaseLighting base_lighting) {
+  return draw_surfaces(work, surfaces, base_lighting, false);
 }
 
 }  // namespace lightgrid

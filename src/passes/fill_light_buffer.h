@@ -6,15 +6,14 @@
 namespace lightgrid {
 
 // A copy of OpenGL's image.
-NormalsInCl normals_to_cl(Work& work, const Seen& seen, const NormalImage& normals);
+NormalsInCl normals_to_cl(Work& work, const NormalImage& normals);
 
 // The sums over the lights of the pixel's cell, rounded once. use: gbuffer where they are not copied to
 // OpenGL afterwards.
-LightBufferInCl fill_light_buffer(Work& work, const Seen& seen, Cached<LightSums>& cache,
-                                  const NormalsInCl& normals, const DepthBuffer& depth,
-                                  const LightSource& lights, TargetUse use);
+LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const NormalsInCl& normals,
+                                  const DepthBuffer& depth, const LightSource& lights, TargetUse use);
 
 // A copy for OpenGL.
-LightBuffer light_buffer_to_gl(Work& work, const Seen& seen, const LightBufferInCl& buffer);
+LightBuffer light_buffer_to_gl(Work& work, const LightBufferInCl& buffer);
 
 }  // namespace lightgrid

@@ -3,7 +3,9 @@
 #include "passes/find_object_lights.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.h"
@@ -21,34 +23,33 @@ std::vector<uint32_t> lights_reaching(const ViewBox& box, const std::vector<Ligh
 
 }  // namespace
 
-void ObjectLights::update(Work& work, const Seen& seen, const DrawList& list) {
+void ObjectLights::update(Work& work, const DrawList& list) {
   objects_.clear();
   lights_.clear();
   reaches_.clear();
   for (const ViewLight& light :
-       lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local))
+       lights_in_view(work.scene, work.view, work.plan.settings.ranges, work.plan.local))
     reaches_.emplace_back(bounds_of(light));
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
   for (const DrawItem& item : list) {
-    const Aabb& bounds = seen.scene.meshes[seen.scene.instances[item.instance].mesh].bounds;
-    const ViewBox whole = box_in_view(seen.transforms[item.instance].view_from_object, bounds);
-    add_item(work, seen, item, lights_reaching(whole, reaches_, every_light));
+    const Aabb& bounds = work.scene.meshes[work.scene.instances[item.instance].mesh].bounds;
+    const ViewBox whole = box_in_view(work.transforms[item.instance].view_from_object, bounds);
+    add_item(work, item, lights_reaching(whole, reaches_, every_light));
   }
   for (Object& object : objects_) {
     object.ranges =
-        index_ranges(work.gpu.in_gl().mesh(seen.scene.instances[object.instance].mesh), object.clusters);
+        index_ranges(work.gpu.in_gl().mesh(work.scene.instances[object.instance].mesh), object.clusters);
   }
   upload_lists();
 }
 
-void ObjectLights::add_item(Work& work, const Seen& seen, const DrawItem& item,
-                            const std::vector<uint32_t>& candidates) {
-  const GlMesh& mesh = work.gpu.in_gl().mesh(seen.scene.instances[item.instance].mesh);
+void ObjectLights::add_item(Work& work, const DrawItem& item, const std::vector<uint32_t>& candidates) {
+  const GlMesh& mesh = work.gpu.in_gl().mesh(work.scene.instances[item.instance].mesh);
   const size_t first_object = objects_.size();
   for (const uint32_t cluster : item.clusters) {
     const ViewBox box =
-        box_in_view(seen.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
+        box_in_view(work.transforms[item.instance].view_from_object, mesh.clusters[cluster].bounds);
     const std::vector<uint32_t> lights = lights_reaching(box, reaches_, candidates);
     if (objects_.size() > first_object) {
       Object& last = objects_.back();
@@ -81,9 +82,9 @@ void ObjectLights::upload_lists() {
   }
 }
 
-LightSource from_objects(Work& work, const Seen& seen, const ObjectLights& objects) {
-  const auto in_gl = [&work, &seen, &objects] {
-    GlLightLoop loop = light_loop(seen);
+LightSource from_objects(Work& work, const ObjectLights& objects) {
+  const auto in_gl = [&work, &objects] {
+    GlLightLoop loop = light_loop(work);
     loop.defines.emplace_back("LIGHTS_OBJECT");
     if (objects.texture()) loop.textures.push_back({Sampler::object_lights, objects.texture()});
     return loop;
@@ -96,22 +97,63 @@ static void count_bytes(const Seen& seen, const ObjectLights& objects, PassTimer
              objects.lights().size() * sizeof(uint32_t));
 }
 
-const ObjectLights& find_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache,
-                                       const DrawList& surfaces) {
+const ObjectLights& find_object_lights(Work& work, Cached<ObjectLights>& cache, const DrawList& surfaces) {
   auto pass = work.timer.pass("find_object_lights", "cpu");
-  ObjectLights& objects = cache.of(work, seen);
-  objects.update(work, seen, surfaces);
-  count_bytes(seen, objects, pass);
+  ObjectLights& objects = cache.of(work);
+  objects.update(work, surfaces);
+  count_bytes(work, objects, pass);
   return objects;
 }
 
-const ObjectLights& find_blended_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache) {
-  ObjectLights& objects = cache.of(work, seen);
-  if (!seen.plan.blend) return objects;
+const ObjectLights& find_blended_object_lights(Work& work, Cached<ObjectLights>& cache) {
+  ObjectLights& objects = cache.of(work);
+  if (!work.plan.blend) return objects;
   auto pass = work.timer.pass("find_blended_object_lights", "cpu");
-  objects.update(work, seen, seen.blended);
-  count_bytes(seen, objects, pass);
+  objects.update(work, work.blended);
+  count_bytes(work, objects, pass);
   return objects;
+}
+
+namespace {
+
+// Bounds the float rounding of vertices, depth, lights and positions together: under 1e-5 of the distances.
+// 1/256 of the radius is for depth across triangles seen edge-on, which has no useful bound (as in
+// light_volumes.cpp).
+constexpr double rounding = 1e-5, of_radius = 1.0 / 256;
+
+double sum(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+}  // namespace
+
+ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box) {
+  const glm::dvec3 center = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max)),
+                   half = glm::dvec3(box.max) - center;
+  const glm::dmat3 axes(view_from_object);
+  return {glm::dvec3(view_from_object * glm::dvec4(center, 1)),
+          glm::abs(axes[0]) * half.x + glm::abs(axes[1]) * half.y + glm::abs(axes[2]) * half.z};
+}
+
+LightReach::LightReach(const LightBounds& light)
+    : position_(light.position), direction_(light.direction), radius_(light.radius_m) {
+  const double angle = light.widened_angle_rad();
+  cone_ = angle < std::numbers::pi / 2;
+  cos_ = std::cos(angle), sin_ = std::sin(angle);
+}
+
+bool LightReach::may_reach(const ViewBox& box) const {
+  if (!(radius_ > 0)) return false;  // radius 0 lights nothing
+  const double slack = rounding * (sum(position_) + sum(box.center) + sum(box.half));
+  const double reach = radius_ * (1 + rounding + of_radius) + slack;
+  const glm::dvec3 from_light = box.center - position_;
+  const glm::dvec3 outside = glm::max(glm::abs(from_light) - box.half, 0.0);
+  if (glm::dot(outside, outside) > reach * reach) return false;
+  if (!cone_) return true;
+  // The sphere around the box against the cone's side: the distance from it, negative inside. An apex in the
+  // sphere passes.
+  const double ball = glm::length(box.half) + slack + of_radius * std::min(radius_, 1e30);
+  const double along = glm::dot(from_light, direction_);
+  const double across = std::sqrt(std::max(glm::dot(from_light, from_light) - along * along, 0.0));
+  return cos_ * across - sin_ * along <= ball;
 }
 
 }  // namespace lightgrid

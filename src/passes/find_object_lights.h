@@ -3,9 +3,31 @@
 #pragma once
 
 #include "passes/common/light_source.h"
-#include "passes/light_volumes/light_reach.h"
+#include "scene/view_lights.h"
 
 namespace lightgrid {
+
+// Axis-aligned in view space.
+struct ViewBox {
+  glm::dvec3 center, half;
+};
+
+ViewBox box_in_view(const glm::dmat4& view_from_object, const Aabb& box);
+
+// Tests whether a light may reach a box: in double, conservative.
+class LightReach {
+ public:
+  explicit LightReach(const LightBounds& light);
+
+  // False only if the light adds nothing to any pixel of a surface in the box.
+  bool may_reach(const ViewBox& box) const;
+
+ private:
+  glm::dvec3 position_, direction_;
+  double radius_;
+  double cos_, sin_;  // of the cone's half-angle, widened
+  bool cone_;         // narrower than 90 degrees
+};
 
 // Objects are parts of instances: successive clusters that the same lights reach.
 class ObjectLights : public PassCache {
@@ -17,20 +39,20 @@ class ObjectLights : public PassCache {
     IndexRanges ranges;                         // of these clusters
   };
 
-  explicit ObjectLights(Work&, const Seen&) {}
+  explicit ObjectLights(Work&) {}
   size_t memory_bytes() const override { return buffer_bytes_; }
-  bool follow(Work&, const Seen&) override { return true; }  // every frame updates it
+  bool follow(Work&) override { return true; }  // every frame updates it
 
   // Finds the objects of a draw list, in its order, and uploads their lights to the buffer that
   // shaders/lights/object.glsl reads.
-  void update(Work& work, const Seen& seen, const DrawList& list);
+  void update(Work& work, const DrawList& list);
 
   const std::vector<Object>& objects() const { return objects_; }
   const std::vector<uint32_t>& lights() const { return lights_; }  // indices into FramePlan::local
   GLuint texture() const { return texture_.name(); }
 
  private:
-  void add_item(Work& work, const Seen& seen, const DrawItem& item, const std::vector<uint32_t>& candidates);
+  void add_item(Work& work, const DrawItem& item, const std::vector<uint32_t>& candidates);
   void upload_lists();
 
   std::vector<LightReach> reaches_;
@@ -42,11 +64,10 @@ class ObjectLights : public PassCache {
 };
 
 // The lights of the current object (uniform lights_of_draw).
-LightSource from_objects(Work& work, const Seen& seen, const ObjectLights& objects);
+LightSource from_objects(Work& work, const ObjectLights& objects);
 
 // The pass: object-light pairs of opaque or blended surfaces, found on the CPU.
-const ObjectLights& find_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache,
-                                       const DrawList& surfaces);
-const ObjectLights& find_blended_object_lights(Work& work, const Seen& seen, Cached<ObjectLights>& cache);
+const ObjectLights& find_object_lights(Work& work, Cached<ObjectLights>& cache, const DrawList& surfaces);
+const ObjectLights& find_blended_object_lights(Work& work, Cached<ObjectLights>& cache);
 
 }  // namespace lightgrid

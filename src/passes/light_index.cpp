@@ -6,8 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "passes/light_index/blending_probe.h"
-#include "passes/light_index/gl_state.h"
+#include "passes/light_index/blending.h"
 #include "passes/light_index/light_groups.h"
 #include "passes/light_volumes/light_volumes.h"
 
@@ -35,18 +34,18 @@ struct Order {
 
 class LightIndexOrder : public PassCache {
  public:
-  explicit LightIndexOrder(Work& work, const Seen& seen)
-      : layout(light_index_layout(seen.plan.settings, seen.plan.local.size())),
-        group_of_light(seen.plan.local.size(), no_group) {
+  explicit LightIndexOrder(Work& work)
+      : layout(light_index_layout(work.plan.settings, work.plan.local.size())),
+        group_of_light(work.plan.local.size(), no_group) {
     require_exact_blending(work, layout);
-    find_influence(seen);
+    find_influence(work);
   }
 
   // Lights that come into view need groups as well.
-  bool follow(Work&, const Seen& seen) override {
-    if (group_of_light.size() != seen.plan.local.size()) return false;
+  bool follow(Work& work) override {
+    if (group_of_light.size() != work.plan.local.size()) return false;
     grouped = false;
-    find_influence(seen);
+    find_influence(work);
     return true;
   }
 
@@ -249,14 +248,14 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
   glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
 }
 
-void draw_volumes(Work& work, const Seen& seen, const LightIndexOrder& state, const LightVolumes& volumes,
-                  const Order& order, GLuint framebuffer) {
+void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& volumes, const Order& order,
+                  GLuint framebuffer) {
   const LightIndexLayout& layout = state.layout;
-  const Drawing drawing(seen, layout, volumes);
+  const Drawing drawing(work, layout, volumes);
   const GlProgram& program =
       work.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, seen.grid().width, seen.grid().height);
+  glViewport(0, 0, work.grid().width, work.grid().height);
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
   glUseProgram(program.name());
@@ -282,18 +281,18 @@ GlLightLoop index_loop(const Seen& seen, const LightIndexLayout& layout, const s
   return loop;
 }
 
-ListedLights read_light_index(Work& work, const Seen& seen, Cached<LightIndexOrder>& cache) {
-  const LightIndexLayout& layout = cache.of(work, seen).layout;
+ListedLights read_light_index(Work& work, Cached<LightIndexOrder>& cache) {
+  const LightIndexLayout& layout = cache.of(work).layout;
   glBindFramebuffer(GL_READ_FRAMEBUFFER,
                     work.targets.framebuffer(index_images(work, layout), work.targets.depth()));
-  const std::vector<uint16_t> channels = read_channels(layout, seen.grid());
+  const std::vector<uint16_t> channels = read_channels(layout, work.grid());
   const size_t stride = layout.targets() * 4;
   ListedLights lists;
   lists.cell_of_pixel.resize(channels.size() / stride);
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   std::vector<uint32_t> lights;
   for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {
-    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(seen), lights);
+    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(work), lights);
     lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(lights.size()));
     lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
   }
@@ -302,25 +301,24 @@ ListedLights read_light_index(Work& work, const Seen& seen, Cached<LightIndexOrd
 
 }  // namespace
 
-LightSource light_index(Work& work, const Seen& seen, Cached<LightIndexOrder>& cache,
-                        Cached<LightVolumes>& volume_cache) {
-  LightIndexOrder& state = cache.of(work, seen);
-  LightVolumes& volumes = volume_cache.of(work, seen);
+LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache) {
+  LightIndexOrder& state = cache.of(work);
+  LightVolumes& volumes = volume_cache.of(work);
   const std::vector<GLuint> images = index_images(work, state.layout);
   const GLuint framebuffer = work.targets.framebuffer(images, work.targets.depth());
   {
     auto pass = work.timer.pass("light_volumes", "gl");
-    Order order = order_of(seen, state, volumes.update(seen, seen.plan.settings.volume_mesh));
+    Order order = order_of(work, state, volumes.update(work));
     volumes.upload_volumes(order.volumes);
     state.order = std::move(order);
   }
   auto pass = work.timer.pass("light_index", "gl");
-  draw_volumes(work, seen, state, volumes, state.order, framebuffer);
-  const size_t values = seen.grid().values();
+  draw_volumes(work, state, volumes, state.order, framebuffer);
+  const size_t values = work.grid().values();
   pass.moves(values * 5 + volumes.memory_bytes(), values * (state.layout.pixel_bytes() + 1));
-  return LightSource([&seen, &state, images] { return index_loop(seen, state.layout, images); }, {},
+  return LightSource([&work, &state, images] { return index_loop(work, state.layout, images); }, {},
                      work.targets.bytes(TargetUse::light_index),
-                     [&work, &seen, &cache](auto&) { return read_light_index(work, seen, cache); });
+                     [&work, &cache](auto&) { return read_light_index(work, cache); });
 }
 
 }  // namespace lightgrid

@@ -8,7 +8,6 @@ namespace lightgrid {
 // The lights in the pixel's light indices. Draws light volumes into light index images, at the prepass'
 // depth. Throws Error(input) if no layout fits the settings, and Error(machine) if this machine's blending
 // would change an index.
-LightSource light_index(Work& work, const Seen& seen, Cached<LightIndexOrder>& cache,
-                        Cached<LightVolumes>& volume_cache);
+LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache);
 
 }  // namespace lightgrid

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cl/uploaded_buffer.h"
-#include "renderer/surface_instances.h"
 
 namespace lightgrid {
 namespace {
@@ -31,39 +30,59 @@ std::vector<int> kept_instances(const Scene& scene) {
   return kept;
 }
 
+// Instances of the scene, in their order, as the resolve kernels read them. Replaces `records`, whose memory
+// is used again.
+void set_surface_instances(const Seen& seen, std::span<const int> instances,
+                           std::vector<SurfaceInstance>& records) {
+  records.resize(instances.size());
+  for (size_t k = 0; k < instances.size(); ++k) {
+    const Mesh& mesh = seen.scene.meshes[seen.scene.instances[instances[k]].mesh];
+    const InstanceTransform& t = seen.transforms[instances[k]];
+    SurfaceInstance& record = records[k];
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        record.normal[3 * row + column] = t.normals[column][row];
+        record.direction[3 * row + column] = t.directions[column][row];
+      }
+    }
+    record.material = uint(mesh.material);
+    record.flags = t.mirrored ? INSTANCE_MIRRORED : 0;
+  }
+}
+
 }  // namespace
 
 // Draws some of a view's instances, in this order.
 class InstanceRasterizer {
  public:
-  InstanceRasterizer(Work& work, const Seen& seen, bool drawing_order)
-      : scene(work.gpu.in_raster(seen.plan.settings.texels)),
+  InstanceRasterizer(Work& work, bool drawing_order)
+      : scene(work.gpu.in_raster(work.plan.settings.texels)),
         raster(*scene, *work.renderer.kernels,
-               {.shape = seen.plan.settings.kernel_shape,
-                .portable = seen.plan.settings.portable,
+               {.shape = work.plan.settings.kernel_shape,
+                .portable = work.plan.settings.portable,
                 .drawing_order = drawing_order}) {}
 
   // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
-  void follow(Work& work, const Seen& seen, std::span<const int> listed, std::span<const int> drawn) {
-    work.gpu.in_raster(seen.plan.settings.texels);  // brings `scene` up to date
+  void follow(Work& work, std::span<const int> listed, std::span<const int> drawn) {
+    work.gpu.in_raster(work.plan.settings.texels);  // brings `scene` up to date
     if (shape_version_ != work.gpu.shape_version() || instances_version_ != work.gpu.instances_version() ||
         !std::ranges::equal(listed, known_)) {
-      set_instances(work, seen, listed);
+      set_instances(work, listed);
     }
     for (size_t i = 0; i < listed.size(); ++i) {
       const bool in_view = !drawn.empty() && drawn.front() == listed[i];
       raster.set_drawn(i, in_view);
       if (in_view) drawn = drawn.subspan(1);
     }
-    raster.set_camera({seen.grid(), seen.view.clip_from_view, seen.view.view_from_world, seen.view.eye});
+    raster.set_camera({work.grid(), work.view.clip_from_view, work.view.view_from_world, work.view.eye});
     listed_ = listed, uploaded_ = false;
   }
 
   // `surfaces`, of the instances that follow() was given.
-  void upload_surfaces(Work& work, const Seen& seen) {
+  void upload_surfaces(Work& work) {
     if (uploaded_) return;
-    set_surface_instances(seen, listed_, records_);
+    set_surface_instances(work, listed_, records_);
     surfaces.put(*work.renderer.cl, "uploading instances", records_);
     uploaded_ = true;
   }
@@ -75,14 +94,14 @@ class InstanceRasterizer {
   UploadedBuffer surfaces;
 
  private:
-  void set_instances(Work& work, const Seen& seen, std::span<const int> listed) {
+  void set_instances(Work& work, std::span<const int> listed) {
     std::vector<RasterInstance> instances;
     for (const int i : listed) {
-      const Instance& instance = seen.scene.instances[i];
-      const Material& m = material_of(seen.scene, i);
+      const Instance& instance = work.scene.instances[i];
+      const Material& m = material_of(work.scene, i);
       const bool masked = m.alpha_mode == AlphaMode::mask;
       instances.push_back({instance.mesh, instance.world_from_object, m.double_sided,
-                           masked ? seen.scene.meshes[instance.mesh].material : -1});
+                           masked ? work.scene.meshes[instance.mesh].material : -1});
     }
     raster.set_instances(instances);
     known_.assign(listed.begin(), listed.end());
@@ -98,15 +117,12 @@ class InstanceRasterizer {
 
 class OpaqueTriangles : public PassCache {
  public:
-  explicit OpaqueTriangles(Work& work, const Seen& seen)
-      : of(work, seen, false), kept(kept_instances(seen.scene)) {
-    follow(work, seen);
-  }
-  bool follow(Work& work, const Seen& seen) override {
-    of.follow(work, seen, instances(seen), seen.plan.opaque);
+  explicit OpaqueTriangles(Work& work) : of(work, false), kept(kept_instances(work.scene)) { follow(work); }
+  bool follow(Work& work) override {
+    of.follow(work, instances(work), work.plan.opaque);
     return true;
   }
-  void upload(Work& work, const Seen& seen) override { of.upload_surfaces(work, seen); }
+  void upload(Work& work) override { of.upload_surfaces(work); }
   size_t memory_bytes() const override { return of.memory_bytes() + of.scene->memory_bytes(); }
   std::span<const int> instances(const Seen& seen) const { return kept.empty() ? seen.plan.opaque : kept; }
 
@@ -116,11 +132,10 @@ class OpaqueTriangles : public PassCache {
 
 class BlendedTriangleLists : public PassCache {
  public:
-  explicit BlendedTriangleLists(Work& work, const Seen& seen) : of(work, seen, true) { upload(work, seen); }
-  bool follow(Work&, const Seen&) override { return followed = false, true; }
-  void upload(Work& work, const Seen& seen) override {
-    if (!followed)
-      of.follow(work, seen, seen.plan.blended, seen.plan.blended), of.upload_surfaces(work, seen);
+  explicit BlendedTriangleLists(Work& work) : of(work, true) { upload(work); }
+  bool follow(Work&) override { return followed = false, true; }
+  void upload(Work& work) override {
+    if (!followed) of.follow(work, work.plan.blended, work.plan.blended), of.upload_surfaces(work);
     followed = true;
   }
   size_t memory_bytes() const override { return of.memory_bytes(); }
@@ -128,19 +143,19 @@ class BlendedTriangleLists : public PassCache {
   bool followed = false;
 };
 
-VisibilityBuffer rasterize(Work& work, const Seen& seen, PassCaches& caches) {
+VisibilityBuffer rasterize(Work& work, PassCaches& caches) {
   auto pass = work.timer.pass("rasterize", "cl");
-  OpaqueTriangles& opaque = caches.opaque_triangles.of(work, seen);
+  OpaqueTriangles& opaque = caches.opaque_triangles.of(work);
   InstanceRasterizer& r = opaque.of;
-  const Visibility image = r.raster.draw([&] { caches.upload(work, seen); });
-  pass.moves(r.scene->geometry_bytes(), seen.grid().values() * 8);
-  return {image, r.raster.buffers(), r.surfaces.buffer(), opaque.instances(seen)};
+  const Visibility image = r.raster.draw([&] { caches.upload(work); });
+  pass.moves(r.scene->geometry_bytes(), work.grid().values() * 8);
+  return {image, r.raster.buffers(), r.surfaces.buffer(), opaque.instances(work)};
 }
 
-BlendedTriangles list_blended(Work& work, const Seen& seen, Cached<BlendedTriangleLists>& cache) {
+BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache) {
   auto pass = work.timer.pass("list_blended", "cl");
-  BlendedTriangleLists& blended = cache.of(work, seen);
-  blended.upload(work, seen);
+  BlendedTriangleLists& blended = cache.of(work);
+  blended.upload(work);
   InstanceRasterizer& r = blended.of;
   const RasterLists lists = r.raster.list();
   pass.moves(r.scene->geometry_bytes(), r.raster.counts().tile_entries * 4);

@@ -20,7 +20,7 @@ struct VisibilityBuffer {
   TriangleBuffer triangles() const { return {image.triangle, instances}; }
 };
 
-VisibilityBuffer rasterize(Work& work, const Seen& seen, PassCaches& caches);
+VisibilityBuffer rasterize(Work& work, PassCaches& caches);
 
 // The blended triangles of each tile in drawing order, and what their numbers lead to: until the view's next
 // list_blended().
@@ -30,6 +30,6 @@ struct BlendedTriangles {
   cl::Buffer surfaces;
 };
 
-BlendedTriangles list_blended(Work& work, const Seen& seen, Cached<BlendedTriangleLists>& cache);
+BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache);
 
 }  // namespace lightgrid

@@ -4,11 +4,11 @@
 
 namespace lightgrid {
 
-HostImage::HostImage(Work& work, const Seen& seen, const ShadedImage& shaded, Image& copy) : copy_(copy) {
+HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy) : copy_(copy) {
   auto pass = work.timer.pass("read_back", shaded.in_cl ? "cl" : "gl");
-  if (copy.width != seen.view.width || copy.height != seen.view.height ||
-      copy.pixels.size() != seen.grid().pixels()) {
-    copy = Image(seen.view.width, seen.view.height);
+  if (copy.width != work.view.width || copy.height != work.view.height ||
+      copy.pixels.size() != work.grid().pixels()) {
+    copy = Image(work.view.width, work.view.height);
   }
   const char* what = "reading the image back";
   const size_t bytes = copy.pixels.size() * 16;
@@ -32,8 +32,6 @@ void HostImage::keep() {
   mapped_.reset();
 }
 
-void read_back(Work& work, const Seen& seen, const ShadedImage& shaded, Image& image) {
-  HostImage(work, seen, shaded, image).keep();
-}
+void read_back(Work& work, const ShadedImage& shaded, Image& image) { HostImage(work, shaded, image).keep(); }
 
 }  // namespace lightgrid

@@ -13,7 +13,7 @@ namespace lightgrid {
 // goes or the view draws again; else a copy in `copy`, which keeps its memory from frame to frame.
 class HostImage {
  public:
-  HostImage(Work& work, const Seen& seen, const ShadedImage& shaded, Image& copy);
+  HostImage(Work& work, const ShadedImage& shaded, Image& copy);
   // Into `copy`, if it is not there.
   void keep();
 
@@ -23,6 +23,6 @@ class HostImage {
 };
 
 // Copies the image to the host.
-void read_back(Work& work, const Seen& seen, const ShadedImage& shaded, Image& image);
+void read_back(Work& work, const ShadedImage& shaded, Image& image);
 
 }  // namespace lightgrid

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "cl/launch.h"
-#include "renderer/cl_lights.h"
+#include "renderer/upload/lights.h"
 
 namespace lightgrid {
 namespace {
@@ -13,12 +13,7 @@ constexpr size_t group_width = 8, group_height = 16;  // pixels; the 32 items th
 
 constexpr size_t cached_texture_bytes = 16 << 20;  // about what a CPU's caches keep from frame to frame
 
-cl::NDRange whole_groups(const View& view) {
-  const auto whole = [](int pixels, size_t group) { return (size_t(pixels) + group - 1) / group * group; };
-  return {whole(view.width, group_width), whole(view.height, group_height)};
-}
-
-// The lists of a source of lights, as RESOLVE_ARGUMENTS has them.
+// A light source's lists, in the order of RESOLVE_ARGUMENTS.
 ClArguments source_arguments(const ClLightLoop& loop) {
   return ClArguments{{"cells", loop.cells}, {"light_indices", loop.indices}, {"light_bins", loop.z_bins}} +
          loop.more;
@@ -29,53 +24,38 @@ ClArguments source_arguments(const ClLightLoop& loop) {
 // The image and the kernels.
 class Resolver : public PassCache {
  public:
-  explicit Resolver(Work& work, const Seen& seen)
-      : lanes(shades_in_lanes(work, seen)), image(work.shared_pixels("image", 16)) {
-    upload(work, seen);
+  explicit Resolver(Work& work) : image(work.shared_pixels("image", 16)), kernels_(work, "resolve") {
+    upload(work);
   }
 
-  bool follow(Work&, const Seen&) override { return uploaded_ = false, true; }
+  bool follow(Work&) override { return uploaded_ = false, true; }
 
-  void upload(Work& work, const Seen& seen) override {
+  void upload(Work& work) override {
     if (uploaded_) return;
-    std::string defines = resolve_defines(work, seen);
-    if (defines != defines_) {
-      defines_ = std::move(defines);
-      kernels_.clear();
-    }
+    kernels_.use(resolve_defines(work));
     work.cl_lights();
     uploaded_ = true;
   }
 
   size_t memory_bytes() const override { return scene_bytes_; }
 
-  // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend", built at first use.
+  // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend". NVIDIA's compiler gives
+  // these kernels 80 registers and more. Then too few groups run side by side to hide the memory's latency.
   NamedKernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
-    NamedKernel& kernel = kernels_[stem + more_defines];
-    if (!kernel) {
-      kernel =
-          NamedKernel(*work.renderer.kernels, (lanes ? "resolve/cpu/" : "resolve/gpu/") + std::string(stem),
-                      defines_ + more_defines + register_limit(work));
-    }
-    return kernel;
+    const bool limit = work.renderer.cl->info().platform == "NVIDIA CUDA";
+    return kernels_.of(stem, more_defines + (limit ? " -cl-nv-maxrregcount=64" : ""));
   }
 
-  // NVIDIA's compiler gives these kernels 80 registers and more. Then too few groups run side by side to hide
-  // the memory's latency.
-  static const char* register_limit(Work& work) {
-    return work.renderer.cl->info().platform == "NVIDIA CUDA" ? " -cl-nv-maxrregcount=64" : "";
-  }
-
-  const ClScene& scene(Work& work, const Seen& seen) {
-    const ClScene& scene = work.gpu.in_cl(seen.plan.settings.texels);
+  const ClScene& scene(Work& work) {
+    const ClScene& scene = work.gpu.in_cl(work.plan.settings.texels);
     scene_bytes_ = scene.memory_bytes();
     return scene;
   }
 
   // RESOLVE_ARGUMENTS of kernels/resolve/resolve_light.h.
-  ClArguments arguments(Work& work, const Seen& seen, const RasterBuffers& raster, const cl::Buffer& surfaces,
+  ClArguments arguments(Work& work, const RasterBuffers& raster, const cl::Buffer& surfaces,
                         const ClLightLoop& loop = {}) {
-    const ClScene& s = scene(work, seen);
+    const ClScene& s = scene(work);
     const ClLights& lights = work.cl_lights();
     return ClArguments{{"triangle_instance", raster.triangle_instance},
                        {"instances", raster.instances},
@@ -93,27 +73,26 @@ class Resolver : public PassCache {
                        {"view", lights.view.buffer()}};
   }
 
-  // Of kernels over all pixels: a work-item takes a tile, or a pixel.
-  cl::NDRange items(const Seen& seen) const {
-    return lanes ? cl::NDRange(seen.params.tiles_x, seen.params.tiles_y) : whole_groups(seen.view);
+  bool lanes() const { return kernels_.lanes; }
+  PixelRange pixels(const Seen& seen) const { return over_pixels(seen, lanes(), group_width, group_height); }
+  void launch(Work& work, NamedKernel& kernel, const char* label, const ClArguments& arguments) const {
+    const auto [items, group] = pixels(work);
+    kernel.launch(*work.renderer.cl, label, items, group, arguments);
   }
-  cl::NDRange group() const { return lanes ? cl::NDRange(1, 1) : cl::NDRange(group_width, group_height); }
 
-  const bool lanes;
   SharedBuffer& image;  // of the view's targets
 
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
-  std::string resolve_defines(Work& work, const Seen& seen) {
-    std::string defines = light_defines(seen, lanes, seen.plan.settings.brdf);
-    if (seen.plan.directional) defines += " -DDIRECTIONAL";
-    if (seen.plan.light_grid && seen.plan.slices > 1) defines += " -DSLICES";
-    const uint32_t of_scene = seen.plan.settings.everything_on ? feature_all : scene(work, seen).features();
-    if (seen.plan.settings.texels == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
-    const uint32_t features = features_read(of_scene, seen.plan.settings.brdf);
-    const bool large =
-        scene(work, seen).texture_bytes() > cached_texture_bytes || seen.plan.settings.everything_on;
-    if (lanes && large && features & feature_textured) defines += " -DFETCH_AHEAD";
+  std::string resolve_defines(Work& work) {
+    std::string defines = light_defines(work, lanes(), work.plan.settings.brdf);
+    if (work.plan.directional) defines += " -DDIRECTIONAL";
+    if (work.plan.light_grid && work.plan.slices > 1) defines += " -DSLICES";
+    const uint32_t of_scene = work.plan.settings.everything_on ? feature_all : scene(work).features();
+    if (work.plan.settings.texels == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
+    const uint32_t features = features_read(of_scene, work.plan.settings.brdf);
+    const bool large = scene(work).texture_bytes() > cached_texture_bytes || work.plan.settings.everything_on;
+    if (lanes() && large && features & feature_textured) defines += " -DFETCH_AHEAD";
     for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
                                       {feature_uv1, " -DUV1"},
                                       {feature_vertex_color, " -DVERTEX_COLOR"},
@@ -127,17 +106,16 @@ class Resolver : public PassCache {
     return defines;
   }
 
-  std::string defines_;
-  std::map<std::string, NamedKernel> kernels_;  // by stem and what more defines it has
+  PassKernels kernels_;
   size_t scene_bytes_ = 0;
   bool uploaded_ = false;  // for this view
 };
 
 namespace {
 
-Resolver& resolving(Work& work, const Seen& seen, Cached<Resolver>& cache) {
-  Resolver& r = cache.of(work, seen);
-  r.upload(work, seen);
+Resolver& resolving(Work& work, Cached<Resolver>& cache) {
+  Resolver& r = cache.of(work);
+  r.upload(work);
   return r;
 }
 
@@ -157,94 +135,92 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
-ShadedImage resolve(Work& work, const Seen& seen, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                     const LightSource& lights) {
-  Resolver& r = resolving(work, seen, cache);
+  Resolver& r = resolving(work, cache);
   NamedKernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
   auto pass = work.timer.pass("resolve", "cl");
-  kernel.launch(*work.renderer.cl, "resolve", r.items(seen), r.group(),
-                visible_arguments(visible) +
-                    r.arguments(work, seen, visible.raster, visible.surfaces, *lights.in_cl) +
-                    ClArguments{{"background", background(seen)}, {"image", r.image.cl_buffer()}});
-  pass.moves(seen.grid().values() * 8 + lights.bytes + r.scene(work, seen).memory_bytes(),
-             seen.grid().pixels() * 16);
+  r.launch(work, kernel, "resolve",
+           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
+               ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
+  pass.moves(work.grid().values() * 8 + lights.bytes + r.scene(work).memory_bytes(),
+             work.grid().pixels() * 16);
   return {0, &r.image};
 }
 
-GBufferInCl resolve_gbuffer(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                            const VisibilityBuffer& visible, BaseLighting base_lighting) {
-  Resolver& r = resolving(work, seen, cache);
-  const GBufferInCl g = gbuffer_in_cl_of(work, seen, base_lighting, TargetUse::gbuffer);
+GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                            BaseLighting base_lighting) {
+  Resolver& r = resolving(work, cache);
+  const GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
   const bool image = base_lighting == BaseLighting::in_image;
   NamedKernel& kernel = r.kernel(work, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
   auto pass = work.timer.pass("resolve_gbuffer", "cl");
-  kernel.launch(*work.renderer.cl, "resolve_gbuffer", r.items(seen), r.group(),
-                visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces) +
-                    ClArguments{{"background", background(seen)},
-                                {"first", g.surfaces[0]->cl_buffer()},
-                                {"second", g.surfaces[1]->cl_buffer()},
-                                {"coats", g.in_cl(gbuffer_coat)},
-                                {"specular", g.in_cl(gbuffer_specular)},
-                                {"image", image ? g.image->cl_buffer() : cl::Buffer()}});
-  pass.moves(seen.grid().values() * (image ? 8 : 4) + r.scene(work, seen).memory_bytes(),
-             seen.grid().values() * (g.bytes() + (image ? 16 : 0)));
+  r.launch(work, kernel, "resolve_gbuffer",
+           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
+               ClArguments{{"background", background(work)},
+                           {"first", g.surfaces[0]->cl_buffer()},
+                           {"second", g.surfaces[1]->cl_buffer()},
+                           {"coats", g.in_cl(gbuffer_coat)},
+                           {"specular", g.in_cl(gbuffer_specular)},
+                           {"image", image ? g.image->cl_buffer() : cl::Buffer()}});
+  pass.moves(work.grid().values() * (image ? 8 : 4) + r.scene(work).memory_bytes(),
+             work.grid().values() * (g.bytes() + (image ? 16 : 0)));
   return g;
 }
 
-NormalsInCl resolve_normals(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                            const VisibilityBuffer& visible) {
-  Resolver& r = resolving(work, seen, cache);
-  const NormalsInCl normals = normals_in_cl_of(work, seen, TargetUse::gbuffer);
+NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible) {
+  Resolver& r = resolving(work, cache);
+  const NormalsInCl normals = normals_in_cl_of(work, TargetUse::gbuffer);
   const char* define = normals.layout->define;
   NamedKernel& kernel = r.kernel(work, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
   auto pass = work.timer.pass("resolve_normals", "cl");
-  kernel.launch(*work.renderer.cl, "resolve_normals", r.items(seen), r.group(),
-                ClArguments{{"triangles", visible.image.triangle}} +
-                    r.arguments(work, seen, visible.raster, visible.surfaces) +
-                    ClArguments{{"normals", normals.image->cl_buffer()}});
-  pass.moves(seen.grid().values() * 4 + r.scene(work, seen).memory_bytes(),
-             seen.grid().values() * normals.layout->image.bytes);
+  r.launch(work, kernel, "resolve_normals",
+           ClArguments{{"triangles", visible.image.triangle}} +
+               r.arguments(work, visible.raster, visible.surfaces) +
+               ClArguments{{"normals", normals.image->cl_buffer()}});
+  pass.moves(work.grid().values() * 4 + r.scene(work).memory_bytes(),
+             work.grid().values() * normals.layout->image.bytes);
   return normals;
 }
 
-ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                              const VisibilityBuffer& visible, const LightBufferInCl& sums) {
-  Resolver& r = resolving(work, seen, cache);
-  const Settings& s = seen.plan.settings;
+ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                              const LightBufferInCl& sums) {
+  Resolver& r = resolving(work, cache);
+  const Settings& s = work.plan.settings;
   NamedKernel& kernel = r.kernel(work, "resolve_materials",
                                  fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
   auto pass = work.timer.pass("resolve_materials", "cl");
-  kernel.launch(*work.renderer.cl, "resolve_materials", r.items(seen), r.group(),
-                visible_arguments(visible) + r.arguments(work, seen, visible.raster, visible.surfaces) +
-                    ClArguments{{"background", background(seen)},
-                                {"first", sums.first->cl_buffer()},
-                                {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
-                                {"scale", cl_float(stored_scale(seen))},
-                                {"exponent", cl_float(s.prepass_shininess)},
-                                {"reference", cl_float(reference_light(seen.scene, seen.plan))},
-                                {"image", r.image.cl_buffer()}});
-  pass.moves(seen.grid().values() * (8 + sums.bytes()) + r.scene(work, seen).memory_bytes(),
-             seen.grid().pixels() * 16);
+  r.launch(work, kernel, "resolve_materials",
+           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
+               ClArguments{{"background", background(work)},
+                           {"first", sums.first->cl_buffer()},
+                           {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
+                           {"scale", cl_float(stored_scale(work))},
+                           {"exponent", cl_float(s.prepass_shininess)},
+                           {"reference", cl_float(reference_light(work.scene, work.plan))},
+                           {"image", r.image.cl_buffer()}});
+  pass.moves(work.grid().values() * (8 + sums.bytes()) + r.scene(work).memory_bytes(),
+             work.grid().pixels() * 16);
   return {0, &r.image};
 }
 
-void blend_resolved(Work& work, const Seen& seen, Cached<Resolver>& cache, const BlendedTriangles& blended,
+void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles& blended,
                     const DepthBuffer& depth, const LightSource& lights) {
-  Resolver& r = resolving(work, seen, cache);
+  Resolver& r = resolving(work, cache);
   NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines);
+  const PixelRange pixels = r.pixels(work);
   auto pass = work.timer.pass("blend_resolved", "cl");
-  kernel.launch(
-      *work.renderer.cl, "blend_resolved",
-      r.lanes ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : whole_groups(seen.view),
-      r.lanes ? cl::NDRange(1) : cl::NDRange(group_width, group_height),
-      ClArguments{{"records", blended.lists.records},
-                  {"tile_begin", blended.lists.tile_begin},
-                  {"lists", blended.lists.lists},
-                  {"tiles_x", cl_uint(blended.lists.tiles_x)},
-                  {"depths", depth.values}} +
-          r.arguments(work, seen, blended.raster, blended.surfaces, *lights.in_cl) +
-          ClArguments{{"image", r.image.cl_buffer()}});
-  pass.moves(seen.grid().values() * 20 + lights.bytes, seen.grid().pixels() * 16);
+  kernel.launch(*work.renderer.cl, "blend_resolved",
+                r.lanes() ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : pixels.items,
+                r.lanes() ? cl::NDRange(1) : pixels.group,
+                ClArguments{{"records", blended.lists.records},
+                            {"tile_begin", blended.lists.tile_begin},
+                            {"lists", blended.lists.lists},
+                            {"tiles_x", cl_uint(blended.lists.tiles_x)},
+                            {"depths", depth.values}} +
+                    r.arguments(work, blended.raster, blended.surfaces, *lights.in_cl) +
+                    ClArguments{{"image", r.image.cl_buffer()}});
+  pass.moves(work.grid().values() * 20 + lights.bytes, work.grid().pixels() * 16);
 }
 
 }  // namespace lightgrid

@@ -8,26 +8,25 @@
 namespace lightgrid {
 
 // Attributes, textures and light of every pixel in one pass. The image stays in OpenCL's memory.
-ShadedImage resolve(Work& work, const Seen& seen, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                     const LightSource& lights);
 
 // The surface of every pixel into a geometry buffer of the layout of buffer-bits, as fill_gbuffer does with
 // OpenGL. With BaseLighting::in_image it writes the image too.
-GBufferInCl resolve_gbuffer(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                            const VisibilityBuffer& visible, BaseLighting base_lighting);
+GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                            BaseLighting base_lighting);
 
 // The normal of every pixel in the format of the setting normals, as fill_normals does with OpenGL.
-NormalsInCl resolve_normals(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                            const VisibilityBuffer& visible);
+NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible);
 
 // Every pixel's material under its sums of light: the material pass of light_prepass. The image stays in
 // OpenCL's memory.
-ShadedImage resolve_materials(Work& work, const Seen& seen, Cached<Resolver>& cache,
-                              const VisibilityBuffer& visible, const LightBufferInCl& sums);
+ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                              const LightBufferInCl& sums);
 
 // Lays blended surfaces over the image of resolve() or of a light pass in OpenCL, where they are in front of
 // the opaque ones.
-void blend_resolved(Work& work, const Seen& seen, Cached<Resolver>& cache, const BlendedTriangles& blended,
+void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles& blended,
                     const DepthBuffer& depth, const LightSource& lights);
 
 }  // namespace lightgrid

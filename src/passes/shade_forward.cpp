@@ -1,22 +1,85 @@
-// Forward shading of the surfaces in the depth prepass: each pixel once, at equal depth.
+// Blended surfaces, back to front, over opaque ones, with depth test. They have a light grid of their own, or
+// lights by object, since they may lie anywhere between the near plane and the opaque surface behind them.
+//
+// The image may be infinite behind them, and infinity times 1 - alpha is NaN where alpha is 1. A first draw
+// therefore limits what the image holds there. The shader limits the surfaces' own radiance, so that it stays
+// finite.
 #include "passes/shade_forward.h"
 
-#include "passes/common/begin_shading.h"
-#include "renderer/draw.h"
+#include "passes/find_object_lights.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 
-ShadedImage shade_forward(Work& work, const Seen& seen, const DrawList& surfaces, const LightSource& lights) {
+ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights) {
   const GlLightLoop& loop = lights.in_gl();
   auto pass = work.timer.pass("shade_forward", "gl");
-  const ShadedImage image = begin_shading(work, seen);
+  const ShadedImage image = begin_shading(work);
   glDisable(GL_BLEND);
   loop.bind(work);
-  draw_list(work, seen, surfaces, DrawStreams::all,
+  draw_list(work, surfaces, DrawStreams::all,
             work.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
-  pass.moves(work.gpu.in_gl().geometry_bytes() + seen.grid().values() * 4 + lights.bytes,
-             seen.grid().values() * 16);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 4 + lights.bytes,
+             work.grid().values() * 16);
   return image;
+}
+
+namespace {
+
+uint32_t features_of_limit(uint32_t features) { return features & features_of_base_color; }
+
+void limit_behind_opaque(Work& work) {
+  ScenePrograms& programs =
+      work.programs({"shaders/scene.vert", "shaders/depth.frag", {"LIMIT"}, true, features_of_limit});
+  InstanceDrawer drawer(work, DrawStreams::all);
+  glBlendEquation(GL_MIN);
+  for (const DrawItem& item : work.blended) {
+    const int material = work.scene.meshes[work.scene.instances[item.instance].mesh].material;
+    if (work.scene.materials[material].base_color.a < 1)
+      continue;  // of a factor of textures and vertex colours
+    drawer.bind(item.instance, programs.of(work.plan.features_of_instance[item.instance]));
+    drawer.draw(item.ranges);
+  }
+}
+
+template <typename Draw>
+void blend(Work& work, const ShadedImage& image, const LightSource& lights, const Draw& draw) {
+  if (!work.plan.blend) return;
+  const GlLightLoop& loop = lights.in_gl();
+  auto pass = work.timer.pass("shade_blended", "gl");
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GEQUAL);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  limit_behind_opaque(work);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied by coverage
+  loop.bind(work);
+  std::vector<std::string> defines = loop.defines;
+  defines.emplace_back("BLEND");
+  draw(work.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines), true}));
+  glDisable(GL_BLEND);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 20, work.grid().values() * 16);
+}
+
+}  // namespace
+
+void shade_blended(Work& work, const ShadedImage& image, const LightSource& lights) {
+  blend(work, image, lights,
+        [&](ScenePrograms& programs) { draw_list(work, work.blended, DrawStreams::all, programs); });
+}
+
+void shade_blended(Work& work, const ShadedImage& image, const ObjectLights& objects) {
+  blend(work, image, from_objects(work, objects), [&](ScenePrograms& programs) {
+    InstanceDrawer drawer(work, DrawStreams::all);
+    for (const ObjectLights::Object& object : objects.objects()) {
+      const SceneProgram& program = programs.of(work.plan.features_of_instance[object.instance]);
+      drawer.bind(object.instance, program);
+      glUniform2i(program.lights_of_draw, GLint(object.first_light), GLint(object.light_count));
+      drawer.draw(object.ranges);
+    }
+  });
 }
 
 }  // namespace lightgrid

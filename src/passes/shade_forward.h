@@ -1,11 +1,33 @@
-// Forward shading of opaque surfaces.
+// Forward shading: opaque surfaces, and blended ones over the image of any technique.
 #pragma once
 
+#include "passes/common/frame.h"
 #include "passes/common/light_source.h"
 
 namespace lightgrid {
 
 // Shades opaque surfaces with each pixel's lights, at the prepass' depth.
-ShadedImage shade_forward(Work& work, const Seen& seen, const DrawList& surfaces, const LightSource& lights);
+ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights);
+
+// The image, cleared to the background and ready for surfaces at the prepass' depth.
+inline ShadedImage begin_shading(Work& work) {
+  const ShadedImage image{work.color_framebuffer()};
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
+  const float background[4] = {work.scene.background.r, work.scene.background.g, work.scene.background.b, 1};
+  glClearNamedFramebufferfv(image.framebuffer, GL_COLOR, 0, background);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE);
+  return image;
+}
+
+class ObjectLights;
+
+// Blends blended surfaces over the image, back to front.
+void shade_blended(Work& work, const ShadedImage& image, const LightSource& lights);
+
+// The same with lights by object, each object in one draw with all of its lights: a second draw would blend
+// the surface over itself.
+void shade_blended(Work& work, const ShadedImage& image, const ObjectLights& objects);
 
 }  // namespace lightgrid

@@ -1,4 +1,3 @@
-// Adds lights one after the other to the geometry buffer's image.
 #include "passes/shade_light_volumes.h"
 
 #include <numeric>
@@ -15,20 +14,20 @@ constexpr uint32_t lights_a_mark = 48;
 
 // Draws the marks of all lights in batches, and calls visit(pixel, light) for each shader invocation.
 template <typename Visit>
-void visit_pairs(Work& work, const Seen& seen, Cached<LightVolumes>& cache, const Visit& visit) {
+void visit_pairs(Work& work, Cached<LightVolumes>& cache, const Visit& visit) {
   const GLuint depth = work.targets.depth();
-  const int width = seen.view.width, height = seen.view.height;
+  const int width = work.view.width, height = work.view.height;
   const GlTexture target = make_texture_2d(GL_RGBA32F, width, height);
   const GlFramebuffer framebuffer = make_framebuffer({target.name()}, depth);
-  const std::vector<LightVolume>& volumes = cache.of(work, seen).volumes();
-  VolumeDraws draws(work, seen, cache.of(work, seen), "shaders/deferred_light.frag", {"MARK"});
+  const std::vector<LightVolume>& volumes = cache.of(work).volumes();
+  VolumeDraws draws(work, cache.of(work), "shaders/deferred_light.frag", {"MARK"});
   Image marks(width, height);
   for (size_t first = 0, end = 0; first < volumes.size(); first = end) {
     const uint32_t first_light = volumes[first].light;
     while (end < volumes.size() && volumes[end].light - first_light < lights_a_mark) ++end;
     const float nothing[4] = {0, 0, 0, 0};
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, nothing);
-    begin_adding_lights(work, seen, framebuffer.name());
+    begin_adding_lights(work, framebuffer.name());
     bind_texture(Sampler::depth_image, depth);
     glUseProgram(draws.program().name());
     glUniform1ui(draws.program().uniform("first_light"), first_light);
@@ -47,39 +46,64 @@ void visit_pairs(Work& work, const Seen& seen, Cached<LightVolumes>& cache, cons
   glDisable(GL_BLEND);
 }
 
-ListedLights read_pairs(Work& work, const Seen& seen, Cached<LightVolumes>& cache) {
+ListedLights read_pairs(Work& work, Cached<LightVolumes>& cache) {
   ListedLights lists;
-  const size_t pixels = seen.grid().pixels();
+  const size_t pixels = work.grid().pixels();
   lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
-  if (!seen.plan.local_lights) return list_every_light(0);
-  visit_pairs(work, seen, cache, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
+  if (!work.plan.local_lights) return list_every_light(0);
+  visit_pairs(work, cache, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   place_lists(lists);
   std::vector<uint64_t> next = lists.first;
-  visit_pairs(work, seen, cache, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
+  visit_pairs(work, cache, [&](size_t pixel, uint32_t light) { lists.indices[next[pixel]++] = light; });
   return lists;
+}
+
+// Draws all lights with a fragment shader that adds what each does. bind: its inputs.
+void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const char* fragment,
+                const std::vector<std::string>& defines, const auto& bind) {
+  volumes.update(work);
+  std::vector<std::string> all = light_loop(work).defines;
+  all.insert(all.end(), defines.begin(), defines.end());
+  begin_adding_lights(work, framebuffer);
+  bind();
+  VolumeDraws(work, volumes, fragment, std::move(all)).draw(0, volumes.volumes().size());
+  glDisable(GL_BLEND);
 }
 
 }  // namespace
 
-void shade_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
-  if (!seen.plan.local_lights) return;
+void shade_light_volumes(Work& work, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
+  if (!work.plan.local_lights) return;
   auto pass = work.timer.pass("shade_light_volumes", "gl");
-  LightVolumes& volumes = cache.of(work, seen);
-  volumes.update(seen, seen.plan.settings.volume_mesh);
-  std::vector<std::string> defines = light_loop(seen).defines;
-  for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
-  begin_adding_lights(work, seen, gbuffer.image.framebuffer);
-  bind_gbuffer(gbuffer);
-  VolumeDraws(work, seen, cache.of(work, seen), "shaders/deferred_light.frag", std::move(defines))
-      .draw(0, volumes.volumes().size());
-  glDisable(GL_BLEND);
-  const size_t values = seen.grid().values();
+  add_lights(work, cache.of(work), gbuffer.image.framebuffer, "shaders/deferred_light.frag",
+             gbuffer_defines(gbuffer), [&] { bind_gbuffer(gbuffer); });
+  const size_t values = work.grid().values();
   pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
 }
 
-HostLists listed_of_light_volumes(Work& work, const Seen& seen, Cached<LightVolumes>& cache) {
-  return [&work, &seen, &cache](auto&) { return read_pairs(work, seen, cache); };
+HostLists listed_of_light_volumes(Work& work, Cached<LightVolumes>& cache) {
+  return [&work, &cache](auto&) { return read_pairs(work, cache); };
+}
+
+LightBuffer draw_light_buffer(Work& work, Cached<LightVolumes>& cache, const NormalImage& normals) {
+  auto pass = work.timer.pass("draw_light_buffer", "gl");
+  const LightBuffer buffer = light_buffer_of(work);
+  std::vector<GLuint> images = {buffer.first};
+  if (buffer.second) images.push_back(buffer.second);
+  const GLuint framebuffer = work.targets.framebuffer(images, work.targets.depth());
+  const float nothing[4] = {0, 0, 0, 0};
+  for (size_t i = 0; i < images.size(); ++i)
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, GLint(i), nothing);
+  std::vector<std::string> defines = light_buffer_defines(work);
+  if (normals.layout->define) defines.insert(defines.begin(), normals.layout->define);
+  add_lights(work, cache.of(work), framebuffer, "shaders/light_buffer.frag", defines, [&] {
+    bind_texture(Sampler::normals, normals.texture);
+    bind_texture(Sampler::depth_image, work.targets.depth());
+  });
+  pass.moves(work.grid().values() * (4 + normals.layout->image.bytes + buffer.bytes()),
+             work.grid().values() * buffer.bytes());
+  return buffer;
 }
 
 }  // namespace lightgrid

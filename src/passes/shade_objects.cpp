@@ -1,5 +1,5 @@
 // Forward shading object by object, in as many draws as its lights take. The first draw of an object replaces
-// the image, so that of two surfaces of one depth the later one is visible, as in shade_forward. Further
+// the image, so that the later of two surfaces of one depth is visible, as in shade_forward. Further
 // draws add light.
 //
 // Triangles of one object may also share a depth (coplanar parts of a mesh). The first draw leaves the last
@@ -12,10 +12,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "gl/pending_draws.h"
-#include "passes/common/begin_shading.h"
-#include "passes/read_outs/cells.h"
-#include "renderer/draw.h"
+#include "passes/read_outs.h"
+#include "passes/shade_forward.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 namespace {
@@ -31,8 +30,8 @@ struct ObjectPrograms {
     defines.emplace_back(define);
     return work.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines)});
   }
-  ObjectPrograms(Work& work, const Seen& seen, const GlLightLoop& loop)
-      : base(of(work, base_lighting(seen), "FIRST_OF_DRAWS")),
+  ObjectPrograms(Work& work, const GlLightLoop& loop)
+      : base(of(work, base_lighting(work), "FIRST_OF_DRAWS")),
         base_and_lights(of(work, loop, "FIRST_OF_DRAWS")),
         lights(of(work, loop, "ADDED")) {}
 };
@@ -40,10 +39,9 @@ struct ObjectPrograms {
 // Draws one object. Alpha is 0 or 1.
 class ObjectDraws {
  public:
-  ObjectDraws(Work& work, const Seen& seen, ObjectPrograms& programs, const ObjectLights::Object& object,
+  ObjectDraws(Work& work, ObjectPrograms& programs, const ObjectLights::Object& object,
               InstanceDrawer& drawer, PendingDraws& pending)
       : work_(work),
-        seen_(seen),
         programs_(programs),
         object_(object),
         drawer_(drawer),
@@ -74,7 +72,7 @@ class ObjectDraws {
 
  private:
   const SceneProgram& bind(ScenePrograms& programs, uint32_t first, uint32_t count) {
-    const SceneProgram& program = programs.of(seen_.plan.features_of_instance[object_.instance]);
+    const SceneProgram& program = programs.of(work_.plan.features_of_instance[object_.instance]);
     drawer_.bind(object_.instance, program);
     if (program.lights_of_draw >= 0)
       glUniform2i(program.lights_of_draw, GLint(object_.first_light + first), GLint(count));
@@ -82,7 +80,6 @@ class ObjectDraws {
   }
 
   Work& work_;
-  const Seen& seen_;
   ObjectPrograms& programs_;
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
@@ -92,11 +89,11 @@ class ObjectDraws {
   int alpha_ = 1;
 };
 
-void draw_object(Work& work, const Seen& seen, ObjectPrograms& programs, const ObjectLights::Object& object,
+void draw_object(Work& work, ObjectPrograms& programs, const ObjectLights::Object& object,
                  uint32_t lights_a_draw, bool own_apart, InstanceDrawer& drawer, PendingDraws& pending) {
-  ObjectDraws draws(work, seen, programs, object, drawer, pending);
+  ObjectDraws draws(work, programs, object, drawer, pending);
   const bool unlit =
-      seen.scene.materials[seen.scene.meshes[seen.scene.instances[object.instance].mesh].material].unlit;
+      work.scene.materials[work.scene.meshes[work.scene.instances[object.instance].mesh].material].unlit;
   const uint32_t count = unlit ? 0 : object.light_count;
   uint32_t done = own_apart ? 0 : std::min(count, lights_a_draw);
   const uint32_t further = (count - done + lights_a_draw - 1) / lights_a_draw;
@@ -106,36 +103,35 @@ void draw_object(Work& work, const Seen& seen, ObjectPrograms& programs, const O
 
 }  // namespace
 
-ShadedImage shade_objects(Work& work, const Seen& seen, const ObjectLights& objects, uint32_t lights_a_draw,
-                          bool own_apart) {
+ShadedImage shade_objects(Work& work, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart) {
   auto pass = work.timer.pass("shade_objects", "gl");
-  const ShadedImage image = begin_shading(work, seen);
+  const ShadedImage image = begin_shading(work);
   glBlendEquation(GL_FUNC_ADD);
-  const LightSource source = from_objects(work, seen, objects);
+  const LightSource source = from_objects(work, objects);
   source.in_gl().bind(work);
-  ObjectPrograms programs(work, seen, source.in_gl());
-  InstanceDrawer drawer(work, seen, DrawStreams::all);
+  ObjectPrograms programs(work, source.in_gl());
+  InstanceDrawer drawer(work, DrawStreams::all);
   PendingDraws pending;
   for (const ObjectLights::Object& object : objects.objects()) {
-    draw_object(work, seen, programs, object, lights_a_draw, own_apart, drawer, pending);
+    draw_object(work, programs, object, lights_a_draw, own_apart, drawer, pending);
   }
   glDisable(GL_BLEND);
-  pass.moves(work.gpu.in_gl().geometry_bytes() + seen.grid().values() * 4 + source.bytes,
-             seen.grid().values() * 16);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 4 + source.bytes,
+             work.grid().values() * 16);
   return image;
 }
 
-ListedLights listed_of_objects(Work& work, const Seen& seen, Cached<ObjectLights>& cache) {
-  const ObjectLights& objects = cache.of(work, seen);
+ListedLights listed_of_objects(Work& work, Cached<ObjectLights>& cache) {
+  const ObjectLights& objects = cache.of(work);
   ListedLights lists{.indices = objects.lights()};
   for (const ObjectLights::Object& object : objects.objects()) {
     lists.first.push_back(object.first_light);
     lists.count.push_back(object.light_count);
   }
-  lists.cell_of_pixel = indices_drawn(work, seen, [&] {
+  lists.cell_of_pixel = indices_drawn(work, [&] {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
-    InstanceDrawer drawer(work, seen, DrawStreams::all);
+    InstanceDrawer drawer(work, DrawStreams::all);
     const SceneProgram& program = work.programs({"shaders/scene.vert", "shaders/object.frag", {}}).of(0);
     for (size_t i = 0; i < objects.objects().size(); ++i) {
       const ObjectLights::Object& object = objects.objects()[i];

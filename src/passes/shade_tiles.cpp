@@ -1,13 +1,13 @@
 #include "passes/shade_tiles.h"
 
 #include "cl/launch.h"
-#include "renderer/cl_lights.h"
-#include "renderer/model_records.h"
+#include "renderer/upload/lights.h"
+#include "renderer/upload/scene_surfaces.h"
 
 namespace lightgrid {
 namespace {
 
-// Whether the image already contains base lighting before the light pass.
+// True if the image already contains base lighting before the light pass.
 bool holds_base_lighting(const GBufferInCl& gbuffer) {
   return gbuffer.base_lighting == BaseLighting::in_image;
 }
@@ -17,65 +17,48 @@ bool holds_base_lighting(const GBufferInCl& gbuffer) {
 // The kernels.
 class TileShading : public PassCache {
  public:
-  explicit TileShading(Work& work, const Seen& seen)
-      : lanes(shades_in_lanes(work, seen)), defines_(defines_of_view(seen)) {
-    work.cl_lights();
-    if (seen.plan.skin || seen.plan.minnaert)
-      models.put(*work.renderer.cl, "uploading models of materials", model_records(seen.scene));
+  explicit TileShading(Work& work) : kernels(work, "resolve") {
+    follow(work);
+    if (work.plan.skin || work.plan.minnaert)
+      models.put(*work.renderer.cl, "uploading models of materials", model_records(work.scene));
   }
 
-  // Another camera at the same size, or moved lights; kernels are rebuilt only if the plan changed.
-  bool follow(Work& work, const Seen& seen) override {
-    std::string defines = defines_of_view(seen);
-    if (defines != defines_) {
-      defines_ = std::move(defines);
-      for (NamedKernel& kernel : kernels_) kernel = {};
-    }
+  // Another camera at the same size, or moved lights.
+  bool follow(Work& work) override {
+    kernels.use(defines_of(work));
     work.cl_lights();
     return true;
   }
 
   size_t memory_bytes() const override { return models.bytes(); }
 
-  // Built at first use.
-  NamedKernel& kernel(Work& work, const GBufferInCl& gbuffer) {
-    NamedKernel& kernel = kernels_[holds_base_lighting(gbuffer)];
-    if (kernel) return kernel;
-    const std::string defines = fmt::format("-DBUFFER_BITS={}{}{}", gbuffer.layout->bits, defines_,
-                                            holds_base_lighting(gbuffer) ? " -DBASE_LIGHTING" : "");
-    kernel = NamedKernel(*work.renderer.kernels,
-                         lanes ? "resolve/cpu/shade_tiles" : "resolve/gpu/shade_tiles", defines);
-    return kernel;
-  }
-
-  const bool lanes;
+  PassKernels kernels;
   UploadedBuffer models;  // MaterialModelRecord each
 
  private:
-  std::string defines_of_view(const Seen& seen) const {
-    std::string defines = light_defines(seen, lanes, seen.plan.settings.brdf);
+  std::string defines_of(const Seen& seen) const {
+    const Settings& settings = seen.plan.settings;
+    std::string defines = fmt::format("-DBUFFER_BITS={}", settings.buffer_bits) +
+                          light_defines(seen, kernels.lanes, settings.brdf);
     if (seen.plan.clearcoat) defines += " -DCLEARCOAT";
     if (seen.plan.specular) defines += " -DSPECULAR";
     for (const char* define : model_defines(seen.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
-
-  std::string defines_;     // of the view and its plan
-  NamedKernel kernels_[2];  // by holds_base_lighting
 };
 
 namespace {
 
-void copy_attachment(Work& work, const Seen& seen, const GBuffer& gbuffer, int attachment, GLuint texture,
-                     GLenum type, SharedBuffer& to) {
+void copy_attachment(Work& work, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type,
+                     SharedBuffer& to) {
   work.renderer.pixel_copies.to_buffer(
-      {gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture}, GL_RGBA, type, seen.grid(),
+      {gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture}, GL_RGBA, type, work.grid(),
       to.gl_buffer());
 }
 
-GBufferInCl gbuffer_to_cl(Work& work, const Seen& seen, const GBuffer& gbuffer) {
-  const size_t values = seen.grid().values();
-  const GBufferInCl in_cl = gbuffer_in_cl_of(work, seen, gbuffer.base_lighting, TargetUse::image);
+GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
+  const size_t values = work.grid().values();
+  const GBufferInCl in_cl = gbuffer_in_cl_of(work, gbuffer.base_lighting, TargetUse::image);
   const bool base_lighting = holds_base_lighting(in_cl);
   auto pass = work.timer.pass("gbuffer_to_cl", "gl");
   std::vector<SharedBuffer::Written> copies;
@@ -86,41 +69,37 @@ GBufferInCl gbuffer_to_cl(Work& work, const Seen& seen, const GBuffer& gbuffer) 
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
   for (const size_t i : in_cl.images) {
-    copy_attachment(work, seen, gbuffer, gbuffer.attachment(i), gbuffer.textures[i],
-                    gbuffer.layout->images[i].type, *in_cl.surfaces[i]);
+    copy_attachment(work, gbuffer, gbuffer.attachment(i), gbuffer.textures[i], gbuffer.layout->images[i].type,
+                    *in_cl.surfaces[i]);
   }
   if (base_lighting)
-    copy_attachment(work, seen, gbuffer, 2, work.targets.texture("color", GL_RGBA32F), GL_FLOAT,
-                    *in_cl.image);
+    copy_attachment(work, gbuffer, 2, work.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
   SharedBuffer::hand_to_cl(copies);
   const size_t bytes = values * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;
 }
 
-void image_to_gl(Work& work, const Seen& seen, SharedBuffer& image) {
-  const size_t bytes = seen.grid().values() * 16;
+void image_to_gl(Work& work, SharedBuffer& image) {
+  const size_t bytes = work.grid().values() * 16;
   auto pass = work.timer.pass("image_to_gl", "gl");
   image.hand_to_gl(bytes);
-  work.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, seen.grid(),
+  work.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, work.grid(),
                                         work.targets.texture("color", GL_RGBA32F));
   pass.moves(bytes, bytes);
 }
 
-void add_light(Work& work, const Seen& seen, Cached<TileShading>& cache, const GBufferInCl& gbuffer,
-               const DepthBuffer& depth, const LightSource& lights) {
-  TileShading& s = cache.of(work, seen);
+void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffer, const DepthBuffer& depth,
+               const LightSource& lights) {
+  TileShading& s = cache.of(work);
   const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("shade_tiles", "cl");
-  constexpr size_t side = 16;  // pixels a side of a work-group's tile
-  const auto whole = [](int pixels) { return (size_t(pixels) + side - 1) / side * side; };
-  const cl::NDRange items = s.lanes ? cl::NDRange(seen.params.tiles_x, seen.params.tiles_y)
-                                    : cl::NDRange(whole(seen.view.width), whole(seen.view.height));
+  const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
   const bool base_lighting = holds_base_lighting(gbuffer);
   const glm::vec3 background =
-      base_lighting ? glm::vec3(0) : seen.scene.background;  // in the image already, or not
-  s.kernel(work, gbuffer)
-      .launch(*work.renderer.cl, "shade_tiles", items, s.lanes ? cl::NDRange(1, 1) : cl::NDRange(side, side),
+      base_lighting ? glm::vec3(0) : work.scene.background;  // in the image already, or not
+  s.kernels.of("shade_tiles", base_lighting ? " -DBASE_LIGHTING" : "")
+      .launch(*work.renderer.cl, "shade_tiles", items, group,
               ClArguments{{"first", gbuffer.surfaces[0]->cl_buffer()},
                           {"second", gbuffer.surfaces[1]->cl_buffer()},
                           {"coats", gbuffer.in_cl(gbuffer_coat)},
@@ -135,19 +114,19 @@ void add_light(Work& work, const Seen& seen, Cached<TileShading>& cache, const G
                               {"image", gbuffer.image->cl_buffer()},
                               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
                               {"view", table.view.buffer()}});
-  const size_t values = seen.grid().values();
+  const size_t values = work.grid().values();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
-  pass.moves(values * surface_bytes + lights.bytes, seen.grid().pixels() * 16);
+  pass.moves(values * surface_bytes + lights.bytes, work.grid().pixels() * 16);
 }
 
 }  // namespace
 
-ShadedImage shade_tiles(Work& work, const Seen& seen, Cached<TileShading>& cache, const GBuffer& gbuffer,
+ShadedImage shade_tiles(Work& work, Cached<TileShading>& cache, const GBuffer& gbuffer,
                         const DepthBuffer& depth, const LightSource& lights) {
-  const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, seen, gbuffer);
-  add_light(work, seen, cache, in_cl, depth, lights);
-  if (gbuffer.in_cl || !seen.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
-  image_to_gl(work, seen, *in_cl.image);
+  const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, gbuffer);
+  add_light(work, cache, in_cl, depth, lights);
+  if (gbuffer.in_cl || !work.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
+  image_to_gl(work, *in_cl.image);
   return gbuffer.image;
 }
 

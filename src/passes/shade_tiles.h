@@ -8,7 +8,7 @@ namespace lightgrid {
 
 // Adds the lights of the pixel's cell to the geometry buffer's image. Where OpenGL drew that and blends
 // surfaces over it, the image is copied back; else it stays in OpenCL's buffer.
-ShadedImage shade_tiles(Work& work, const Seen& seen, Cached<TileShading>& cache, const GBuffer& gbuffer,
+ShadedImage shade_tiles(Work& work, Cached<TileShading>& cache, const GBuffer& gbuffer,
                         const DepthBuffer& depth, const LightSource& lights);
 
 }  // namespace lightgrid

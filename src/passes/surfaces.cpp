@@ -3,14 +3,13 @@
 #include "passes/depth_bounds.h"
 #include "passes/depth_prepass.h"
 #include "passes/resolve.h"
-#include "passes/shade_blended.h"
 #include "passes/shade_forward.h"
 
 namespace lightgrid {
 
 Surfaces find_surfaces(RenderView& v, bool depth_in_cl) {
-  if (v.plan.opengl) return surfaces_of(v, depth_prepass(v, v), depth_in_cl);
-  Surfaces surfaces{.visible = rasterize(v, v, v.caches)};
+  if (v.plan.opengl) return surfaces_of(v, depth_prepass(v), depth_in_cl);
+  Surfaces surfaces{.visible = rasterize(v, v.caches)};
   surfaces.depth = surfaces.visible->depth();
   return surfaces;
 }
@@ -18,25 +17,24 @@ Surfaces find_surfaces(RenderView& v, bool depth_in_cl) {
 Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl) {
   Surfaces surfaces{.image = image};
   if (depth_in_cl) depth_of(v, surfaces);
-  surfaces.drawn = visible_surfaces(v, v, distances_of(v, surfaces));
+  surfaces.drawn = visible_surfaces(v, distances_of(v, surfaces));
   return surfaces;
 }
 
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces) {
-  if (!surfaces.depth.values()) surfaces.depth = depth_to_cl(v, v, surfaces.image);
+  if (!surfaces.depth.values()) surfaces.depth = depth_to_cl(v, surfaces.image);
   return surfaces.depth;
 }
 
 const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces) {
   if (surfaces.bounds) return *surfaces.bounds;
   const bool read = v.plan.settings.depth_bounds != DepthBoundsMode::none;
-  return surfaces.bounds.emplace(
-      depth_bounds(v, v, v.culler(), read ? depth_of(v, surfaces) : DepthBuffer()));
+  return surfaces.bounds.emplace(depth_bounds(v, v.culler(), read ? depth_of(v, surfaces) : DepthBuffer()));
 }
 
 const TileDistances& distances_of(RenderView& v, Surfaces& surfaces) {
   if (surfaces.distances) return *surfaces.distances;
-  return surfaces.distances.emplace(tile_distances(v, v, v.culler(), bounds_of(v, surfaces)));
+  return surfaces.distances.emplace(tile_distances(v, v.culler(), bounds_of(v, surfaces)));
 }
 
 Frame frame_of(const Surfaces& surfaces) {
@@ -49,15 +47,14 @@ Frame frame_of(const Surfaces& surfaces) {
 }
 
 ShadedImage shade(RenderView& v, const Surfaces& surfaces, const LightSource& lights) {
-  return surfaces.visible ? resolve(v, v, v.caches.resolver, *surfaces.visible, lights)
-                          : shade_forward(v, v, surfaces.drawn, lights);
+  return surfaces.visible ? resolve(v, v.caches.resolver, *surfaces.visible, lights)
+                          : shade_forward(v, surfaces.drawn, lights);
 }
 
 void blend(RenderView& v, const Surfaces& surfaces, const LightSource& lights, const ShadedImage& image) {
-  if (!surfaces.visible) return shade_blended(v, v, image, lights);
+  if (!surfaces.visible) return shade_blended(v, image, lights);
   if (!v.plan.blended.empty())
-    blend_resolved(v, v, v.caches.resolver, list_blended(v, v, v.caches.blended_triangles), surfaces.depth,
-                   lights);
+    blend_resolved(v, v.caches.resolver, list_blended(v, v.caches.blended_triangles), surfaces.depth, lights);
 }
 
 }  // namespace lightgrid

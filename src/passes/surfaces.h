@@ -22,7 +22,7 @@ struct Surfaces {
 // By a depth prepass, or by the rasteriser. depth_in_cl: a later pass in OpenCL reads the depth.
 Surfaces find_surfaces(RenderView& v, bool depth_in_cl = false);
 
-// Those of a depth image that a pass has drawn.
+// The surfaces of a depth image that a pass has drawn.
 Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl = false);
 
 // Each is made at its first use in the frame.

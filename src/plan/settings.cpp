@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

@@ -28,7 +28,7 @@ enum class LidrOrder { priority, scene };
 // needs no OpenGL.
 enum class RasterApi { opengl, opencl };
 
-// How the resolve passes keep a material's maps (renderer/surface_texels.h), and which lights it adds up.
+// How the resolve passes keep a material's maps (upload/scene_surfaces.h), and which lights it adds up.
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
@@ -52,7 +52,7 @@ enum class VoxelSize { s16x16x4, s32x32x8, s64x64x16, s128x128x16, s128x128x32, 
 struct Settings {
   Brdf brdf = Brdf::ggx;
   LightRanges ranges;
-  CullTest cull_test = CullTest::planes_aabb;
+  CullTest cull_test = default_cull_test;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;    // pixels a side: 8, 16, 32 or 64
   int slices = 24;  // depth slices, for techniques that use them (TechniqueNeeds::given_slices: where it is

@@ -3,7 +3,7 @@
 // face, edge or corner of the cell, each inside the cone or on its boundary. Each stratum has at most two
 // stationary points, all in closed form, so testing those of every stratum is enough; cones wider than a
 // half-space need no special case.
-#include "reference/cone_cell.h"
+#include "reference/cell.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,9 @@
-// Which lights reach which points: the oracle for light lists.
+// Which lights reach which points, pixel by pixel or by blocks of pixels: the oracle for light lists.
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "scene/listed_lights.h"
@@ -31,5 +33,40 @@ struct LitPairs {
 // is decided by is_lit on positions in double. 1280 x 720 with 1024 lights takes about a second on two cores.
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
                      const ListedLights& lists);
+
+// Empty, or a fault of lists (first and count of each) in one array of indices: they must be adjacent without
+// gap or overlap, in any order, each sorted without repetition, and contain valid lights.
+std::string malformed_lists(std::span<const glm::uvec2> lists, std::span<const uint32_t> indices,
+                            size_t lights);
+
+// The lit set of an image, by blocks of pixels. The oracle runs once; the lists of many settings are then
+// compared with its result.
+struct LitBlocks {
+  static constexpr int side = 8;  // every tile size is a multiple
+  struct Entry {
+    uint32_t light, pixels;  // how many of the block's covered pixels it lights, at least 1
+  };
+  int blocks_x = 0, blocks_y = 0;  // x fastest, then y from the bottom
+  std::vector<uint32_t> covered;   // pixels that show a surface, a block
+  std::vector<std::vector<Entry>> lit;
+};
+
+// As count_pairs: `depth` is width * height, row 0 at the bottom, 0 for background; is_lit decides.
+LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth,
+                          const std::vector<ViewLight>& lights);
+
+// (pixel, light) pairs over the covered pixels, and their distribution over the tiles.
+struct ListAccuracy {
+  uint64_t listed = 0, lit = 0;
+  uint64_t lost = 0;          // lit but not listed
+  uint64_t perfect = 0;       // listed, if each tile listed only the lights that light one of its pixels
+  uint64_t tiles_lit = 0;     // tiles with a lit pair
+  uint64_t tiles_unlit = 0;   // tiles that list lights, none of which lights a pixel
+  double p99 = 0, worst = 0;  // listed / lit of a tile, over tiles_lit
+};
+
+// `tile` is a multiple of LitBlocks::side; lists.first and .count hold one cell a tile, x fastest, then y
+// from the bottom. cell_of_pixel is not read.
+ListAccuracy measure_lists(const LitBlocks& blocks, int tile, const ListedLights& lists);
 
 }  // namespace lightgrid

@@ -17,7 +17,7 @@ struct Surface {
   glm::dvec3 base_color{1}, emissive{0};
   double metallic = 0, roughness = 1;  // perceptual roughness; floored at 0.045
   double occlusion = 1;
-  bool unlit = false;                   // base_color is the result
+  bool unlit = false;  // base_color is the result
   // Reflectance of the dielectric part at normal and grazing incidence (KHR_materials_specular,
   // KHR_materials_ior).
   glm::dvec3 f0{0.04};  // for an index of refraction of 1.5

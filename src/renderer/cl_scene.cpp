@@ -3,8 +3,7 @@
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "plan/frame_plan.h"
-#include "renderer/shown_meshes.h"
-#include "renderer/surface_texels.h"
+#include "renderer/upload/scene_surfaces.h"
 
 namespace lightgrid {
 namespace {

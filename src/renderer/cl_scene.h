@@ -28,15 +28,13 @@ class ClScene {
   const cl::Buffer& vertices() const { return vertices_; }
   const cl::Buffer& materials() const { return materials_; }
 
-  // Chains of texels (renderer/texel_chain.h): of 4 and of 8 channels, and of alphas alone.
+  // Chains of texels (renderer/upload/texel_chain.h): of 4 and of 8 channels, and of alphas alone.
   const cl::Buffer& texels_4() const { return texels_4_; }
   const cl::Buffer& texels_8() const { return texels_8_; }
   const cl::Buffer& alphas() const { return alphas_; }
 
-  uint32_t features() const {
-    return features_;
-  }  // MaterialFeature, of all meshes together: what kernels are built for
-  size_t vertex_bytes() const { return vertex_bytes_; }
+  // MaterialFeature, of all meshes together: kernels are built for them.
+  uint32_t features() const { return features_; }
   size_t texture_bytes() const { return texture_bytes_; }
   size_t memory_bytes() const { return vertex_bytes_ + material_bytes_ + texture_bytes_; }
 

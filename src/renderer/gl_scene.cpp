@@ -5,10 +5,9 @@
 
 #include "gl/bindings.h"
 #include "plan/frame_plan.h"
-#include "renderer/clusters.h"
-#include "renderer/model_records.h"
-#include "renderer/shown_meshes.h"
-#include "renderer/texel_chain.h"
+#include "renderer/drawing/draw_list.h"
+#include "renderer/upload/scene_surfaces.h"
+#include "renderer/upload/texel_chain.h"
 #include "scene/rig.h"
 
 namespace lightgrid {
@@ -72,23 +71,13 @@ GLint wrap_of(Wrap wrap) {
   return wrap == Wrap::clamp ? GL_CLAMP_TO_EDGE : wrap == Wrap::mirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
 }
 
-GLint min_filter_of(Filter filter) {
-  switch (filter) {
-    case Filter::nearest:
-      return GL_NEAREST;
-    case Filter::linear:
-      return GL_LINEAR;
-    case Filter::nearest_mipmap_nearest:
-      return GL_NEAREST_MIPMAP_NEAREST;
-    case Filter::linear_mipmap_nearest:
-      return GL_LINEAR_MIPMAP_NEAREST;
-    case Filter::nearest_mipmap_linear:
-      return GL_NEAREST_MIPMAP_LINEAR;
-    case Filter::linear_mipmap_linear:
-      return GL_LINEAR_MIPMAP_LINEAR;
-  }
-  return GL_LINEAR;
-}
+// By Filter.
+constexpr GLint min_filters[] = {GL_NEAREST,
+                                 GL_LINEAR,
+                                 GL_NEAREST_MIPMAP_NEAREST,
+                                 GL_LINEAR_MIPMAP_NEAREST,
+                                 GL_NEAREST_MIPMAP_LINEAR,
+                                 GL_LINEAR_MIPMAP_LINEAR};
 
 // llvmpipe takes half of a piecewise linear logarithm as level of detail: 0 to 0.043 too small, in the mean
 // over all levels (1.5 - 1 / ln 2) / 2. Samplers add the mean, at no cost (docs/conventions.md#textures).
@@ -288,7 +277,8 @@ void GlScene::upload_texture(int index) {
     glSamplerParameterf(samplers_[index].name(), GL_TEXTURE_LOD_BIAS, llvmpipe_level_bias);
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_S, wrap_of(texture.wrap_u));
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_WRAP_T, wrap_of(texture.wrap_v));
-  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MIN_FILTER, min_filter_of(texture.min_filter));
+  glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MIN_FILTER,
+                      min_filters[size_t(texture.min_filter)]);
   glSamplerParameteri(samplers_[index].name(), GL_TEXTURE_MAG_FILTER,
                       texture.mag_linear ? GL_LINEAR : GL_NEAREST);
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/shown_meshes.h"
+#include "renderer/upload/scene_surfaces.h"
 
 namespace lightgrid {
 namespace {

@@ -10,7 +10,7 @@
 #include "raster/raster_scene.h"
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
-#include "renderer/world_grid.h"
+#include "renderer/shared_grids.h"
 
 namespace lightgrid {
 

@@ -29,8 +29,8 @@ Seen seen_by(const View& view, const Scene& scene, const Settings& settings, con
 
 RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                        const TechniqueNeeds& needs, std::shared_ptr<TargetPool> pool)
-    : Seen(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned), needs)),
-      Work(renderer, gpu, *this, pool ? pool : std::make_shared<TargetPool>()),
+    : Work(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned), needs), renderer, gpu,
+           pool ? pool : std::make_shared<TargetPool>()),
       settings_(with_tuned(settings, renderer.tuned)),
       needs_(needs),
       shared_pool_(std::move(pool)) {
@@ -110,7 +110,7 @@ void RenderView::follow_view() {
   }
   cl_lights_stale_ = true;
   if (!plan.opengl) return;
-  lights.update(scene, view, plan, params);
+  lights.upload(*this);
   if (preparing_) {
     opaque.clear(), blended.clear();
     return;
@@ -128,7 +128,7 @@ void RenderView::follow_plan(const FramePlan& before) {
   }
   if (!plan.blend_grid) grids_[1].reset();
   if (culler_) culler_->set_view(cull_view(view, plan));
-  caches.follow(*this, *this);
+  caches.follow(*this);
 }
 
 LightCuller& RenderView::culler() {
@@ -140,14 +140,9 @@ LightCuller& RenderView::culler() {
   return *culler_;
 }
 
-SharedGridStorage& RenderView::opaque_grid() {
-  if (!grids_[0]) grids_[0].emplace(renderer, plan.index_bits);
-  return *grids_[0];
-}
-
-SharedGridStorage& RenderView::blend_grid() {
-  if (!grids_[1]) grids_[1].emplace(renderer, plan.index_bits);
-  return *grids_[1];
+SharedGridStorage& RenderView::grid_storage(bool blended) {
+  std::optional<SharedGridStorage>& storage = grids_[blended];
+  return storage ? *storage : storage.emplace(renderer, plan.index_bits);
 }
 
 size_t RenderView::memory_bytes() const {

@@ -7,15 +7,15 @@
 #include <memory>
 #include <optional>
 
-#include "renderer/culler_input.h"
-#include "renderer/grid_storage.h"
-#include "renderer/pass_caches.h"
+#include "renderer/shared_grids.h"
+#include "renderer/upload/culler_input.h"
 #include "renderer/work.h"
 
 namespace lightgrid {
 
-// Only recipes take it whole; passes take what the camera sees, what works on it, or both, and their own cache.
-struct RenderView : Seen, Work {
+// Only recipes take it whole; passes take what the camera sees, or that and what works on it, and their own
+// cache.
+struct RenderView : Work {
   // All outlive it; it may add reversed triangles to the GPU scene. Unless draws_with_opengl() nothing of the
   // scene is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool
   // the view has its own. Throws Error(input) if the settings do not fit the view, Error(machine) if it needs
@@ -43,12 +43,13 @@ struct RenderView : Seen, Work {
   PassCaches caches;
 
   LightCuller& culler();  // created at first use; has lights only if the plan has a light grid
-  SharedGridStorage& opaque_grid();
-  SharedGridStorage& blend_grid();
+  SharedGridStorage& opaque_grid() { return grid_storage(false); }
+  SharedGridStorage& blend_grid() { return grid_storage(true); }
 
   size_t memory_bytes() const;  // of this view's targets and buffers, and the scene's
 
  private:
+  SharedGridStorage& grid_storage(bool blended);
   void look(const View& view, PlannedInstances instances);
   void follow_view();
   void drop_caches();

@@ -12,7 +12,7 @@
 #include "cl/program_cache.h"
 #include "cl/tuned_sizes.h"
 #include "gl/context.h"
-#include "gl/program.h"
+#include "gl/objects.h"
 
 namespace lightgrid {
 

@@ -3,7 +3,7 @@
 namespace lightgrid {
 namespace {
 
-// As allocated by OpenGL, which may be wider than the format.
+// The bits that OpenGL allocated, which may be more than the format has.
 size_t bits_of_pixel(GLuint texture) {
   size_t sum = 0;
   for (GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,

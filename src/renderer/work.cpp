@@ -26,16 +26,16 @@ static PassTimer::Clock clock_of(Renderer& renderer) {
   return clock;
 }
 
-Work::Work(Renderer& renderer, GpuScene& gpu, const Seen& seen, std::shared_ptr<TargetPool> pool)
-    : renderer(renderer),
+Work::Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool)
+    : Seen(std::move(seen)),
+      renderer(renderer),
       gpu(gpu),
       timer(clock_of(renderer)),
-      targets(std::move(pool), seen.grid(), seen.plan.stencil),
-      seen_(seen) {}
+      targets(std::move(pool), grid(), plan.stencil) {}
 
 std::vector<std::string> Work::view_defines(std::vector<std::string> defines) const {
-  if (seen_.view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
-  if (seen_.plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
+  if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
+  if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
   return defines;
 }
 
@@ -48,8 +48,8 @@ ScenePrograms& Work::programs(SurfaceShaders shaders) {
     found = programs_.try_emplace(key, renderer, shaders).first;
   }
   if (preparing_) {
-    for (const int i : shaders.blended ? seen_.plan.blended : seen_.plan.opaque)
-      found->second.of(seen_.plan.features_of_instance[i]);
+    for (const int i : shaders.blended ? plan.blended : plan.opaque)
+      found->second.of(plan.features_of_instance[i]);
   }
   return found->second;
 }
@@ -64,15 +64,45 @@ GLuint Work::color_framebuffer() {
 }
 
 SharedBuffer& Work::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {
-  return targets.buffer(*renderer.cl, renderer.bridge, name, (seen_.grid().values() + spare_pixels) * bytes,
-                        use);
+  return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().values() + spare_pixels) * bytes, use);
 }
 
 const ClLights& Work::cl_lights() {
   if (!cl_lights_) cl_lights_stale_ = true, cl_lights_.emplace();
-  if (cl_lights_stale_) cl_lights_->upload(*renderer.cl, seen_.scene, seen_.view, seen_.plan, seen_.params);
+  if (cl_lights_stale_) cl_lights_->upload(*renderer.cl, *this);
   cl_lights_stale_ = false;
   return *cl_lights_;
+}
+
+std::array<std::unique_ptr<PassCache>*, 11> PassCaches::all() {
+  return {&opaque_triangles.made_, &blended_triangles.made_, &resolver.made_,
+          &tile_shading.made_,     &light_sums.made_,        &light_volumes.made_,
+          &light_index.made_,      &object_lights.made_,     &blended_object_lights.made_,
+          &voxels.made_,           &world_grid.made_};
+}
+
+void PassCaches::follow(Work& work) {
+  for (std::unique_ptr<PassCache>* cache : all()) {
+    if (*cache && !(*cache)->follow(work)) cache->reset();
+  }
+}
+
+void PassCaches::upload(Work& work) {
+  for (std::unique_ptr<PassCache>* cache :
+       {&opaque_triangles.made_, &blended_triangles.made_, &resolver.made_}) {
+    if (*cache) (*cache)->upload(work);
+  }
+}
+
+void PassCaches::clear() {
+  for (std::unique_ptr<PassCache>* cache : all()) cache->reset();
+}
+
+size_t PassCaches::memory_bytes() const {
+  size_t bytes = 0;
+  for (const std::unique_ptr<PassCache>* cache : const_cast<PassCaches*>(this)->all())
+    bytes += *cache ? (*cache)->memory_bytes() : 0;
+  return bytes;
 }
 
 }  // namespace lightgrid

@@ -1,22 +1,23 @@
-// The two things that a pass is given: what a camera sees of a scene, and what works on it.
+// A pass takes these: what a camera sees of a scene, what works on it, and what the pass itself keeps.
 #pragma once
 
+#include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "renderer/cl_lights.h"
-#include "renderer/draw_list.h"
+#include "renderer/drawing/draw_list.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/pass_programs.h"
 #include "renderer/pass_timer.h"
-#include "renderer/scene_programs.h"
 #include "renderer/targets.h"
-#include "renderer/view_light_buffers.h"
+#include "renderer/upload/lights.h"
 
 namespace lightgrid {
 
-// Facts on the host; passes read them only.
+// Facts on the host; passes read them only. A function that takes no more draws and uploads nothing.
 struct Seen {
   const Scene& scene;
   View view;
@@ -28,9 +29,9 @@ struct Seen {
   PixelGrid grid() const { return view.grid(); }
 };
 
-// The machine, the scene in its memory, and the view's images, programs and clock.
-struct Work {
-  Work(Renderer& renderer, GpuScene& gpu, const Seen& seen, std::shared_ptr<TargetPool> pool);
+// Beside what is seen, the machine, the scene in its memory, and the view's images, programs and clock.
+struct Work : Seen {
+  Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool);
 
   Renderer& renderer;
   GpuScene& gpu;
@@ -50,7 +51,7 @@ struct Work {
   // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
   // (shared/punctual_light.h).
   void bind_lights() const { lights.bind(); }
-  ViewLightBuffers lights;
+  GlLights lights;
   // The same for kernels: uploaded by the first call after look().
   const ClLights& cl_lights();
 
@@ -65,7 +66,56 @@ struct Work {
 
  private:
   std::vector<std::string> view_defines(std::vector<std::string> defines) const;
-  const Seen& seen_;
+};
+
+// A pass keeps this from frame to frame, beyond targets and programs.
+class PassCache {
+ public:
+  virtual ~PassCache() = default;
+  virtual size_t memory_bytes() const { return 0; }
+  // Called after the camera, the lights or the plan changed. Returns false if the cache no longer fits; it is
+  // then made again at its next use.
+  virtual bool follow(Work&) { return false; }
+  // Uploads that follow() may leave for later, as the rasteriser does not read them. PassCaches::upload calls
+  // it while the device draws triangles; the pass calls it too, before it reads them. Only the first call
+  // after follow() does anything.
+  virtual void upload(Work&) {}
+};
+
+// One cache; T(Work&) makes it at first use.
+template <typename T>
+class Cached {
+ public:
+  T& of(Work& work) {
+    if (!made_) made_ = std::make_unique<T>(work);
+    return static_cast<T&>(*made_);
+  }
+
+ private:
+  friend struct PassCaches;
+  std::unique_ptr<PassCache> made_;
+};
+
+// All caches of a view, each by its name.
+struct PassCaches {
+  Cached<class OpaqueTriangles> opaque_triangles;  // passes/rasterize.cpp
+  Cached<class BlendedTriangleLists> blended_triangles;
+  Cached<class Resolver> resolver;                                  // passes/resolve.cpp
+  Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp
+  Cached<class LightSums> light_sums;                               // passes/fill_light_buffer.cpp
+  Cached<class LightVolumes> light_volumes;                         // passes/light_volumes/light_volumes.h
+  Cached<class LightIndexOrder> light_index;                        // passes/light_index.cpp
+  Cached<class ObjectLights> object_lights, blended_object_lights;  // passes/find_object_lights.h
+  Cached<class VoxelBuffers> voxels;                                // passes/build_voxels.cpp
+  Cached<class ViewOfWorldGrid> world_grid;                         // passes/build_world_grid.cpp
+
+  void follow(Work& work);
+  void upload(Work& work);  // of those that upload while the device draws triangles
+  void clear();
+  size_t memory_bytes() const;
+
+ private:
+  std::array<std::unique_ptr<PassCache>*, 11> all();
 };
 
 }  // namespace lightgrid

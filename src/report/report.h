@@ -106,7 +106,6 @@ std::vector<Choice> choices(const CompareReport& report);
 using RowTest = std::function<bool(const RunResult& row)>;
 const RunResult* fastest(const CompareReport& report, const RowTest& counts);
 const RunResult* fastest_exact(const CompareReport& report);
-const RunResult* fastest_lossy(const CompareReport& report);  // passes all gates but is not exact
 
 // The page of a comparison: one self-contained HTML file made of report/page/* and the figures. It loads
 // nothing from elsewhere. Embeds results.json unchanged in <script id="results">, so that both have the same

@@ -166,6 +166,11 @@ bool quicker(const RunResult* row, const RunResult* than) {
   return row && row != than && (!than || row->frame_ms.median < than->frame_ms.median);
 }
 
+// Passes all gates but is not exact.
+const RunResult* fastest_lossy(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
+}
+
 // What the figures are about: the fastest exact row, or else the best there is; null if nothing was timed.
 const RunResult* best_row(const CompareReport& report) {
   for (const RunResult* row : {fastest_exact(report), fastest_lossy(report)}) {
@@ -205,10 +210,6 @@ bool is_exact(const RunResult& row) {
 
 const RunResult* fastest_exact(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return is_exact(row); });
-}
-
-const RunResult* fastest_lossy(const CompareReport& report) {
-  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
 }
 
 std::string why_lost(const RunResult& row) {

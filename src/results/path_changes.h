@@ -14,7 +14,7 @@ struct SharedPlanChange {
   std::vector<size_t> rows;  // of the report, rising
 };
 
-// By frame, and within a frame as the first row has them. Of the rows with RunResult::moving.
+// The changes of rows with RunResult::moving, by frame, and within a frame as the first row has them.
 std::vector<SharedPlanChange> shared_plan_changes(const CompareReport& report);
 
 // The value of `plan_changes` (docs/results_json.md).

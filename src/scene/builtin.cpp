@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/builtin/scenes.h"
-
 namespace lightgrid {
 
 const std::vector<BuiltinScene>& builtin_scenes() {

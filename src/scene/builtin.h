@@ -15,10 +15,17 @@ struct BuiltinScene {
   Scene (*make)();
 };
 
-// hall, spheres, terrain, street, particles.
+// hall, spheres, terrain, street, particles, gallery.
 const std::vector<BuiltinScene>& builtin_scenes();
 
 // nullptr if there is none of that name.
 const BuiltinScene* find_builtin_scene(std::string_view name);
+
+Scene make_hall();
+Scene make_spheres();
+Scene make_terrain();
+Scene make_street();
+Scene make_particles();
+Scene make_gallery();
 
 }  // namespace lightgrid

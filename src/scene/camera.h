@@ -36,11 +36,17 @@ glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_objec
 // degrees, near 0.1 m, far infinite.
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
 
-// NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg,near:m" (fov vertical, default 60; near by default a thousandth
-// of the scene's size, and at most 0.1 m). Empty: the scene's first camera, or, without one, a camera that shows
-// the whole scene in an image of this aspect (scene/overview_camera.h). Far is infinite unless the scene's camera
-// has one. Throws Error(input) for an unknown name or form, an invalid number, a field outside 0..180 degrees, a
-// near that is not above 0, and a target at the eye.
+// NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg,near:m" (fov vertical, default 60; near by default a
+// thousandth of the scene's size, and at most 0.1 m). Empty: the scene's first camera, or, without one, a
+// camera that shows the whole scene in an image of this aspect (overview_camera). Far is infinite unless the
+// scene's camera has one. Throws Error(input) for an unknown name or form, an invalid number, a field outside
+// 0..180 degrees, a near that is not above 0, and a target at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish, double aspect = 1);
+
+// A camera for scenes without one.
+// From a corner above, 60 degrees high, as near as possible with every triangle in an image of this aspect
+// (width / height) and a margin: the scene spans nine tenths of the image's width or height and is centred on
+// both axes. The caller sets near and far. Without geometry it looks at the origin.
+Camera overview_camera(const Scene& scene, double aspect);
 
 }  // namespace lightgrid

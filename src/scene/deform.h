@@ -1,11 +1,12 @@
-// Morph targets and skins on the CPU: float vertices, sums and matrices in double (glTF 2.0, 3.7.2.2
-// and 3.7.3).
+// Morph targets and skins on the CPU (float vertices, sums and matrices in double: glTF 2.0, 3.7.2.2
+// and 3.7.3), and attributes that a mesh lacks and that can be computed from the others.
 #pragma once
 
 #include <optional>
 #include <span>
 
 #include "scene/rig.h"
+#include "scene/scene.h"
 
 namespace lightgrid {
 
@@ -28,5 +29,18 @@ void deform(const DeformingMesh& shape, std::span<const double> weights, std::sp
 
 // The first vertex whose position is not finite.
 std::optional<size_t> first_not_finite(const Mesh& mesh);
+
+// Gives each corner of each triangle its own vertex with the triangle's normal, as glTF requires for meshes
+// without normals; drops tangents. A triangle without area gets +z.
+void make_flat_normals(Mesh& mesh);
+
+// Replaces normals of length 0 by those of the surrounding triangles, and normalises the others.
+void repair_normals(Mesh& mesh);
+
+// Tangents along u of `uv` (empty: any direction perpendicular to the normal), handedness in w. Per vertex,
+// each triangle weighted by its area (Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh",
+// 2001). Unlike MikkTSpace no vertex is split, so both sides of a mirrored seam with shared vertices share a
+// tangent.
+void make_tangents(Mesh& mesh, std::span<const glm::vec2> uv);
 
 }  // namespace lightgrid

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <new>
 
-#include "scene/gltf/animations.h"
-#include "scene/gltf/lights.h"
 #include "scene/gltf/materials.h"
-#include "scene/gltf/meshes.h"
+#include "scene/gltf/nodes.h"
 
 namespace lightgrid {
 namespace {

@@ -10,7 +10,7 @@
 #endif
 
 #include "base/version.h"
-#include "gl/state.h"
+#include "gl/bindings.h"
 #include "reference/position.h"
 #include "results/flip.h"
 #include "results/metrics.h"
@@ -92,7 +92,7 @@ struct ReferenceTriangles {
 };
 
 ReferenceTriangles triangles_of(TechniqueRun& reference) {
-  if (!reference.frame().triangles) return {read_triangles(reference.view(), reference.view())};
+  if (!reference.frame().triangles) return {read_triangles(reference.view())};
   return {{own_triangles(reference), std::vector<bool>(reference.view().grid().values())}};
 }
 

@@ -1,8 +1,7 @@
 // Compares the renderer's buffers with the oracle (reference/).
 #pragma once
 
-#include "passes/read_outs/depth.h"
-#include "passes/read_outs/surfaces.h"
+#include "passes/read_outs.h"
 #include "reference/lit_set.h"
 #include "reference/shading.h"
 #include "results/results.h"

@@ -33,7 +33,7 @@ struct Sums {
 SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth)
     : v_(v),
       depth_(depth),
-      surfaces_(read_surfaces(v, v)),
+      surfaces_(read_surfaces(v)),
       lights_(lights_in_view(v.scene, v.view, v.plan.settings.ranges)) {
   for (const uint32_t pixel : covered_pixels(depth)) {
     surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);

@@ -15,7 +15,7 @@ namespace {
 // than everything.
 class DepthOfBlocks {
  public:
-  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v, v)) {
+  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v)) {
     std::vector<float> masked(whole_.size(), 1.0f);
     for (const uint32_t pixel : pixels_of(blocks, v.grid())) masked[pixel] = whole_[pixel];
     write(masked);
@@ -64,7 +64,7 @@ void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Ima
   const LightSource lights = every_light(v);
   const ShadedImage shaded = shade(v, surfaces, lights);
   blend(v, surfaces, lights, shaded);
-  read_back(v, v, shaded, image);
+  read_back(v, shaded, image);
 }
 
 bool is_quick_for_forward(const View& view, size_t lights, double most_ms) {

@@ -2,7 +2,7 @@
 // scene's. The oracle (oracle_sample.h) shades surfaces that OpenGL drew, and so does not show their errors.
 #pragma once
 
-#include "passes/read_outs/triangles.h"
+#include "passes/read_outs.h"
 #include "session/technique_run.h"
 
 namespace lightgrid {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "gl/errors.h"
-#include "gl/state.h"
+#include "gl/bindings.h"
+#include "gl/gl.h"
 #include "passes/read_back.h"
 #include "results/metrics.h"
 
@@ -39,7 +39,7 @@ void TechniqueRun::draw_frame() {
 double TechniqueRun::render() {
   const Timer timer;
   draw_frame();
-  HostImage image(view_, view_, frame_.image, image_);
+  HostImage image(view_, frame_.image, image_);
   const double ms = timer.elapsed_ms();
   image.keep();
   if (view_.renderer.gl) check_gl(technique_.name);

@@ -5,33 +5,16 @@
 
 #if !defined(__OPENCL_VERSION__)
 namespace lightgrid {
-enum class CullTest { sphere, planes, aabb, planes_aabb, exact };
+// A row of cull_tests, whose table and names are shared/cull_tests.h: few files read it, so that a new test
+// rebuilds only those.
+enum class CullTest : int;
+inline constexpr CullTest default_cull_test{3};
 enum class DepthBoundsMode { none, minmax, halfz, halfz_modified, mask32 };
 enum class KernelShape { automatic, lanes, group };
 enum class SliceSpacing { exponential, linear };
 enum class GridLists { lists, masks };
 
-// The tables of cull tests and depth-bounds modes: settings, culling, checks and inspection loop over them.
-// docs/overview.md#how-to-add lists what a new row needs.
-
-// The parts of a test of a light's sphere, besides the cell's interval of distances. All must hold.
-struct CullTestRow {
-  CullTest test;
-  const char* name;  // the setting cull-test
-  bool sphere;       // the sphere around the cell's box
-  bool planes;       // the cell's side planes
-  bool box;          // the cell's box in view space
-  bool distance;     // the distance to the cell itself
-};
-
-inline constexpr CullTestRow cull_tests[] = {
-    {CullTest::sphere, "sphere", true, false, false, false},
-    {CullTest::planes, "planes", false, true, false, false},
-    {CullTest::aabb, "aabb", false, false, true, false},
-    {CullTest::planes_aabb, "planes+aabb", false, true, true, false},
-    {CullTest::exact, "exact", false, true, true, true},
-};
-
+// The table of depth-bounds modes: settings, culling, checks and inspection loop over it.
 struct DepthBoundsRow {
   DepthBoundsMode mode;
   const char* name;  // the setting depth-bounds
@@ -45,14 +28,10 @@ inline constexpr DepthBoundsRow depth_bounds_modes[] = {
     {DepthBoundsMode::mask32, "mask32"},
 };
 
-constexpr const CullTestRow& row_of(CullTest test) { return cull_tests[int(test)]; }
 constexpr const DepthBoundsRow& row_of(DepthBoundsMode mode) { return depth_bounds_modes[int(mode)]; }
 
 constexpr bool rows_are_in_order() {
-  int test = 0, mode = 0;
-  for (const CullTestRow& row : cull_tests) {
-    if (int(row.test) != test++) return false;
-  }
+  int mode = 0;
   for (const DepthBoundsRow& row : depth_bounds_modes) {
     if (int(row.mode) != mode++) return false;
   }
@@ -65,13 +44,6 @@ enum class WorldGridShape { columns, cubes, hashed };
 
 }  // namespace lightgrid
 #else
-#define CULL_SPHERE 0       // the sphere around the cell's box
-#define CULL_PLANES 1       // four side planes against the sphere's tangent rectangle on screen, and the
-                            // distances
-#define CULL_AABB 2         // the cell's view-space box (Arvo 1990)
-#define CULL_PLANES_AABB 3  // both
-#define CULL_EXACT 4        // both, then the distance to the cell itself
-
 #define DEPTH_NONE 0
 #define DEPTH_MINMAX 1          // least and greatest distance: Harada, McKee, Yang, "Forward+" (2012)
 #define DEPTH_HALFZ 2           // that interval cut at its middle: Thomas, "Tiled-Based Compute

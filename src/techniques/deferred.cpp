@@ -2,17 +2,17 @@
 // covers.
 #include "passes/fill_gbuffer.h"
 #include "passes/find_object_lights.h"
-#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  const GBuffer gbuffer = fill_gbuffer(v, v);
-  shade_light_volumes(v, v, v.caches.light_volumes, gbuffer);
-  shade_blended(v, v, gbuffer.image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
-  return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v, v.caches.light_volumes)};
+  const GBuffer gbuffer = fill_gbuffer(v);
+  shade_light_volumes(v, v.caches.light_volumes, gbuffer);
+  shade_blended(v, gbuffer.image, find_blended_object_lights(v, v.caches.blended_object_lights));
+  return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v.caches.light_volumes)};
 }
 
 extern const Technique deferred{.name = "deferred",

@@ -2,7 +2,7 @@
 // the lights that a pixel's indices name (docs/techniques/lidr.md).
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
-#include "passes/shade_blended.h"
+#include "passes/shade_forward.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -10,13 +10,13 @@ namespace lightgrid {
 static Frame render(RenderView& v) {
   const Surfaces surfaces = find_surfaces(v);
   if (v.plan.local.empty()) return shade_every_light(v, surfaces);
-  const LightSource lights = light_index(v, v, v.caches.light_index, v.caches.light_volumes);
+  const LightSource lights = light_index(v, v.caches.light_index, v.caches.light_volumes);
   const ShadedImage image = shade(v, surfaces, lights);
   // Stencil marks opaque surfaces only.
   if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
     blend(v, surfaces, lights, image);
   } else {
-    shade_blended(v, v, image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
+    shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
   }
   return {.image = image, .listed = lights.listed, .light_index_bytes = lights.bytes};
 }

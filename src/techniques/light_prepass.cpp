@@ -2,12 +2,10 @@
 // its pixel's sums (docs/techniques/light_prepass.md).
 #include "base/error.h"
 #include "passes/cull_lights.h"
-#include "passes/draw_light_buffer.h"
+#include "passes/depth_prepass.h"
 #include "passes/fill_light_buffer.h"
-#include "passes/fill_normals.h"
 #include "passes/find_object_lights.h"
 #include "passes/resolve.h"
-#include "passes/shade_blended.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
 #include "techniques/technique.h"
@@ -15,35 +13,35 @@
 namespace lightgrid {
 
 static Frame from_volumes(RenderView& v) {
-  const NormalImage normals = fill_normals(v, v);
-  const LightBuffer lights = draw_light_buffer(v, v, v.caches.light_volumes, normals);
-  const ShadedImage image = shade_forward(v, v, v.opaque, from_light_buffer(v, lights));
-  shade_blended(v, v, image, find_blended_object_lights(v, v, v.caches.blended_object_lights));
-  return {.image = image, .listed = listed_of_light_volumes(v, v, v.caches.light_volumes)};
+  const NormalImage normals = fill_normals(v);
+  const LightBuffer lights = draw_light_buffer(v, v.caches.light_volumes, normals);
+  const ShadedImage image = shade_forward(v, v.opaque, from_light_buffer(v, lights));
+  shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
+  return {.image = image, .listed = listed_of_light_volumes(v, v.caches.light_volumes)};
 }
 
 static ShadedImage shade_materials(RenderView& v, const Surfaces& surfaces, const LightBufferInCl& sums) {
-  if (surfaces.visible) return resolve_materials(v, v, v.caches.resolver, *surfaces.visible, sums);
-  return shade(v, surfaces, from_light_buffer(v, light_buffer_to_gl(v, v, sums)));
+  if (surfaces.visible) return resolve_materials(v, v.caches.resolver, *surfaces.visible, sums);
+  return shade(v, surfaces, from_light_buffer(v, light_buffer_to_gl(v, sums)));
 }
 
 static Frame from_tiles(RenderView& v) {
   Surfaces surfaces;
   NormalsInCl normals;
   if (v.plan.opengl) {
-    const NormalImage drawn = fill_normals(v, v);
+    const NormalImage drawn = fill_normals(v);
     surfaces = surfaces_of(v, drawn.depth, true);
-    normals = normals_to_cl(v, v, drawn);
+    normals = normals_to_cl(v, drawn);
   } else {
     surfaces = find_surfaces(v);
-    normals = resolve_normals(v, v, v.caches.resolver, *surfaces.visible);
+    normals = resolve_normals(v, v.caches.resolver, *surfaces.visible);
   }
   Frame frame = frame_of(surfaces);
-  frame.grid = cull_lights(v, v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
-  const LightSource lights = from_grid(v, v, *frame.grid);
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  const LightSource lights = from_grid(v, *frame.grid);
   const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;
   frame.image = shade_materials(
-      v, surfaces, fill_light_buffer(v, v, v.caches.light_sums, normals, depth_of(v, surfaces), lights, use));
+      v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth_of(v, surfaces), lights, use));
   blend_from_grid(v, surfaces, lights, frame);
   return frame;
 }

@@ -9,8 +9,8 @@ Frame shade_from_light_grid(RenderView& v) {
   Surfaces surfaces = find_surfaces(v);
   if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
   Frame frame = frame_of(surfaces);
-  frame.grid = cull_lights(v, v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
-  const LightSource lights = from_grid(v, v, *frame.grid);
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade(v, surfaces, lights);
   blend_from_grid(v, surfaces, lights, frame);
   return frame;
@@ -28,8 +28,8 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
   frame.listed = opaque.listed;
   if (surfaces.visible ? v.plan.blended.empty() : !v.plan.blend) return;
   if (!v.plan.blend_grid) return blend(v, surfaces, opaque, frame.image);
-  frame.blend_grid = cull_lights_for_blended(v, v, v.culler(), v.blend_grid(), bounds_of(v, surfaces));
-  blend(v, surfaces, from_grid(v, v, *frame.blend_grid), frame.image);
+  frame.blend_grid = cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds_of(v, surfaces));
+  blend(v, surfaces, from_grid(v, *frame.blend_grid), frame.image);
 }
 
 }  // namespace lightgrid

@@ -15,13 +15,13 @@ BaseLighting base_lighting_of(const RenderView& v) {
 
 GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
   if (!surfaces) {
-    const GBuffer gbuffer = fill_gbuffer(v, v, base_lighting_of(v));
+    const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
     surfaces = Surfaces{.image = gbuffer.depth_image};
     return gbuffer;
   }
-  if (!surfaces->visible) return fill_gbuffer(v, v, surfaces->drawn, base_lighting_of(v));
+  if (!surfaces->visible) return fill_gbuffer(v, surfaces->drawn, base_lighting_of(v));
   GBuffer gbuffer;
-  gbuffer.in_cl = resolve_gbuffer(v, v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
+  gbuffer.in_cl = resolve_gbuffer(v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
   return gbuffer;
 }
 
@@ -39,9 +39,9 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
     return frame;
   }
   const DepthBuffer& depth = depth_of(v, *surfaces);
-  frame.grid = cull_lights(v, v, v.culler(), v.opaque_grid(), bounds_of(v, *surfaces));
-  const LightSource lights = from_grid(v, v, *frame.grid);
-  frame.image = shade_tiles(v, v, v.caches.tile_shading, gbuffer, depth, lights);
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, *surfaces));
+  const LightSource lights = from_grid(v, *frame.grid);
+  frame.image = shade_tiles(v, v.caches.tile_shading, gbuffer, depth, lights);
   blend_from_grid(v, *surfaces, lights, frame);
   return frame;
 }

@@ -12,18 +12,18 @@ static Frame render(RenderView& v) {
   std::optional<LightSource> exact, exact_blended;  // without voxel-lights-exact there is no grid
   if (v.plan.light_grid) {
     const DepthBounds& bounds = bounds_of(v, surfaces);
-    exact = from_grid(v, v, frame.grid.emplace(cull_lights(v, v, v.culler(), v.opaque_grid(), bounds)));
+    exact = from_grid(v, frame.grid.emplace(cull_lights(v, v.culler(), v.opaque_grid(), bounds)));
     if (v.plan.blend_grid)
       exact_blended = from_grid(
-          v, v, frame.blend_grid.emplace(cull_lights_for_blended(v, v, v.culler(), v.blend_grid(), bounds)));
+          v, frame.blend_grid.emplace(cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds)));
   }
   const TileDistances& distances = distances_of(v, surfaces);
   const VoxelVolume voxels =
-      build_voxels(v, v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
-  const LightSource lights = from_voxels(v, v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
+      build_voxels(v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
+  const LightSource lights = from_voxels(v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
   frame.listed = exact ? exact->listed : lights.listed;
   frame.image = shade(v, surfaces, lights);
-  blend(v, surfaces, exact_blended ? from_voxels(v, v, v.caches.voxels, voxels, &*exact_blended) : lights,
+  blend(v, surfaces, exact_blended ? from_voxels(v, v.caches.voxels, voxels, &*exact_blended) : lights,
         frame.image);
   return frame;
 }

@@ -8,13 +8,13 @@ namespace lightgrid {
 static Frame render(RenderView& v) {
   const Surfaces surfaces = find_surfaces(v);
   if (!v.plan.world_grid) return shade_every_light(v, surfaces);
-  const LightSource lights = build_world_grid(v, v, v.caches.world_grid);
+  const LightSource lights = build_world_grid(v, v.caches.world_grid);
   Frame frame = frame_of(surfaces);
   frame.listed = lights.listed;
   frame.image = shade(v, surfaces, lights);
   blend(v, surfaces, lights, frame.image);
   frame.world_grid_bytes = lights.bytes;
-  frame.world_cell = built_world_grid(v, v, v.caches.world_grid).layout().cell;
+  frame.world_cell = built_world_grid(v, v.caches.world_grid).layout().cell;
   return frame;
 }
 

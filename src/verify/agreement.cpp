@@ -2,39 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/position.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 #include "verify/check.h"
-#include "verify/tangent_lights.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {
 
-CullerOptions options_of(CullTest test) {
-  CullerOptions options;
-  options.cull_test = test;
-  return options;
-}
-
-// A light of almost no size at each pixel's centre: the cell that shading finds for the pixel must list it.
 void pixel_finds_its_tile(Check& c) {
-  const View v = oracle_view(sixty());
-  std::vector<CullLight> lights;
-  for (int y = 0; y < 73; ++y)
-    for (int x = 0; x < 127; ++x)
-      lights.push_back(point({view_x_of_pixel(v, x + 0.5) * 5, view_y_of_pixel(v, y + 0.5) * 5, -5}, 1e-6));
-  for (const CullerOptions& options : c.every_tile()) {
-    const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{5, 5}}, options);
-    for (uint y = 0; y < 73; ++y) {
-      for (uint x = 0; x < 127; ++x) {
-        const auto list = list_of(grid, cell_of_pixel(x, y, uint(options.tile), uint(grid.cells_x)));
-        c.trials(1);
-        if (!std::binary_search(list.begin(), list.end(), y * 127 + x))
-          c.lost("tile {}: pixel {} {}", options.tile, x, y);
-      }
-    }
-  }
+  for (const CullerOptions& options : every_tile()) c.pixels_find_tiny_lights(sixty(), options);
 }
 
 void expect_subset(Check& c, const HostGrid& inner, const HostGrid& outer, const char* what) {
@@ -52,7 +29,7 @@ void tests_are_nested(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const OverTiles over = scattered_over_tiles(named.view, 300, true, 51);
     const auto grid_by = [&](CullTest test) {
-      return c.grid(named.view, over.lights, over.bounds, {options_of(test)});
+      return c.grid(named.view, over.lights, over.bounds, {{.cull_test = test}});
     };
     const HostGrid both = grid_by(CullTest::planes_aabb);
     for (const CullTest test : {CullTest::planes, CullTest::aabb})
@@ -67,9 +44,7 @@ void bounds_are_nested(Check& c) {
   for (const NamedView& named : hard_views(63, 41)) {
     const OverDepth over = scattered_over_depth(named.view, 300, false, 52);
     const auto grid_by = [&](DepthBoundsMode mode) {
-      CullerOptions options;
-      options.depth_bounds = mode;
-      return c.pixels(named.view, over.lights, over.depth, {options});
+      return c.pixels(named.view, over.lights, over.depth, {{.depth_bounds = mode}});
     };
     const HostGrid minmax = grid_by(DepthBoundsMode::minmax);
     expect_subset(c, minmax, grid_by(DepthBoundsMode::none), "min/max within none");
@@ -105,17 +80,16 @@ void larger_lights_list_more(Check& c) {
 void whole_pixels_hold_centres(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const auto [bounds, lights] = tangent_over_tiles(named.view, 300, Contact::any, 55);
-    CullerOptions whole, centres;
-    whole.pixel_centres = false;
-    const HostGrid outer = c.grid(named.view, lights, bounds, {whole});
-    expect_subset(c, c.grid(named.view, lights, bounds, {centres}), outer, "centres within whole pixels");
+    const HostGrid outer = c.grid(named.view, lights, bounds, {{.pixel_centres = false}});
+    expect_subset(c, c.grid(named.view, lights, bounds, {{.pixel_centres = true}}), outer,
+                  "centres within whole pixels");
   }
 }
 
 void portable_form(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     const auto [bounds, lights] = scattered_over_tiles(named.view, 300, true, 56);
-    for (CullerOptions options : c.every_test()) {
+    for (CullerOptions options : every_test()) {
       const HostGrid tuned = c.grid(named.view, lights, bounds, {options});
       options.portable = true;
       c.that(tuned == c.grid(named.view, lights, bounds, {options}), "{}: {}: the portable form differs",
@@ -184,16 +158,14 @@ void on_edges_of_every_format(Check& c, const CullView& view, const std::vector<
   const OnEdges in_floats = on_edges(view, edges);
   c.pixels(view, in_floats.lights, in_floats.depth, settings);
   for (const auto& [format, steps] : {std::pair(DepthFormat::d24, 16777215.0), {DepthFormat::d16, 65535.0}}) {
-    CullerOptions options;
-    options.depth_format = format;
     const OnEdges on = on_edges_of_format(view, edges, steps);
-    c.pixels(view, on.lights, on.depth, {options});
+    c.pixels(view, on.lights, on.depth, {{.depth_format = format}});
   }
 }
 
 void on_slice_edges(Check& c) {
   for (const CullView& view : sliced_views())
-    on_edges_of_every_format(c, view, view.slice_edges, c.every_test());
+    on_edges_of_every_format(c, view, view.slice_edges, every_test());
 }
 
 CullView with_z_bins(CullView view) {
@@ -250,7 +222,7 @@ void z_bins_of_lights(Check& c) {
       for (const double r : {0.0, 1e-6, 0.5, 3.0, 50.0, 1e20, no_end, -1.0})
         axial.push_back(point({0, 0, -d}, r));
     move_to_world(view, axial);
-    lights.insert(lights.end(), axial.begin(), axial.end());
+    add(lights, axial);
     expect_tight_bins(c, view, lights, c.pixels(view, lights, depth, {CullerOptions{}}));
   }
 }
@@ -277,60 +249,17 @@ void slices_make_the_whole(Check& c) {
 
 void slices_and_bounds(Check& c) {
   const CullView view = sliced(sixty(), 24);
-  const OverTiles tiles = scattered_over_tiles(view, 200, true, 58);
-  c.grid(view, tiles.lights, tiles.bounds);
+  c.grid(view, scattered_over_tiles(view, 200, true, 58));
   const OverDepth surfaces = scattered_over_depth(view, 200, true, 59);
-  c.pixels(view, surfaces.lights, surfaces.depth, c.every_test());
+  c.pixels(view, surfaces.lights, surfaces.depth, every_test());
 }
 
 }  // namespace
 
-std::vector<HardCase> agreement_cases() {
-  const char* group = "agreement";
-  return {
-      CASE(pixel_finds_its_tile, "a tiny light at each pixel's centre, in every tile size",
-           "shading and culling round the tile differently", "the cell that shading finds lists it"),
-      CASE(on_slice_edges,
-           "surfaces on slice edges and one step beside, reversed and standard, D32F, D24, D16; lights that "
-           "just "
-           "reach them",
-           "a second log() in the shader: 0.7 to 85 in a million differ",
-           "the slice that shading finds by the stored depth lists the light"),
-      CASE(on_z_bin_edges, "the same on the edges of z-bins",
-           "bins of lights and of pixels round differently", "the pixel's bin includes the light"),
-      CASE(z_bins_of_lights,
-           "lights across near, behind, past the last edge, of infinite range, of size 0, in every view",
-           "a light only in the bin of its centre; a last bin with an end",
-           "every lit pixel's bin includes the light, no bin includes a light outside it"),
-      CASE(slices_make_the_whole, "2 to 64 slices against one", "gaps between slices",
-           "nothing lost; no slice lists more than the whole"),
-      CASE(slices_and_bounds, "slices cut by depth bounds", "the slice's end overrides the surface's",
-           "nothing lost"),
-      CASE(tests_are_nested, "every cull test over the same cells", "two forms of a shared test diverge",
-           "exact ⊆ planes+aabb ⊆ planes, aabb"),
-      CASE(bounds_are_nested, "every depth-bounds mode over the same depth", "a mask widens the bounds",
-           "mask, half-z ⊆ min/max ⊆ none"),
-      CASE(narrower_intervals_list_less, "intervals within each other", "a reversed comparison",
-           "lists within each other"),
-      CASE(larger_lights_list_more, "radii grown by 10⁻⁶ and twofold", "rounding that is not monotone",
-           "lists within each other"),
-      CASE(whole_pixels_hold_centres, "cells to pixels' edges and to their centres",
-           "half a pixel to the wrong side", "centres' lists within whole pixels'"),
-      CASE(portable_form, "with and without CPU-specific builtins", "the faster form rounds differently",
-           "the same bytes"),
-  };
-}
-
-const std::vector<HardCase>& hard_cases() {
-  static const std::vector<HardCase> all = [] {
-    std::vector<HardCase> cases;
-    for (const auto& group :
-         {depth_cases(), depth_bounds_cases(), depth_format_cases(), camera_cases(), projection_cases(),
-          light_cases(), light_place_cases(), list_cases(), agreement_cases(), raster_cases()})
-      cases.insert(cases.end(), group.begin(), group.end());
-    return cases;
-  }();
-  return all;
+std::vector<CaseRun> agreement_cases() {
+  return CASES(pixel_finds_its_tile, on_slice_edges, on_z_bin_edges, z_bins_of_lights, slices_make_the_whole,
+               slices_and_bounds, tests_are_nested, bounds_are_nested, narrower_intervals_list_less,
+               larger_lights_list_more, whole_pixels_hold_centres, portable_form);
 }
 
 }  // namespace lightgrid::verify

@@ -5,11 +5,11 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "reference/lit_set.h"
 #include "reference/position.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
 #include "shared/slices.h"
-#include "verify/float_twin.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -33,13 +33,11 @@ struct Scan {
 
 Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t index) {
   const int tx = int(index % tiles_x(view, tile)), ty = int(index / tiles_x(view, tile));
-  const int row = depth.row_pixels ? depth.row_pixels : view.width;
   Scan scan;
   for (int y = ty * tile; y < std::min((ty + 1) * tile, view.height); ++y) {
     for (int x = tx * tile; x < std::min((tx + 1) * tile, view.width); ++x) {
       for (int s = 0; s < depth.samples; ++s) {
-        const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples + s;
-        const float value = depth.values[at];
+        const float value = depth.values[depth.index(view, x, y, s)];
         if (!(value >= 0 && value <= 1) || (value == 0 && std::signbit(value)))
           scan.invalid = true;
         else if (value != depth_of_nothing(view)) {
@@ -50,6 +48,10 @@ Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t i
     }
   }
   return scan;
+}
+
+void spread_over_tiles(std::vector<DepthInterval>& bounds, const CullView& view, int tile) {
+  if (bounds.size() == 1) bounds.assign(tile_count(view, tile), DepthInterval(bounds[0]));
 }
 
 }  // namespace
@@ -66,27 +68,35 @@ std::span<const uint32_t> list_of(const HostGrid& grid, size_t cell) {
                             : std::span<const uint32_t>();
 }
 
+const char* name_of(LostFrom from) {
+  return from == LostFrom::list ? "list" : from == LostFrom::mask ? "mask" : "z-bins";
+}
+
+ListFinder::ListFinder(const CullView& view, int tile, const HostGrid& grid)
+    : view_(view),
+      tile_(tile),
+      grid_(grid),
+      slices_(slice_keys(view)),
+      z_bins_(z_bin_keys(view)),
+      mask_words_(grid.cells.empty() ? 0 : grid.masks.size() / grid.cells.size()) {}
+
+std::optional<LostFrom> ListFinder::lost_from(uint x, uint y, float depth, uint32_t light) const {
+  const float key = depth_key(view_, depth);
+  const size_t slice = slice_of_key(key, slices_.data());
+  const size_t cell =
+      slice * grid_.cells_x * grid_.cells_y + cell_of_pixel(x, y, uint(tile_), uint(grid_.cells_x));
+  if (cell >= grid_.cells.size()) return LostFrom::list;
+  const auto list = list_of(grid_, cell);
+  if (!std::binary_search(list.begin(), list.end(), light)) return LostFrom::list;
+  if (mask_words_ && !(grid_.masks[cell * mask_words_ + light / 32] >> light % 32 & 1)) return LostFrom::mask;
+  const bool held = grid_.z_bins.empty() || bins_hold(grid_.z_bins[light], z_bin_of_key(key, z_bins_.data()));
+  return held ? std::nullopt : std::optional(LostFrom::z_bins);
+}
+
 std::string malformed(const HostGrid& grid, size_t lights) {
-  const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  if (grid.cells.size() != cells) return "not one first and count a cell";
-  std::vector<uint32_t> order;  // by position in the index list, whose order is private to the kernels
-  for (uint32_t i = 0; i < cells; ++i) {
-    if (grid.cells[i].y) order.push_back(i);
-  }
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return grid.cells[a].x < grid.cells[b].x; });
-  uint64_t next = 0;
-  for (const uint32_t i : order) {
-    if (grid.cells[i].x != next)
-      return fmt::format("cell {} begins at {}, not at {}", i, grid.cells[i].x, next);
-    next += grid.cells[i].y;
-    if (next > grid.indices.size()) return fmt::format("cell {} ends past the index list", i);
-    const auto list = list_of(grid, i);
-    if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) != list.end())
-      return fmt::format("the list of cell {} is not sorted", i);
-    if (list.back() >= lights) return fmt::format("cell {} lists light {}", i, list.back());
-  }
-  return next == grid.indices.size() ? "" : "indices that belong to no cell";
+  if (grid.cells.size() != size_t(grid.cells_x) * grid.cells_y * grid.slices)
+    return "not one first and count a cell";
+  return malformed_lists(grid.cells, grid.indices, lights);
 }
 
 void Check::fail(const std::string& why) {
@@ -110,26 +120,21 @@ Outcome Check::outcome() const {
   return outcome;
 }
 
-std::vector<CullerOptions> Check::every_test(int tile) const {
-  std::vector<CullerOptions> settings;
-  for (const CullTestRow& row : cull_tests) {
-    CullerOptions options;
-    options.cull_test = row.test;
-    options.tile = tile;
-    settings.insert(row.test == CullerOptions().cull_test ? settings.begin() : settings.end(), options);
-  }
+std::vector<CullerOptions> every_test(int tile) {
+  std::vector<CullerOptions> settings = {{.tile = tile}};
+  for (const CullTestRow& row : cull_tests)
+    if (row.test != settings[0].cull_test) settings.push_back({.cull_test = row.test, .tile = tile});
   return settings;
 }
 
-std::vector<CullerOptions> Check::every_tile() const {
-  std::vector<CullerOptions> settings;
-  for (const int tile : {16, 8, 32, 64}) {
-    CullerOptions options;
-    options.tile = tile;
-    settings.push_back(options);
-  }
+std::vector<CullerOptions> every_mode(int tile) {
+  std::vector<CullerOptions> settings = {{.tile = tile}};
+  for (const DepthBoundsRow& row : depth_bounds_modes)
+    if (row.mode != settings[0].depth_bounds) settings.push_back({.depth_bounds = row.mode, .tile = tile});
   return settings;
 }
+
+std::vector<CullerOptions> every_tile() { return {{.tile = 16}, {.tile = 8}, {.tile = 32}, {.tile = 64}}; }
 
 std::vector<CullerOptions> Check::in_both_shapes(const CullerOptions& options) const {
   CullerOptions lanes = options, group = options;
@@ -138,19 +143,54 @@ std::vector<CullerOptions> Check::in_both_shapes(const CullerOptions& options) c
   return {lanes, group};
 }
 
-HostGrid Check::same_in_every_way(const CullView& view, const std::vector<CullLight>& lights,
-                                  const std::vector<DepthInterval>& bounds, const CullerOptions& options) {
-  HostGrid first;
+// make(options) in each shape: the first, which the second must equal.
+template <typename Make>
+auto Check::same_in_every_shape(const CullerOptions& options, const Make& make) {
+  std::optional<decltype(make(options))> first;
   for (const CullerOptions& shaped : in_both_shapes(options)) {
-    HostGrid grid = engine.cull(shaped, view, lights, bounds);
-    const std::string wrong = malformed(grid, lights.size());
-    if (!wrong.empty()) throw machine_error("{}: {}", to_string(shaped), wrong);  // ends the case
-    if (shaped.shape == KernelShape::lanes)
-      first = std::move(grid);
+    auto made = make(shaped);
+    if (first)
+      that(*first == made, "{}: lanes and group differ", to_string(options));
     else
-      that(first == grid, "{}: lanes and group differ", to_string(options));
+      first = std::move(made);
   }
-  return first;
+  return std::move(*first);
+}
+
+template <typename Cull>
+HostGrid Check::well_formed_grid(const CullerOptions& options, size_t lights, const Cull& cull) {
+  return same_in_every_shape(options, [&](const CullerOptions& shaped) {
+    HostGrid grid = cull(shaped);
+    const std::string wrong = malformed(grid, lights);
+    if (!wrong.empty()) throw machine_error("{}: {}", to_string(shaped), wrong);  // ends the case
+    return grid;
+  });
+}
+
+void Check::each_cell_lists(const HostGrid& grid, uint32_t lights, const char* what) {
+  for (size_t i = 0; i < grid.cells.size(); ++i)
+    that(grid.cells[i].y == lights, "cell {} has {} of {} {}", i, grid.cells[i].y, lights, what);
+}
+
+void Check::pixels_find_lights(const HostGrid& grid, const CullView& view, int tile,
+                               const std::string& what) {
+  for (uint i = 0; i < uint(view.width * view.height); ++i) {
+    const uint x = i % uint(view.width), y = i / uint(view.width);
+    const auto list = list_of(grid, cell_of_pixel(x, y, uint(tile), uint(grid.cells_x)));
+    trials(1);
+    if (!std::binary_search(list.begin(), list.end(), i)) lost("{}: pixel {} {} loses its light", what, x, y);
+  }
+}
+
+size_t Check::pixels_find_tiny_lights(const CullView& view, const CullerOptions& options) {
+  const View v = oracle_view(view);
+  std::vector<CullLight> lights;
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) lights.push_back(point(position_at(v, x, y, 5), 1e-6));
+  move_to_world(view, lights);
+  pixels_find_lights(grid_of_known_answer(view, lights, {{5, 5}}, options), view, options.tile,
+                     to_string(options));
+  return lights.size();
 }
 
 void Check::hold_between(const CullView& view, std::span<const OracleLight> lights,
@@ -160,24 +200,21 @@ void Check::hold_between(const CullView& view, std::span<const OracleLight> ligh
             grid.cells.size(), touching.size()))
     return;
   const View seen = oracle_view(view);
+  const auto words = [&](size_t i, const Cell& cell, uint32_t light, const char* what) {
+    const OracleLight& l = lights[light];
+    return fmt::format("{}: cell {} [{:.9g}, {:.9g}] {} light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}",
+                       to_string(options), i, cell.near, cell.far, what, light, l.position.x, l.position.y,
+                       l.position.z, l.radius);
+  };
   for (size_t i = 0; i < touching.size(); ++i) {
     const auto list = list_of(grid, i);
     const Cell cell = cell_of(view, options.tile, i, bounds[i % bounds.size()], options.pixel_centres);
     for (const uint32_t light : touching[i]) {
-      if (std::binary_search(list.begin(), list.end(), light)) continue;
-      const OracleLight& l = lights[light];
-      lost("{}: cell {} [{:.9g}, {:.9g}] lost light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}",
-           to_string(options), i, cell.near, cell.far, light, l.position.x, l.position.y, l.position.z,
-           l.radius);
+      if (!std::binary_search(list.begin(), list.end(), light)) lost("{}", words(i, cell, light, "lost"));
     }
     for (const uint32_t light : list) {
-      if (possibly_touches(seen, options.tile, cell, lights[light], options.cull_test)) continue;
-      const OracleLight& l = lights[light];
-      fail(fmt::format(
-          "{}: cell {} [{:.9g}, {:.9g}] lists light {} at {:.9g} {:.9g} {:.9g} radius {:.9g}, which cannot "
-          "touch it",
-          to_string(options), i, cell.near, cell.far, light, l.position.x, l.position.y, l.position.z,
-          l.radius));
+      if (!possibly_touches(seen, options.tile, cell, lights[light], options.cull_test))
+        fail(words(i, cell, light, "lists, which cannot touch it,"));
     }
     trials(touching[i].size() + list.size());
     if (counts) listed_ += list.size(), touching_ += touching[i].size();
@@ -190,16 +227,18 @@ HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights,
   HostGrid first;
   Touching touching;
   int tile = 0;
-  const bool one_for_all = bounds.size() == 1;
-  const DepthInterval one = one_for_all ? bounds[0] : DepthInterval();
+  const std::vector<DepthInterval> given = std::move(bounds);
   for (const CullerOptions& options : settings) {
-    if (one_for_all) bounds.assign(tile_count(view, options.tile), one);
+    bounds = given;
+    spread_over_tiles(bounds, view, options.tile);
     if (options.tile != tile) {
       touching = touching_lights(view, exact, bounds, options.tile, options.pixel_centres);
       for (const auto& cell : touching) contacts(cell.size());
     }
     tile = options.tile;
-    HostGrid grid = same_in_every_way(view, lights, bounds, options);
+    HostGrid grid = well_formed_grid(options, lights.size(), [&](const CullerOptions& shaped) {
+      return engine.cull(shaped, view, lights, bounds);
+    });
     hold_between(view, exact, bounds, touching, options, grid, &options == &settings[0]);
     if (&options == &settings[0]) first = std::move(grid);
   }
@@ -208,21 +247,19 @@ HostGrid Check::grid(const CullView& view, const std::vector<CullLight>& lights,
 
 HostGrid Check::grid_of_known_answer(const CullView& view, const std::vector<CullLight>& lights,
                                      std::vector<DepthInterval> bounds, const CullerOptions& options) {
-  if (bounds.size() == 1) {
-    const DepthInterval one = bounds[0];
-    bounds.assign(tile_count(view, options.tile), one);
-  }
-  return same_in_every_way(view, lights, bounds, options);
+  spread_over_tiles(bounds, view, options.tile);
+  return well_formed_grid(options, lights.size(), [&](const CullerOptions& shaped) {
+    return engine.cull(shaped, view, lights, bounds);
+  });
 }
 
 std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage& depth,
                                          const CullerOptions& options, bool tight) {
-  std::vector<DepthInterval> first;
-  for (const CullerOptions& shaped : in_both_shapes(options)) {
-    std::vector<DepthInterval> found = engine.depth_bounds(shaped, view, depth);
+  return same_in_every_shape(options, [&](const CullerOptions& shaped) {
+    const std::vector<DepthInterval> found = engine.depth_bounds(shaped, view, depth);
     if (!that(found.size() == tile_count(view, options.tile), "{}: bounds of {} tiles", to_string(shaped),
               found.size()))
-      return {};
+      return found;
     for (size_t i = 0; i < found.size(); ++i) {
       const Scan scan = scan_tile(view, depth, options.tile, i);
       const DepthInterval b = found[i];
@@ -247,23 +284,13 @@ std::vector<DepthInterval> Check::bounds(const CullView& view, const DepthImage&
              b.far, scan.near, scan.far);
       }
     }
-    const auto same = [](const DepthInterval& a, const DepthInterval& b) {
-      return a.near == b.near && a.far == b.far;
-    };
-    if (shaped.shape == KernelShape::lanes)
-      first = found;
-    else
-      that(std::equal(first.begin(), first.end(), found.begin(), found.end(), same),
-           "{}: lanes and group differ", to_string(options));
-  }
-  return first;
+    return found;
+  });
 }
 
 HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& lights, const DepthImage& depth,
                        const std::vector<CullerOptions>& settings) {
   const std::vector<OracleLight> exact = oracle_lights(view, lights);
-  const View v = oracle_view(view);
-  const int row = depth.row_pixels ? depth.row_pixels : view.width;
   struct Lit {
     uint32_t x, y, light;
     double distance;
@@ -273,54 +300,34 @@ HostGrid Check::pixels(const CullView& view, const std::vector<CullLight>& light
   parallel_for(view.height, [&](int y) {
     for (int x = 0; x < view.width; ++x) {
       for (int s = 0; s < depth.samples; ++s) {
-        const size_t at = (size_t(y + depth.y) * row + x + depth.x) * depth.samples + s;
-        const float value = depth.values[at];
-        if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) continue;
-        const glm::dvec3 position = depth.distances.empty() ? position_from_depth(v, x, y, value)
-                                                            : position_at(v, x, y, depth.distances[at]);
+        const auto surface = surface_at(view, depth, x, y, s);
+        if (!surface) continue;
+        const float value = depth.values[depth.index(view, x, y, s)];
         for (uint32_t light = 0; light < exact.size(); ++light) {
-          if (lights_it(exact[light], position))
-            rows[y].push_back({uint32_t(x), uint32_t(y), light, -position.z, value});
+          if (lights_it(exact[light], *surface))
+            rows[y].push_back({uint32_t(x), uint32_t(y), light, -surface->z, value});
         }
       }
     }
   });
   for (const auto& lit : rows) contacts(lit.size());
-  const auto slices = slice_keys(view);
   HostGrid first;
   for (const CullerOptions& options : settings) {
-    HostGrid lanes;
-    for (const CullerOptions& shaped : in_both_shapes(options)) {
-      HostGrid grid = engine.cull_depth(shaped, view, lights, depth);
-      const std::string wrong = malformed(grid, lights.size());
-      if (!wrong.empty()) throw machine_error("{}: {}", to_string(shaped), wrong);
-      if (shaped.shape == KernelShape::lanes)
-        lanes = std::move(grid);
-      else
-        that(lanes == grid, "{}: lanes and group differ", to_string(options));
-    }
-    that(lanes.z_bins.empty() || lanes.z_bins.size() == lights.size(), "{} words of z-bins",
-         lanes.z_bins.size());
-    const auto keys = z_bin_keys(view);
-    const auto passed_over = [&](const Lit& pair) {
-      return !lanes.z_bins.empty() &&
-             !bins_hold(lanes.z_bins[pair.light], z_bin_of_key(depth_key(view, pair.depth), keys.data()));
-    };
+    HostGrid grid = well_formed_grid(options, lights.size(), [&](const CullerOptions& shaped) {
+      return engine.cull_depth(shaped, view, lights, depth);
+    });
+    that(grid.z_bins.empty() || grid.z_bins.size() == lights.size(), "{} words of z-bins",
+         grid.z_bins.size());
+    const ListFinder finder(view, options.tile, grid);
     for (const auto& lit : rows) {
       for (const Lit& pair : lit) {
-        if (passed_over(pair))
-          lost("z-bins: pixel {} {} at {:.9g} m skips light {}", pair.x, pair.y, pair.distance, pair.light);
-        size_t cell = cell_of_pixel(pair.x, pair.y, uint(options.tile), uint(lanes.cells_x));
-        const size_t slice = slice_of_key(depth_key(view, pair.depth), slices.data());
-        cell += slice * lanes.cells_x * lanes.cells_y;
-        const auto list = list_of(lanes, cell);
-        if (std::binary_search(list.begin(), list.end(), pair.light)) continue;
-        lost("{}: pixel {} {} at {:.9g} m lost light {}", to_string(options), pair.x, pair.y, pair.distance,
-             pair.light);
+        if (const auto from = finder.lost_from(pair.x, pair.y, pair.depth, pair.light))
+          lost("{}: pixel {} {} at {:.9g} m lost light {} from its {}", to_string(options), pair.x, pair.y,
+               pair.distance, pair.light, name_of(*from));
       }
       trials(lit.size());
     }
-    if (&options == &settings[0]) first = std::move(lanes);
+    if (&options == &settings[0]) first = std::move(grid);
   }
   return first;
 }

@@ -9,7 +9,7 @@
 namespace lightgrid::verify {
 namespace {
 
-// With its number if another device has the same name.
+// The device's name, with its number if another device has the same name.
 std::string name_of_device(const std::string& substring) {
   const std::vector<ClDeviceInfo> devices = list_cl_devices();
   const size_t chosen = choose_cl_device(devices, substring);
@@ -32,7 +32,7 @@ class DeviceEngine : public CullEngine {
                 std::span<const DepthInterval> bounds) override {
     LightCuller& culler = culler_of(options, view);
     culler.set_lights(lights);
-    return read_grid(device_, culler.cull(culler.bounds_of(bounds), storage_), storage_);
+    return grid_of(culler, culler.bounds_of(bounds));
   }
 
   std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
@@ -45,7 +45,7 @@ class DeviceEngine : public CullEngine {
                       const DepthImage& depth, bool blend) override {
     LightCuller& culler = culler_of(options, view, depth.samples);
     culler.set_lights(lights);
-    return read_grid(device_, culler.cull(bounds_from(culler, depth, blend), storage_), storage_);
+    return grid_of(culler, bounds_from(culler, depth, blend));
   }
 
   std::optional<KernelRun> kernel_run(const CullerOptions& options, const CullView& view,
@@ -54,7 +54,7 @@ class DeviceEngine : public CullEngine {
     LightCuller& culler = culler_of(options, view, depth.samples);
     culler.set_lights(lights);
     const TileBounds bounds = bounds_from(culler, depth, blend);
-    HostGrid grid = read_grid(device_, culler.cull(bounds, storage_), storage_);
+    HostGrid grid = grid_of(culler, bounds);
     return KernelRun{culler.read_inputs(bounds), std::move(grid)};
   }
 
@@ -86,6 +86,10 @@ class DeviceEngine : public CullEngine {
   }
 
  private:
+  HostGrid grid_of(LightCuller& culler, const TileBounds& bounds) {
+    return read_grid(device_, culler.cull(bounds, storage_), storage_);
+  }
+
   using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool,
                          int, GridLists>;
   static constexpr size_t most_cullers = 64;  // each has its own buffers

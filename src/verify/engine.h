@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "culling/light_culler.h"
-#include "verify/raster_input.h"
+#include "raster/raster_view.h"
 
 namespace lightgrid::verify {
 
@@ -23,6 +23,29 @@ struct DepthImage {
   // For each value the surface's true distance along the view axis, before a depth format rounded it. Empty:
   // follows from the values. Never passed to culling.
   std::vector<double> distances{};
+
+  size_t index(const CullView& view, int px, int py, int sample = 0) const {
+    return (size_t(py + y) * (row_pixels ? row_pixels : view.width) + px + x) * samples + sample;
+  }
+};
+
+// Triangles to rasterise, and the image of them.
+struct RasterInputMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<uint32_t> indices;
+};
+
+struct RasterInput {
+  RasterCamera camera;
+  std::vector<RasterInputMesh> meshes;
+  std::vector<RasterInstance> instances;
+};
+
+struct RasterImage {
+  std::vector<uint32_t> triangles;  // a pixel, row 0 at the bottom
+  std::vector<float> depths;
+  std::vector<std::vector<glm::vec4>> clip;  // of each instance, its vertices in clip space
+  uint64_t invalid_triangles = 0;
 };
 
 // A cull from depth with all of its inputs, for the float twin.

@@ -1,13 +1,12 @@
-#include "verify/float_twin.h"
+#include "verify/check.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 #include "shared/light_grid.h"
-#include "verify/check.h"
 #include "verify/twin/twin.h"
 
 namespace lightgrid::verify {

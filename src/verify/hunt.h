@@ -9,7 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "verify/hunt_views.h"
+#include "verify/hunt_space.h"
 
 namespace lightgrid::verify {
 

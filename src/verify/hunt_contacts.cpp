@@ -1,4 +1,4 @@
-#include "verify/hunt_contacts.h"
+#include "verify/hunt_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,7 @@
 #include "base/parallel.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
-#include "renderer/culler_input.h"
-#include "verify/hunt_depth.h"
-#include "verify/views.h"
+#include "renderer/upload/culler_input.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -123,8 +121,8 @@ class Maker {
     return length > 1e-6 ? mixed / length : nz;
   }
 
-  // From far below the cell's width to far past the eye's distance; large ones are rare, because long lists
-  // take time.
+  // Sizes range from far below the cell's width to far past the eye's distance; large ones are rare, because
+  // long lists take time.
   double random_size(const glm::dvec3& p, Random& random) const {
     const double d = v_.orthographic ? 1 : std::abs(p.z), pixels = setting_.options.tile;
     const double wide = 2 / (v_.clip_from_view[0][0] * v_.width),

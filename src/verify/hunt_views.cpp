@@ -1,22 +1,104 @@
-#include "verify/hunt_views.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "verify/hunt_depth.h"
+#include "reference/position.h"
+#include "shared/cull_tests.h"
+#include "verify/check.h"
+#include "verify/hunt_space.h"
 
 namespace lightgrid::verify {
 namespace {
+
+// Variants that depth_cases and light_cases build anyway.
+void choose_from_few(HuntSetting& s, Random& random) {
+  const bool vary_test = chance(random, 0.5);
+  if (vary_test)
+    s.options.cull_test = one_of(random, cull_tests).test;
+  else
+    s.options.depth_bounds = one_of(random, depth_bounds_modes).mode;
+  s.spots = vary_test && chance(random, 0.5);
+  if (!vary_test && s.options.depth_bounds == DepthBoundsMode::minmax) {
+    s.slices = one_of(random, {1, 24});
+    s.z_bins = one_of(random, {1, 256});
+  }
+}
+
+// A block of pixels has two distances, metres along the view axis; a pixel is at one of them, or between.
+struct Block {
+  enum { flat, layers, rough, edge, none } kind = flat;
+  double a = 0, b = 0;
+  float value = 0, other = 0;  // stored, of kind edge
+};
+
+// The tilt of depth at a point of the image, pixels: depth = tilt + b / d - a. 0 unless the near plane is
+// oblique.
+double tilt_at(const HuntView& h, double px, double py) {
+  const glm::dmat4& clip = h.view.clip_from_view;
+  if (clip[0][2] == 0 && clip[1][2] == 0) return 0;
+  const View view = oracle_view(h.view);
+  return clip[0][2] * view_x_of_pixel(view, px) + clip[1][2] * view_y_of_pixel(view, py);
+}
+
+// The value as stored in the format, 0 to 1.
+float stored_depth(const HuntView& h, double distance, double tilt) {
+  const double depth = std::clamp(depth_at(h.view, distance) + tilt, 0.0, 1.0);
+  if (h.format == DepthFormat::d32f) return float(depth);
+  const double steps = h.format == DepthFormat::d16 ? 65535 : 16777215;
+  return float(std::round(depth * steps) / steps);
+}
+
+double random_distance(const HuntView& h, Random& random) {
+  if (!is_orthographic(h.view) && chance(random, 0.8)) return log_between(random, h.near * 1.0001, h.far);
+  return between(random, h.near + (h.far - h.near) * 1e-6, h.far);
+}
+
+// A stored value whose key equals an edge's or is next to it.
+float value_on_edge(const HuntView& h, Random& random) {
+  const bool slices = h.view.z_bin_edges.empty() || (!h.view.slice_edges.empty() && chance(random, 0.5));
+  const std::vector<float>& edges = slices ? h.view.slice_edges : h.view.z_bin_edges;
+  const size_t i = random.next() % edges.size();
+  const float key = slices ? slice_keys(h.view)[i] : z_bin_keys(h.view)[i];
+  float value = has_standard_depth(h.view) ? key : -key;
+  if (h.format != DepthFormat::d32f) return stored_depth(h, distance_at(h.view, value), 0);
+  for (int steps = int(random.next() % 5) - 2; steps != 0; steps += steps < 0 ? 1 : -1) {
+    value = std::nextafter(value, steps < 0 ? 0.0f : 1.0f);
+  }
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
+Block random_block(const HuntView& h, Random& random) {
+  Block block;
+  const bool edges = !h.view.slice_edges.empty() || !h.view.z_bin_edges.empty();
+  const double t = unit(random);
+  block.a = random_distance(h, random), block.b = random_distance(h, random);
+  block.kind = t < 0.05 ? Block::none : t < 0.45 ? Block::flat : t < 0.7 ? Block::layers : Block::rough;
+  if (edges && chance(random, 0.35)) {
+    block.kind = Block::edge;
+    block.value = value_on_edge(h, random),
+    block.other = chance(random, 0.5) ? block.value : value_on_edge(h, random);
+    return block;
+  }
+  if (block.kind == Block::rough && chance(random, 0.5)) block.b = block.a + (block.b - block.a) * 1e-3;
+  return block;
+}
+
+float value_in(const Block& block, const HuntView& h, double tilt, Random& random) {
+  if (block.kind == Block::none) return depth_of_nothing(h.view);
+  if (block.kind == Block::edge) return chance(random, 0.5) ? block.value : block.other;
+  const double distance = block.kind == Block::flat    ? block.a
+                          : block.kind == Block::rough ? between(random, block.a, block.b)
+                          : chance(random, 0.5)        ? block.a
+                                                       : block.b;
+  return stored_depth(h, distance, tilt);
+}
 
 using std::numbers::pi;
 constexpr double steepest_half = 1145.9;    // tan(179.9 / 2 degrees)
 constexpr double gentlest_half = 0.000873;  // tan(0.1 / 2 degrees)
 
-struct Size {
-  int width, height;
-};
-constexpr Size sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515}, {128, 128}, {17, 1031}, {480, 272}};
+constexpr glm::ivec2 sizes[] = {{256, 256}, {333, 190}, {640, 67}, {61, 515},
+                                {128, 128}, {17, 1031}, {480, 272}};
 
 // The parameters of a view; each class sets its own.
 struct Plan {
@@ -48,50 +130,30 @@ Plan mixed_plan(Random& random) {
 }
 
 Plan plan_of(HuntClass hunted, Random& random) {
-  if (hunted == HuntClass::mixed) return mixed_plan(random);
+  using enum HuntClass;
+  if (hunted == mixed) return mixed_plan(random);
   Plan p;
   p.half = half_of(5, 150, random);
   p.placed = chance(random, 0.5), p.eye_m = log_between(random, 0.1, 1000);
-  const bool any_depth = hunted == HuntClass::d16 || hunted == HuntClass::d24 || hunted == HuntClass::blended;
-  switch (hunted) {
-    case HuntClass::narrow:
-      p.half = half_of(1, 5, random);
-      break;
-    case HuntClass::narrowest:
-      p.half = half_of(0.1, 1, random);
-      break;
-    case HuntClass::wide:
-      p.half = half_of(150, 179.9, random);
-      break;
-    case HuntClass::off_centre:
-      p.half = log_between(random, 0.01, 5);
-      p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
-      break;
-    case HuntClass::turned_far:
-      p.placed = true, p.eye_m = log_between(random, 1e3, 1e15);
-      break;
-    case HuntClass::orthographic:
-      p.orthographic = true;
-      break;
-    case HuntClass::standard:
-      p.standard = true, p.finite = chance(random, 0.5);
-      break;
-    case HuntClass::finite_far:
-      p.finite = true;
-      break;
-    case HuntClass::scaled:
-      p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
-      break;
-    case HuntClass::oblique:
-      p.oblique = true, p.standard = chance(random, 0.5);
-      if (chance(random, 0.3)) p.off = between(random, -2, 2) * p.half;
-      break;
-    case HuntClass::blended:
-      p.blended = true;
-      break;
-    default:
-      break;
+  const bool any_depth = hunted == d16 || hunted == d24 || hunted == blended;
+  if (hunted == narrow) p.half = half_of(1, 5, random);
+  if (hunted == narrowest) p.half = half_of(0.1, 1, random);
+  if (hunted == wide) p.half = half_of(150, 179.9, random);
+  if (hunted == off_centre) {
+    p.half = log_between(random, 0.01, 5);
+    p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
   }
+  if (hunted == turned_far) p.placed = true, p.eye_m = log_between(random, 1e3, 1e15);
+  if (hunted == orthographic) p.orthographic = true;
+  if (hunted == standard) p.standard = true, p.finite = chance(random, 0.5);
+  if (hunted == finite_far) p.finite = true;
+  if (hunted == scaled)
+    p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
+  if (hunted == oblique) {
+    p.oblique = true, p.standard = chance(random, 0.5);
+    if (chance(random, 0.3)) p.off = between(random, -2, 2) * p.half;
+  }
+  if (hunted == blended) p.blended = true;
   if (any_depth) {
     p.standard = chance(random, 0.5), p.finite = chance(random, 0.5);
     p.orthographic = chance(random, 0.25);
@@ -131,8 +193,8 @@ DepthFormat format_of(HuntClass hunted, Random& random) {
   return one_of(random, {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16});
 }
 
-CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
-  const double aspect = double(size.width) / size.height, metres = p.orthographic ? p.unit_m : 1;
+CullView lens_of(const HuntView& h, const Plan& p, const glm::ivec2& size, Random& random) {
+  const double aspect = double(size.x) / size.y, metres = p.orthographic ? p.unit_m : 1;
   Lens lens{.near = h.near, .orthographic = p.orthographic};
   lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect),
   lens.half_y = metres * (aspect >= 1 ? p.half / aspect : p.half);
@@ -142,7 +204,7 @@ CullView lens_of(const HuntView& h, const Plan& p, Size size, Random& random) {
   if (p.finite)
     lens.far = p.orthographic ? h.near + (h.far - h.near) * between(random, 1.01, 3)
                               : h.far * log_between(random, 1.001, 100);
-  return view_through(lens, size.width, size.height);
+  return view_through(lens, size.x, size.y);
 }
 
 // Cuts the view at a plane that no image axis is parallel to (Lengyel, "Oblique View Frustum Depth Projection
@@ -178,6 +240,90 @@ void choose_lights_elsewhere(HuntView& h, Random& random) {
 
 }  // namespace
 
+HuntSetting random_setting(Random& random, bool few) {
+  HuntSetting s;
+  CullerOptions& o = s.options;
+  o.tile = one_of(random, {8, 16, 16, 32, 64});
+  if (few) {
+    choose_from_few(s, random);
+    return s;
+  }
+  o.cull_test = one_of(random, cull_tests).test, o.depth_bounds = one_of(random, depth_bounds_modes).mode;
+  s.slices = one_of(random, {1, 24});
+  s.z_bins = one_of(random, {1, 64});
+  s.spots = chance(random, 0.5);
+  o.lists = s.slices == 1 && chance(random, 0.25) ? GridLists::masks : GridLists::lists;
+  o.samples = chance(random, 0.85) ? 1 : one_of(random, {2, 4, 8});
+  o.index_bits = chance(random, 0.2) ? 32 : 0;
+  o.portable = chance(random, 0.1);
+  s.both_shapes = chance(random, 1.0 / 16);
+  return s;
+}
+
+void vary(HuntSetting& s, Random& random) {
+  s.spacing = chance(random, 0.7) ? SliceSpacing::exponential : SliceSpacing::linear;
+  if (s.slices > 1) s.slices = one_of(random, {2, 4, 8, 16, 24, 64});
+  if (s.z_bins > 1) s.z_bins = one_of(random, {16, 64, 256});
+  s.options.pixel_centres = chance(random, 0.85);
+}
+
+std::string to_string(const HuntSetting& s) {
+  const CullerOptions& o = s.options;
+  std::string text = to_string(o);
+  const auto add = [&](bool there, const std::string& words) { text += there ? " " + words : ""; };
+  add(s.slices > 1, fmt::format("slices {}", s.slices));
+  add(s.z_bins > 1, fmt::format("z-bins {}", s.z_bins));
+  add((s.slices > 1 || s.z_bins > 1) && s.spacing == SliceSpacing::linear, "linear");
+  add(o.lists == GridLists::masks, "masks");
+  add(o.samples > 1, fmt::format("samples {}", o.samples));
+  add(!o.pixel_centres, "whole pixels");
+  add(o.index_bits == 32, "32-bit indices");
+  add(o.portable, "portable");
+  add(s.spots, "spots");
+  add(o.blend, "blended");
+  add(o.depth_format != DepthFormat::d32f, o.depth_format == DepthFormat::d16 ? "d16" : "d24");
+  return text;
+}
+
+double distance_of(const HuntView& h, double depth, double px, double py) {
+  return distance_at(h.view, depth - tilt_at(h, px, py));
+}
+
+float random_blended_depth(const HuntView& h, float opaque, double px, double py, Random& random) {
+  const bool standard = has_standard_depth(h.view),
+             edges = !h.view.slice_edges.empty() || !h.view.z_bin_edges.empty();
+  const bool before_sky = opaque == depth_of_nothing(h.view);
+  const double style = unit(random);
+  if (style < 0.2) return standard ? 0.0f : 1.0f;
+  if (style < 0.35) return opaque;
+  double distance = before_sky ? h.far : distance_of(h, opaque, px, py);
+  if (!(distance > h.near)) return opaque;
+  float depth = edges && style < 0.55 ? value_on_edge(h, random) : 0;
+  if (!(edges && style < 0.55)) {
+    const bool even = is_orthographic(h.view) || chance(random, 0.3);
+    distance = even ? between(random, h.near, distance) : log_between(random, h.near, distance);
+    depth = float(std::clamp(depth_at(h.view, distance) + tilt_at(h, px, py), 0.0, 1.0));
+  }
+  return standard ? std::min(depth, opaque) : std::max(depth, opaque);
+}
+
+DepthImage random_surfaces(const HuntView& h, int samples, Random& random) {
+  const int side = one_of(random, {8, 16, 32, 64}), across = (h.view.width + side - 1) / side;
+  std::vector<Block> blocks(size_t(across) * ((h.view.height + side - 1) / side));
+  for (Block& block : blocks) block = random_block(h, random);
+  DepthImage image;
+  image.samples = samples;
+  image.values.reserve(size_t(h.view.width) * h.view.height * samples);
+  for (int y = 0; y < h.view.height; ++y) {
+    for (int x = 0; x < h.view.width; ++x) {
+      const Block& block = blocks[size_t(y / side) * across + x / side];
+      const double tilt = tilt_at(h, x + 0.5, y + 0.5);
+      for (int s = 0; s < samples; ++s) image.values.push_back(value_in(block, h, tilt, random));
+    }
+  }
+  return image;
+}
+
 const char* name_of(HuntClass hunted) {
   static constexpr const char* names[] = {
       "ordinary",     "narrow",   "narrowest",  "wide",   "off_centre", "turned_far",
@@ -191,7 +337,7 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
   Random random(seed);
   HuntView h{.hunted = hunted};
   const Plan plan = plan_of(hunted, random);
-  h.format = format_of(hunted, random), h.unit_m = plan.unit_m, h.blended = plan.blended;
+  h.format = format_of(hunted, random), h.blended = plan.blended;
   choose_range(h, plan, random);
   h.view = lens_of(h, plan, one_of(random, sizes), random);
   if (plan.oblique) tilt_near_plane(h, plan, random);

@@ -1,9 +1,11 @@
-// Hard cases of lights: spheres and cones at the edge of what numbers hold, or of a cell.
+// Hard cases of lights: spheres and cones at the edge of what numbers hold, or of a cell; lights far from
+// each other, parked far away, and in worlds of any scale.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "base/error.h"
 #include "verify/check.h"
-#include "verify/tangent_lights.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -12,8 +14,7 @@ constexpr double inf = no_end, nan = std::numeric_limits<double>::quiet_NaN();
 
 void tangent(Check& c, Contact contact, int ulps) {
   for (const NamedView& named : hard_views(127, 73)) {
-    const auto [bounds, lights] = tangent_over_tiles(named.view, 400, contact, 31, ulps);
-    c.grid(named.view, lights, bounds);
+    c.grid(named.view, tangent_over_tiles(named.view, 400, contact, 31, ulps));
   }
 }
 void tangent_to_faces(Check& c) { tangent(c, Contact::face, 0); }
@@ -32,8 +33,7 @@ void adversarial(Check& c) {
     const auto bounds = scattered_bounds(view, 16, random);
     const size_t count = std::min<uint64_t>(batch, c.adversarial_lights - made);
     auto lights = tangent_lights(view, bounds, 16, count - count / 8, Contact::any, 2, random);
-    const auto spots = tangent_spots(view, bounds, 16, count / 8, random);
-    lights.insert(lights.end(), spots.begin(), spots.end());
+    add(lights, tangent_spots(view, bounds, 16, count / 8, random));
     move_to_world(view, lights);
     c.grid(view, lights, bounds);
     made += count;
@@ -72,12 +72,9 @@ void radius_of(Check& c, std::initializer_list<double> radii, bool everywhere) {
       lights.push_back(point(p, r));
   for (const DepthInterval b : {DepthInterval{5, 5}, DepthInterval{1, 10}, every_distance}) {
     const HostGrid grid = c.grid(sixty(), lights, {b});
-    for (size_t i = 0; i < grid.cells.size() && everywhere; ++i)
-      c.that(grid.cells[i].y == lights.size(), "tile {} lists {} of {} lights of infinite range", i,
-             grid.cells[i].y, lights.size());
+    if (everywhere) c.each_cell_lists(grid, uint32_t(lights.size()), "lights of infinite range");
   }
 }
-
 void radius_zero(Check& c) { radius_of(c, {0.0, -0.0}, false); }
 void radius_denormal(Check& c) { radius_of(c, {1e-40, 1e-45, 1e-300}, false); }
 void radius_1e20(Check& c) { radius_of(c, {1e20, 3e38, 1e300}, true); }
@@ -96,7 +93,6 @@ void lists_nothing(Check& c, const std::vector<CullLight>& invalid) {
              "tile {} lists {} of {} equal lights", i, grid.cells[i].y, invalid.size() + 1);
   }
 }
-
 void radius_negative(Check& c) {
   lists_nothing(c, {point({0, 0, -5}, -1), point({0, 0, -5}, -1e-45), point({0, 0, -5}, -inf)});
 }
@@ -108,6 +104,7 @@ void position_nan(Check& c) {
 void position_infinite(Check& c) {
   lists_nothing(c, {point({inf, 0, -5}, 1), point({0, -inf, -5}, 1e20), point({0, 0, -inf}, 1)});
 }
+
 void position_out_of_range(Check& c) {
   std::vector<CullLight> lights = {point({1e300, 0, -5}, 1), point({0, 0, -1e40}, 1),
                                    point({3e18, 0, -1e18}, inf)};
@@ -148,7 +145,7 @@ void at_the_surface(Check& c) {
           point({(x + 0.5 - 63.5) * slope * true_d, (y + 0.5 - 36.5) * slope * true_d, -true_d}, 1e-5 * d));
     }
   }
-  c.pixels(sixty(), lights, depth, c.every_test());
+  c.pixels(sixty(), lights, depth, every_test());
 }
 
 // Spots with the same half-angle, scattered and tangent, also along and against the view direction.
@@ -262,58 +259,89 @@ void cosine_out_of_range(Check& c) {
   }
 }
 
+// A wall about 3 units away, and lights that just reach one of its pixels.
+DepthImage wall(const CullView& view, double unit) {
+  return depth_of(view, [&](int x, int y) { return unit * (3 + 0.02 * x + 0.01 * y); });
+}
+
+// More lights are far away than near, so that their median is far as well.
+void spread_out(Check& c) {
+  for (const double far : {1e3, 1e4, 1e5, 1e6, 1e7, 1e9}) {
+    const CullView view = placed(small_sixty(), {3, -2, 5}, 0.4, -0.2);
+    const DepthImage depth = wall(view, 1);
+    Random random(36);
+    std::vector<CullLight> lights = grazing_lights(view, depth, 600, true, random);
+    move_to_world(view, lights);
+    for (int i = 0; i < 700; ++i)
+      lights.push_back(
+          point(far * glm::dvec3(random.uniform(0.9f, 1.1f), 0.7, -0.3 - 0.1 * random.uniform()), 1));
+    c.pixels(view, lights, depth, every_test());
+  }
+}
+
+// Lights that are switched off by moving them far away.
+void parked(Check& c) {
+  constexpr double most_float = std::numeric_limits<float>::max(), most = std::numeric_limits<double>::max();
+  const glm::dvec3 positions[] = {{1e19, 0, 0},
+                                  {0, -1e30, 0},
+                                  {most_float, 0, 0},
+                                  {0, 0, -1e19},
+                                  {most_float, most_float, most_float},
+                                  {most, 0, 0},
+                                  {most, -most, most}};
+  const DepthImage depth = wall(small_sixty(), 1);
+  for (const glm::dvec3& position : positions) {
+    for (const size_t count : {1, 2, 300}) {
+      Random random(37);
+      std::vector<CullLight> lights =
+          grazing_lights(small_sixty(), depth, count == 300 ? 100 : 1, false, random);
+      lights.push_back(point({0, 0, -2}, 4));
+      const size_t near = lights.size();
+      lights.insert(lights.end(), count, point(position, 1));
+      const HostGrid grid = c.pixels(small_sixty(), lights, depth, {CullerOptions{}});
+      c.that(std::ranges::none_of(grid.indices, [&](uint32_t light) { return light >= near; }),
+             "{} lights parked at {} {} {} are listed", count, position.x, position.y, position.z);
+    }
+  }
+}
+
+void at_scale(Check& c, double unit) {
+  CullView view = view_through({.half_x = 0.8, .half_y = 0.6, .near = 0.1 * unit}, 64, 48);
+  const DepthImage depth =
+      depth_of(view, [&](int x, int y) { return unit * std::exp2((x * 3 + y * 5) % 16 / 4.0); });
+  Random random(38);
+  const std::vector<CullLight> lights = grazing_lights(view, depth, 400, true, random);
+  c.pixels(view, lights, depth, every_test());
+  for (int i = 1; i < 16; ++i) view.slice_edges.push_back(float(unit * std::exp2(i / 4.0)));
+  c.pixels(view, lights, depth, {CullerOptions{}});
+}
+
+void worlds_of_any_scale(Check& c) {
+  for (const double unit : {1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12, 1e13}) at_scale(c, unit);
+}
+
+// Outside the domain: an error, or a correct result.
+void outside_of_the_domain(Check& c) {
+  for (const double unit : {1e-22, 1e-21, 1e-20, 1e-19, 1e16, 1e17}) {
+    try {
+      at_scale(c, unit);
+    } catch (const Error& error) {
+      c.that(error.kind() == ErrorKind::input, "a unit of {} m: {}", unit, error.what());
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<HardCase> light_cases() {
-  const char* group = "lights";
-  return {
-      CASE(tangent_to_faces, "spheres that end exactly on a cell's face, in eight kinds of view",
-           "0.2 to 12 % lost without slack", "listed"),
-      CASE(tangent_to_edges, "on an edge", "lost without slack", "listed"),
-      CASE(tangent_to_corners, "on a corner", "lost without slack", "listed"),
-      CASE(an_ulp_off_tangent, "radius one ulp more or less", "r² rounds across the distance",
-           "listed if it touches"),
-      CASE(some_ulps_off_tangent, "up to five ulps", "the same", "listed if it touches"),
-      CASE(adversarial, "10⁵ tangent lights and cones in random cells (10⁷ with --nightly)",
-           "unforeseen faults", "0 lost"),
-      CASE(huge_and_tangent, "radii of 10³, 10⁶, 10⁹ m that reach a cell by an ulp",
-           "the cell's size is lost in the sum", "listed"),
-      CASE(tiny_and_far, "radius 1 mm at 10, 10⁴, 10⁷ m", "radius below a step of the distance",
-           "listed at its position"),
-      CASE(radius_zero, "r = 0, -0", "0/0", "no NaN; listed at most at its position"),
-      CASE(radius_negative, "-1, -1e-45, -∞", "r² makes it positive", "listed nowhere"),
-      CASE(radius_denormal, "1e-40, 1e-45, 1e-300", "flushed, or 1/r infinite", "as radius 0"),
-      CASE(radius_1e20, "1e20, 3e38, 1e300", "r² overflows", "listed everywhere"),
-      CASE(radius_infinite, "∞", "inf - inf", "listed everywhere"),
-      CASE(radius_nan, "NaN", "the form of each comparison decides", "listed nowhere"),
-      CASE(position_nan, "NaN in any coordinate", "poisons a vector of lanes",
-           "listed nowhere, neighbours unharmed"),
-      CASE(position_infinite, "±∞ in any coordinate", "inf - inf", "listed nowhere, neighbours unharmed"),
-      CASE(position_out_of_range, "10⁴⁰, 10³⁰⁰ m", "infinite as float", "no crash, neighbours unharmed"),
-      CASE(thousand_coincident, "1000 lights in one place", "a full list drops some",
-           "all or none of them in each tile"),
-      CASE(at_the_eye, "lights and cones at the origin", "normalize(0)", "nothing lost"),
-      CASE(at_the_surface, "lights of 10⁻⁵ d at shaded points", "bounds rounded past the surface",
-           "listed for that pixel"),
-      CASE(cone_of_zero, "half-angle 0°", "tan 0: an empty hull (PlayCanvas #4864)", "nothing lost"),
-      CASE(cone_of_a_tenth, "0.001°, 0.1°, 0.5°", "the cosine rounds to 1", "nothing lost"),
-      CASE(cone_just_below_90, "89.9°, 89.99999°", "the tangent is huge", "nothing lost"),
-      CASE(cone_of_90, "90°, 90.00001°", "tan(float π/2) = -2.3·10⁷ (Bevy #25368)", "nothing lost"),
-      CASE(cone_of_100, "95°, 100°", "a cone-sphere test loses 12 % of cells", "nothing lost"),
-      CASE(cone_of_120, "120°", "28 % (Godot #48054)", "nothing lost"),
-      CASE(cone_of_180, "179°, 180°", "41 %", "nothing lost"),
-      CASE(tangent_cones, "cones whose side touches a cell", "rounding of the axis", "listed"),
-      CASE(endless_cones, "cones of radius 1e20, ∞", "0 · inf", "nothing lost"),
-      CASE(apex_behind_the_cell, "apexes in front of, beside and behind cells",
-           "the sign of the distance along the axis", "nothing lost"),
-      CASE(axis_through_the_centre, "the axis through the cell's centre; the apex on it",
-           "√(-tiny), normalize(0)", "listed"),
-      CASE(direction_almost_unit, "lengths that differ from 1 by 10⁻⁷", "across and along scaled differently",
-           "nothing lost"),
-      CASE(direction_zero, "directions 0, NaN, 10⁻³⁰⁰", "NaN in the lanes", "no crash, neighbours unharmed"),
-      CASE(cosine_out_of_range, "cosines above 1 and below -1", "√ of a negative number",
-           "no crash; below -1 the sphere"),
-  };
+std::vector<CaseRun> light_cases() {
+  return CASES(tangent_to_faces, tangent_to_edges, tangent_to_corners, an_ulp_off_tangent,
+               some_ulps_off_tangent, adversarial, huge_and_tangent, tiny_and_far, radius_zero,
+               radius_negative, radius_denormal, radius_1e20, radius_infinite, radius_nan, position_nan,
+               position_infinite, position_out_of_range, thousand_coincident, at_the_eye, at_the_surface,
+               cone_of_zero, cone_of_a_tenth, cone_just_below_90, cone_of_90, cone_of_100, cone_of_120,
+               cone_of_180, tangent_cones, endless_cones, apex_behind_the_cell, axis_through_the_centre,
+               direction_almost_unit, direction_zero, cosine_out_of_range, spread_out, parked,
+               worlds_of_any_scale, outside_of_the_domain);
 }
 
 }  // namespace lightgrid::verify

@@ -3,19 +3,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 #include "verify/check.h"
-#include "verify/tangent_lights.h"
 
 namespace lightgrid::verify {
 namespace {
 
 CullView small() { return field_of_view(60, 33, 17); }
-
-CullerOptions tile_of(int tile) {
-  CullerOptions options;
-  options.tile = tile;
-  return options;
-}
 
 // Lights that every tile lists and lights that none lists, mixed so that each lane of a vector gets both.
 void counts(Check& c, std::initializer_list<size_t> numbers) {
@@ -23,8 +17,7 @@ void counts(Check& c, std::initializer_list<size_t> numbers) {
     const HostGrid all =
         c.grid_of_known_answer(small(), std::vector<CullLight>(n, point({0, 0, -5}, 1e3)), {{4, 6}}, {});
     c.that(all.cells.size() == 6, "{} cells", all.cells.size());
-    for (size_t i = 0; i < all.cells.size(); ++i)
-      c.that(all.cells[i].y == n, "tile {} lists {} of {}", i, all.cells[i].y, n);
+    c.each_cell_lists(all, uint32_t(n));
     std::vector<CullLight> mixed;
     std::vector<uint32_t> expected;
     for (uint32_t i = 0; i < n; ++i) {
@@ -38,11 +31,6 @@ void counts(Check& c, std::initializer_list<size_t> numbers) {
              "tile {} does not list the {} of {} lights that reach it", i, expected.size(), n);
   }
 }
-
-void no_lights(Check& c) {
-  const HostGrid grid = c.grid(sixty(), {}, {every_distance});
-  c.that(grid.indices.empty() && grid.cells.size() == 40, "no lights make {} entries", grid.indices.size());
-}
 void light_zero_alone(Check& c) { counts(c, {1}); }
 void around_a_byte(Check& c) { counts(c, {254, 255, 256, 257}); }
 void around_16_bits(Check& c) { counts(c, {65534, 65535, 65536, 65537}); }
@@ -50,6 +38,11 @@ void around_lanes(Check& c) { counts(c, {2, 3, 7, 8, 9, 15, 16, 17, 31, 32, 33, 
 void around_groups(Check& c) { counts(c, {63, 64, 65, 127, 128, 129}); }
 void around_batches(Check& c) {
   counts(c, {511, 512, 513, 1023, 1024, 1025, 2047, 2048, 2049, 4095, 4096, 4097});
+}
+
+void no_lights(Check& c) {
+  const HostGrid grid = c.grid(sixty(), {}, {every_distance});
+  c.that(grid.indices.empty() && grid.cells.size() == 40, "no lights make {} entries", grid.indices.size());
 }
 
 // Every length of one list from 0 to 70.
@@ -80,14 +73,14 @@ void all_in_one_tile(Check& c) {
   const Cell cell = cell_of(sixty(), 16, 13, {4, 4}, true);
   const glm::dvec3 middle((cell.x0 + cell.x1) * 2, (cell.y0 + cell.y1) * 2, -4);
   const HostGrid grid =
-      c.grid(sixty(), std::vector<CullLight>(3000, point(middle, 0.01)), {{4, 4}}, {tile_of(16)});
+      c.grid(sixty(), std::vector<CullLight>(3000, point(middle, 0.01)), {{4, 4}}, {CullerOptions{}});
   for (size_t i = 0; i < grid.cells.size(); ++i)
     c.that(grid.cells[i].y == (i == 13 ? 3000u : 0u), "tile {} lists {}", i, grid.cells[i].y);
 }
 
 void first_and_last_tile(Check& c) {
   const CullView view = field_of_view(60, 1300, 700);
-  for (const CullerOptions& options : c.every_tile()) {
+  for (const CullerOptions& options : every_tile()) {
     const size_t tiles = tile_count(view, options.tile);
     std::vector<CullLight> lights;
     for (const size_t tile : {size_t(0), tiles - 1}) {
@@ -106,7 +99,7 @@ void around_bins(Check& c) {
   for (const int tiles : {7, 8, 9, 31, 32, 33, 63, 64, 65}) {
     const CullView view = field_of_view(60, tiles * 8, 17);
     Random random(41);
-    c.grid(view, scattered_lights(view, 60, true, random), scattered_bounds(view, 8, random), {tile_of(8)});
+    c.grid(view, scattered_lights(view, 60, true, random), scattered_bounds(view, 8, random), {{.tile = 8}});
   }
 }
 
@@ -114,10 +107,9 @@ void longer_than_expected(Check& c) {
   const CullView view = field_of_view(60, 321, 181);
   const size_t tiles = tile_count(view, 8);
   const HostGrid grid = c.grid_of_known_answer(view, std::vector<CullLight>(2000, point({0, 0, -5}, no_end)),
-                                               {{1, 9}}, tile_of(8));
+                                               {{1, 9}}, {.tile = 8});
   c.that(grid.indices.size() == tiles * 2000, "{} entries of {}", grid.indices.size(), tiles * 2000);
-  for (size_t i = 0; i < grid.cells.size(); ++i)
-    c.that(grid.cells[i].y == 2000, "tile {} lists {}", i, grid.cells[i].y);
+  c.each_cell_lists(grid, 2000);
 }
 
 void other_sizes_between(Check& c) {
@@ -125,11 +117,11 @@ void other_sizes_between(Check& c) {
   const CullView large = field_of_view(60, 301, 211), tiny = field_of_view(60, 5, 3);
   const auto few = scattered_lights(sixty(), 20, true, random),
              many = scattered_lights(sixty(), 900, true, random);
-  const HostGrid first = c.grid(sixty(), few, {{1, 30}}, {tile_of(16)});
-  c.grid(large, many, {{1, 30}}, {tile_of(16)});
-  c.grid(tiny, {}, {{1, 30}}, {tile_of(16)});
-  c.grid(tiny, many, {{1, 30}}, {tile_of(16)});
-  c.that(first == c.grid(sixty(), few, {{1, 30}}, {tile_of(16)}),
+  const HostGrid first = c.grid(sixty(), few, {{1, 30}}, {CullerOptions{}});
+  c.grid(large, many, {{1, 30}}, {CullerOptions{}});
+  c.grid(tiny, {}, {{1, 30}}, {CullerOptions{}});
+  c.grid(tiny, many, {{1, 30}}, {CullerOptions{}});
+  c.that(first == c.grid(sixty(), few, {{1, 30}}, {CullerOptions{}}),
          "another frame in between changes the grid");
 }
 
@@ -140,10 +132,9 @@ void hundred_runs(Check& c) {
   Random random(43);
   const auto bounds = scattered_bounds(view, 16, random);
   const auto lights = scattered_lights(view, 500, true, random);
-  CullerOptions options;
-  const HostGrid first = c.grid(view, lights, bounds, {options});
+  const HostGrid first = c.grid(view, lights, bounds, {CullerOptions{}});
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
-    options.shape = shape;
+    const CullerOptions options{.shape = shape};
     for (int run = 0; run < 100; ++run) {
       if (run % 10 == 9)
         c.engine.cull(options, sixty(), {lights.data(), size_t(5 * run)},
@@ -173,9 +164,8 @@ void in_32_bits(Check& c) {
   Random random(45);
   const auto bounds = scattered_bounds(sixty(), 16, random);
   const auto lights = scattered_lights(sixty(), 300, true, random);
-  CullerOptions narrow, wide;
-  narrow.index_bits = 16, wide.index_bits = 32;
-  c.that(c.grid(sixty(), lights, bounds, {narrow}) == c.grid(sixty(), lights, bounds, {wide}),
+  c.that(c.grid(sixty(), lights, bounds, {{.index_bits = 16}}) ==
+             c.grid(sixty(), lights, bounds, {{.index_bits = 32}}),
          "16- and 32-bit lists differ");
 }
 
@@ -193,7 +183,7 @@ void many_cells(Check& c) {
   CullView view = field_of_view(60, 320, 180);
   for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
   Random random(46);
-  c.grid(view, scattered_lights(view, 60, true, random), {every_distance}, {tile_of(8)});
+  c.grid(view, scattered_lights(view, 60, true, random), {every_distance}, {{.tile = 8}});
 }
 
 // 16 tiles x 64 slices x 2^22 lights that reach everywhere: 2^32 entries in a single block of tiles.
@@ -201,11 +191,9 @@ void past_32_bits(Check& c) {
   CullView view = field_of_view(60, 32, 32);
   for (int i = 1; i < 64; ++i) view.slice_edges.push_back(float(0.5 * std::exp2(i * 0.15)));
   const std::vector<CullLight> lights(size_t(1) << 22, point({0, 0, -5}, no_end));
-  // The device's own shape only: the other one would take minutes.
-  const CullerOptions options = tile_of(8);
   const std::vector<DepthInterval> bounds(tile_count(view, 8), every_distance);
-  try {
-    const HostGrid grid = c.engine.cull(options, view, lights, bounds);
+  try {  // the device's own shape only: the other one would take minutes
+    const HostGrid grid = c.engine.cull({.tile = 8}, view, lights, bounds);
     c.that(grid.indices.size() == grid.cells.size() * lights.size(), "{} of 2^32 entries",
            grid.indices.size());
   } catch (const Error& error) {
@@ -224,7 +212,7 @@ void float_twin(Check& c) {
     if (slices) named.view.slice_edges = {0.5f, 1, 2, 5, 10, 30};
     const DepthImage depth = scattered_depth(named.view, random);
     for (int i = 0; i < 5; ++i) {
-      CullerOptions options = tile_of(8 << (i + turn) % 4);
+      CullerOptions options{.tile = 8 << (i + turn) % 4};
       if (slices)
         options.cull_test = CullTest(i);
       else
@@ -232,9 +220,8 @@ void float_twin(Check& c) {
       if (i == 4) options.cull_test = CullTest::exact;
       const auto bounds = c.engine.depth_bounds(options, named.view, depth);
       auto lights = scattered_lights(named.view, 100, true, random);
-      for (const auto& more : {tangent_lights(named.view, bounds, options.tile, 150, Contact::any, 1, random),
-                               tangent_spots(named.view, bounds, options.tile, 100, random)})
-        lights.insert(lights.end(), more.begin(), more.end());
+      add(lights, tangent_lights(named.view, bounds, options.tile, 150, Contact::any, 1, random));
+      add(lights, tangent_spots(named.view, bounds, options.tile, 100, random));
       move_to_world(named.view, lights);
       if (i == turn % 5) c.pixels(named.view, lights, depth, {options});
       c.same_as_twin(named.view, lights, depth, options);
@@ -244,47 +231,11 @@ void float_twin(Check& c) {
 
 }  // namespace
 
-std::vector<HardCase> list_cases() {
-  const char* group = "lists";
-  return {
-      CASE(no_lights, "0 lights", "buffers of size 0", "every list empty"),
-      CASE(light_zero_alone, "1 light", "index 0 means none", "light 0 is listed"),
-      CASE(around_a_byte, "254 to 257 lights in a list", "an 8-bit count wraps to 0 (Bevy #3916)",
-           "every light that reaches"),
-      CASE(around_16_bits, "65,534 to 65,537", "16-bit counts and indices wrap", "every light that reaches"),
-      CASE(around_lanes, "2 … 49: around multiples of 8 and 16",
-           "the last vector's empty lanes are treated as lights", "every light that reaches"),
-      CASE(around_groups, "around 64 and 128", "items past the end", "every light that reaches"),
-      CASE(around_batches, "around 512 … 4096", "shared memory overwritten while read; capacities",
-           "every light that reaches"),
-      CASE(each_length, "0, 1, 2, … 70 lights", "a length that is near no power of two",
-           "every list of that length"),
-      CASE(none_in_view, "3000 lights behind the eye", "an empty frame divides by its count",
-           "every list empty"),
-      CASE(only_the_last, "5000 lights, only the last in view", "the last batch is cut", "it is listed"),
-      CASE(all_in_one_tile, "3000 lights in one tile", "a capacity per tile",
-           "all listed there, none in other tiles"),
-      CASE(first_and_last_tile, "one light in each", "offsets off by one", "one entry each, none elsewhere"),
-      CASE(around_bins, "7, 8, 9, 31, … 65 tiles across", "the last bin's tiles are cut or doubled",
-           "nothing lost"),
-      CASE(longer_than_expected, "2000 lights of infinite range in 943 tiles",
-           "the first estimate of memory overflows silently", "all lists complete"),
-      CASE(other_sizes_between, "a large and an empty frame between two equal ones",
-           "stale contents of buffers are read", "the same bytes"),
-      CASE(hundred_runs, "one frame of 920 tiles a hundred times in each kernel shape, with others between",
-           "atomics: another order each run", "the same bytes"),
-      CASE(turned_round, "the lights in the opposite order", "lists depend on neighbours", "the same lights"),
-      CASE(in_32_bits, "16- and 32-bit indices", "one of the two untested", "the same lists"),
-      CASE(lists_past_16_bits, "160,000 entries", "16-bit offsets", "lists are adjacent without a gap"),
-      CASE(many_cells, "64 slices × 920 tiles", "one list's range overlaps the next",
-           "nothing lost, no overlap"),
-      CASE(past_32_bits, "16 tiles × 64 slices × 2²² lights of infinite range", "cells × lights in 32 bits",
-           "a machine error, or every entry"),
-      CASE(float_twin,
-           "lights tangent to the cells of random surfaces, under every test and every kind of bounds",
-           "a coarse step drops a light that the fine one keeps; a device rounds differently",
-           "bounds and lists have the float twin's bytes"),
-  };
+std::vector<CaseRun> list_cases() {
+  return CASES(no_lights, light_zero_alone, around_a_byte, around_16_bits, around_lanes, around_groups,
+               around_batches, each_length, none_in_view, only_the_last, all_in_one_tile, first_and_last_tile,
+               around_bins, longer_than_expected, other_sizes_between, hundred_runs, turned_round, in_32_bits,
+               lists_past_16_bits, many_cells, past_32_bits, float_twin);
 }
 
 }  // namespace lightgrid::verify

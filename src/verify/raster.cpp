@@ -12,17 +12,17 @@ namespace lightgrid::verify {
 namespace {
 
 // A view from the origin whose clip space is (x, y, 0.1, -z): x = y = -z is the image's upper right corner.
-RasterInput raster_scene(int width, int height) {
+RasterInput raster_scene(int width, int height, bool two_sided = false) {
   RasterInput input;
   input.camera = {.grid = {width, height}, .clip_from_view = glm::dmat4(0)};
   glm::dmat4& m = input.camera.clip_from_view;
   m[0][0] = m[1][1] = 1, m[2][3] = -1, m[3][2] = 0.1;
   input.meshes.resize(1);
-  input.instances.resize(1);
+  input.instances = {{.two_sided = two_sided}};
   return input;
 }
 
-// Where the view shows pixel (x, y) at distance d.
+// The place that the view shows at pixel (x, y) and distance d.
 glm::vec3 raster_position(const RasterInput& input, double x, double y, double d) {
   return {float((2 * x / input.camera.grid.width - 1) * d), float((2 * y / input.camera.grid.height - 1) * d),
           float(-d)};
@@ -34,6 +34,13 @@ void add_raster_triangle(RasterInput& input, const glm::vec3& a, const glm::vec3
     mesh.indices.push_back(uint32_t(mesh.positions.size()));
     mesh.positions.push_back(p);
   }
+}
+
+// Three corners, one after the other.
+template <typename Corner>
+void add_raster_triangle(RasterInput& input, const Corner& corner) {
+  const glm::vec3 a = corner(), b = corner(), c = corner();
+  add_raster_triangle(input, a, b, c);
 }
 
 CoverageOracle raster_oracle(const RasterInput& input, const RasterImage& image) {
@@ -71,14 +78,13 @@ void compare_raster(Check& c, const RasterInput& input, const RasterImage& image
          image.invalid_triangles, oracle.invalid_triangles());
 }
 
-// Against the oracle, and the same bytes in every shape. Returns the first image, or nothing where the engine
-// culls only.
-std::optional<RasterImage> raster(Check& c, const RasterInput& input, bool cluster_cones = true) {
+// Compares with the oracle, and the bytes of every shape with each other. Returns the first image, or nothing
+// where the engine culls only.
+std::optional<RasterImage> raster(Check& c, const RasterInput& input) {
   std::optional<RasterImage> first;
   for (const RasterOptions& options :
-       {RasterOptions{.shape = KernelShape::lanes, .cluster_cones = cluster_cones},
-        RasterOptions{.shape = KernelShape::group, .cluster_cones = cluster_cones},
-        RasterOptions{.shape = KernelShape::group, .cluster_cones = cluster_cones, .wide_atomics = false}}) {
+       {RasterOptions{.shape = KernelShape::lanes}, RasterOptions{.shape = KernelShape::group},
+        RasterOptions{.shape = KernelShape::group, .wide_atomics = false}}) {
     std::optional<RasterImage> image = c.engine.rasterize(options, input);
     if (!image) {
       c.skip("the engine does not rasterise");
@@ -141,7 +147,6 @@ void covers_once(Check& c, const RasterInput& input) {
   c.that(std::ranges::count(claims, 1) == std::ptrdiff_t(claims.size()),
          "a pixel belongs to no triangle or to two");
 }
-
 void shared_edges(Check& c) { covers_once(c, raster_sheet(23, false)); }
 void on_pixel_centres(Check& c) { covers_once(c, raster_sheet(23, true)); }
 
@@ -160,13 +165,11 @@ void fan(Check& c, double radius) {
   const std::optional<RasterImage> image = raster(c, input);
   if (image) c.that(std::ranges::count(image->triangles, no_triangle) == 0, "a hole");
 }
-
 void fan_of_slivers(Check& c) { fan(c, 300); }
 
 // Random triangles within `reach` metres of the eye, on all sides.
 void around_the_eye(Check& c, int count, float reach, bool whole_numbers) {
-  RasterInput input = raster_scene(90, 70);
-  input.instances[0].two_sided = true;
+  RasterInput input = raster_scene(90, 70, true);
   Random random(17);
   const auto number = [&] {
     return whole_numbers ? std::floor(random.uniform(-1, 2)) : random.uniform(-reach, reach);
@@ -175,19 +178,14 @@ void around_the_eye(Check& c, int count, float reach, bool whole_numbers) {
     const float x = number(), y = number(), z = number();
     return glm::vec3(x, y, z);
   };
-  for (int i = 0; i < count; ++i) {
-    const glm::vec3 a = corner(), b = corner(), d = corner();
-    add_raster_triangle(input, a, b, d);
-  }
+  for (int i = 0; i < count; ++i) add_raster_triangle(input, corner);
   raster(c, input);
 }
-
 void behind_the_eye(Check& c) { around_the_eye(c, 200, 5, false); }
 void at_w_zero(Check& c) { around_the_eye(c, 200, 1, true); }
 
 void huge_and_tiny(Check& c) {
-  RasterInput input = raster_scene(100, 80);
-  input.instances[0].two_sided = true;
+  RasterInput input = raster_scene(100, 80, true);
   Random random(19);
   for (int i = 0; i < 300; ++i) {
     const double reach = std::exp2(random.uniform(-10, 24)), x = random.uniform(0, 100),
@@ -196,8 +194,7 @@ void huge_and_tiny(Check& c) {
       const double px = x + reach * random.uniform(-1, 1), py = y + reach * random.uniform(-1, 1);
       return raster_position(input, px, py, std::exp2(random.uniform(-3, 10)));
     };
-    const glm::vec3 a = corner(), b = corner(), d = corner();
-    add_raster_triangle(input, a, b, d);
+    add_raster_triangle(input, corner);
   }
   raster(c, input);
   for (const double radius : {1e4, 1e6}) fan(c, radius);
@@ -206,8 +203,7 @@ void huge_and_tiny(Check& c) {
 void not_finite(Check& c) {
   constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float most = std::numeric_limits<float>::max();
-  RasterInput input = raster_scene(50, 40);
-  input.instances[0].two_sided = true;
+  RasterInput input = raster_scene(50, 40, true);
   for (const float strange : {inf, -inf, nan, most, -most, 1e-40f}) {
     for (int i = 0; i < 9; ++i) {
       glm::vec3 corners[3] = {raster_position(input, 5, 4, 3), raster_position(input, 45, 8, 4),
@@ -223,14 +219,11 @@ void not_finite(Check& c) {
 void equal_depths(Check& c) {
   RasterInput input = raster_scene(150, 80);
   Random random(23);
-  for (int i = 0; i < 40; ++i) {
-    const auto corner = [&] {
-      const float x = random.uniform(-20, 170), y = random.uniform(-20, 100), d = random.uniform(1, 4);
-      return raster_position(input, x, y, d);
-    };
-    const glm::vec3 a = corner(), b = corner(), d = corner();
-    add_raster_triangle(input, a, b, d);
-  }
+  const auto corner = [&] {
+    const float x = random.uniform(-20, 170), y = random.uniform(-20, 100), d = random.uniform(1, 4);
+    return raster_position(input, x, y, d);
+  };
+  for (int i = 0; i < 40; ++i) add_raster_triangle(input, corner);
   const std::optional<RasterImage> once = raster(c, input);
   input.instances.resize(3);
   const std::optional<RasterImage> thrice = raster(c, input);
@@ -244,14 +237,11 @@ void equal_depths(Check& c) {
 void mirrored_and_two_sided(Check& c) {
   RasterInput input = raster_scene(120, 90);
   Random random(29);
-  for (int i = 0; i < 60; ++i) {
-    const auto corner = [&] {
-      const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-      return glm::vec3(x, y, z);
-    };
-    const glm::vec3 a = corner(), b = corner(), d = corner();
-    add_raster_triangle(input, a, b, d);
-  }
+  const auto corner = [&] {
+    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    return glm::vec3(x, y, z);
+  };
+  for (int i = 0; i < 60; ++i) add_raster_triangle(input, corner);
   input.instances.clear();
   for (int i = 0; i < 8; ++i) {
     RasterInstance instance{.two_sided = i % 4 == 3};
@@ -263,17 +253,13 @@ void mirrored_and_two_sided(Check& c) {
 }
 
 void of_a_size(Check& c, int width, int height, int count) {
-  RasterInput input = raster_scene(width, height);
-  input.instances[0].two_sided = true;
+  RasterInput input = raster_scene(width, height, true);
   Random random(31);
-  for (int i = 0; i < count; ++i) {
-    const auto corner = [&] {
-      const float x = random.uniform(-0.5f, 1.5f), y = random.uniform(-0.5f, 1.5f), d = random.uniform(1, 3);
-      return raster_position(input, x * width, y * height, d);
-    };
-    const glm::vec3 a = corner(), b = corner(), d = corner();
-    add_raster_triangle(input, a, b, d);
-  }
+  const auto corner = [&] {
+    const float x = random.uniform(-0.5f, 1.5f), y = random.uniform(-0.5f, 1.5f), d = random.uniform(1, 3);
+    return raster_position(input, x * width, y * height, d);
+  };
+  for (int i = 0; i < count; ++i) add_raster_triangle(input, corner);
   raster(c, input);
 }
 
@@ -298,32 +284,9 @@ void more_than_expected(Check& c) {
 
 }  // namespace
 
-std::vector<HardCase> raster_cases() {
-  constexpr const char* group = "raster";
-  return {
-      CASE(shared_edges, "a sheet of 1058 triangles over the whole image",
-           "edges that belong to both sides or to none",
-           "no hole; each pixel belongs to one triangle, the oracle's"),
-      CASE(on_pixel_centres, "the same with every vertex on a pixel's centre",
-           "ties: ≥ doubles them, > drops them", "no hole; each pixel belongs to one triangle, the oracle's"),
-      CASE(fan_of_slivers, "a thousand slivers around a pixel's centre",
-           "edges in float, boxes rounded inwards", "no hole; every pixel as the oracle"),
-      CASE(behind_the_eye, "200 triangles around the eye, most of them across the near plane",
-           "division by a negative w", "every pixel as the oracle"),
-      CASE(at_w_zero, "vertices on the eye and on its plane", "division by 0", "every pixel as the oracle"),
-      CASE(huge_and_tiny, "triangles of 10⁻³ to 10⁷ pixels; fans of slivers of 10⁴ and 10⁶",
-           "edges overflow in 32 bits, or are rounded in float", "every pixel as the oracle"),
-      CASE(not_finite, "corners at NaN, ±∞ and the largest floats",
-           "NaN passes or fails each comparison by its form", "left out and counted, others unharmed"),
-      CASE(equal_depths, "the same triangles three times", "the winner depends on threads or on sorting",
-           "the last one drawn is shown"),
-      CASE(mirrored_and_two_sided, "instances scaled by negative numbers", "front and back change places",
-           "every pixel as the oracle"),
-      CASE(awkward_sizes, "1 × 1, 17 × 9, 1 × 200, 65 × 63, 1279 × 721 pixels",
-           "the last tile is cut or read past", "every pixel as the oracle"),
-      CASE(more_than_expected, "20,000 triangles after 3", "a fixed capacity drops some",
-           "every pixel as the oracle"),
-  };
+std::vector<CaseRun> raster_cases() {
+  return CASES(shared_edges, on_pixel_centres, fan_of_slivers, behind_the_eye, at_w_zero, huge_and_tiny,
+               not_finite, equal_depths, mirrored_and_two_sided, awkward_sizes, more_than_expected);
 }
 
 }  // namespace lightgrid::verify

@@ -53,6 +53,11 @@ const CullView& sixty() {
   return view;
 }
 
+const CullView& small_sixty() {
+  static const CullView view = field_of_view(60, 64, 48);
+  return view;
+}
+
 View oracle_view(const CullView& view) {
   View v{
       .width = view.width, .height = view.height, .view_from_world = view.view_from_world, .eye = view.eye};

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reference/grid_cell.h"
+#include "reference/cell.h"
 #include "verify/engine.h"
 
 namespace lightgrid::verify {
@@ -22,7 +22,8 @@ struct Lens {
 };
 CullView view_through(const Lens& lens, int width, int height);
 CullView field_of_view(double fov_y_deg, int width, int height);
-const CullView& sixty();  // degrees; 127 x 73
+const CullView& sixty();        // degrees; 127 x 73
+const CullView& small_sixty();  // 64 x 48
 
 // The same view for the oracle (reference/position.h), which reads size, matrices and kind of projection.
 View oracle_view(const CullView& view);
@@ -44,7 +45,7 @@ void move_to_world(const CullView& view, std::vector<CullLight>& lights);  // po
 
 std::vector<OracleLight> oracle_lights(const CullView& view, std::span<const CullLight> lights);
 
-// Of the lights' positions, each axis alone; positions that are not finite are left out. World, metres.
+// The median of the lights' positions, each axis alone, without positions that are not finite. World, metres.
 glm::dvec3 median_light(std::span<const CullLight> lights);
 
 // As cell_of_grid.

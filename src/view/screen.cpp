@@ -3,8 +3,7 @@
 #include "base/image.h"
 #include "base/write_file.h"
 #include "gl/bindings.h"
-#include "gl/state.h"
-#include "renderer/draw.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 

@@ -28,7 +28,7 @@ void MapOfSide::show_counts(SideMap wanted, Side& side, bool wait) {
 void MapOfSide::show_difference(Side& side, const Image& reference) {
   Image image;
   RenderView& v = side.run().view();
-  read_back(v, v, side.run().frame().image, image);
+  read_back(v, side.run().frame().image, image);
   const ImageError error = compare_images(image, reference);
   legend_ =
       fmt::format("difference from forward: black equal, blue 1e-7, red 1 of the brightest; greatest {:.2g}",

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cl/transfer.h"
-#include "world_grid/run.h"
+#include "world_grid/world_grid.h"
 
 namespace lightgrid {
 namespace {
@@ -26,7 +26,7 @@ std::vector<uint32_t> pairs_of_blocks(const WorldBlockLights& blocks) {
 bool WorldGrid::may_update(std::span<const uint32_t> moved, std::span<const WorldLight> now) const {
   const size_t lights = layout_.lights.size();
   if (!counted_ || lights_version_ < 0 || moved.size() * lights_a_move > lights) return false;
-  // As many moves as lights may have changed what cells suit them.
+  // After as many moves as lights, other cells may suit them.
   if (moves_ + moved.size() > lights) return false;
   return std::ranges::none_of(now, &WorldLight::everywhere) && std::ranges::none_of(moved, [&](uint32_t i) {
            return std::ranges::binary_search(layout_.everywhere, i);
@@ -71,7 +71,7 @@ void WorldGrid::upload_moves() {
 void WorldGrid::update_lists() {
   blocks_ = moved_.keys.size();
   sizes_[1] = blocks_ * 8, sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
-  check_world_count(device_, "cells", blocks_ * WORLD_BLOCK_CELLS, 8);
+  check_count("cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   upload_moves();
   storage_->swap_lists();
   storage_->at_least(WorldArray::cells, sizes_[2]);

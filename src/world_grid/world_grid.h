@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "cl/growing_buffer.h"
+#include "cl/launch.h"
 #include "cl/program_cache.h"
 #include "cl/uploaded_buffer.h"
-#include "world_grid/world_moves.h"
+#include "world_grid/world_blocks.h"
 
 namespace lightgrid {
 
@@ -97,7 +98,17 @@ class WorldGrid {
  private:
   size_t chunk_of(size_t count, size_t least) const;
   size_t bucket_count() const;
-  void run(const char* kernel, size_t items, const auto&... arguments);
+  // Launches world_NAME of kernels/world_grid/.
+  void run(const char* name, size_t items, const auto&... arguments) {
+    const std::string label = std::string("world_") + name;
+    const size_t group = device_.info().cpu ? 1 : 64;
+    cl::Kernel kernel = kernel_of(label);
+    launch(device_, label, kernel, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group),
+           arguments...);
+  }
+  cl::Kernel kernel_of(const std::string& label);
+  uint64_t most_count(size_t bytes_each) const;
+  void check_count(const char* what, uint64_t count, size_t bytes_each) const;
   uint64_t scan(size_t count, bool read);
   cl::Buffer counted(uint64_t most, uint64_t room);
   void count_blocks();

@@ -24,7 +24,7 @@ struct WorldReach {
   }
 };
 
-// What the lists depend on of a view.
+// A view's part in the lists.
 struct WorldEye {
   glm::dvec3 position{0};  // world, metres
   double seen_m =
@@ -74,5 +74,22 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
 // The rows of a view, whose axes in the world are the columns of world_from_view.
 WorldViewParams world_view_params(const WorldLayout& layout, const glm::dvec3& eye,
                                   const glm::dmat3& world_from_view);
+
+// One light of a layout.
+struct WorldLight {
+  glm::vec4 ball{0};            // as WorldLayout::lights
+  glm::vec4 cone{0, 0, 0, -1};  // as WorldLayout::cones
+  uint32_t level = 0;
+  bool everywhere = false;  // it belongs to every list, and to no block
+  uint64_t blocks = 0;      // number of those that it meets
+  WorldBlocks of_cells;     // these, unless hashed
+};
+
+// cones: whether the layout has any. Depends on nothing else than the light, and on what lay_out_world has
+// laid out.
+WorldLight world_light(const CullLight& light, const WorldLayout& layout, bool cones);
+
+// Replaces the layout's arrays. All else of it is there.
+void add_world_lights(std::span<const CullLight> lights, WorldLayout& layout);
 
 }  // namespace lightgrid

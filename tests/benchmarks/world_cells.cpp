@@ -15,7 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "renderer/culler_input.h"
+#include "renderer/upload/culler_input.h"
 #include "scene/builtin.h"
 #include "scene/grid_lists.h"
 #include "scene/light_rigs.h"

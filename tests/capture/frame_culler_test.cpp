@@ -9,7 +9,7 @@
 #include "capture/capture.h"
 #include "capture/captured_frame.h"
 #include "capture/frame_lists.h"
-#include "inspect/inspect_maps.h"
+#include "inspect/inspect.h"
 #include "reference/position.h"
 #include "session/oracle.h"
 #include "support/render.h"

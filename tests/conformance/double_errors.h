@@ -40,7 +40,7 @@ inline DoubleErrors errors_against_double(const Scene& scene, const View& view,
   forward.run_frame();
   EXPECT_TRUE(visibility.view().plan.blended.empty());
   const std::vector<SceneTriangle> own = own_triangles(visibility),
-                                   drawn = read_triangles(forward.view(), forward.view()).opaque;
+                                   drawn = read_triangles(forward.view()).opaque;
   double_surfaces::Surfaces surfaces(scene, view, visibility.view().plan.opaque);
 
   DoubleErrors e{.pixels = own.size()};

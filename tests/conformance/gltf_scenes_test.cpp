@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "scene/gltf/geometry.h"
+#include "scene/deform.h"
 #include "scene/load_gltf.h"
 #include "support/shared_files.h"
 
@@ -68,7 +68,7 @@ TEST(GltfScenes, made_tangents_agree_with_those_of_flight_helmet) {
   size_t count = 0, close = 0;
   for (const Mesh& mesh : scene.meshes) {
     Mesh made = mesh;
-    gltf::make_tangents(made, mesh.uv0);
+    make_tangents(made, mesh.uv0);
     for (size_t i = 0; i < mesh.tangents.size(); ++i, ++count)
       close += made.tangents[i].w == mesh.tangents[i].w &&
                glm::dot(glm::vec3(made.tangents[i]), glm::vec3(mesh.tangents[i])) > 0.95f;

@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "culling/culled_grid.h"
-#include "reference/grid_cell.h"
+#include "reference/cell.h"
+#include "reference/lit_set.h"
 #include "reference/position.h"
 
 namespace lightgrid {
@@ -28,23 +29,8 @@ inline OracleLight oracle_light(const ViewLight& light) {
 
 // Sorted lists without repetition, in ranges that together form the index list.
 inline void expect_well_formed(const CulledGrid& grid, size_t lights) {
-  std::vector<glm::uvec2> ranges = grid.cells;
-  std::sort(ranges.begin(), ranges.end(),
-            [](glm::uvec2 a, glm::uvec2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
-  uint64_t next = 0;
-  for (const glm::uvec2 range : ranges) {
-    if (range.y == 0) continue;
-    ASSERT_EQ(range.x, next);
-    next += range.y;
-  }
-  ASSERT_EQ(next, grid.grid.index_count);
-  ASSERT_EQ(next, grid.indices.size());
-  for (size_t i = 0; i < grid.cells.size(); ++i) {
-    const std::vector<uint32_t> list = grid.list(i);
-    ASSERT_TRUE(std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end())
-        << "cell " << i;
-    ASSERT_TRUE(list.empty() || list.back() < lights) << "cell " << i;
-  }
+  EXPECT_EQ(grid.indices.size(), grid.grid.index_count);
+  ASSERT_EQ(malformed_lists(grid.cells, grid.indices, lights), "");
 }
 
 // Every light that certainly touches a cell is in its list, and an empty cell's list is empty. Returns the
@@ -92,7 +78,7 @@ inline void expect_little_more(const View& view, const std::vector<ViewLight>& l
       const double per_metre = 8 * ulp_of_one * (c.orthographic ? 1 : 1 + steepest);
       const double margin = per_metre * (c.orthographic ? sum + steepest : sum);
       EXPECT_LE(outside_of_sides(c, p), r + margin) << "cell " << i << " light " << light;
-      EXPECT_LE(distance_to_box_of(c, p), r + margin + per_metre * (c.far < 1e17 ? std::abs(c.far) : 1e18))
+      EXPECT_LE(box_around(c).distance(p), r + margin + per_metre * (c.far < 1e17 ? std::abs(c.far) : 1e18))
           << "cell " << i << " light " << light;
     }
   }

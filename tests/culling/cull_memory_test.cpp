@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "culling/culled_grid.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

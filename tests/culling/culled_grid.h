@@ -73,37 +73,37 @@ struct CulledGrid {
   bool operator==(const CulledGrid& other) const { return cells == other.cells && indices == other.indices; }
 };
 
-// The grid of these lights over given intervals, one a tile.
-inline CulledGrid cull_cells(const View& view, const std::vector<ViewLight>& lights,
-                             const std::vector<glm::vec2>& intervals, const CullerOptions& options,
-                             const std::vector<float>& slice_edges = {}) {
+// The grid of these lights over the bounds that `bounds_of` gets from the culler.
+template <typename Bounds>
+CulledGrid cull_within(const View& view, const std::vector<ViewLight>& lights, const CullerOptions& options,
+                       const std::vector<float>& slice_edges, const Bounds& bounds_of) {
   LightCuller culler(test_device(), test_programs(), options);
   culler.set_lights(cull_lights_of(lights));
   culler.set_view(cull_view_of(view, slice_edges));
-  std::vector<DepthInterval> given;
-  for (const glm::vec2& i : intervals) given.push_back({i.x, i.y});
   ClGridStorage storage(test_device());
   CulledGrid result;
-  result.grid = culler.cull(culler.bounds_of(given), storage);
+  result.grid = culler.cull(bounds_of(culler), storage);
   result.params = culler.params();
   const HostGrid host = read_grid(test_device(), result.grid, storage);
   result.cells = host.cells, result.indices = host.indices, result.masks = host.masks;
   return result;
 }
 
+// Given intervals, one a tile.
+inline CulledGrid cull_cells(const View& view, const std::vector<ViewLight>& lights,
+                             const std::vector<glm::vec2>& intervals, const CullerOptions& options,
+                             const std::vector<float>& slice_edges = {}) {
+  std::vector<DepthInterval> given;
+  for (const glm::vec2& i : intervals) given.push_back({i.x, i.y});
+  return cull_within(view, lights, options, slice_edges,
+                     [&](LightCuller& culler) { return culler.bounds_of(given); });
+}
+
 // From a depth image.
 inline CulledGrid cull_depth(const View& view, const std::vector<ViewLight>& lights,
                              const std::vector<float>& depth, const CullerOptions& options) {
-  LightCuller culler(test_device(), test_programs(), options);
-  culler.set_lights(cull_lights_of(lights));
-  culler.set_view(cull_view_of(view));
-  ClGridStorage storage(test_device());
-  CulledGrid result;
-  result.grid = culler.cull(culler.depth_bounds({buffer_of(depth)}).opaque, storage);
-  result.params = culler.params();
-  const HostGrid host = read_grid(test_device(), result.grid, storage);
-  result.cells = host.cells, result.indices = host.indices, result.masks = host.masks;
-  return result;
+  return cull_within(view, lights, options, {},
+                     [&](LightCuller& culler) { return culler.depth_bounds({buffer_of(depth)}).opaque; });
 }
 
 inline size_t tile_count(const View& view, int tile) {

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "culling/culled_grid.h"
 #include "scene/random.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -109,7 +110,8 @@ TEST(LightCuller, RefusesOptionsThatAreNone) {
   EXPECT_THAT(message_of({.samples = 3}), testing::HasSubstr("samples is 3, not one of 1, 2, 4, 8"));
   EXPECT_THAT(message_of({.index_bits = 8}), testing::HasSubstr("index_bits is 8"));
   EXPECT_THAT(message_of({.group_size = 2048}), testing::HasSubstr("group_size is 2048"));
-  EXPECT_THAT(message_of({.cull_test = CullTest(5)}), testing::HasSubstr("cull_test is 5"));
+  EXPECT_THAT(message_of({.cull_test = CullTest(std::size(cull_tests))}),
+              testing::HasSubstr("cull_test is " + std::to_string(std::size(cull_tests))));
   EXPECT_THAT(message_of({.depth_bounds = DepthBoundsMode(-1)}), testing::HasSubstr("depth_bounds is -1"));
   EXPECT_THAT(message_of({.shape = KernelShape(3)}), testing::HasSubstr("shape is 3"));
   EXPECT_THAT(message_of({.depth_format = DepthFormat(3)}), testing::HasSubstr("depth_format is 3"));

@@ -8,10 +8,10 @@
 #include "support/long_tests.h"
 #include "base/error.h"
 #include "culling/constants.h"
-#include "reference/lit_blocks.h"
+#include "reference/lit_set.h"
 #include "reference/test_views.h"
 #include "scene/random.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

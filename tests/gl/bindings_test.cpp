@@ -9,7 +9,7 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "gl/context.h"
-#include "gl/program.h"
+#include "gl/objects.h"
 
 namespace lightgrid {
 namespace {

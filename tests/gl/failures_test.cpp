@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "gl/bindings.h"
 #include "gl/context.h"
-#include "gl/errors.h"
-#include "gl/program.h"
-#include "gl/state.h"
+#include "gl/gl.h"
+#include "gl/objects.h"
 
 namespace lightgrid {
 namespace {

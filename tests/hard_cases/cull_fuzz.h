@@ -7,8 +7,9 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 #include "verify/check.h"
-#include "verify/hunt_contacts.h"
+#include "verify/hunt_space.h"
 
 namespace lightgrid::verify {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "verify/check.h"
-#include "verify/float_twin.h"
-#include "verify/tangent_lights.h"
+#include "verify/inputs.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -4,7 +4,8 @@
 #include <cstdio>
 
 #include "verify/check.h"
-#include "verify/tangent_lights.h"
+#include "verify/inputs.h"
+#include "shared/cull_tests.h"
 
 using namespace lightgrid;
 using namespace lightgrid::verify;
@@ -27,8 +28,8 @@ void digest_settings(Check& check, const CullView& view, size_t lights) {
   const DepthImage depth = scattered_depth(view, random);
   const auto bounds = scattered_bounds(view, 16, random);
   const auto scattered = scattered_lights(view, lights, true, random);
-  for (const CullerOptions& options : check.every_test()) add(check.grid(view, scattered, bounds, {options}));
-  for (CullerOptions options : check.every_tile()) {
+  for (const CullerOptions& options : every_test()) add(check.grid(view, scattered, bounds, {options}));
+  for (CullerOptions options : every_tile()) {
     for (int mode = 0; mode < 5; ++mode) {
       // Each combination is a kernel of its own: all modes for the first size of tile, the usual one for the
       // others.

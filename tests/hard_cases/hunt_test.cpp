@@ -16,7 +16,6 @@
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 #include "verify/hunt.h"
-#include "verify/hunt_save.h"
 
 namespace lightgrid::verify {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "hard_cases/faults.h"
 #include "reference/coverage.h"
-#include "verify/raster_input.h"
+#include "verify/engine.h"
 
 namespace lightgrid::verify {
 

@@ -7,7 +7,7 @@
 #include "reference/lit_set.h"
 #include "capture/captured_frame.h"
 #include "capture/frame_culler.h"
-#include "verify/replay.h"
+#include "verify/run.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 

@@ -11,7 +11,6 @@
 #include "reference/position.h"
 #include "capture/captured_frame.h"
 #include "capture/frame_lists.h"
-#include "inspect/inspect_maps.h"
 #include "support/render.h"
 
 namespace lightgrid {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/read_outs/surfaces.h"
+#include "passes/read_outs.h"
 #include "passes/surfaces.h"
 #include "shared/model_records.h"
 #include "support/devices.h"
@@ -32,11 +32,11 @@ Surfaces surfaces_of(const Scene& scene, const View& view, int bits, bool after_
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, {.buffer_bits = bits}, {});
   if (after_prepass) {
-    fill_gbuffer(v, v, find_surfaces(v).drawn);
+    fill_gbuffer(v, find_surfaces(v).drawn);
   } else {
-    fill_gbuffer(v, v);
+    fill_gbuffer(v);
   }
-  return {read_surfaces(v, v), read_gbuffer_surfaces(v, v), v.targets.bytes(TargetUse::gbuffer)};
+  return {read_surfaces(v), read_gbuffer_surfaces(v), v.targets.bytes(TargetUse::gbuffer)};
 }
 
 double angle_deg(const glm::vec4& a, const glm::vec4& b) {
@@ -222,12 +222,12 @@ TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
   const View view = wide_view(32, 32);
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, {.buffer_bits = 16}, {});
-  const GBuffer g = fill_gbuffer(v, v);
+  const GBuffer g = fill_gbuffer(v);
   std::vector<glm::u16vec4> stored(32 * 32);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, g.framebuffer);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(0, 0, 32, 32, GL_RGBA, g.layout->images[0].type, stored.data());
-  const SurfaceImages kept = read_gbuffer_surfaces(v, v);
+  const SurfaceImages kept = read_gbuffer_surfaces(v);
   for (size_t i = 0; i < stored.size(); ++i) {
     const glm::dvec2 uv = (glm::dvec2(stored[i]) - 32768.0) / 32767.0;
     glm::dvec3 n(uv, 1 - std::abs(uv.x) - std::abs(uv.y));

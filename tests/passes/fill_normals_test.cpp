@@ -1,11 +1,11 @@
 // The image of normals, decoded here by the formulas of docs/details/light_prepass.md#normals.
-#include "passes/fill_normals.h"
+#include "passes/depth_prepass.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "passes/read_outs/surfaces.h"
+#include "passes/read_outs.h"
 #include "renderer/render_view.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -43,12 +43,12 @@ TEST(FillNormals, KeepsEveryDirectionWithinItsSteps) {
        {std::tuple(NormalFormat::floats, 0.0, 0.0), std::tuple(NormalFormat::octahedral, 0.0038, 0.0038),
         std::tuple(NormalFormat::spheremap, 0.0036, 0.8), std::tuple(NormalFormat::xyz8, 0.4, 0.4)}) {
     RenderView v(test_devices(), gpu, view, {.normals = format}, {});
-    const NormalImage normals = fill_normals(v, v);
+    const NormalImage normals = fill_normals(v);
     std::vector<glm::vec4> stored(v.grid().values());
     glBindFramebuffer(GL_READ_FRAMEBUFFER, normals.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, view.width, view.height, GL_RGBA, GL_FLOAT, stored.data());
-    const Image drawn = read_surfaces(v, v).normal_roughness;
+    const Image drawn = read_surfaces(v).normal_roughness;
     double front = 0, all = 0;
     for (size_t i = 0; i < stored.size(); ++i) {
       const glm::dvec3 normal(glm::vec3(drawn.pixels[i]));

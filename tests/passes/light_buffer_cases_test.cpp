@@ -54,14 +54,14 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
   ClDevice& device = *renderer.cl;
   SharedBuffer& depth = v.shared_pixels("depth", 4);
   write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.grid().values() * 4);
-  const NormalsInCl normals = normals_in_cl_of(v, v, TargetUse::gbuffer);
+  const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
   write_buffer(device, "writing normals", normals.image->cl_buffer(), input.normals.data(),
                v.grid().values() * 16);
   const DepthBuffer in_cl{depth.cl_buffer()};
   const LightSource lights =
-      from_grid(v, v, cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), in_cl)));
+      from_grid(v, cull_lights(v, v.culler(), v.opaque_grid(), depth_bounds(v, v.culler(), in_cl)));
   const LightBufferInCl sums =
-      fill_light_buffer(v, v, v.caches.light_sums, normals, in_cl, lights, TargetUse::gbuffer);
+      fill_light_buffer(v, v.caches.light_sums, normals, in_cl, lights, TargetUse::gbuffer);
   std::vector<glm::vec4> first(v.grid().values());
   std::vector<glm::vec2> second(v.grid().values());
   read_buffer(device, "reading sums", sums.first->cl_buffer(), first.data(), first.size() * 16);

@@ -6,7 +6,7 @@
 
 #include "passes/light_index/light_groups.h"
 #include "passes/light_index/layout.h"
-#include "passes/light_index/blending_probe.h"
+#include "passes/light_index/blending.h"
 #include "scene/random.h"
 #include "shared/light_index.h"
 

@@ -1,5 +1,5 @@
 // Boxes and lights: a box reported as out of reach gets nothing from the light.
-#include "passes/light_volumes/light_reach.h"
+#include "passes/find_object_lights.h"
 
 #include <gtest/gtest.h>
 

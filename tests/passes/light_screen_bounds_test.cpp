@@ -1,5 +1,5 @@
 // Rectangles and depth intervals of lights contain every pixel that the light reaches, and little more.
-#include "passes/light_volumes/screen_bounds.h"
+#include "passes/light_volumes/volume_draws.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "renderer/world_grid.h"
+#include "renderer/shared_grids.h"
 #include "scene/builtin/compose.h"
 #include "scene/camera.h"
 #include "scene/random.h"

@@ -34,8 +34,8 @@ struct Filled {
 Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, settings, gbuffer_needs);
-  const VisibilityBuffer visible = rasterize(v, v, v.caches);
-  const GBufferInCl g = resolve_gbuffer(v, v, v.caches.resolver, visible, BaseLighting::in_image);
+  const VisibilityBuffer visible = rasterize(v, v.caches);
+  const GBufferInCl g = resolve_gbuffer(v, v.caches.resolver, visible, BaseLighting::in_image);
   EXPECT_EQ(g.layout->bits, settings.buffer_bits);
   Filled f;
   for (const size_t i : g.images) {
@@ -43,7 +43,7 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
     read_buffer(*v.renderer.cl, "reading surfaces", g.surfaces[i]->cl_buffer(), f.bytes[i].data(),
                 f.bytes[i].size());
   }
-  read_back(v, v, {0, g.image}, f.image);
+  read_back(v, {0, g.image}, f.image);
   f.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading depth", visible.image.depth, f.depth.data(), f.depth.size() * 4);
   f.opaque = v.plan.opaque;

@@ -48,13 +48,12 @@ std::vector<double_surfaces::Hit> hits_of(const RenderView& v, const std::vector
 Resolved resolved(const Scene& scene, const View& view, const Settings& settings = {}) {
   GpuScene gpu(test_devices(), scene);
   RenderView v(test_devices(), gpu, view, settings, needs);
-  const VisibilityBuffer visible = rasterize(v, v, v.caches);
+  const VisibilityBuffer visible = rasterize(v, v.caches);
   std::optional<ViewGrid> grid;
   if (v.plan.light_grid)
-    grid = cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), visible.depth()));
+    grid = cull_lights(v, v.culler(), v.opaque_grid(), depth_bounds(v, v.culler(), visible.depth()));
   Resolved r;
-  read_back(v, v, resolve(v, v, v.caches.resolver, visible, grid ? from_grid(v, v, *grid) : every_light(v)),
-            r.image);
+  read_back(v, resolve(v, v.caches.resolver, visible, grid ? from_grid(v, *grid) : every_light(v)), r.image);
   std::vector<uint32_t> triangles(v.grid().values());
   r.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading triangles", visible.image.triangle, triangles.data(),
@@ -233,7 +232,7 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
   const View view = small_view(71, 37);
   GpuScene gpu(test_devices(), scene);
   RenderView drawn(test_devices(), gpu, view, {}, needs);
-  const VisibilityBuffer visible = rasterize(drawn, drawn, drawn.caches);
+  const VisibilityBuffer visible = rasterize(drawn, drawn.caches);
   std::vector<Image> images;
   for (const Settings& settings :
        {Settings{}, Settings{.portable = true}, Settings{.tile = 8},
@@ -244,8 +243,8 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
     RenderView v(test_devices(), gpu, view, settings, needs);
     std::optional<ViewGrid> grid;
     if (v.plan.light_grid)
-      grid = cull_lights(v, v, v.culler(), v.opaque_grid(), depth_bounds(v, v, v.culler(), visible.depth()));
-    read_back(v, v, resolve(v, v, v.caches.resolver, visible, grid ? from_grid(v, v, *grid) : every_light(v)),
+      grid = cull_lights(v, v.culler(), v.opaque_grid(), depth_bounds(v, v.culler(), visible.depth()));
+    read_back(v, resolve(v, v.caches.resolver, visible, grid ? from_grid(v, *grid) : every_light(v)),
               images.emplace_back());
     EXPECT_TRUE(compare_images(images.back(), images.front()).bit_identical) << images.size();
   }

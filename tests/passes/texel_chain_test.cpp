@@ -1,9 +1,9 @@
 // Mip chains and packed textures as they lie in memory, worked out by hand.
-#include "renderer/texel_chain.h"
+#include "renderer/upload/texel_chain.h"
 
 #include <gmock/gmock.h>
 
-#include "renderer/surface_texels.h"
+#include "renderer/upload/scene_surfaces.h"
 #include "scene/builtin/compose.h"
 
 namespace lightgrid {

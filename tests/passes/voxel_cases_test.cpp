@@ -6,7 +6,7 @@
 
 #include "passes/build_voxels.h"
 #include "passes/pass_cases.h"
-#include "reference/voxel_sample.h"
+#include "reference/light_sums.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
 
@@ -76,8 +76,8 @@ FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace s
   GpuScene gpu(renderer, scene);
   RenderView v(renderer, gpu, of.view, settings,
                {.light_grid = true, .lists = true, .chosen_raster = true, .exact_lights = true});
-  build_voxels(v, v, v.caches.voxels, {});
-  FilledVoxels filled{read_voxels(v, v, v.caches.voxels), {}, most_slope(of.view)};
+  build_voxels(v, v.caches.voxels, {});
+  FilledVoxels filled{read_voxels(v, v.caches.voxels), {}, most_slope(of.view)};
   View along;
   along.view_from_world = glm::dmat4(filled.read.axes.from_world);
   along.eye = filled.read.axes.origin;

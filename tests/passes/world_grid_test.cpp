@@ -1,5 +1,5 @@
 // The lists of the world grid against lights that reach points, in double.
-#include "renderer/world_grid.h"
+#include "renderer/shared_grids.h"
 
 #include <gtest/gtest.h>
 

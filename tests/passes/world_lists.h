@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "renderer/world_grid.h"
+#include "renderer/shared_grids.h"
 #include "scene/random.h"
 #include "support/devices.h"
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

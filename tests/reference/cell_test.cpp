@@ -124,7 +124,7 @@ TEST(DistanceToCell, EqualsAlternatingProjections) {
 
 TEST(CellOfTile, ByHand) {
   // 4 x 2 pixels over slopes -1 .. 1 and -1/2 .. 1/2, shifted by (1, 0): the right lower quarter.
-  const Cell cell = cell_of_tile(perspective_view(4, 2, 1, 0.5, 0.1, infinity, 1), 2, 0, 4, 1, 3, 5);
+  const Cell cell = cell_of_pixels(perspective_view(4, 2, 1, 0.5, 0.1, infinity, 1), 2, 0, 4, 1, 3, 5);
   EXPECT_DOUBLE_EQ(cell.x0, 1);
   EXPECT_DOUBLE_EQ(cell.x1, 2);
   EXPECT_DOUBLE_EQ(cell.y0, -0.5);
@@ -137,7 +137,7 @@ TEST(CellOfTile, HoldsItsPixelsAndNoOthers) {
   for (const View& view :
        {perspective_view(17, 9, 1.2, 0.7, 0.1, infinity), perspective_view(17, 9, 1, 1, 0.1, 99, 3, -2),
         orthographic_view(17, 9, 5, 3, 0.1, 99, -7, 2)}) {
-    const Cell cell = cell_of_tile(view, 8, 0, 16, 8, 0.1, 99);
+    const Cell cell = cell_of_pixels(view, 8, 0, 16, 8, 0.1, 99);
     for (int py = 0; py < 9; ++py) {
       for (int px = 0; px < 17; ++px) {
         const bool inside = px >= 8 && px < 16 && py < 8;

@@ -1,4 +1,4 @@
-#include "reference/cone_cell.h"
+#include "reference/cell.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reference/lit_blocks.h"
+#include "reference/lit_set.h"
 
 #include <gtest/gtest.h>
 

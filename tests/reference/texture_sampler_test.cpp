@@ -1,4 +1,4 @@
-#include "reference/texture_sampler.h"
+#include "reference/scene_surfaces.h"
 
 #include <gtest/gtest.h>
 

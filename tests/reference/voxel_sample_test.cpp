@@ -1,5 +1,5 @@
 // A sample of a voxel light buffer on cases by hand.
-#include "reference/voxel_sample.h"
+#include "reference/light_sums.h"
 
 #include <gtest/gtest.h>
 

@@ -61,7 +61,7 @@ TEST(SilhouetteErrors, BothRasterisersTrianglesAreThoseInDouble) {
   forward.run_frame();
   const auto expected = in_double(s.scene, view, visibility.view().plan.opaque);
   const auto own = own_triangles(visibility);
-  const ShownTriangles shown = read_triangles(forward.view(), forward.view());
+  const ShownTriangles shown = read_triangles(forward.view());
   EXPECT_LT(differing(own, expected), expected.size() / 200);
   EXPECT_LT(differing(shown.opaque, expected), expected.size() / 200);
   EXPECT_EQ(std::ranges::count(shown.blended, true), 0);
@@ -94,7 +94,7 @@ TEST(SilhouetteErrors, TrianglesBackToBackAreTwo) {
     forward.run_frame();
     const size_t middle = 20 * 60 + 30;
     at_the_middle.push_back(own_triangles(visibility)[middle]);
-    EXPECT_EQ(read_triangles(forward.view(), forward.view()).opaque[middle], at_the_middle.back()) << front;
+    EXPECT_EQ(read_triangles(forward.view()).opaque[middle], at_the_middle.back()) << front;
   }
   EXPECT_EQ(at_the_middle[0], (SceneTriangle{2, {0, 1, 2}}));
   EXPECT_EQ(at_the_middle[1], (SceneTriangle{2, {0, 2, 1}}));

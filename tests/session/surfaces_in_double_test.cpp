@@ -67,7 +67,7 @@ TEST(SurfacesInDouble, AreOfTheScene) {
   const View view = small_view(95, 53);
   TechniqueRun forward(software_devices(), s.scene, view, {}, find_technique("forward"));
   forward.run_frame();
-  const std::vector<SceneTriangle> shown = read_triangles(forward.view(), forward.view()).opaque;
+  const std::vector<SceneTriangle> shown = read_triangles(forward.view()).opaque;
   std::vector<uint32_t> pixels(shown.size());
   std::iota(pixels.begin(), pixels.end(), 0u);
   const auto error = [&](double normal_scale) {

@@ -1,7 +1,8 @@
 // clustered gives the bytes of the brute-force image, and shading finds the same cells as the oracle.
 #include <cmath>
 
-#include "passes/read_outs/cells.h"
+#include "passes/read_outs.h"
+#include "shared/cull_tests.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -208,12 +209,12 @@ TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
       TechniqueRun run(test_devices(), *scene, view, {.slices = slices}, find_technique("clustered"));
       run.run_frame();
       RenderView& v = run.view();
-      const std::vector<float> depth = read_depth(v, v);
+      const std::vector<float> depth = read_depth(v);
       std::vector<uint32_t> expected = cells_at(v, depth);
       for (size_t i = 0; i < depth.size(); ++i) expected[i] = depth[i] > 0 ? expected[i] : no_cell;
-      EXPECT_EQ(shaded_cells(v, v), expected);
+      EXPECT_EQ(shaded_cells(v), expected);
       const std::vector<float> telling = telling_depths(v);
-      EXPECT_EQ(cells_at_depths(v, v, telling), cells_at(v, telling));
+      EXPECT_EQ(cells_at_depths(v, telling), cells_at(v, telling));
     }
   }
 }

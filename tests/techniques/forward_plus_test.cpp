@@ -3,6 +3,7 @@
 
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {

@@ -243,8 +243,8 @@ TEST(OneByOne, TakesTheMemoryThatThePagesSay) {
   TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward_zprepass"));
   run.run_frame();
   RenderView& v = run.view();
-  const size_t blended_pairs = v.caches.blended_object_lights.of(v, v).lights().size();
-  const size_t pairs = v.caches.object_lights.of(v, v).lights().size() + blended_pairs;
+  const size_t blended_pairs = v.caches.blended_object_lights.of(v).lights().size();
+  const size_t pairs = v.caches.object_lights.of(v).lights().size() + blended_pairs;
   EXPECT_GT(pairs, 6u);
   EXPECT_GT(blended_pairs, 0u);
   for (const char* technique : {"forward_multipass", "forward_zprepass"}) {

@@ -1,5 +1,5 @@
-// Passes of very many draws let few of them wait (gl/pending_draws.h): llvmpipe keeps what waits in memory.
-#include "gl/pending_draws.h"
+// Passes of very many draws let few of them wait (renderer/drawing/draw.h): llvmpipe keeps what waits in memory.
+#include "renderer/drawing/draw.h"
 
 #include <map>
 #include <utility>

@@ -149,7 +149,7 @@ TEST_F(Stochastic, MeanOverSeedsConvergesToThePictureWithoutRanges) {
 TEST_F(Stochastic, WithoutItsWeightTheMeanIsFarFromThatPicture) {
   Moments unweighted(truth.size());
   LightRanges ranges = random_ranges;
-  const SurfaceImages surfaces = read_surfaces(run->view(), run->view());
+  const SurfaceImages surfaces = read_surfaces(run->view());
   for (int seed = 1; seed <= seeds; seed += 8) {
     ranges.seed = uint32_t(seed);
     std::vector<ViewLight> lights = lights_in_view(s.scene, run->view().view, ranges);

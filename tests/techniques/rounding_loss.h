@@ -34,8 +34,8 @@ inline RoundingLoss rounding_loss(const char* technique, const Scene& scene, con
   TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique(technique));
   run.run_frame();
   RenderView& v = run.view();
-  const std::vector<float> depth = read_depth(v, v);
-  const SurfaceImages kept = read_gbuffer_surfaces(v, v), drawn = read_surfaces(v, v);
+  const std::vector<float> depth = read_depth(v);
+  const SurfaceImages kept = read_gbuffer_surfaces(v), drawn = read_surfaces(v);
   std::vector<uint32_t> pixels;
   for (uint32_t i = 0; i < depth.size(); ++i) {
     const bool unlit = drawn.emissive_occlusion.pixels[i].w < 0;

@@ -63,7 +63,7 @@ TEST(VoxelLights, BothShapesFillTheSameBytes) {
     settings.kernel_shape = shape, settings.voxel_bits = bits;
     TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
     run.run_frame();
-    return read_voxels(run.view(), run.view(), run.view().caches.voxels);
+    return read_voxels(run.view(), run.view().caches.voxels);
   };
   const ReadVoxels lanes = volume(KernelShape::lanes, 32), group = volume(KernelShape::group, 32),
                    half = volume(KernelShape::lanes, 16);
@@ -102,7 +102,7 @@ TEST(VoxelLights, BothShapesFillTheSameBytesUnderThousandsOfLights) {
       settings.kernel_shape = shape;
       TechniqueRun run(test_devices(), s.scene, small_view(31, 23), settings, find_technique("voxel_lights"));
       run.run_frame();
-      return read_voxels(run.view(), run.view(), run.view().caches.voxels);
+      return read_voxels(run.view(), run.view().caches.voxels);
     };
     const ReadVoxels lanes = volume(KernelShape::lanes), group = volume(KernelShape::group);
     float most = 0;

@@ -12,7 +12,7 @@ inline constexpr VoxelSize coarse = VoxelSize::s16x16x4;
 
 // A volume of the world, and where its samples are.
 struct Volume {
-  explicit Volume(RenderView& v) : read(read_voxels(v, v, v.caches.voxels)) {
+  explicit Volume(RenderView& v) : read(read_voxels(v, v.caches.voxels)) {
     const VoxelGrid& g = read.placed.grid;
     spacing = {g.spacing_x, read.placed.slices[1].place - read.placed.slices[0].place, g.spacing_y};
     first = read.axes.origin + glm::dvec3(g.origin_x, read.placed.slices[0].place, g.origin_y);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "gl/bindings.h"
-#include "renderer/grid_storage.h"
-#include "renderer/pass_caches.h"
+#include "renderer/shared_grids.h"
+#include "renderer/work.h"
 #include "scene/listed_lights.h"
 
 namespace lightgrid {
@@ -60,7 +60,12 @@ struct Frame {
   std::optional<DepthBuffer> depth;    // of techniques that rasterise in OpenCL; else the depth image has it
   std::optional<TriangleBuffer> triangles;  // of the same techniques
 
-  size_t light_grid_bytes() const;  // of all these, in use
+  // Bytes of all these, in use.
+  size_t light_grid_bytes() const {
+    size_t bytes = light_index_bytes + world_grid_bytes;
+    for (const auto* g : {&grid, &blend_grid}) bytes += *g ? (*g)->bytes() : 0;
+    return bytes;
+  }
 };
 
 }  // namespace lightgrid

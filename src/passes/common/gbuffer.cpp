@@ -40,26 +40,26 @@ std::vector<size_t> images_of(const FramePlan& plan) {
 
 }  // namespace
 
-GBufferInCl gbuffer_in_cl_of(Work& work, const Seen& seen, BaseLighting base_lighting, TargetUse use) {
-  require_numbers(seen);
+GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse use) {
+  require_numbers(work);
   constexpr const char* names[gbuffer_most_images] = {"gbuffer 0", "gbuffer 1", "gbuffer 2", "gbuffer 3"};
   GBufferInCl g{.base_lighting = base_lighting,
-                .layout = &gbuffer_layout(seen.plan.settings),
-                .images = images_of(seen.plan)};
+                .layout = &gbuffer_layout(work.plan.settings),
+                .images = images_of(work.plan)};
   for (const size_t i : g.images)
     g.surfaces[i] = &work.shared_pixels(names[i], g.layout->images[i].bytes, use);
   g.image = &work.shared_pixels("image", 16);
   return g;
 }
 
-GBuffer gbuffer_of(Work& work, const Seen& seen, BaseLighting base_lighting) {
-  require_numbers(seen);
+GBuffer gbuffer_of(Work& work, BaseLighting base_lighting) {
+  require_numbers(work);
   GBuffer g;
-  g.models = model_defines(seen.plan);
+  g.models = model_defines(work.plan);
   if (!g.models.empty()) g.model_records = work.gpu.in_gl().model_records();
   g.base_lighting = base_lighting;
-  g.layout = &gbuffer_layout(seen.plan.settings);
-  g.images = images_of(seen.plan);
+  g.layout = &gbuffer_layout(work.plan.settings);
+  g.images = images_of(work.plan);
   for (const size_t i : g.images) {
     g.textures[i] =
         work.targets.texture(g.layout->images[i].name, g.layout->images[i].format, TargetUse::gbuffer);

@@ -34,7 +34,7 @@ struct GBufferImage {
 // With FramePlan::specular another one:
 //   [3]  of the dielectric part: reflectance at normal incidence red, green, blue, as their square roots in 8
 //        and 16 bits; at grazing incidence
-// Of a model only the number is stored: its parameters are exact at any number of bits.
+// Only a model's number is stored: its parameters are exact at any number of bits.
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
 inline constexpr size_t gbuffer_coat = 2, gbuffer_specular = 3, gbuffer_most_images = 4;
@@ -89,15 +89,15 @@ struct GBufferInCl {
   cl::Buffer in_cl(size_t i) const { return surfaces[i] ? surfaces[i]->cl_buffer() : cl::Buffer(); }
 };
 
-// That of buffer-bits.
+// The layout that the setting buffer-bits selects.
 const GBufferLayout& gbuffer_layout(const Settings& settings);
 
-// What light passes that read a geometry buffer are compiled with: SKIN, MINNAERT.
+// The defines of light passes that read a geometry buffer: SKIN, MINNAERT.
 std::vector<const char*> model_defines(const FramePlan& plan);
 
 // The view's buffers, written or not. Both throw Error(input) where the scene has more models than a channel
 // of 8 bits can number. use: gbuffer where they are no copies.
-GBufferInCl gbuffer_in_cl_of(Work& work, const Seen& seen, BaseLighting base_lighting, TargetUse use);
+GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse use);
 
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
@@ -121,7 +121,7 @@ struct GBuffer {
 };
 
 // The view's geometry buffer in the layout of buffer-bits, drawn or not.
-GBuffer gbuffer_of(Work& work, const Seen& seen, BaseLighting base_lighting = BaseLighting::in_image);
+GBuffer gbuffer_of(Work& work, BaseLighting base_lighting = BaseLighting::in_image);
 
 // The defines of shaders that read the geometry buffer (shaders/common/read_gbuffer.glsl), whose textures
 // bind_gbuffer binds.

@@ -61,25 +61,25 @@ std::vector<std::string> light_buffer_defines(const Seen& seen) {
   return defines;
 }
 
-NormalImage normal_image_of(Work& work, const Seen& seen) {
+NormalImage normal_image_of(Work& work) {
   NormalImage n;
-  n.layout = &normal_layout(seen.plan.settings);
+  n.layout = &normal_layout(work.plan.settings);
   n.texture = work.targets.texture(n.layout->image.name, n.layout->image.format, TargetUse::gbuffer);
   n.framebuffer = work.targets.framebuffer({n.texture}, work.targets.depth());
   n.depth = {work.depth_framebuffer()};
   return n;
 }
 
-NormalsInCl normals_in_cl_of(Work& work, const Seen& seen, TargetUse use) {
-  const NormalLayout& layout = normal_layout(seen.plan.settings);
+NormalsInCl normals_in_cl_of(Work& work, TargetUse use) {
+  const NormalLayout& layout = normal_layout(work.plan.settings);
   return {&layout, &work.shared_pixels("normals", layout.image.bytes, use)};
 }
 
-LightBuffer light_buffer_of(Work& work, const Seen& seen) {
+LightBuffer light_buffer_of(Work& work) {
   LightBuffer b;
-  b.layout = &light_buffer_layout(seen.plan.settings);
+  b.layout = &light_buffer_layout(work.plan.settings);
   b.first = work.targets.texture(b.layout->first.name, b.layout->first.format, TargetUse::gbuffer);
-  if (has_fifth_term(seen.plan.settings))
+  if (has_fifth_term(work.plan.settings))
     b.second = work.targets.texture(b.layout->second.name, b.layout->second.format, TargetUse::gbuffer);
   return b;
 }

@@ -14,7 +14,7 @@ struct PrepassImage {
   size_t bytes;        // a pixel
 };
 
-// Of the setting normals: as shared/stored_normal.h says.
+// A value of the setting normals, stored as shared/stored_normal.h says.
 struct NormalLayout {
   NormalFormat format;
   const char* define;  // of shaders and kernels; null: floats, x, y and z and a spare
@@ -28,8 +28,8 @@ inline constexpr NormalLayout normal_layouts[] = {
     {NormalFormat::xyz8, "NORMALS_XYZ8", {"normals_8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4}},
 };
 
-// Of buffer-bits: diffuse red, green, blue and the specular term; with prepass-specular=fifth-term the fifth
-// term and Schlick's part of the specular one.
+// A value of buffer-bits. Channels: diffuse red, green, blue and the specular term; with
+// prepass-specular=fifth-term the fifth term and Schlick's part of the specular one.
 struct LightBufferLayout {
   int bits;
   PrepassImage first, second;
@@ -53,7 +53,7 @@ const LightBufferLayout& light_buffer_layout(const Settings& settings);
 // The define of prepass-specular (shared/light_buffer.h); null: plain, or no specular term.
 const char* prepass_define(const Settings& settings);
 
-// Whether the light buffer has a second image.
+// True if the light buffer has a second image.
 bool has_fifth_term(const Settings& settings);
 
 // The light that fixed point stores as 1 and that is 1 to equation 8.5.7: the irradiance of the brightest
@@ -82,8 +82,8 @@ struct LightBuffer {
 };
 
 // The view's images, drawn or not.
-NormalImage normal_image_of(Work& work, const Seen& seen);
-LightBuffer light_buffer_of(Work& work, const Seen& seen);
+NormalImage normal_image_of(Work& work);
+LightBuffer light_buffer_of(Work& work);
 
 // Normals as plain bytes in OpenCL's memory, row 0 at the bottom.
 struct NormalsInCl {
@@ -92,7 +92,7 @@ struct NormalsInCl {
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.
-NormalsInCl normals_in_cl_of(Work& work, const Seen& seen, TargetUse use);
+NormalsInCl normals_in_cl_of(Work& work, TargetUse use);
 
 // The sums in OpenCL's memory. second: null without a fifth term.
 struct LightBufferInCl {

@@ -1,6 +1,6 @@
 #include "passes/common/light_source.h"
 
-#include "renderer/light_table.h"
+#include "renderer/upload/lights.h"
 
 namespace lightgrid {
 

@@ -60,9 +60,9 @@ class LightSource {
 // Every light of the scene at every pixel.
 LightSource every_light(const Seen& seen);
 
-// What every loop over point and spot lights begins with; a source adds its own loop and input.
+// The beginning of every loop over point and spot lights; a source adds its own loop and input.
 GlLightLoop light_loop(const Seen& seen);
-// No point or spot light: ambient, emissive and directional light alone.
+// A loop without point and spot lights: ambient, emissive and directional light alone.
 GlLightLoop base_lighting(const Seen& seen);
 
 }  // namespace lightgrid

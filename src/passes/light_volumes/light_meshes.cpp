@@ -1,4 +1,4 @@
-#include "passes/light_volumes/light_meshes.h"
+#include "passes/light_volumes/light_volumes.h"
 
 #include <algorithm>
 #include <array>

@@ -196,7 +196,7 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
   return volumes;
 }
 
-LightVolumes::LightVolumes(Work&, const Seen& seen) : array_(make_vertex_array()) {
+LightVolumes::LightVolumes(Work& work) : array_(make_vertex_array()) {
   glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> indices;
@@ -208,7 +208,7 @@ LightVolumes::LightVolumes(Work&, const Seen& seen) : array_(make_vertex_array()
   }
   vertices_ = make_buffer(positions.size() * sizeof(glm::vec3), positions.data());
   indices_ = make_buffer(indices.size() * sizeof(uint16_t), indices.data());
-  instance_bytes_ = seen.plan.local.size() * sizeof(VolumeInstance);
+  instance_bytes_ = work.plan.local.size() * sizeof(VolumeInstance);
   instances_ = make_buffer(instance_bytes_, nullptr);
   mesh_bytes_ = positions.size() * sizeof(glm::vec3) + indices.size() * sizeof(uint16_t);
 
@@ -230,14 +230,14 @@ LightVolumes::LightVolumes(Work&, const Seen& seen) : array_(make_vertex_array()
 
 size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_; }
 
-bool LightVolumes::follow(Work&, const Seen& seen) {
-  return instance_bytes_ == seen.plan.local.size() * sizeof(VolumeInstance);
+bool LightVolumes::follow(Work& work) {
+  return instance_bytes_ == work.plan.local.size() * sizeof(VolumeInstance);
 }
 
-const std::vector<LightVolume>& LightVolumes::update(const Seen& seen, VolumeMeshes meshes) {
+const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
   upload_volumes(light_volumes(
-      seen.view, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local), meshes,
-      subpixel_bits_));
+      seen.view, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local),
+      seen.plan.settings.volume_mesh, subpixel_bits_));
   return volumes_;
 }
 

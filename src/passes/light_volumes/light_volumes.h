@@ -5,13 +5,38 @@
 // rasteriser that snaps corners to a grid of 2^-subpixel_bits pixels.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
-#include "passes/light_volumes/light_meshes.h"
-#include "renderer/pass_caches.h"
+#include "renderer/work.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {
+
+// A closed mesh that encloses the reach of a light: the unit sphere, or a cone of it. Triangles are
+// counter-clockwise, seen from outside; each edge belongs to two of them.
+struct LightMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<uint16_t> indices;
+};
+
+// Encloses the unit sphere; an icosahedron whose faces are cut into four `subdivisions` times.
+LightMesh ball_mesh(int subdivisions);
+
+// From -1 to 1 on each axis.
+LightMesh box_mesh();
+
+// Encloses points within the half-angle of the +z axis, up to pi / 2, at distance 1 or less from the apex,
+// the origin.
+LightMesh cone_mesh(double half_angle_rad);
+
+// The cone of slope 1 around +z up to z = 1, for narrow cones: scaling x and y gives any slope.
+LightMesh pyramid_mesh();
+
+// A clip-space triangle over the whole screen at depth 0, seen from behind. Not closed: it is the far side of
+// a volume that contains everything visible.
+LightMesh everything_mesh();
 
 struct LightVolume {
   static constexpr uint32_t everything = 0;  // a mesh in clip space, for lights that no sphere or cone can
@@ -41,12 +66,12 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
 // attributes of an instance.
 class LightVolumes : public PassCache {
  public:
-  explicit LightVolumes(Work& work, const Seen& seen);
+  explicit LightVolumes(Work& work);
   size_t memory_bytes() const override;
-  bool follow(Work& work, const Seen& seen) override;
+  bool follow(Work& work) override;
 
   // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights.
-  const std::vector<LightVolume>& update(const Seen& seen, VolumeMeshes meshes);
+  const std::vector<LightVolume>& update(const Seen& seen);
   // The same in the caller's order, to which the indices of draw() refer.
   void upload_volumes(std::vector<LightVolume> volumes);
   const std::vector<LightVolume>& volumes() const { return volumes_; }

@@ -11,8 +11,7 @@ class VolumeDraws {
  public:
   // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`) and DEPTH_BOUNDS
   // (the uniform depth_bounds) besides `defines`.
-  VolumeDraws(Work& work, const Seen& seen, LightVolumes& volumes, const char* fragment,
-              std::vector<std::string> defines);
+  VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment, std::vector<std::string> defines);
 
   const GlProgram& program() const { return *program_; }
 
@@ -33,6 +32,15 @@ class VolumeDraws {
 
 // Sets state for lights that add to the images of a framebuffer, which has the frame's depth. If volumes are
 // marked in its stencil, that is cleared.
-void begin_adding_lights(Work& work, const Seen& seen, GLuint framebuffer);
+void begin_adding_lights(Work& work, GLuint framebuffer);
+
+struct ScreenBounds {
+  glm::ivec2 first, end;  // pixels: first <= p < end
+  glm::vec2 depth{0, 1};  // values of the depth image, ascending
+};
+
+// The rectangle is bounded by the sphere's tangents, if it has any, and by the volume's rectangle. The
+// interval is that of the sphere along the view axis, within the volume's.
+ScreenBounds screen_bounds(const View& view, const LightVolume& volume);
 
 }  // namespace lightgrid

@@ -1,11 +1,11 @@
-#include "passes/voxels/listed_voxels.h"
+#include "passes/build_voxels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "cl/transfer.h"
-#include "passes/read_outs/depth.h"
+#include "passes/read_outs.h"
 
 namespace lightgrid {
 namespace {
@@ -96,7 +96,7 @@ class VoxelLister {
     return r_.axes.log_depth ? glm::dvec3(x * place, y * place, -place) : glm::dvec3(x, y, place);
   }
 
-  // Whether add_voxel_light of kernels/voxels/voxel_light.h adds anything of a light.
+  // True if add_voxel_light of kernels/voxels/voxel_light.h adds anything for this light.
   bool reaches(const LightBounds& light, glm::uvec3 i) const {
     const glm::dvec3 d = light.position - sample_at(i);
     const double squared = glm::dot(d, d), grown = r_.placed.slices[i.z].half_diagonal_squared;
@@ -145,16 +145,15 @@ class VoxelLister {
 
 }  // namespace
 
-ListedLights list_voxels(Work& work, const Seen& seen, const ReadVoxels& read,
-                         const DepthBuffer& shaded_from) {
-  std::vector<float> depth(seen.grid().values());
+ListedLights list_voxels(Work& work, const ReadVoxels& read, const DepthBuffer& shaded_from) {
+  std::vector<float> depth(work.grid().values());
   if (shaded_from.values()) {
     read_buffer(*work.renderer.cl, "reading depth", shaded_from.values, depth.data(),
                 depth.size() * sizeof(float));
   } else {
-    depth = read_depth(work, seen);
+    depth = read_depth(work);
   }
-  return VoxelLister(seen, read).listed(depth);
+  return VoxelLister(work, read).listed(depth);
 }
 
 }  // namespace lightgrid

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "scene/builtin.h"
 #include "scene/builtin/compose.h"
 #include "scene/builtin/gallery_parts.h"
 #include "scene/builtin/patterns.h"
-#include "scene/builtin/scenes.h"
 #include "scene/builtin/shapes.h"
-#include "scene/builtin/surface_maps.h"
 
 namespace lightgrid {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "scene/builtin.h"
 #include "scene/builtin/compose.h"
 #include "scene/builtin/hall_parts.h"
-#include "scene/builtin/scenes.h"
 #include "scene/builtin/shapes.h"
 
 namespace lightgrid {

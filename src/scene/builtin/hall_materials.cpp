@@ -4,7 +4,6 @@
 #include "scene/builtin/compose.h"
 #include "scene/builtin/hall_parts.h"
 #include "scene/builtin/patterns.h"
-#include "scene/builtin/surface_maps.h"
 
 namespace lightgrid::hall {
 namespace {

@@ -23,17 +23,6 @@ struct Materials {
 };
 Materials add_materials(Scene& scene);
 
-// A wall with an arched opening, in the plane of `right` and `up` through `origin` (at the opening's middle).
-struct ArchedWall {
-  glm::vec3 origin, right, up;
-  float half_width, bottom, top;
-  float opening_half_width, sill, springing;
-  int segments = 16;
-};
-void add_front(Mesh& mesh, const ArchedWall& wall);
-void add_reveal(Mesh& mesh, const ArchedWall& wall, float depth_m);  // the opening's sides, arch and sill
-void add_back(Mesh& mesh, const ArchedWall& wall, float depth_m);    // closes it
-
 // Parts of a bay, right side.
 Mesh bay_stone(const Materials& m);     // arcade wall on both faces, outer wall
 Mesh bay_brick(const Materials& m);     // niche

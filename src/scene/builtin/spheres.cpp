@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/builtin.h"
 #include "scene/builtin/compose.h"
-#include "scene/builtin/scenes.h"
 #include "scene/builtin/shapes.h"
 #include "scene/random.h"
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "scene/builtin.h"
 #include "scene/builtin/compose.h"
-#include "scene/builtin/scenes.h"
 #include "scene/builtin/shapes.h"
 #include "scene/random.h"
 

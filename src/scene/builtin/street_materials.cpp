@@ -1,7 +1,6 @@
 #include "scene/builtin/compose.h"
 #include "scene/builtin/patterns.h"
 #include "scene/builtin/street_parts.h"
-#include "scene/builtin/surface_maps.h"
 
 namespace lightgrid::street {
 namespace {

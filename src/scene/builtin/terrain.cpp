@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/builtin.h"
 #include "scene/builtin/compose.h"
 #include "scene/builtin/patterns.h"
-#include "scene/builtin/scenes.h"
 #include "scene/builtin/shapes.h"
 #include "scene/random.h"
 

@@ -1,4 +1,4 @@
-#include "scene/gltf/animations.h"
+#include "scene/gltf/nodes.h"
 
 #include <algorithm>
 #include <cmath>

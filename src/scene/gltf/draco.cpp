@@ -1,4 +1,4 @@
-#include "scene/gltf/draco.h"
+#include "scene/gltf/accessor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
 #include <nlohmann/json.hpp>
 
 #include "base/json_file.h"
@@ -11,6 +12,121 @@ namespace lightgrid::gltf {
 namespace {
 
 using nlohmann::json;
+
+// object[key] as an index; -1 if absent.
+int animation_index(const Reporter& report, const json& object, const char* key, const std::string& place) {
+  const auto it = object.find(key);
+  if (it == object.end()) return -1;
+  const double number = it->is_number() ? it->get<double>() : -1;
+  if (!(number >= 0 && number <= std::numeric_limits<int>::max() && std::trunc(number) == number))
+    throw report.error("{}.{} is {}: not an index", place, key,
+                       it->dump(-1, ' ', false, json::error_handler_t::replace));
+  return static_cast<int>(number);
+}
+
+std::string animation_string(const Reporter& report, const json& object, const char* key, const char* absent,
+                             const std::string& place) {
+  const auto it = object.find(key);
+  if (it == object.end()) return absent;
+  if (!it->is_string()) throw report.error("{}.{} is not a string", place, key);
+  return it->get<std::string>();
+}
+
+// Calls read(element, its path) for each object of the array object[key], if present.
+template <typename Read>
+void for_each_object(const Reporter& report, const json& object, const char* key, const std::string& place,
+                     const Read& read) {
+  const auto array = object.find(key);
+  if (array == object.end()) return;
+  if (!array->is_array()) throw report.error("{}.{} is not an array", place, key);
+  for (size_t i = 0; i < array->size(); ++i) {
+    const std::string inner = fmt::format("{}.{}[{}]", place, key, i);
+    if (!(*array)[i].is_object()) throw report.error("{} is not an object", inner);
+    read((*array)[i], inner);
+  }
+}
+
+void read_animation_entry(const Reporter& report, const json& animation, const std::string& place,
+                          AnimationEntry& entry) {
+  entry.name = animation_string(report, animation, "name", "", place);
+  for_each_object(report, animation, "samplers", place, [&](const json& sampler, const std::string& at) {
+    entry.samplers.push_back(
+        {.input = animation_index(report, sampler, "input", at),
+         .output = animation_index(report, sampler, "output", at),
+         .interpolation = animation_string(report, sampler, "interpolation", "LINEAR", at)});
+  });
+  for_each_object(report, animation, "channels", place, [&](const json& channel, const std::string& at) {
+    const json target = channel.value("target", json::object());
+    if (!target.is_object()) throw report.error("{}.target is not an object", at);
+    entry.channels.push_back({.sampler = animation_index(report, channel, "sampler", at),
+                              .node = animation_index(report, target, "node", at + ".target"),
+                              .path = animation_string(report, target, "path", "", at + ".target")});
+  });
+}
+
+// Moves the animations, all of which are objects, out of the JSON. Faults (AnimationEntry::fault): wrong
+// types, and indices that are not non-negative integers.
+std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) {
+  std::vector<AnimationEntry> out;
+  if (!root.contains("animations")) return out;
+  for (const json& animation : root["animations"]) {
+    const std::string place = fmt::format("animations[{}]", out.size());
+    AnimationEntry& entry = out.emplace_back();
+    try {
+      read_animation_entry(report, animation, place, entry);
+    } catch (const Error& fault) {
+      entry.fault = fault;
+    }
+  }
+  root.erase("animations");
+  return out;
+}
+
+double model_number_of(const Reporter& report, const json& value, const std::string& place) {
+  if (!value.is_number()) throw report.error("{} is not a number", place);
+  return value.get<double>();
+}
+
+ModelEntry read_model_entry(const Reporter& report, const json& in, const std::string& place) {
+  if (!in.is_object()) throw report.error("{} is not an object", place);
+  ModelEntry out;
+  for (const auto& [key, value] : in.items()) {
+    const std::string at = place + "." + key;
+    if (key == "model") {
+      if (!value.is_string()) throw report.error("{} is not a string", at);
+      out.model = value.get<std::string>();
+    } else if (key == "subsurfaceColor") {
+      if (!value.is_array() || value.size() != 3) throw report.error("{} is not three numbers", at);
+      for (const json& channel : value) out.subsurface_color.push_back(model_number_of(report, channel, at));
+    } else if (key == "rollOff") {
+      out.roll_off = model_number_of(report, value, at);
+    } else if (key == "k") {
+      out.k = model_number_of(report, value, at);
+    } else {
+      throw report.error("{}: unknown key; keys are model, subsurfaceColor, rollOff and k", at);
+    }
+  }
+  return out;
+}
+
+// Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of
+// a wrong type.
+std::vector<ModelEntry> take_models(const Reporter& report, json& root) {
+  std::vector<ModelEntry> out;
+  if (!root.contains("materials")) return out;
+  int number = 0;
+  for (json& material : root["materials"]) {
+    const json::json_pointer model("/extras/lightgrid");
+    if (material.contains(model)) {
+      out.push_back(
+          read_model_entry(report, material[model], fmt::format("materials[{}].extras.lightgrid", number)));
+      out.back().material = number;
+      material["extras"].erase("lightgrid");
+    }
+    ++number;
+  }
+  return out;
+}
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
@@ -107,8 +223,9 @@ class Tidier {
   }
 
   void require_index(const json& value) {
-    if (value.is_structured()) return;  // "indices" of a sparse accessor, and values that tinygltf rejects
-                                        // itself
+    if (value.is_structured())
+      return;  // "indices" of a sparse accessor, and values that tinygltf rejects
+               // itself
     const bool integral = value.is_number_integer() ||
                           (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>());
     if (integral && value.get<double>() >= 0 && value.get<double>() <= std::numeric_limits<int>::max())

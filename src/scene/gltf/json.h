@@ -1,7 +1,6 @@
 // Prepares the JSON of a glTF file for tinygltf, which does not check everything.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,14 +62,6 @@ struct PreparedJson {
 // images all at once, keeps copies, requires exact file sizes, does not support fallback buffers and reads a
 // view's bytes unchecked.
 PreparedJson prepare_json(const Reporter& report, std::string_view text);
-
-// Moves the animations, all of which are objects, out of the JSON. Faults (AnimationEntry::fault): wrong
-// types, and indices that are not non-negative integers.
-std::vector<AnimationEntry> take_animations(const Reporter& report, nlohmann::json& root);
-
-// Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of
-// a wrong type.
-std::vector<ModelEntry> take_models(const Reporter& report, nlohmann::json& root);
 
 bool is_supported_extension(std::string_view name);
 

@@ -17,7 +17,7 @@ void keep_used_materials(Scene& scene);
 int image_of_texture(const Document& doc, int texture);
 
 // Fills scene.textures and scene.bitmaps with those that its materials use, and converts the slots' indices
-// to them. Each image is decoded once, in parallel; see images.h.
+// to them. Each image is decoded once, in parallel.
 void add_textures(Document& doc, Scene& scene);
 
 // The slots of a material, and whether each holds colours.

@@ -1,8 +1,12 @@
-// The nodes of one scene, flattened.
+// The nodes of one scene, flattened, and what they hold: copies (EXT_mesh_gpu_instancing), animations
+// (glTF 2.0, section 3.11), meshes, lights (KHR_lights_punctual, Khronos, 2018) and cameras.
 #pragma once
+
+#include <optional>
 
 #include "scene/gltf/document.h"
 #include "scene/rig.h"
+#include "scene/scene.h"
 
 namespace lightgrid::gltf {
 
@@ -25,5 +29,37 @@ std::vector<PlacedNode> place_nodes(Document& doc, int scene);
 std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode>& nodes);
 
 std::string node_label(const Document& doc, int node);
+
+// Each copy's place relative to the node, by the node's index in the file; empty if the node is not
+// instanced. Errors: no attributes, attributes of unequal count or of a type that the extension does not
+// have, more than limits.max_instances, a rotation of length 0, a skin.
+std::optional<std::vector<NodeTransform>> read_instances(Document& doc, int node);
+
+// All animations of the file, each with the channels that move a node of `nodes`. AnimationChannel::node is
+// an index into `nodes`; the function sets their `moves` and `morphs`. Channels without a node, and of nodes
+// outside the scene, are omitted; so are (with a warning) paths not in glTF 2.0 and weights of a node without
+// morph targets. An animation with a fault has no channels: one warning names the first, its fault and the
+// number of others. Faults: broken JSON or indices; two channels of one animation with the same target;
+// translation, rotation or scale of a node with a matrix; a missing sampler; times that are not float
+// scalars, negative or decreasing; values of another type or number than the target's; an unknown
+// interpolation; a cubic spline of one key; a rotation of length 0; more values than
+// limits.max_animation_values.
+std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& nodes);
+
+// Adds to `scene` the meshes that the nodes use, at rest, one for each combination of skin and morph weights
+// (a node with animated weights has its own), and an instance for each use. Adds to `rig` the skins, and the
+// shapes of those meshes that animated joints or weights deform; no other mesh is stored twice. Materials
+// must be read already: a mesh refers to the file's material index (the default one at the end).
+void add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig);
+
+// One light for each node with one. A light points along its node's -z; the node's scale changes neither
+// range nor cone. Lights without a node are not read. Errors name light and field: colour, intensity or range
+// that is negative or not finite, their product past the largest float, a violation of 0 <= inner < outer <=
+// pi/2.
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes);
+
+// One camera for each node with one; the node's scale is dropped. A camera with a fault is left out: one
+// warning names the first, its fault and the number of others.
+std::vector<Camera> read_cameras(Document& doc, const std::vector<PlacedNode>& nodes);
 
 }  // namespace lightgrid::gltf

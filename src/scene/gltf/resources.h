@@ -1,8 +1,10 @@
-// Bytes of a glTF file and of its URIs: files in its own folder, and data URIs.
+// The bytes of a glTF file, of its container (plain JSON, or JSON and a binary chunk in a GLB: glTF 2.0,
+// section 4) and of its URIs: files in its own folder, and data URIs.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,5 +22,15 @@ std::vector<uint8_t> read_regular_file(const Reporter& report, const std::string
 // percent-decoded and read, unless it leaves `folder`, whether by "..", from the root or by a link.
 std::vector<uint8_t> read_uri(const Reporter& report, const std::string& place,
                               const std::filesystem::path& folder, const std::string& uri, size_t max_bytes);
+
+struct Container {
+  std::string_view json;
+  std::span<const uint8_t> binary;  // empty without a binary chunk
+  bool is_glb = false;
+};
+
+// Decided by content, not by the file's name. The parts point into `bytes`. Chunks of unknown type are
+// skipped; a chunk that does not fit is an error.
+Container open_container(const Reporter& report, std::span<const uint8_t> bytes);
 
 }  // namespace lightgrid::gltf

@@ -1,0 +1,66 @@
+#include "renderer/upload/culler_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace lightgrid {
+
+CullView cull_view(const View& view) {
+  return {view.width, view.height, view.clip_from_view, view.view_from_world, view.eye, {}, {}};
+}
+
+CullView cull_view(const View& view, const FramePlan& plan) {
+  CullView culled = cull_view(view);
+  culled.slice_edges =
+      slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+  culled.z_bin_edges =
+      slice_edges(plan.settings.slice_spacing, plan.z_bins, plan.slice_near_m, plan.slice_far_m);
+  return culled;
+}
+
+CullLight cull_light(const LightBounds& b) { return {b.position, b.radius_m, b.direction, b.cos_outer}; }
+
+std::vector<CullLight> cull_lights_of(const Scene& scene, std::span<const int> indices,
+                                      const LightRanges& ranges) {
+  std::vector<CullLight> lights;
+  cull_lights_of(scene, indices, ranges, lights);
+  return lights;
+}
+
+void cull_lights_of(const Scene& scene, std::span<const int> indices, const LightRanges& ranges,
+                    std::vector<CullLight>& lights) {
+  lights.resize(indices.size());
+  const auto convert = [&](size_t begin, size_t end) {
+    for (size_t at = begin; at < end; ++at) {
+      const size_t index = size_t(indices[at]);
+      const Light& light = scene.lights[index];
+      lights[at] = cull_light(bounds_of(light, range_of(light, index, ranges)));
+    }
+  };
+  // Below that a thread takes longer to start.
+  constexpr size_t part = 8192;
+  if (lights.size() <= part) {
+    convert(0, lights.size());
+  } else {
+    parallel_for(int((lights.size() + part - 1) / part),
+                 [&](int i) { convert(size_t(i) * part, std::min(size_t(i + 1) * part, lights.size())); });
+  }
+}
+
+CullerOptions culler_options(const FramePlan& plan) {
+  CullerOptions options;
+  options.cull_test = plan.settings.cull_test;
+  options.depth_bounds = plan.settings.depth_bounds;
+  options.shape = plan.settings.kernel_shape;
+  options.tile = plan.settings.tile;
+  options.portable = plan.settings.portable;
+  options.group_size = plan.settings.group_size;
+  options.blend = plan.blend_grid;
+  options.lists = plan.settings.grid_lists;
+  options.index_bits = plan.index_bits;
+  return options;
+}
+
+}  // namespace lightgrid

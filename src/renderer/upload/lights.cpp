@@ -1,0 +1,203 @@
+#include "renderer/upload/lights.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <span>
+
+#include "renderer/upload/culler_input.h"
+#include "renderer/work.h"
+
+namespace lightgrid {
+namespace {
+
+// A column's values, one a light of plan.local.
+struct LightColumn {
+  bool needed = false;  // by the plan; no values if not
+  Sampler sampler{};    // of its buffer texture
+  GLenum format = 0;    // of a texel
+  std::vector<std::byte> values;
+};
+
+struct LightTable {
+  std::array<LightColumn, light_column_count> columns;  // in the order of LIGHT_TABLE
+  // Beside the table, two a directional light: direction to the light in view space, and illuminance.
+  std::vector<glm::vec4> directional;
+};
+
+constexpr double max_float = std::numeric_limits<float>::max();
+
+// The columns' values for one light, by the names of LIGHT_TABLE.
+
+glm::vec4 position(const ViewLight& light) {
+  // A light without a range gets a range of 7e18 m. Past it the squared distance overflows float, and the
+  // window is 0 instead of infinity times 0.
+  const double inverse_radius_squared = std::clamp(1.0 / (light.radius_m * light.radius_m), 2e-38, 3e38);
+  return {glm::vec3(glm::clamp(light.position, -max_float, max_float)), float(inverse_radius_squared)};
+}
+
+glm::vec4 color(const ViewLight& light) {
+  // A light of radius 0 lights nothing, not even its own position.
+  return {light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0),
+          float(std::min(light.least_falloff, max_float))};
+}
+
+glm::vec4 cone(const ViewLight& light) {
+  if (!has_cone(light)) return {0, 0, 0, 1};
+  // KHR_lights_punctual: clamp((cos(angle) - cos(outer)) / (cos(inner) - cos(outer)), 0, 1), as a product and
+  // a sum.
+  const double scale = 1.0 / (light.cos_inner - light.cos_outer);
+  return {glm::vec3(light.direction * scale), float(-light.cos_outer * scale)};
+}
+
+// The conditions of LIGHT_TABLE.
+constexpr bool FramePlan::*IF_LIGHTS = &FramePlan::local_lights;
+constexpr bool FramePlan::*IF_SPOTS = &FramePlan::spots;
+
+constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
+
+template <typename T>
+LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
+                   std::span<const ViewLight> lights, const std::vector<int>& local) {
+  LightColumn made{needed, sampler, format_of(T()), {}};
+  if (!needed) return made;
+  made.values.resize(local.size() * sizeof(T));
+  for (size_t i = 0; i < local.size(); ++i) {
+    const T of_light = value(lights[size_t(local[i])]);
+    std::memcpy(made.values.data() + i * sizeof(T), &of_light, sizeof(T));
+  }
+  return made;
+}
+
+LightTable light_table(const Seen& seen) {
+  const FramePlan& plan = seen.plan;
+  const std::vector<ViewLight> lights = lights_in_view(seen.scene, seen.view, plan.settings.ranges);
+#define LIGHT_COLUMN(condition, type, member, array, texels) \
+  column(member, plan.*condition, Sampler::array, lights, plan.local),
+  LightTable table{{LIGHT_TABLE(LIGHT_COLUMN)}, {}};
+#undef LIGHT_COLUMN
+  for (int i : plan.directional_lights) {
+    table.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
+    table.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<const char*> light_table_defines(const FramePlan& plan) {
+  std::vector<const char*> defines;
+  if (plan.spots) defines.push_back("SPOTS");
+  if (plan.light_reaches) defines.push_back("LIGHT_REACHES");
+  const LightRanges& ranges = plan.settings.ranges;
+  if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
+  if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
+  if (ranges.range == LightRange::stochastic) defines.push_back("LEAST_FALLOFF");
+  return defines;
+}
+
+bool GlLights::Sized::put(size_t size, const void* data) {
+  if (buffer && bytes == size) {
+    if (size > 0) glNamedBufferSubData(buffer.name(), 0, GLsizeiptr(size), data);
+    return false;
+  }
+  buffer = make_buffer(size, data, GL_DYNAMIC_STORAGE_BIT);
+  bytes = size;
+  return true;
+}
+
+void GlLights::upload(const Seen& seen) {
+  const FramePlan& plan = seen.plan;
+  view_block_.put(sizeof seen.params, &seen.params);
+  const CullView culled = cull_view(seen.view, plan);
+  const auto put_keys = [](Sized& block, bool needed, std::span<const float> keys) {
+    if (!needed) {
+      block = {};
+      return;
+    }
+    std::vector<glm::vec4> values;  // a block of shared/slices.h: std140 pads each float to a vec4
+    for (const float key : keys) values.emplace_back(key, 0, 0, 0);
+    block.put(values.size() * sizeof values[0], values.data());
+  };
+  put_keys(slice_block_, plan.light_grid && plan.slices > 1, slice_keys(culled));
+  put_keys(z_bin_block_, plan.z_bins > 1, z_bin_keys(culled));
+  const LightTable table = light_table(seen);
+  light_bytes_ = 0;
+  const auto put_lights = [&](Lights& lights, bool needed, Sampler sampler, GLenum format,
+                              const auto& values) {
+    if (!needed) {
+      lights = {};
+      return;
+    }
+    const size_t bytes = values.size() * sizeof values[0];
+    lights.sampler = sampler;
+    if (lights.buffer.put(bytes, values.data()))
+      lights.texture = make_buffer_texture(format, lights.buffer.buffer.name());
+    light_bytes_ += bytes;
+  };
+  for (size_t i = 0; i < light_column_count; ++i) {
+    const LightColumn& column = table.columns[i];
+    put_lights(lights_[i], column.needed, column.sampler, column.format, column.values);
+  }
+  put_lights(lights_[light_column_count], plan.directional, Sampler::directional_lights, GL_RGBA32F,
+             table.directional);
+}
+
+void GlLights::bind() const {
+  bind_block(UniformBlock::ViewParamsBlock, view_block_.buffer.name());
+  if (slice_block_.buffer) bind_block(UniformBlock::SliceEdgesBlock, slice_block_.buffer.name());
+  if (z_bin_block_.buffer) bind_block(UniformBlock::ZBinEdgesBlock, z_bin_block_.buffer.name());
+  for (const Lights& lights : lights_) {
+    if (lights.texture) bind_texture(lights.sampler, lights.texture.name());
+  }
+}
+
+void ClLights::upload(ClDevice& device, const Seen& seen) {
+  const LightTable table = light_table(seen);
+  constexpr const char* what = "uploading lights";
+  for (size_t i = 0; i < light_column_count; ++i) columns_[i].put(device, what, table.columns[i].values);
+  directional.put(device, what, table.directional);
+  view.put(device, what, std::vector<ViewParams>{seen.params});
+  const auto put_edges = [&](UploadedBuffer& to, int count, const auto& keys_of) {
+    std::vector<float> edges;
+    if (count > 1) {
+      const auto keys = keys_of(cull_view(seen.view, seen.plan));
+      edges.assign(keys.begin(), keys.end());
+    }
+    to.put(device, what, edges);
+  };
+  put_edges(bin_edges, seen.plan.z_bins, z_bin_keys);
+  put_edges(slice_edges, seen.plan.slices, slice_keys);
+}
+
+size_t ClLights::memory_bytes() const {
+  size_t bytes = directional.bytes() + view.bytes() + bin_edges.bytes() + slice_edges.bytes();
+  for (const UploadedBuffer& column : columns_) bytes += column.bytes();
+  return bytes;
+}
+
+ClArguments ClLights::columns() const {
+  ClArguments arguments;
+#define LIGHT_NAMED(condition, type, member, array, texels) \
+  arguments.emplace_back(#array, columns_[arguments.size()].buffer());
+  LIGHT_TABLE(LIGHT_NAMED)
+#undef LIGHT_NAMED
+  return arguments;
+}
+
+std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
+  std::string defines;
+  if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings.tile);
+  if (lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
+  if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
+  if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
+  for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
+  if (brdf == Brdf::blinn) defines += " -DBLINN";
+  if (brdf == Brdf::lambert) defines += " -DLAMBERT";
+  if (seen.view.orthographic) defines += " -DORTHOGRAPHIC";
+  return defines;
+}
+
+}  // namespace lightgrid

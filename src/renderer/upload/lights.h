@@ -1,0 +1,70 @@
+// The lights of a view and all else that light loops read besides their lists, uploaded for each API that
+// reads them: the light table (shared/light_table.h), directional lights, the view, slice and z-bin edges.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cl/launch.h"
+#include "cl/uploaded_buffer.h"
+#include "gl/bindings.h"
+#include "gl/objects.h"
+#include "plan/frame_plan.h"
+#include "shared/light_table.h"
+#include "shared/view_params.h"
+
+namespace lightgrid {
+
+struct Seen;
+
+#define LIGHT_COLUMN_COUNT(...) +1
+inline constexpr size_t light_column_count = 0 LIGHT_TABLE(LIGHT_COLUMN_COUNT);
+#undef LIGHT_COLUMN_COUNT
+
+// The defines with which light loops read the plan's columns and no others, with the window of its ranges
+// (shared/punctual_light.h).
+std::vector<const char*> light_table_defines(const FramePlan& plan);
+
+// Uniform blocks and buffer textures, as OpenGL's shaders read them.
+class GlLights {
+ public:
+  // Buffers are kept unless their sizes change.
+  void upload(const Seen& seen);
+  void bind() const;
+  size_t light_bytes() const { return light_bytes_; }
+
+ private:
+  struct Sized {
+    GlBuffer buffer;
+    size_t bytes = 0;
+    bool put(size_t size, const void* data);  // true: a new buffer was created
+  };
+  Sized view_block_, slice_block_, z_bin_block_;
+  struct Lights {
+    Sampler sampler{};
+    Sized buffer;
+    GlTexture texture;
+  };
+  Lights lights_[light_column_count + 1];  // the light table's columns, and directional lights
+  size_t light_bytes_ = 0;
+};
+
+class ClLights {
+ public:
+  void upload(ClDevice& device, const Seen& seen);
+  size_t memory_bytes() const;
+
+  // LIGHT_ARGUMENTS (shared/light_table.h).
+  ClArguments columns() const;
+
+  UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
+
+ private:
+  UploadedBuffer columns_[light_column_count];
+};
+
+// The -D names that light loops in OpenCL take for a view and its plan (kernels/resolve/shade_pixels.h).
+// lanes: the kernel's items take a tile. brdf: the kernel's, which may serve several values of the setting.
+std::string light_defines(const Seen& seen, bool lanes, Brdf brdf);
+
+}  // namespace lightgrid
