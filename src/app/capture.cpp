@@ -10,6 +10,7 @@
 #include "base/write_file.h"
 #include "capture/capture.h"
 #include "capture/frame_summary.h"
+#include "session/contestants.h"
 
 namespace lightgrid {
 namespace {
@@ -48,7 +49,8 @@ std::string capture_path(const std::vector<View>& path, Renderer& devices, Scene
   return "[" + summaries + "]";
 }
 
-int capture(const CaptureOptions& o) {
+int capture(CaptureOptions o) {
+  take_own_settings(o.technique, o.scene.set);
   const Settings settings = chosen_settings(o.scene);
   if (!o.technique.empty())
     grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
@@ -59,6 +61,7 @@ int capture(const CaptureOptions& o) {
   make_folder(o.output);
   Renderer devices = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, devices);
+  check_given_settings(settings, {&technique}, true);
   const std::string summary =
       path.empty() ? capture_into(o.output, devices,
                                   capture_frame(devices, chosen.scene, chosen.view, settings, technique),

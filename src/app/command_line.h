@@ -55,6 +55,7 @@ class CommandLine {
   std::unique_ptr<CLI::App> app_;
   Command chosen_;
   bool quiet_ = false;
+  std::string unused_gl_ = "auto";  // of commands that open no OpenGL, which check it alone
 };
 
 }  // namespace lightgrid

@@ -11,6 +11,7 @@ void add_render(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_plan(CommandLine& line);
 void add_scenes(CommandLine& line);
+void add_info(CommandLine& line);
 void add_techniques(CommandLine& line);
 void add_capture(CommandLine& line);
 void add_cull(CommandLine& line);

@@ -88,9 +88,10 @@ void add_compare(CommandLine& line) {
                "scatter N lights; with --lights-file, its first N; or several separated by commas", ',');
   add_view_options(command, c.scene);
   add_path_option(command, c.scene);
+  add_exposure_option(command, c.scene);
   add_device_options(command, c.devices);
   add_timing_options(command, c.timing);
-  command.list("-t,--techniques", c.techniques,
+  command.list("-t,--technique,--techniques", c.techniques,
                "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names() +
                    fmt::format(" (default: {})", fmt::join(default_techniques(), ",")),
                ',');

@@ -9,6 +9,7 @@
 #include "base/timer.h"
 #include "base/write_file.h"
 #include "capture/frame_summary.h"
+#include "session/contestants.h"
 
 namespace lightgrid {
 namespace {
@@ -19,7 +20,8 @@ struct CullOptions {
   TimingOptions timing;
 };
 
-int cull(const CullOptions& o) {
+int cull(CullOptions o) {
+  take_own_settings(o.technique, o.set);
   if (o.frame.empty())
     throw input_error(
         "cull: FRAME is missing; it is a folder that `lightgrid capture` or another engine wrote");
@@ -54,7 +56,7 @@ void add_cull(CommandLine& line) {
   Subcommand command =
       line.add("cull", "light grid of a captured frame, with OpenCL alone", [o] { return cull(*o); });
   command.option("frame", o->frame, "folder with view.json, lights.json and depth.f32");
-  command.option("-t,--technique", o->technique, "whose light grid is made (clustered's has slices)");
+  add_technique_option(command, o->technique, "whose light grid is made (clustered's has slices)");
   command.option("-o,--output", o->output, "folder of the grid");
   command.list("--set", o->set, "a setting, KEY=VALUE; may be repeated");
   command.option("--device", o->device, "OpenCL device, by a part of its name");

@@ -72,6 +72,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                             {"seed", s.seed},
                             {"views", o.views}};
   if (!s.ambient.empty()) request["ambient"] = s.ambient;
+  if (!s.exposure.empty()) request["exposure"] = s.exposure;
   for (const ChosenPoint& point : points) {
     request["points"].push_back({point.contestant.technique->name,
                                  settings_of(*point.contestant.technique, point.contestant.settings),
@@ -224,11 +225,12 @@ void add_frontier(CommandLine& line) {
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
                  most_lights);
   add_view_options(command, o->scene);
+  add_exposure_option(command, o->scene);
   command.option("--camera-path", o->scene.camera_path,
                  "views from turn:N, dolly:N or a JSON file of keys (default: a turn)");
   command.option("--views", o->views, "views of each scene, at most", 1, 1000);
   add_device_options(command, o->devices);
-  command.list("-t,--techniques", o->techniques,
+  command.list("-t,--technique,--techniques", o->techniques,
                "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas (default: a star of settings around each)",
                ',');
   command.list(

@@ -156,7 +156,8 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
   return lost ? 1 : 0;
 }
 
-int inspect(const InspectOptions& o) {
+int inspect(InspectOptions o) {
+  take_own_settings(o.technique, o.scene.set);
   const std::optional<Place> place = parse_place(o.pixel);
   const bool one_grid = place || !o.output.empty();
   if (!one_grid && o.compare.empty()) {

@@ -30,8 +30,14 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
+void add_exposure_option(Subcommand& command, SceneChoice& o) {
+  command.option("--exposure", o.exposure,
+                 "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in "
+                 "scenes)");
+}
+
 void add_path_option(Subcommand& command, SceneChoice& o) {
-  command.option("--light-motion", o.light_motion, "lights that move along the path: none, orbit or drift");
+  command.option("--light-motion", o.light_motion, "lights that move: none, orbit or drift");
   command.option("--camera-path", o.camera_path, "a moving camera: turn:N, dolly:N or a JSON file of keys");
 }
 
@@ -46,7 +52,9 @@ void add_timing_options(Subcommand& command, TimingOptions& o) {
 }
 
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what) {
-  command.option("-t,--technique", technique, what + " (default: forward_plus; without OpenGL visibility)");
+  command.option("-t,--technique,--techniques", technique,
+                 "NAME[:KEY=VALUE[,KEY=VALUE…]]: " + what +
+                     (technique.empty() ? " (default: forward_plus; without OpenGL visibility)" : ""));
 }
 
 void check_output_file(const std::string& option, const std::filesystem::path& path) {

@@ -11,9 +11,11 @@ namespace lightgrid {
 
 void add_scene_options(Subcommand& command, SceneChoice& choice);
 void add_view_options(Subcommand& command, SceneChoice& choice);  // all but scene, size and lights
+void add_exposure_option(Subcommand& command, SceneChoice& choice);  // of commands that write pictures
 void add_path_option(Subcommand& command, SceneChoice& choice);
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);
+// One technique; its own settings are for take_own_settings (session/contestants.h).
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what);
 
 // Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not

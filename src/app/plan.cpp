@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "session/contestants.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -16,9 +17,11 @@ struct PlanOptions {
   std::string technique = "forward_plus", json;
 };
 
-int plan(const PlanOptions& o) {
+int plan(PlanOptions o) {
+  take_own_settings(o.technique, o.scene.set);
   const Technique& technique = find_technique(o.technique);
   const Settings settings = chosen_settings(o.scene);
+  check_given_settings(settings, {&technique});
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
@@ -43,7 +46,7 @@ void add_plan(CommandLine& line) {
   Subcommand command =
       line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
   add_scene_options(command, o->scene);
-  command.option("-t,--technique", o->technique, technique_names());
+  add_technique_option(command, o->technique, technique_names());
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

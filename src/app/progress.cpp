@@ -85,7 +85,7 @@ void ProgressLines::run(std::chrono::duration<double> interval) {
     const std::lock_guard reading(state().mutex);
     const std::string left =
         state().done > 0 && state().done < 1 ? fmt::format(", {:.0f} % done", 100 * state().done) : "";
-    log_info("after {}{}: {}", in_words(seconds), left, state().step.empty() ? "finishing" : state().step);
+    log_info("after {:.0f} s{}: {}", seconds, left, state().step.empty() ? "finishing" : state().step);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "plan/plan_changes.h"
 #include "results/path_changes.h"
+#include "session/contestants.h"
 #include "session/technique_run.h"
 
 namespace lightgrid {
@@ -34,27 +35,30 @@ int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const 
                 const SceneMotion& advance) {
   run.prepare();
   PathPlans plans;
+  Exposure exposure;  // the first picture's, for all
   for (size_t i = 0; i < path.size(); ++i) {
     const SceneChanges changes = advance ? advance(i) : SceneChanges();
     gpu.update(changes);
     run.look(path[i], changes);
     run.run_frame();
     plans.add(run.view().plan);
-    save_image(numbered(o.output, i), run.image());
+    if (i == 0) tell_exposure(exposure = chosen_exposure(o.scene, run.image()));
+    save_image(numbered(o.output, i), run.image(), exposure);
   }
   if (!o.json.empty()) {
     run.run_profiled_frames();
     nlohmann::json json = to_json(run.result());
+    json["exposure"] = exposure_json(exposure);
     json["moving"] = {{"frames", path.size()}, {"plan_changes", plan_changes_json(plans.changes())}};
     write_json(o.json, json_text(json));
   }
   return 0;
 }
 
-int render(const RenderOptions& o) {
-  if (!o.technique.empty())
-    find_technique(o.technique);  // reports an unknown name before the scene is loaded
+int render(RenderOptions o) {
+  take_own_settings(o.technique, o.scene.set);  // reports an unknown name before the scene is loaded
   const Settings settings = chosen_settings(o.scene);
+  if (!o.technique.empty()) check_given_settings(settings, {&find_technique(o.technique)});
   check_image_path(o.output);
   check_output_file("-o", o.output);
   if (!o.json.empty()) check_output_file("--json", o.json);
@@ -63,6 +67,7 @@ int render(const RenderOptions& o) {
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   Renderer renderer = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, renderer);
+  check_given_settings(settings, {&technique});
   const SceneMotion advance = chosen_motion(chosen.scene, o.scene);
   if (path.empty() && o.scene.light_motion != "none") advance(0);
   GpuScene gpu(renderer, chosen.scene);
@@ -70,10 +75,14 @@ int render(const RenderOptions& o) {
   if (!path.empty()) return render_path(o, run, gpu, path, advance);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
-  save_image(o.output, run.image());
+  const Exposure exposure = chosen_exposure(o.scene, run.image());
+  tell_exposure(exposure);
+  save_image(o.output, run.image(), exposure);
   if (!o.json.empty()) {
     run.run_profiled_frames();
-    write_json(o.json, json_text(run.result()));
+    nlohmann::json json = to_json(run.result());
+    json["exposure"] = exposure_json(exposure);
+    write_json(o.json, json_text(json));
   }
   return 0;
 }
@@ -85,6 +94,7 @@ void add_render(CommandLine& line) {
   Subcommand command = line.add("render", "one image of a scene", [o] { return render(*o); });
   add_scene_options(command, o->scene);
   add_path_option(command, o->scene);
+  add_exposure_option(command, o->scene);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
   add_technique_option(command, o->technique, technique_names());

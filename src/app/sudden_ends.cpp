@@ -66,7 +66,9 @@ void remove_temporary() {
   setsid();
   const timespec a_while = {0, 5'000'000};
   while (getppid() == parent) nanosleep(&a_while, nullptr);
-  execl("/bin/rm", "rm", "-rf", "--", ends().temporary.c_str(), nullptr);
+  // Twice: a linker that PoCL started may still have written while the first one ran.
+  execl("/bin/sh", "sh", "-c", "rm -rf -- \"$0\"; sleep 0.5; exec rm -rf -- \"$0\"", ends().temporary.c_str(),
+        nullptr);
   _exit(1);
 }
 
@@ -107,6 +109,7 @@ void on_interrupt(int signal) {
 void handle(int signal, void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
+  sigfillset(&action.sa_mask);  // a second interrupt would end the process that removes the folder
   sigaction(signal, nullptr, &ends().before[signal]);
   if (ends().before[signal].sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
 }

@@ -2,6 +2,7 @@
 // writers turn them over.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -27,9 +28,23 @@ glm::vec3 tone_map_neutral(glm::vec3 linear);
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
 
+// Of pictures alone: each linear value is multiplied by 2^ev before the tone map. Files of linear values and
+// errors are without it.
+struct Exposure {
+  double ev = 0;
+  bool automatic = false;  // ev was taken from a picture
+
+  float scale() const { return float(std::exp2(ev)); }
+};
+
+// The exposure at which the logarithmic mean of the picture's luminances becomes 0.18, to half a stop, so that
+// pictures that differ little share it. Pixels that are black, not finite, or below 1/10,000 of the 99th
+// percentile are left out; 0 if none is left. At least -60 and at most 60.
+Exposure automatic_exposure(const Image& image);
+
 // Bytes as PNG files store them: row 0 at the top, RGB, tone-mapped. A pixel that contains NaN becomes
 // magenta (255, 0, 255), to be noticed. Deterministic.
-std::vector<uint8_t> srgb_bytes(const Image& image);
+std::vector<uint8_t> srgb_bytes(const Image& image, const Exposure& exposure = {});
 
 // The same without the tone map: for images of numbers (difference_image, heat_map), whose legends need it.
 std::vector<uint8_t> srgb_bytes_as_is(const Image& image);
@@ -37,14 +52,14 @@ std::vector<uint8_t> srgb_bytes_as_is(const Image& image);
 // Eight bits, 1 to 4 channels, row 0 at the top, at least 1x1. RGB with at most 256 colours is written
 // with a palette.
 std::vector<uint8_t> encode_png(int width, int height, int channels, const std::vector<uint8_t>& bytes);
-void save_png(const std::filesystem::path& path, const Image& image);
+void save_png(const std::filesystem::path& path, const Image& image, const Exposure& exposure = {});
 void save_exr(const std::filesystem::path& path, const Image& image);  // 32-bit float RGB, linear
 
 // Throws Error(input) unless the extension is .png or .exr; call it before long work.
 void check_image_path(const std::filesystem::path& path);
 
-// By extension: .png through the tone map, .exr linear; anything else is an input error.
+// By extension: .png exposed and through the tone map, .exr linear; anything else is an input error.
 // All three write the file whole or not at all, and throw as write_file does (base/write_file.h).
-void save_image(const std::filesystem::path& path, const Image& image);
+void save_image(const std::filesystem::path& path, const Image& image, const Exposure& exposure = {});
 
 }  // namespace lightgrid

@@ -84,8 +84,8 @@ std::vector<uint8_t> encode_png(int width, int height, int channels, const std::
   return out;
 }
 
-void save_png(const std::filesystem::path& path, const Image& image) {
-  write_file(path, encode_png(image.width, image.height, 3, srgb_bytes(image)));
+void save_png(const std::filesystem::path& path, const Image& image, const Exposure& exposure) {
+  write_file(path, encode_png(image.width, image.height, 3, srgb_bytes(image, exposure)));
 }
 
 void save_exr(const std::filesystem::path& path, const Image& image) {
@@ -136,9 +136,9 @@ void check_image_path(const std::filesystem::path& path) {
   }
 }
 
-void save_image(const std::filesystem::path& path, const Image& image) {
+void save_image(const std::filesystem::path& path, const Image& image, const Exposure& exposure) {
   check_image_path(path);
-  extension_of(path) == ".png" ? save_png(path, image) : save_exr(path, image);
+  extension_of(path) == ".png" ? save_png(path, image, exposure) : save_exr(path, image);
 }
 
 }  // namespace lightgrid

@@ -1,10 +1,44 @@
 #include "base/text.h"
 
+#include <algorithm>
 #include <array>
 
 namespace lightgrid {
 
 static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+// Letters to change, insert, remove or exchange with a neighbour. Case, - and _ count as equal.
+static size_t letters_apart(std::string_view a, std::string_view b) {
+  const auto plain = [](char c) { return c == '-' ? '_' : c >= 'A' && c <= 'Z' ? char(c + 32) : c; };
+  std::vector<std::vector<size_t>> apart(a.size() + 1, std::vector<size_t>(b.size() + 1));
+  for (size_t i = 0; i <= a.size(); ++i) {
+    for (size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        apart[i][j] = i + j;
+        continue;
+      }
+      const bool same = plain(a[i - 1]) == plain(b[j - 1]);
+      apart[i][j] = std::min({apart[i - 1][j] + 1, apart[i][j - 1] + 1, apart[i - 1][j - 1] + !same});
+      if (i > 1 && j > 1 && plain(a[i - 1]) == plain(b[j - 2]) && plain(a[i - 2]) == plain(b[j - 1]))
+        apart[i][j] = std::min(apart[i][j], apart[i - 2][j - 2] + 1);
+    }
+  }
+  return apart[a.size()][b.size()];
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+  constexpr size_t longest = 64;
+  if (word.size() > longest) return {};
+  size_t least = std::min(std::max<size_t>(word.size() / 2, 2) + 1, word.size());
+  const std::string* nearest = nullptr;
+  for (const std::string& name : names) {
+    if (const size_t apart = letters_apart(word, name); apart < least) least = apart, nearest = &name;
+  }
+  for (const std::string& name : names) {  // the beginning of a name
+    if (!nearest && word.size() > 1 && name.starts_with(word)) nearest = &name;
+  }
+  return nearest ? "; did you mean " + *nearest + "?" : "";
+}
 
 std::string base64(const std::vector<uint8_t>& bytes) {
   std::string text;

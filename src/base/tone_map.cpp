@@ -60,7 +60,30 @@ float linear_from_srgb(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
 
-std::vector<uint8_t> srgb_bytes(const Image& image) { return bytes_of(image, tone_map_neutral); }
+Exposure automatic_exposure(const Image& image) {
+  constexpr double middle = 0.18, darkest = 1e-4, most_ev = 60;
+  std::vector<float> luminances;
+  luminances.reserve(image.pixels.size());
+  for (const glm::vec4& pixel : image.pixels) {
+    const float luminance = glm::dot(glm::vec3(pixel), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    if (luminance > 0 && std::isfinite(luminance)) luminances.push_back(luminance);
+  }
+  if (luminances.empty()) return {0, true};
+  const auto bright = luminances.begin() + ptrdiff_t(luminances.size() * 99 / 100);
+  std::nth_element(luminances.begin(), bright, luminances.end());
+  const double least = darkest * *bright;
+  double logarithms = 0;
+  size_t count = 0;
+  for (const float luminance : luminances) {
+    if (luminance >= least) logarithms += std::log2(double(luminance)), ++count;
+  }
+  const double ev = std::log2(middle) - logarithms / double(count);
+  return {std::clamp(std::round(2 * ev) / 2, -most_ev, most_ev), true};
+}
+
+std::vector<uint8_t> srgb_bytes(const Image& image, const Exposure& exposure) {
+  return bytes_of(image, [scale = exposure.scale()](glm::vec3 linear) { return tone_map_neutral(scale * linear); });
+}
 
 std::vector<uint8_t> srgb_bytes_as_is(const Image& image) {
   return bytes_of(image, [](glm::vec3 linear) { return glm::clamp(linear, 0.f, 1.f); });

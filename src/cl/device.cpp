@@ -72,7 +72,7 @@ bool holds(const std::string& text, const std::string& part) {
 }
 
 // Without it the ICD loader finds no driver, and says nothing: PoCL and LLVM take this much address space.
-constexpr size_t driver_bytes = size_t(512) << 20;
+constexpr size_t driver_bytes = size_t(1) << 30;
 
 bool can_have_memory(size_t bytes) {
   void* const memory =

@@ -53,8 +53,9 @@ std::string cl_error_name(cl_int code) {
 }
 
 Error cl_machine_error(const cl::Error& error, const std::string& context) {
-  return machine_error("{}{}{} failed with {}", context, context.empty() ? "" : ": ", error.what(),
-                       cl_error_name(error.err()));
+  const bool memory = error.err() == CL_OUT_OF_HOST_MEMORY || error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  return machine_error("{}{}{} failed with {}{}", context, context.empty() ? "" : ": ", error.what(),
+                       cl_error_name(error.err()), memory ? ": out of memory" : "");
 }
 
 }  // namespace lightgrid

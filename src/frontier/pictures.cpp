@@ -128,7 +128,7 @@ PictureFiles::Written PictureFiles::write(const std::string& scene, const Image&
     found->second.name.clear();
     return found->second;
   }
-  save_png(folder_ / (name + ".png"), image);
+  save_png(folder_ / (name + ".png"), image, exposure_);
   save_as_is(folder_ / (name + ".difference.png"), difference_image(image, truth));
   if (flip) save_as_is(folder_ / (name + ".flip.png"), flip_picture(map, image.width, image.height));
   return found->second;

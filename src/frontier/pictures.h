@@ -20,6 +20,8 @@ class PictureFiles {
  public:
   explicit PictureFiles(std::filesystem::path folder);  // created; empty: nothing is written
 
+  void expose(const Exposure& exposure) { exposure_ = exposure; }  // the pictures that follow
+
   struct Written {
     std::string name;  // without extension; the same for equal pictures of a scene
     std::optional<double> flip_mean;
@@ -28,6 +30,7 @@ class PictureFiles {
 
  private:
   std::filesystem::path folder_;
+  Exposure exposure_;
   std::map<std::string, Written> written_;
 };
 

@@ -60,10 +60,10 @@ bool has_own_surfaces(const ChosenPoint& point) {
 }
 
 ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& start,
-                         const FrontierJob& job, const std::string& scene_name)
+                         const FrontierJob& job, const SceneChoice& choice)
     : renderer_(renderer),
       scene_(scene),
-      scene_name_(scene_name),
+      choice_(choice),
       truths_{Truths(renderer, gpu, job.common, !renderer.gl), Truths(renderer, gpu, job.common, true)},
       precision_(renderer, gpu, start, job.common, job.shaded_pairs),
       pictures_(job.pictures),
@@ -90,6 +90,11 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
   if (own && renderer_.gl) used.push_back(&truths_[1]);
   for (Truths* truths : used) truths->look(view, turn_);
   BruteForce& first = truths_[0].brute;
+  if (index == 0) {
+    const Exposure exposure = chosen_exposure(choice_, first.truth());
+    tell_exposure(exposure, choice_.scene + ": ");
+    pictures_.expose(exposure);
+  }
   // Where a median pixel is black, HDR-FLIP has no exposures.
   exposures_ = whole ? flip_exposures(first.truth()) : std::nullopt;
   for (Truths* truths : used) {
@@ -160,7 +165,7 @@ void ViewFigures::fill_flip(const Image& image, Truths& truths, FrontierRecord& 
   const HdrFlip* flip = truths.flip ? &*truths.flip : nullptr;
   if (record.view > 0 && !flip) return;
   PictureFiles& files = record.view == 0 ? pictures_ : nowhere_;
-  const PictureFiles::Written written = files.write(scene_name_, image, truths.brute.truth(), flip);
+  const PictureFiles::Written written = files.write(choice_.scene, image, truths.brute.truth(), flip);
   record.image = written.name;
   record.errors.total.flip_mean = written.flip_mean;
   record.flip = exposures_;

@@ -17,7 +17,7 @@ class ViewFigures {
  public:
   // All outlive it.
   ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& start,
-              const FrontierJob& job, const std::string& scene_name);
+              const FrontierJob& job, const SceneChoice& choice);
 
   // Draws the truths of a view, the path's `index`-th. `own`: some point has surfaces of its own. `whole`:
   // FLIP and flicker too.
@@ -46,7 +46,7 @@ class ViewFigures {
 
   Renderer& renderer_;
   const Scene& scene_;
-  const std::string scene_name_;
+  const SceneChoice choice_;
   std::array<Truths, 2> truths_;  // OpenGL's, OpenCL's
   Precision precision_;
   PictureFiles pictures_, nowhere_;  // the latter measures FLIP alone

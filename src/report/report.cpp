@@ -34,6 +34,7 @@ CompareReport without_images(const CompareReport& report) {
   rest.own_surfaces = report.own_surfaces;
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
+  rest.exposure = report.exposure;
   return rest;
 }
 

@@ -136,8 +136,8 @@ std::string how_sure(const CompareReport& report, const RunResult& row, const Ro
       fastest(report, [&](const RunResult& other) { return &other != &row && counts(other); });
   if (!next) return words;
   const std::string name = fmt::format("{} ({})", row_name(report, *next), ms_in_words(*next));
-  if (time.max < next->frame_ms.min) return words + ": each faster than all of the next, " + name;
-  if (time.median < next->frame_ms.min) return words + ": the median is below all frames of the next, " + name;
+  if (time.max < next->frame_ms.min) return words + ": every frame is faster than any of the next, " + name;
+  if (time.median < next->frame_ms.min) return words + ": the median is below every frame of the next, " + name;
   return words + ": not surely faster than " + name;
 }
 
@@ -215,8 +215,8 @@ const RunResult* fastest_exact(const CompareReport& report) {
 std::string why_lost(const RunResult& row) {
   if (row.overflow == 0) return "";
   const auto room = row.settings.find("lidr_overlap");
-  return fmt::format(" by design (a pixel has room for {} lights)",
-                     room == row.settings.end() || room->second == "auto" ? "few" : room->second);
+  const bool told = room != row.settings.end() && room->second != "auto";
+  return fmt::format(" by design (a pixel has room for {} lights)", told ? room->second : "a limited number of");
 }
 
 std::vector<std::string> remarks(const CompareReport& report) {

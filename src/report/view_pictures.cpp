@@ -45,10 +45,10 @@ uint32_t heat_top(const CompareReport& report) {
   return top ? top : flat_top;
 }
 
-Png picture_png(const Image& image, int reduced) {
+Png picture_png(const Image& image, const Exposure& exposure, int reduced) {
   const Image small = reduced > 1 ? mean_of_blocks(image, reduced) : Image();
   const Image& shown = reduced > 1 ? small : image;
-  return encode_png(shown.width, shown.height, 3, srgb_bytes(shown));
+  return encode_png(shown.width, shown.height, 3, srgb_bytes(shown, exposure));
 }
 
 Png difference_png(const Image& image, const Image& reference, int reduced) {
@@ -107,14 +107,14 @@ ReportPictures make_pictures(const CompareReport& report, int reduced) {
     row.name = names[i];
     if (has_image(report, i)) {
       const Image& image = image_of(report, size_t(i));
-      row.image = picture_png(image, reduced);
+      row.image = picture_png(image, report.exposure, reduced);
       if (!reference.pixels.empty()) row.difference = difference_png(image, reference, reduced);
     }
     if (has_counts(report, i))
       row.listed = make_heat_map(report, report.listed[i], pictures.heat_top, reduced);
   });
   if (&reference == &report.reference_image && !reference.pixels.empty()) {
-    pictures.reference = picture_png(reference, reduced);
+    pictures.reference = picture_png(reference, report.exposure, reduced);
   }
   if (!report.lit.empty()) pictures.lit = make_heat_map(report, report.lit, pictures.heat_top, reduced);
   return pictures;

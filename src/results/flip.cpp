@@ -317,8 +317,8 @@ std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const
   return HdrFlip(reference, exposures, pixels_per_degree).map(test);
 }
 
-DisplayedFlip displayed_flip(const Image& image, const Image& reference) {
-  const std::vector<uint8_t> shown = srgb_bytes(image), expected = srgb_bytes(reference);
+DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure) {
+  const std::vector<uint8_t> shown = srgb_bytes(image, exposure), expected = srgb_bytes(reference, exposure);
   if (shown == expected) return {};
   const auto displayed = [&](const std::vector<uint8_t>& bytes) {
     Image linear(image.width, image.height);

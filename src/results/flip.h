@@ -52,6 +52,6 @@ class HdrFlip {
 double mean_of(const std::vector<float>& map);
 
 // Between the pictures that PNG files show (srgb_bytes).
-DisplayedFlip displayed_flip(const Image& image, const Image& reference);
+DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure = {});
 
 }  // namespace lightgrid

@@ -144,6 +144,8 @@ const ImageError* light_error(const RunResult& row) {
   return error ? &*error : nullptr;
 }
 
+json exposure_json(const Exposure& exposure) { return {{"ev", exposure.ev}, {"auto", exposure.automatic}}; }
+
 json settings_json(const std::map<std::string, std::string>& settings) {
   json out = json::object();
   for (const auto& [name, value] : settings) out[json_key(name)] = value_of(value);
@@ -229,6 +231,7 @@ json to_json(const CompareReport& report) {
   json out = {{"scene", report.scene},
               {"size", {report.width, report.height}},
               {"ambient", {report.ambient.r, report.ambient.g, report.ambient.b}},
+              {"exposure", exposure_json(report.exposure)},
               {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
               {"commit", report.commit},
               {"reference",

@@ -138,6 +138,9 @@ const char* every_light_on(bool own_surfaces);
 // The error of the row's light apart from its surfaces: against every light on the same ones. Null if unknown.
 const ImageError* light_error(const RunResult& row);
 
+// {"ev", "auto"}
+nlohmann::json exposure_json(const Exposure& exposure);
+
 // Settings by the keys of results.json, numbers as numbers.
 nlohmann::json settings_json(const std::map<std::string, std::string>& settings);
 
@@ -181,6 +184,7 @@ struct CompareReport {
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
   std::optional<PathMemory> path_memory;  // absent without a camera path
+  Exposure exposure;                      // of every picture of this view
 };
 
 // The row that is the reference, possibly refused; null if there is none.

@@ -210,7 +210,12 @@ Camera choose_camera(const Scene& scene, const std::string& wish, double aspect)
   if (!wish.empty() && !wish.starts_with("eye:") && !wish.starts_with("target:"))
     return find_camera(scene, wish);
 
-  if (wish.empty()) return overview_camera(scene, aspect);
+  if (wish.empty()) {
+    std::optional<Camera> inside = room_camera(scene);
+    if (!inside) return overview_camera(scene, aspect);
+    inside->near_m = default_near_m(size_of(world_box(scene)));
+    return *inside;
+  }
   const LookAtWish parsed = parse_look_at(wish);
   Camera camera = look_at(parsed.eye, parsed.target);
   camera.fov_y_rad = parsed.fov_deg * (std::numbers::pi / 180);

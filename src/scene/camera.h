@@ -1,6 +1,7 @@
 // Cameras, and the matrices of a view.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/pixel_grid.h"
@@ -37,9 +38,9 @@ glm::dmat4 view_from_object(const View& view, const glm::dmat4& world_from_objec
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target);
 
 // NAME, INDEX or "eye:x,y,z,target:x,y,z,fov:deg,near:m" (fov vertical, default 60; near by default a
-// thousandth of the scene's size, and at most 0.1 m). Empty: the scene's first camera, or, without one, a
-// camera that shows the whole scene in an image of this aspect (overview_camera). Far is infinite unless the
-// scene's camera has one. Throws Error(input) for an unknown name or form, an invalid number, a field outside
+// thousandth of the scene's size, and at most 0.1 m). Empty: the scene's first camera, or, without one,
+// room_camera, else overview_camera in an image of this aspect. Far is infinite unless the scene's camera has
+// one. Throws Error(input) for an unknown name or form, an invalid number, a field outside
 // 0..180 degrees, a near that is not above 0, and a target at the eye.
 Camera choose_camera(const Scene& scene, const std::string& wish, double aspect = 1);
 
@@ -48,5 +49,10 @@ Camera choose_camera(const Scene& scene, const std::string& wish, double aspect 
 // (width / height) and a margin: the scene spans nine tenths of the image's width or height and is centred on
 // both axes. The caller sets near and far. Without geometry it looks at the origin.
 Camera overview_camera(const Scene& scene, double aspect);
+
+// A person's eye in a room, along its greatest length, 60 degrees high; named "room". Walls are front faces on
+// nearly all sides, at least 1.5 m away, over a floor. None in a scene below 3 x 2 x 3 m, without such a place,
+// or of more than two million triangles. The caller sets near and far.
+std::optional<Camera> room_camera(const Scene& scene);
 
 }  // namespace lightgrid

@@ -58,14 +58,14 @@ class KeyFile {
   explicit KeyFile(const std::string& path) : path_(path) {
     std::ifstream file(path);
     if (!file)
-      throw input_error("camera path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
+      throw input_error("camera-path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
     try {
       json_ = nlohmann::json::parse(file);
     } catch (const nlohmann::json::exception&) {
-      throw input_error("camera path {}: is not JSON", path);
+      throw input_error("camera-path {}: is not JSON", path);
     }
     if (!json_.is_object() || !json_.contains("keys") || !json_["keys"].is_array() || json_["keys"].empty()) {
-      throw input_error("camera path {}: has no \"keys\"", path);
+      throw input_error("camera-path {}: has no \"keys\"", path);
     }
     for (size_t i = 0; i < json_["keys"].size(); ++i) keys_.push_back(key(json_["keys"][i], i));
   }
@@ -89,7 +89,7 @@ class KeyFile {
     if (!json_.contains("frames")) return keys_.size();
     const nlohmann::json& frames = json_["frames"];
     if (!frames.is_number_unsigned() || frames < 1u || frames > unsigned(most_views)) {
-      throw input_error("camera path {}: frames is {}, not a number from 1 to {}", path_, frames.dump(),
+      throw input_error("camera-path {}: frames is {}, not a number from 1 to {}", path_, frames.dump(),
                         most_views);
     }
     return frames.get<size_t>();
@@ -99,14 +99,14 @@ class KeyFile {
     Key key{place(object, index, "eye"), place(object, index, "target")};
     if (!object.contains("fov")) return key;
     if (!object["fov"].is_number())
-      throw input_error("camera path {}: key {}: fov is not a number", path_, index);
+      throw input_error("camera-path {}: key {}: fov is not a number", path_, index);
     key.fov_deg = object["fov"].get<double>();
     return key;
   }
 
   glm::dvec3 place(const nlohmann::json& object, size_t index, const char* name) const {
     const auto wrong = [&] {
-      return input_error("camera path {}: key {}: {} is not three finite numbers", path_, index, name);
+      return input_error("camera-path {}: key {}: {} is not three finite numbers", path_, index, name);
     };
     if (!object.is_object() || !object.contains(name)) throw wrong();
     const nlohmann::json& values = object[name];
@@ -130,7 +130,7 @@ std::optional<int> count_of(const std::string& text, const std::string& name) {
   if (!text.starts_with(name + ":")) return {};
   const auto count = parse_number<int>(std::string_view(text).substr(name.size() + 1));
   if (!count || *count < 1 || *count > most_views)
-    throw input_error("camera path {}: not {}:N with N from 1 to {}", text, name, most_views);
+    throw input_error("camera-path {}: not {}:N with N from 1 to {}", text, name, most_views);
   return count;
 }
 
@@ -141,7 +141,7 @@ std::vector<View> camera_path(const Scene& scene, const View& start, const std::
   if (const auto count = count_of(path, "dolly")) return dolly(scene, start, *count);
   std::vector<View> views;
   for (const Key& key : KeyFile(path).views()) {
-    if (key.eye == key.target) throw input_error("camera path {}: a target is at its eye", path);
+    if (key.eye == key.target) throw input_error("camera-path {}: a target is at its eye", path);
     Camera camera = look_at(key.eye, key.target);
     camera.name = path;
     camera.fov_y_rad = glm::radians(key.fov_deg);

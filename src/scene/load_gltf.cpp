@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "scene/gltf/json.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/nodes.h"
 
@@ -14,8 +15,19 @@ bool has_channels(const Rig& rig) {
                      [](const Animation& animation) { return !animation.channels.empty(); });
 }
 
-Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits& limits) {
+std::vector<GltfExtension> extensions_of(const gltf::Document& doc) {
+  std::vector<GltfExtension> all;
+  for (const std::string& name : doc.model.extensionsUsed) {
+    const bool required = std::ranges::count(doc.model.extensionsRequired, name) > 0;
+    all.push_back({name, required, gltf::is_supported_extension(name)});
+  }
+  return all;
+}
+
+Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits& limits,
+           std::vector<GltfExtension>* extensions) {
   gltf::Document doc = gltf::read_document(path, limits);
+  if (extensions) *extensions = extensions_of(doc);
   std::vector<gltf::PlacedNode> nodes = gltf::place_nodes(doc, scene_index);
   Rig rig{.file = path.string(),
           .nodes = {},
@@ -37,9 +49,10 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path, int scene, const GltfLimits& limits) {
+Scene load_gltf(const std::filesystem::path& path, int scene, const GltfLimits& limits,
+                std::vector<GltfExtension>* extensions) {
   try {
-    return load(path, scene, limits);
+    return load(path, scene, limits, extensions);
   } catch (const std::bad_alloc&) {
     throw machine_error("{}: not enough memory to load it", path.string());
   }

@@ -18,11 +18,18 @@ struct GltfLimits {
   size_t max_file_bytes = size_t(2) << 30;
 };
 
+struct GltfExtension {
+  std::string name;
+  bool required = false, supported = false;
+};
+
 // Loads .gltf or .glb by content, scene `scene` of the file or its default one at -1. The scene is at rest:
 // nodes, joints and morph weights as in the file. If it has animations of this scene's nodes, Scene::rig
 // holds them, and set_time (scene/animation.h) plays them. Throws Error(input) in one line that names the
 // file, the field and the value. Each optional and unsupported feature (an extension, points) gives one
 // warning on stderr. Reads only regular files in the file's own folder and below. Deterministic.
-Scene load_gltf(const std::filesystem::path& path, int scene = -1, const GltfLimits& limits = {});
+// `extensions`: those that the file names, in its order.
+Scene load_gltf(const std::filesystem::path& path, int scene = -1, const GltfLimits& limits = {},
+                std::vector<GltfExtension>* extensions = nullptr);
 
 }  // namespace lightgrid

@@ -146,7 +146,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
     ImageError error = error_of(m.every_light_on_own, m);
-    error.displayed = displayed_flip(m.every_light_on_own, m.reference.image);
+    error.displayed = displayed_flip(m.every_light_on_own, m.reference.image, report.exposure);
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
@@ -160,12 +160,12 @@ void set_errors(RunResult& row, const Image& image, const CompareReport& report,
   const bool other_surfaces = row.own_surfaces && !m.reference.run().frame().triangles;
   if (other_surfaces && !every_light.pixels.empty()) {
     row.same_surfaces = compare_images(image, every_light, report.brightest);
-    row.same_surfaces->displayed = displayed_flip(image, every_light);
+    row.same_surfaces->displayed = displayed_flip(image, every_light, report.exposure);
     if (row.same_surfaces->bit_identical) row.error = report.own_surfaces->error;
   }
   if (!row.error) row.error = error_of(image, m);
   if (other_surfaces || m.reference.sampled()) return;
-  row.error->displayed = displayed_flip(image, m.reference.image);
+  row.error->displayed = displayed_flip(image, m.reference.image, report.exposure);
   if (row.own_surfaces) row.same_surfaces = row.error;
 }
 
@@ -351,6 +351,8 @@ CompareReport measure(const Compared& compared) {
   report.reference_pixels = reference.sampled() ? reference.sampled_pixels().size() : view.grid().pixels();
   Measured m = measured(reference, compared.options.flip);
   report.brightest = brightest_channel(reference.image);
+  if (compared.options.exposure && !reference.sampled())
+    report.exposure = compared.options.exposure(reference.image);
   report.covered_pixels = covered_pixels(m.depth).size();
   draw_every_light_on_own_surfaces(report, compared, entries, m);
   measure_rows(report, compared, entries, m);

@@ -29,6 +29,7 @@ struct CompareOptions {
   std::vector<View> path;           // further frames with a moving camera: RunResult::moving
   SceneMotion advance;              // motion of the scene along that path; empty: at rest
   bool flip = false;            // HDR-FLIP of each image (results/flip.h), unless the reference is a sample
+  std::function<Exposure(const Image& reference)> exposure;  // of pictures as displayed; empty: none
   bool all_may_refuse = false;  // if all contestants are refused, report that instead of throwing
   // Called after each step with the progress (0 to 1) and the next step's name.
   std::function<void(double done, const std::string& step)> progress;

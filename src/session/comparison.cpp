@@ -43,6 +43,14 @@ std::vector<SceneChoice> chosen_views(const CompareChoice& choice) {
   return views;
 }
 
+// The reference's, else the first.
+const Image& picture_of(const CompareReport& report) {
+  size_t row = 0;
+  while (row + 1 < report.rows.size() && image_of(report, row).pixels.empty()) ++row;
+  const Image& reference = reference_image(report);
+  return reference.pixels.empty() ? image_of(report, row) : reference;
+}
+
 // A view's cost relative to the others, roughly: pixels, and pixels times lights for techniques without
 // lists.
 double cost_of(const LoadedView& view) {
@@ -88,6 +96,7 @@ void run_comparison(const Comparison& comparison,
   Renderer devices(choice.devices.device, parse_gl_backend(choice.devices.gl));
   const std::vector<Contestant> contestants = runnable(comparison, devices);
   const size_t count = comparison.views.size();
+  const std::vector<SceneChoice> choices = chosen_views(choice);
   double total = 0, before = 0;
   for (const LoadedView& view : comparison.views) total += cost_of(view);
   for (size_t i = 0; i < count; ++i) {
@@ -106,8 +115,12 @@ void run_comparison(const Comparison& comparison,
     options.progress = [&](double done, const std::string& step) {
       if (progress) progress((before + done * cost) / total, which + step);
     };
+    options.exposure = [&](const Image& reference) { return chosen_exposure(choices[i], reference); };
     options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
-    found(compare_techniques(devices, scene, view.view, contestants, options));
+    CompareReport report = compare_techniques(devices, scene, view.view, contestants, options);
+    report.exposure = chosen_exposure(choices[i], picture_of(report));
+    tell_exposure(report.exposure, which);
+    found(std::move(report));
     before += cost;
   }
 }

@@ -101,6 +101,39 @@ std::vector<Contestant> named_contestants(const std::vector<std::string>& items,
   return contestants;
 }
 
+void take_own_settings(std::string& technique, std::vector<std::string>& set) {
+  std::vector<std::string> items;
+  for (size_t begin = 0; begin < technique.size();) {
+    const size_t end = std::min(technique.find(',', begin), technique.size());
+    items.push_back(technique.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (items.empty()) return;
+  const size_t count = named_contestants(items, {}).size();
+  if (count != 1)
+    throw input_error("technique {}: {} techniques; one is drawn here, and compare takes several", technique, count);
+  const size_t colon = technique.find(':');
+  technique = technique.substr(0, colon);
+  if (colon == std::string::npos) return;
+  items[0] = items[0].substr(colon + 1);
+  set.insert(set.end(), items.begin(), items.end());
+}
+
+void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques, bool grid) {
+  for (const std::string& key : settings.given) {
+    const auto reads = [&](const Technique* technique) { return reads_setting(*technique, key); };
+    if (std::ranges::any_of(techniques, reads)) continue;
+    if (grid && std::ranges::count(culling_settings(), key) > 0) continue;
+    std::vector<std::string> names;
+    for (const Technique* technique : techniques) names.emplace_back(technique->name);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    const bool one = names.size() == 1;
+    throw input_error("set {}: {} {} not read it, and it would change nothing; lightgrid techniques lists what each reads",
+                      key, fmt::join(names, ", "), one ? "does" : "do");
+  }
+}
+
 std::vector<BenchContestant> contestants_of(const Settings& base, const std::vector<std::string>& comparisons,
                                             size_t most) {
   std::vector<BenchContestant> contestants{{"", base}};
@@ -127,6 +160,9 @@ std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techn
   contestants_of(common, comparisons, 64);  // reports an invalid comparison, even if no technique reads it
   const std::vector<Contestant> named = named_contestants(techniques, common);
   check_comparisons(named, comparisons);
+  std::vector<const Technique*> chosen;
+  for (const Contestant& contestant : named) chosen.push_back(contestant.technique);
+  check_given_settings(common, chosen);
   const std::vector<Contestant> all = swept(named, comparisons);
   check_same_picture(all);
   return all;

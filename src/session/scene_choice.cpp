@@ -57,7 +57,31 @@ float parse_ambient(const std::string& text) {
   return *radiance;
 }
 
+constexpr double most_exposure = 60;
+
+// Stops; empty: automatic.
+std::optional<double> parse_exposure(const SceneChoice& choice) {
+  if (choice.exposure.empty() && find_builtin_scene(choice.scene)) return 0;
+  if (choice.exposure.empty() || choice.exposure == "auto") return {};
+  const auto ev = parse_number<double>(choice.exposure);
+  if (!ev || !(std::abs(*ev) <= most_exposure))
+    throw input_error("exposure {}: neither auto nor a number of stops from {} to {}", choice.exposure,
+                      -most_exposure, most_exposure);
+  return ev;
+}
+
 }  // namespace
+
+Exposure chosen_exposure(const SceneChoice& choice, const Image& image) {
+  const std::optional<double> ev = parse_exposure(choice);
+  return ev ? Exposure{*ev} : automatic_exposure(image);
+}
+
+void tell_exposure(const Exposure& exposure, const std::string& view) {
+  if (!exposure.automatic || exposure.ev == 0) return;
+  log_info("{}pictures are exposed by {:+g} EV, chosen from the picture (--exposure {:g} keeps it, 0 is none)", view,
+           exposure.ev, exposure.ev);
+}
 
 std::optional<double> chosen_time(const SceneChoice& choice) {
   const std::string& text = choice.time;
@@ -72,9 +96,10 @@ Scene load_scene(const std::string& name) {
   if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
   std::error_code unreadable;  // a name too long, or an unreadable folder, is no file either
   if (!std::filesystem::exists(name, unreadable)) {
-    std::string names;
-    for (const BuiltinScene& s : builtin_scenes()) names += (names.empty() ? "" : ", ") + std::string(s.name);
-    throw input_error("{}: no such file, and no built-in scene of that name; there are {}", name, names);
+    std::vector<std::string> names;
+    for (const BuiltinScene& s : builtin_scenes()) names.emplace_back(s.name);
+    throw input_error("{}: no such file, and no built-in scene of that name{}; there are {}", name,
+                      did_you_mean(name, names), fmt::join(names, ", "));
   }
   return load_gltf(name);
 }
@@ -88,7 +113,12 @@ ImageSize parse_size(const std::string& text) {
 
 View choose_view(Scene& scene, const SceneChoice& choice) {
   const ImageSize size = parse_size(choice.size);
-  if (const auto seconds = chosen_time(choice)) set_time(scene, seconds);
+  parse_exposure(choice);
+  if (const auto seconds = chosen_time(choice)) {
+    set_time(scene, seconds);
+    if (animation_count(scene) == 0 && choice.light_motion == "none")
+      log_warning("time {}: {} has no animation; it changes nothing", choice.time, choice.scene);
+  }
   check_light_radius(choice);
   std::string camera = choice.camera;
   if (!choice.lights_file.empty()) {
@@ -97,8 +127,14 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
   } else if (choice.lights >= 0) {
     scatter_over(scene, choice);
   }
-  const View view =
-      make_view(choose_camera(scene, camera, double(size.width) / size.height), size.width, size.height);
+  const Camera chosen = choose_camera(scene, camera, double(size.width) / size.height);
+  if (camera.empty() && scene.cameras.empty()) {
+    const glm::dvec3 eye(chosen.world_from_view[3]), target = eye - glm::dvec3(chosen.world_from_view[2]);
+    log_info("{}: no camera; {} (--camera eye:{:.6g},{:.6g},{:.6g},target:{:.6g},{:.6g},{:.6g})", choice.scene,
+             chosen.name == "room" ? "the eye stands in the room" : "the whole is seen from outside", eye.x, eye.y,
+             eye.z, target.x, target.y, target.z);
+  }
+  const View view = make_view(chosen, size.width, size.height);
   if (scene.lights.empty() && choice.lights < 0 && choice.lights_file.empty()) {
     log_info("{}: no lights; adding a key and a fill light fixed to the camera (lights 0: none)",
              choice.scene);
@@ -129,12 +165,16 @@ SceneMotion chosen_motion(Scene& scene, const SceneChoice& choice) {
 }
 
 std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneChoice& choice) {
-  return choice.camera_path.empty() ? std::vector<View>() : camera_path(scene, start, choice.camera_path);
+  if (!choice.camera_path.empty()) return camera_path(scene, start, choice.camera_path);
+  if (light_motion(choice.light_motion) != LightMotion::none)
+    log_warning("light-motion {}: lights move along a camera-path; without one they stand still", choice.light_motion);
+  return {};
 }
 
 ChosenScene load_chosen_scene(const SceneChoice& choice) {
   parse_size(choice.size);  // reports faults in these before the scene is loaded
   check_light_radius(choice);
+  parse_exposure(choice);
   if (!choice.ambient.empty()) parse_ambient(choice.ambient);
   ChosenScene chosen{load_scene(choice.scene), {}};
   chosen.view = choose_view(chosen.scene, choice);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "plan/settings.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -29,6 +30,7 @@ struct SceneChoice {
   uint64_t seed = 1;
   std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;
+  std::string exposure;  // of pictures: stops, or auto; empty: auto for files, 0 for built-in scenes
 };
 
 struct DeviceOptions {
@@ -63,6 +65,10 @@ struct ChosenScene {
 };
 ChosenScene load_chosen_scene(const SceneChoice& choice);
 Settings chosen_settings(const SceneChoice& choice);
+// Of the pictures of a run; auto from `image`, and 0 if that has no pixels.
+Exposure chosen_exposure(const SceneChoice& choice, const Image& image);
+// In the log, if it was chosen here and is not 0. `view` begins the line.
+void tell_exposure(const Exposure& exposure, const std::string& view = "");
 
 // The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened
 // only if the technique needs it or `gl` names a backend. Throws Error(input) for an unknown name,

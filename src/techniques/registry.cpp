@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/text.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -25,7 +26,10 @@ const Technique& find_technique(const std::string& name) {
   for (const Technique* technique : techniques()) {
     if (technique->name == name) return *technique;
   }
-  throw input_error("technique \"{}\": unknown name; techniques are {}", name, technique_names());
+  std::vector<std::string> names;
+  for (const Technique* technique : techniques()) names.emplace_back(technique->name);
+  throw input_error("technique \"{}\": unknown name{}; techniques are {}", name, did_you_mean(name, names),
+                    technique_names());
 }
 
 }  // namespace lightgrid

@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     OfOthers, WrongArguments,
     testing::Values(
-        Wrong{"UnknownCommand", {"rendre"}, {"rendre"}}, Wrong{"NoCommand", {}, {"subcommand"}},
+        Wrong{"UnknownCommand", {"rendre"}, {"rendre"}},
         Wrong{"CompareUnknownTechnique",
               {"compare", scene, "-t", "forward,magic", "-o", "FOLDER/r"},
               {"magic"}},

@@ -69,6 +69,29 @@ TEST(SrgbBytes, BottomRowOfTheImageIsLastInTheBytes) {
   EXPECT_THAT(srgb_bytes(image), ElementsAre(0, 0, 0, 255, 255, 255));
 }
 
+// By -2 EV a quarter is left.
+TEST(SrgbBytes, ExposureScalesBeforeTheToneMap) {
+  EXPECT_EQ(srgb_bytes(one_pixel({2.f, 1.f, 0.25f}), {-2}), srgb_bytes(one_pixel({0.5f, 0.25f, 0.0625f})));
+  EXPECT_THAT(srgb_bytes(one_pixel({nan_value, 0, 0}), {3}), ElementsAre(255, 0, 255));
+}
+
+// The mean of the logarithms of 18 and 72 (0.18 times 100 and 400) is 0.18 times 200: -7.64 stops.
+TEST(AutomaticExposure, IsThatOfTheLogarithmicMeanToHalfAStop) {
+  Image image(2, 2);
+  image.at(0, 0) = glm::vec4(18, 18, 18, 1);
+  image.at(1, 0) = glm::vec4(72, 72, 72, 1);
+  EXPECT_EQ(automatic_exposure(image).ev, -7.5) << "black pixels are left out";
+  image.at(0, 1) = glm::vec4(infinity);
+  image.at(1, 1) = glm::vec4(nan_value);
+  EXPECT_EQ(automatic_exposure(image).ev, -7.5);
+  image.at(0, 1) = image.at(1, 1) = glm::vec4(73e-4f, 73e-4f, 73e-4f, 1);
+  EXPECT_EQ(automatic_exposure(image).ev, -1.5) << "a ten-thousandth counts";
+  image.at(0, 1) = image.at(1, 1) = glm::vec4(71e-4f, 71e-4f, 71e-4f, 1);
+  EXPECT_EQ(automatic_exposure(image).ev, -7.5) << "less does not";
+  EXPECT_EQ(automatic_exposure(Image(3, 3)).ev, 0);
+  EXPECT_EQ(automatic_exposure(Image()).ev, 0);
+}
+
 TEST(SrgbBytes, AsIsSkipsTheToneMap) {
   EXPECT_THAT(srgb_bytes_as_is(one_pixel({1.f, 0.5f, 7.f})), ElementsAre(255, 188, 255));
 }

@@ -241,11 +241,11 @@ TEST(Choices, AreTheFastestExactTheFastestThatLooksItAndTheSmallest) {
   EXPECT_THAT(names(all), ElementsAre("forward_plus", "deferred", "forward"));
   EXPECT_EQ(all[0].figure, "214 ms");
   EXPECT_EQ(all[0].sure,
-            "200 to 230 ms in 5 frames: each faster than all of the next, forward (2,420 ms)");
+            "200 to 230 ms in 5 frames: every frame is faster than any of the next, forward (2,420 ms)");
   EXPECT_EQ(all[1].why, "FLIP of the pictures as displayed is above 0.05 at 0.001 % of the pixels");
   EXPECT_EQ(all[1].sure,
-            "FLIP as displayed may be above 0.05 at one pixel of 10,000; 90.0 to 110 ms in 5 frames: each faster "
-            "than all of the next, forward_plus (214 ms)");
+            "FLIP as displayed may be above 0.05 at one pixel of 10,000; 90.0 to 110 ms in 5 frames: every "
+            "frame is faster than any of the next, forward_plus (214 ms)");
   EXPECT_EQ(all[2].figure, "1.00 MiB");
   EXPECT_EQ(all[2].why, "2,420 ms a frame; the next, forward_plus, takes 2.00 MiB");
 }
@@ -258,7 +258,7 @@ TEST(Choices, SayHowSureTheyAre) {
   EXPECT_THAT(choices(report)[0].sure, testing::EndsWith("5 frames: not surely faster than clustered (240 ms)"));
   report.rows[2].frame_ms.min = 215;
   EXPECT_THAT(choices(report)[0].sure,
-              testing::EndsWith("the median is below all frames of the next, clustered (240 ms)"));
+              testing::EndsWith("the median is below every frame of the next, clustered (240 ms)"));
   report.rows[1].frame_ms.runs = 1;
   EXPECT_EQ(choices(report)[0].sure, "one frame makes no interval: --frames 5 gives one");
 }

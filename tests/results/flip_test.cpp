@@ -151,6 +151,7 @@ TEST(Flip, AsDisplayedComparesTheBytesOfThePictures) {
   }
   EXPECT_EQ(displayed_flip(near, reference).mean, 0);
   EXPECT_EQ(displayed_flip(near, reference).visible, 0);
+  EXPECT_GT(displayed_flip(near, reference, {.ev = 16}).visible, 0) << "exposed";
   EXPECT_GT(displayed_flip(far, reference).mean, 0.2);
   EXPECT_GE(displayed_flip(far, reference).visible, 0.25);
 }

@@ -303,6 +303,39 @@ TEST(ChooseCamera, DefaultKeepsItsDistanceFromALine) {
   EXPECT_GT(-(view.view_from_world * glm::dvec4(0.62, 0.45, 0.78, 1)).z, 2 * camera.near_m);
 }
 
+// A box of `size` with its floor at y = 0; `inside`: its faces look inwards.
+Scene box_of(const glm::dvec3& size, bool inside) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 0.5f : -0.5f, i & 2 ? 1 : 0, i & 4 ? 0.5f : -0.5f);
+  mesh.indices = {0, 1, 3, 0, 3, 2, 5, 4, 6, 5, 6, 7, 4, 0, 2, 4, 2, 6, 1, 5, 7, 1, 7, 3, 4, 5, 1, 4, 1, 0, 2, 3, 7, 2, 7, 6};
+  if (!inside) std::ranges::reverse(mesh.indices);
+  for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
+  scene.instances.push_back({"box", 0, glm::scale(glm::dmat4(1), size)});
+  return scene;
+}
+
+TEST(ChooseCamera, DefaultStandsInARoom) {
+  const Camera camera = choose_camera(box_of({20, 4, 8}, true), "");
+  EXPECT_EQ(camera.name, "room");
+  EXPECT_NEAR(camera.world_from_view[3].y, 1.7, 1e-12) << "an eye's height above the floor";
+  EXPECT_GT(std::abs(camera.world_from_view[3].x), 7) << "near an end";
+  EXPECT_LT(std::abs(camera.world_from_view[3].x), 10);
+  const double towards = -camera.world_from_view[2].x * camera.world_from_view[3].x;
+  EXPECT_LT(towards, 0) << "looks along its length";
+  EXPECT_EQ(choose_camera(box_of({-20, 4, 8}, true), "").name, "room") << "glTF turns a mirrored node's winding";
+  EXPECT_EQ(choose_camera(box_of({-20, 4, 8}, false), "").name, "overview");
+}
+
+TEST(ChooseCamera, DefaultStaysOutsideOfWhatIsNoRoom) {
+  EXPECT_EQ(choose_camera(box_of({20, 4, 8}, false), "").name, "overview") << "a building from outside";
+  EXPECT_EQ(choose_camera(box_of({0.2, 0.04, 0.08}, true), "").name, "overview") << "a box on a table";
+  EXPECT_EQ(choose_camera(box_of({20, 4, 2.9}, true), "").name, "overview") << "too narrow";
+  Scene open = box_of({20, 4, 8}, true);
+  open.meshes[0].indices.resize(12);  // two walls
+  EXPECT_EQ(choose_camera(open, "").name, "overview");
+}
+
 TEST(ChooseCamera, EmptySceneStillHasAView) {
   const View view = make_view(choose_camera(Scene(), ""), 1, 1);
   EXPECT_TRUE(std::isfinite(view.view_from_world[3].z));
