@@ -8,7 +8,7 @@
 
 #include "shared/brdf.h"
 #include "shared/model_records.h"
-#include "shared/octahedral.h"
+#include "shared/stored_normal.h"
 
 #if defined(SKIN) || defined(MINNAERT)
 #define MODELS

@@ -6,9 +6,9 @@
 // -DZ_BINS    lights whose z-bin range misses the pixels are skipped
 // -DSPOTS     some light has a cone: shared/light_table.h
 // -DBLINN     the specular lobe is Blinn-Phong, not GGX
-// -DLAMBERT   there is none: shared/brdf_lambert.h
-// -DCLEARCOAT  some surface has a coat: shared/brdf_microfacet.h
-// -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf_microfacet.h
+// -DLAMBERT   there is none: shared/brdf.h
+// -DCLEARCOAT  some surface has a coat: shared/brdf.h
+// -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf.h
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
 #pragma once
 

@@ -17,7 +17,7 @@
 // In 32 bits the normal is stored directly: the two roundings of an octahedral one are visible in lobes of
 // polished surfaces.
 
-#include "shared/octahedral.h"
+#include "shared/stored_normal.h"
 
 // LARGEST: the stored integer of 1. Steps of a normal's channel on either side of 0. 0 is itself a step:
 // axis-aligned walls keep their normals.
@@ -56,7 +56,7 @@ struct Coat {
 
 vec2 signs(vec2 v) { return vec2(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0); }
 
-// The inverse: shared/octahedral.h.
+// The inverse: normal_of_octahedral.
 vec2 octahedral(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   return n.z < 0.0 ? (1.0 - abs(p.yx)) * signs(p) : p;

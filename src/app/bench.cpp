@@ -12,7 +12,7 @@
 #include "app/progress.h"
 #include "base/error.h"
 #include "bench/bench.h"
-#include "bench/row_filter.h"
+#include "bench/rows.h"
 #include "bench/tune.h"
 #include "capture/capture.h"
 

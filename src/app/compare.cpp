@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/write_file.h"
+#include "report/against.h"
 #include "report/report.h"
 #include "results/words.h"
 #include "session/comparison.h"
@@ -20,7 +23,7 @@ namespace {
 
 struct CompareCommand {
   CompareChoice choice;
-  std::string output = "out/compare", json;
+  std::string output = "out/compare", json, against;
   int page_mb = 30;
 };
 
@@ -39,6 +42,16 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
   return failed;
 }
 
+// Prints what is worse than in an earlier results.json. Returns whether anything is.
+bool is_worse(const CompareCommand& o, const nlohmann::json& earlier, const nlohmann::json& now) {
+  if (o.against.empty()) return false;
+  const AgainstResult result = results_against(now, earlier, o.against);
+  for (const std::string& note : result.told) log_info("against {}: {}", o.against, note);
+  for (const std::string& fault : result.worse)
+    fmt::print(stderr, "lightgrid: against {}: {}\n", o.against, fault);
+  return !result.worse.empty();
+}
+
 void print_report(const CompareCommand& o, const std::string& json, const std::vector<std::string>& figures) {
   if (!o.json.empty()) write_json(o.json, json);
   if (o.json == "-") return;
@@ -46,16 +59,17 @@ void print_report(const CompareCommand& o, const std::string& json, const std::v
   for (const std::string& figure : figures) fmt::print("  {}\n", figure);
 }
 
-int compare_one(const CompareCommand& o, Comparison comparison) {
+int compare_one(const CompareCommand& o, Comparison comparison, const nlohmann::json& earlier) {
   CompareReport report;
   run_comparison(comparison, progress_bar(), [&](CompareReport found) { report = std::move(found); });
   comparison = {};  // pictures and pages are made without the scene
   write_report(o.output, report);
   print_report(o, json_text(report), telling_figures(report));
-  return tell_failures(report, "") ? 1 : 0;
+  const bool failed = tell_failures(report, "");
+  return is_worse(o, earlier, to_json(report)) || failed ? 1 : 0;
 }
 
-int compare_several(const CompareCommand& o, const Comparison& comparison) {
+int compare_several(const CompareCommand& o, const Comparison& comparison, const nlohmann::json& earlier) {
   ViewsReport report(o.output, comparison.views.size(), size_t(o.page_mb) << 20);
   bool failed = false;
   run_comparison(comparison, progress_bar(), [&](CompareReport found) {
@@ -64,15 +78,16 @@ int compare_several(const CompareCommand& o, const Comparison& comparison) {
   });
   report.write();
   print_report(o, report.json_text(), report.sentences());
-  return failed ? 1 : 0;
+  return is_worse(o, earlier, to_json(report.views())) || failed ? 1 : 0;
 }
 
 int compare(const CompareCommand& o) {
+  const nlohmann::json earlier = o.against.empty() ? nlohmann::json() : read_results_json(o.against);
   Comparison comparison = load_comparison(o.choice);
   if (!o.json.empty()) check_output_file("--json", o.json);
   make_folder(o.output);
-  return comparison.views.size() == 1 ? compare_one(o, std::move(comparison))
-                                      : compare_several(o, comparison);
+  return comparison.views.size() == 1 ? compare_one(o, std::move(comparison), earlier)
+                                      : compare_several(o, comparison, earlier);
 }
 
 }  // namespace
@@ -103,6 +118,8 @@ void add_compare(CommandLine& line) {
   command.option("-o,--output", o->output, "folder of the report");
   command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1,
                  1000);
+  command.option("--against", o->against,
+                 "an earlier results.json: exit 1 if a row is slower or less exact, and say which");
   command.option("--json", o->json, "results.json also into a file, - for stdout");
 }
 

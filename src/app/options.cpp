@@ -64,6 +64,8 @@ void check_output_file(const std::string& option, const std::filesystem::path& p
     throw input_error("{} {}: is a folder, not a file", option, path.string());
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, unreadable)) {
+    if (unreadable && unreadable != std::errc::no_such_file_or_directory)
+      throw input_error("{} {}: {}: {}", option, path.string(), folder.string(), unreadable.message());
     throw input_error("{} {}: there is no folder {}", option, path.string(), folder.string());
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {

@@ -34,7 +34,8 @@ void print_techniques() {
   fmt::print(
       "\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
   for (const SettingHelp& s : setting_help()) {
-    fmt::print("{:<{}}{}: {}\n", s.key, column, fmt::join(s.values, " "), s.meaning);
+    fmt::print("{:<{}}{}{}: {}\n", s.key, column, fmt::join(s.values, " "), s.any_number ? " or any number" : "",
+               s.meaning);
   }
 }
 
@@ -47,7 +48,7 @@ nlohmann::ordered_json to_json() {
         {{"name", t->name}, {"summary", t->summary}, {"source", t->source}, {"settings", t->settings}});
   }
   for (const SettingHelp& s : setting_help()) {
-    json["settings"].push_back({{"key", s.key}, {"values", s.values}, {"meaning", s.meaning}});
+    json["settings"].push_back({{"key", s.key}, {"values", s.values}, {"meaning", s.meaning}, {"any_number", s.any_number}});
   }
   return json;
 }

@@ -32,10 +32,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   size_t least = std::min(std::max<size_t>(word.size() / 2, 2) + 1, word.size());
   const std::string* nearest = nullptr;
   for (const std::string& name : names) {
-    if (const size_t apart = letters_apart(word, name); apart < least) least = apart, nearest = &name;
-  }
-  for (const std::string& name : names) {  // the beginning of a name
-    if (!nearest && word.size() > 1 && name.starts_with(word)) nearest = &name;
+    const bool begins = word.size() > 2 && name.starts_with(word);
+    if (const size_t apart = begins ? 0 : letters_apart(word, name); apart < least) least = apart, nearest = &name;
   }
   return nearest ? "; did you mean " + *nearest + "?" : "";
 }

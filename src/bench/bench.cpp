@@ -5,10 +5,9 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "bench/raster_run.h"
-#include "bench/row_filter.h"
+#include "bench/runs.h"
 #include "scene/builtin.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -62,6 +61,12 @@ CapturedFrame frame_of(const BenchCase& c) {
   return frame;
 }
 
+Rounds rounds_of(const BenchOptions& options, const BenchCase& c) {
+  Rounds rounds{options.warmup, options.frames, {}};
+  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
+  return rounds;
+}
+
 // The rows of one case, with ratios to those of the first contestant.
 std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, const MeasuredFrame& measured,
                                    const Limits& limits) {
@@ -82,19 +87,14 @@ std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, c
 std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, const BenchOptions& options,
                                    const BenchCase& c, const CapturedFrame& frame, const Limits& limits) {
   std::vector<std::unique_ptr<CullingRun>> runs;
-  std::vector<CullingRun*> in_turn;
   const cl::Buffer depth = upload_depth(device, frame);
   std::vector<BenchContestant> contestants = options.contestants;
   for (BenchContestant& contestant : contestants) {
     if (c.tile) contestant.settings.tile = c.tile;
     if (c.captured && options.own_tile) contestant.settings.tile = frame.tile;
     runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, contestant.settings));
-    in_turn.push_back(runs.back().get());
   }
-  PlainRead read(device, programs);
-  Rounds rounds{options.warmup, options.frames, {}};
-  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
-  const MeasuredFrame measured = measure_in_turn(device, in_turn, read, rounds);
+  const MeasuredFrame measured = measure_in_turn(device, programs, runs, rounds_of(options, c));
 
   std::vector<ContestantParams> about;
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -116,10 +116,8 @@ std::vector<BenchRow> measure_raster(ClDevice& device, ProgramCache& programs, c
                                                contestant.settings));
     work.push_back([run = runs.back().get()] { run->run(); });
   }
-  Rounds rounds{options.warmup, options.frames, {}};
-  if (options.step) rounds.progress = [&](double done) { options.step(done, c.name); };
   MeasuredFrame measured;
-  measured.runs = time_in_turn(device, work, rounds, [](bool) {});
+  measured.runs = time_in_turn(device, work, rounds_of(options, c), [](bool) {});
   std::vector<ContestantParams> about;
   for (size_t i = 0; i < runs.size(); ++i) {
     const KernelWork of_run = runs[i]->work();

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases.h"
 #include "bench/rows.h"
+#include "bench/standard_frames.h"
 
 namespace lightgrid {
 

@@ -2,16 +2,23 @@
 #pragma once
 
 #include <optional>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/cases.h"
-#include "bench/kernel_costs.h"
 #include "bench/measure.h"
 
 namespace lightgrid {
+
+// Lower bounds of a kernel's memory traffic and arithmetic, for its limit.
+struct KernelCost {
+  double bytes = 0, flops = 0;
+};
+
+// By the label of a launch; empty if the table does not contain it.
+std::optional<KernelCost> kernel_cost(const std::string& label, const KernelWork& work);
 
 struct BenchRow {
   std::string name;  // a kernel's label, "pipeline", "pipeline_device", "plain_read", "upload_lights", …
@@ -41,5 +48,19 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
 nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device);
 std::string table_line(const BenchRow& row);
 std::string table_head();
+
+// The regular expression of `bench --filter`.
+class RowFilter {
+ public:
+  // ECMAScript syntax; empty keeps all. Throws Error(input) if it is invalid or too long.
+  explicit RowFilter(const std::string& expression);
+
+  // True if it matches anywhere in "CASE/ROW".
+  bool keeps(const std::string& case_name, const std::string& row_name) const;
+
+ private:
+  bool all_ = true;
+  std::regex expression_;
+};
 
 }  // namespace lightgrid

@@ -51,10 +51,8 @@ void run_on(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame
     if (failure) candidate.failure = failure->what();
   }
   if (runs.empty()) return;
-  std::vector<CullingRun*> in_turn;
-  for (const auto& run : runs) in_turn.push_back(run.get());
-  PlainRead read(device, programs);
-  const MeasuredFrame measured = measure_in_turn(device, in_turn, read, {options.warmup, options.frames, {}});
+  const MeasuredFrame measured =
+      measure_in_turn(device, programs, runs, {options.warmup, options.frames, {}});
   for (size_t i = 0; i < running.size(); ++i) running[i]->log_sum += std::log(measured.runs[i].wall.median);
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cl/tuned_sizes.h"
 #include "bench/standard_frames.h"
+#include "cl/tuned_sizes.h"
 
 namespace lightgrid {
 

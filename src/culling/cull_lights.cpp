@@ -7,7 +7,7 @@
 #include "cl/launch.h"
 #include "cl/transfer.h"
 #include "culling/culler_state.h"
-#include "shared/cull_settings.h"
+#include "shared/cull_tests.h"
 
 namespace lightgrid {
 

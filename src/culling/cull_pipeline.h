@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "cl/buffers.h"
 #include "cl/device.h"
-#include "cl/growing_buffer.h"
 #include "cl/program_cache.h"
 #include "shared/cull_params.h"
 #include "shared/cull_settings.h"

@@ -6,8 +6,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "culling/depth_ranges.h"
-#include "culling/oblique_view.h"
+#include "culling/view_depth.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {

@@ -3,11 +3,10 @@
 
 #include <optional>
 
-#include "cl/growing_buffer.h"
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
-#include "culling/oblique_view.h"
+#include "culling/view_depth.h"
 #include "shared/light_grid.h"
 
 namespace lightgrid {
@@ -17,7 +16,7 @@ inline constexpr size_t counter_count = 8;
 // than a fill.
 inline constexpr uint invalid_tiles_counters[2] = {2, 6};
 
-// How many values depth bounds have a tile (kernels/culling/depth_bounds.h).
+// The number of values that depth bounds have a tile (kernels/culling/depth_bounds.h).
 inline int planes_of(DepthBoundsMode mode) {
   if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
   return mode == DepthBoundsMode::mask32 ? 3 : 2;

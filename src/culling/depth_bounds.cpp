@@ -31,7 +31,7 @@ cl::Buffer LightCuller::State::empty_bounds(int planes, float near, float far) {
   return buffer;
 }
 
-// Where kernels find the view's values in the depth buffer.
+// Sets where kernels find the view's values in the depth buffer.
 void LightCuller::State::read_layout(const DepthInput& depth) {
   if (!depth.values()) throw input_error("depth_bounds: the buffer of depth values is missing");
   if (depth.x < 0) throw input_error("depth_bounds: x is {}", depth.x);
@@ -70,7 +70,7 @@ cl::Buffer LightCuller::State::straight_depth(const DepthInput& depth, uint firs
   return straight;
 }
 
-// What depth_bounds returns, from its buffers.
+// Makes the result of depth_bounds from its buffers.
 DepthBounds LightCuller::State::own_bounds(DepthBoundsMode mode, const cl::Buffer& blend) {
   if (!bounds_view_) bounds_view_ = std::make_shared<BoundsView>();
   *bounds_view_ = view_;

@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double error_factor = 1.001, error_slack = 1e-9;  // rounding of another compiler or driver
-
 struct GatePoint {
   const json* value = nullptr;
   std::string name;  // "hall, forward_plus:tile=8"
@@ -107,7 +105,7 @@ class PointComparison {
     if (!before) return;  // was not finite, or not measured
     if (!value) {
       result_.worse.push_back(fmt::format("{} is not finite, earlier {:.3g}", what, *before));
-    } else if (*value > error_factor * *before + error_slack) {
+    } else if (grew(*value, *before)) {
       result_.worse.push_back(fmt::format("{} grew from {:.4g} to {:.4g}", what, *before, *value));
     }
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 
 namespace lightgrid {
 namespace {

@@ -168,9 +168,7 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
 
 // From the near plane to the farthest surface in view.
 void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_m, FramePlan& plan) {
-  const bool sliced = needs.slices || (needs.given_slices && plan.settings.given.contains("slices"));
-  plan.slices = sliced ? plan.settings.slices : 1;
-  if (needs.given_slices) plan.settings.slices = plan.slices;
+  plan.slices = needs.slices ? plan.settings.slices : 1;
   const double far_m = std::min(farthest_m, view.far_m);
   plan.slice_near_m = view.near_m;
   plan.slice_far_m = far_m > view.near_m ? far_m : view.near_m + 1;
@@ -179,10 +177,9 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
   plan.decisions.push_back(
       {"depth slices", needed,
        needed ? fmt::format("{} from {:.3g} m to {:.3g} m", plan.slices, plan.slice_near_m, plan.slice_far_m)
-       : needs.given_slices && !sliced ? "slices is not given"
-       : !sliced                       ? "the technique uses none"
-       : plan.light_grid               ? "slices=1"
-                                       : "no light grid"});
+       : !needs.slices   ? needs.no_slices
+       : plan.light_grid ? "slices=1"
+                         : "no light grid"});
   plan.decisions.push_back({"z-bins", plan.z_bins > 1,
                             plan.z_bins > 1   ? fmt::format("{} between the same distances", plan.z_bins)
                             : !needs.z_bins   ? "the technique's shading reads none"
@@ -190,14 +187,8 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
-bool reads_light_grid(const TechniqueNeeds& needs, const Settings& settings) {
-  if (needs.exact_lights && settings.voxel_lights_exact == 0) return false;
-  if (needs.prepass_lights && draws_light_volumes(needs, settings)) return false;
-  return needs.light_grid && !(needs.chosen_lights && settings.lights == ShadedLights::all);
-}
-
 void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
-  plan.light_grid = plan.blend_grid = reads_light_grid(needs, plan.settings);
+  plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
   plan.light_reaches = true;
@@ -259,39 +250,31 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
   return features;
 }
 
-bool draws_light_volumes(const TechniqueNeeds& needs, const Settings& settings) {
-  return needs.light_volumes || (needs.prepass_lights && settings.prepass_lights == PrepassLights::volumes);
-}
-
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings) {
   return needs.opengl && !(needs.chosen_raster && settings.raster == RasterApi::opencl);
 }
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings,
-                     const TechniqueNeeds& needs, PlannedInstances instances) {
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, TechniqueNeeds needs,
+                     PlannedInstances instances) {
   FramePlan plan;
   plan.settings = settings;
+  if (needs.adapt) needs.adapt(needs, plan.settings);
   plan.opengl = draws_with_opengl(needs, settings);
   plan.decisions.reserve(std::size(feature_names) + 16);
   plan.reversed_triangles = needs.reversed_triangles;
-  plan.stencil = needs.stencil ||
-                 (draws_light_volumes(needs, settings) && settings.volume_culling == VolumeCulling::stencil);
+  plan.stencil = needs.stencil;
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);
   plan_base_lighting(scene, plan);
-  plan.light_grid = reads_light_grid(needs, settings) && plan.local_lights;
+  plan.light_grid = needs.light_grid && plan.local_lights;
   const bool bounded = settings.depth_bounds != DepthBoundsMode::none;
   plan.blend_grid = plan.light_grid && plan.blend && bounded;
-  plan.decisions.push_back(
-      {"light grid", plan.light_grid,
-       !needs.light_grid                                            ? "the technique reads none"
-       : needs.exact_lights && !reads_light_grid(needs, settings)   ? "voxel-lights-exact=0"
-       : needs.prepass_lights && !reads_light_grid(needs, settings) ? "prepass-lights=volumes"
-       : !reads_light_grid(needs, settings)                         ? "lights=all"
-       : !plan.local_lights                                         ? "no light has a place"
-                                                                    : light_witness(scene, plan.local[0])});
+  plan.decisions.push_back({"light grid", plan.light_grid,
+                            !needs.light_grid    ? needs.no_light_grid
+                            : !plan.local_lights ? "no light has a place"
+                                                 : light_witness(scene, plan.local[0])});
   plan.decisions.push_back(
       {"blended light grid", plan.blend_grid,
        plan.blend_grid ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))

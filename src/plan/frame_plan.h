@@ -59,22 +59,19 @@ struct Decision {
 struct TechniqueNeeds {
   bool light_grid = false;
   bool slices = false;              // tiles are cut into depth slices
-  bool given_slices = false;        // the same, but only if the setting slices is given
   bool stencil = false;             // beside the depth buffer
   bool lists = false;               // light code reads lists only, not masks
   bool z_bins = false;              // shading skips lights by z-bins, if the setting z-bins says so
-  bool light_volumes = false;       // lights are drawn one by one; with stencil if volume-culling uses it
-  bool prepass_lights = false;      // the setting prepass-lights chooses between light_grid and light_volumes
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
   bool opengl = true;               // draws with OpenGL; false: OpenCL alone
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
-  bool exact_lights = false;        // whose light grid is read only with voxel-lights-exact
-  bool chosen_lights = false;       // whose light grid is left out by the setting lights=all
   bool world_grid = false;          // light lists in cells of the world
+  // Changes these, and the plan's settings, by the technique's own settings. Null: nothing changes.
+  void (*adapt)(TechniqueNeeds& needs, Settings& settings) = nullptr;
+  // Why the plan has none of them, if it is not the view.
+  const char* no_light_grid = "the technique reads none";
+  const char* no_slices = "the technique uses none";
 };
-
-// Whether a technique with these settings draws lights one by one.
-bool draws_light_volumes(const TechniqueNeeds& needs, const Settings& settings);
 
 // Whether a technique with these settings draws with OpenGL.
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);
@@ -122,8 +119,8 @@ struct FramePlan {
 // (plain), with and without those under a coat; and all without those under a coat.
 enum class PlannedInstances { in_view, every, plain, plain_or_coated, uncoated };
 
-FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings,
-                     const TechniqueNeeds& needs, PlannedInstances instances = PlannedInstances::in_view);
+FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, TechniqueNeeds needs,
+                     PlannedInstances instances = PlannedInstances::in_view);
 
 // The plan as `lightgrid plan` prints it.
 std::string describe(const FramePlan& plan, const Scene& scene);

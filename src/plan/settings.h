@@ -2,10 +2,12 @@
 // (docs/command_line.md#settings).
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/light_ranges.h"
@@ -32,9 +34,8 @@ enum class RasterApi { opengl, opencl };
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
-// Light pre-pass (docs/techniques/light_prepass.md): who adds up the light buffer, the specular term that it
-// keeps, and the format of the image of normals.
-enum class PrepassLights { tiles, volumes };
+// Light pre-pass (docs/techniques/light_prepass.md): the specular term that the light buffer keeps, and the
+// format of the image of normals.
 enum class PrepassSpecular { plain, fifth_term, luminance, bent };
 enum class NormalFormat { floats, octahedral, spheremap, xyz8 };
 
@@ -55,7 +56,7 @@ struct Settings {
   CullTest cull_test = default_cull_test;
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
   int tile = 16;    // pixels a side: 8, 16, 32 or 64
-  int slices = 24;  // depth slices, for techniques that use them (TechniqueNeeds::given_slices: where it is
+  int slices = 24;  // depth slices, for techniques that use them (visibility: where it is
                     // given): 1, 2, 4, 8, 16, 24, 32 or 64
   SliceSpacing slice_spacing = SliceSpacing::exponential;
   int z_bins = 1;  // 1 (off), 16, 64 or 256
@@ -72,7 +73,6 @@ struct Settings {
   LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrOrder lidr_order = LidrOrder::priority;
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
-  PrepassLights prepass_lights = PrepassLights::tiles;
   PrepassSpecular prepass_specular = PrepassSpecular::plain;
   int prepass_shininess = 32;  // the lights' specular exponent: 2, 8, 32, 128 or 512
   NormalFormat normals = NormalFormat::floats;
@@ -86,11 +86,39 @@ struct Settings {
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   WorldGridShape world_grid = WorldGridShape::cubes;
   std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
-  bool portable = false;  // kernels without the builtins of one kind of CPU
+  bool portable = false;             // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
   bool everything_on = false;
-  std::set<std::string> given{};  // keys that apply_setting has set
+  std::set<std::string> given{};        // keys that apply_setting has set
+  std::map<std::string, size_t> own{};  // by key, of OwnSettings: the number of the value; missing: the first
+};
+
+void add_own_setting(const char* key, const char* before, const char* meaning,
+                     const std::vector<std::string>& values);
+
+// A setting that one technique reads, in the technique's own file: a static object, after whose construction
+// the functions below include it, listed before the setting `before`. Its values are given with their names,
+// the default first.
+template <typename T>
+class OwnSetting {
+ public:
+  OwnSetting(const char* key, const char* before, const char* meaning,
+             std::initializer_list<std::pair<const char*, T>> values)
+      : key_(key) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : values) names.emplace_back(name), values_.push_back(value);
+    add_own_setting(key, before, meaning, names);
+  }
+
+  T of(const Settings& settings) const {
+    const auto chosen = settings.own.find(key_);
+    return values_[chosen == settings.own.end() ? 0 : chosen->second];
+  }
+
+ private:
+  const char* key_;
+  std::vector<T> values_;
 };
 
 // Keys of the settings that say which picture is meant: images with other values cannot be compared.
@@ -117,6 +145,7 @@ struct SettingHelp {
   std::string key;
   std::vector<std::string> values;  // the first is the default
   std::string meaning;
+  bool any_number = false;  // from 1e-9 to 1e9 besides; `values` are then those that sweeps and lists show
 };
 const std::vector<SettingHelp>& setting_help();
 

@@ -1,10 +1,13 @@
-// Meshes and instances as the kernels read them: plain arrays, made on the host.
+// Meshes and instances as the kernels read them, plain arrays made on the host; and the kernels that draw a
+// frame.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
-#include "cl/growing_buffer.h"
+#include "cl/buffers.h"
+#include "cl/program_cache.h"
 #include "raster/raster_scene.h"
 #include "raster/raster_view.h"
 #include "shared/raster_params.h"
@@ -62,5 +65,37 @@ void check_raster_instances(std::span<const RasterInstance> instances,
 // Takes instances that passed the check. Throws Error(machine) where numbers do not fit 32 bits.
 RasterInstances raster_instances(std::span<const RasterInstance> instances,
                                  std::span<const RasterMeshPlace> meshes);
+
+struct RasterJob {
+  const RasterParams& params;
+  cl::Buffer params_buffer;
+  // The scene, as RasterMeshes and RasterInstances have it.
+  cl::Buffer positions, indices, cluster_indices, cluster_triangles, clusters, instances, vertex_runs, pairs;
+  cl::Buffer frame;                              // RasterFrameInstance an instance
+  cl::Buffer clip, triangles, depths, counters;  // triangles and depths null: no image is drawn
+  const RasterMasks& masks;
+};
+
+// One of two shapes with one contract.
+class RasterPipeline {
+ public:
+  virtual ~RasterPipeline() = default;
+  // The number of parts that the clusters in view are taken in.
+  virtual uint32_t chunks(const RasterParams& params) const = 0;
+  // Makes or grows its buffers for the numbers and the room of the params.
+  virtual void prepare(const RasterParams& params) = 0;
+  // Enqueues all, waits for nothing. Counters (raster_params.h) are cleared first. Where they show that room
+  // was short, the image was not written.
+  virtual void enqueue(const RasterJob& job) = 0;
+  // The lists that enqueue made.
+  virtual RasterLists lists(const RasterParams& params) const = 0;
+  virtual size_t memory_bytes() const = 0;
+};
+
+std::unique_ptr<RasterPipeline> make_raster_cpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool portable);
+// Without `wide_atomics`, or where the device has none of 64 bits, in two passes.
+std::unique_ptr<RasterPipeline> make_raster_gpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool wide_atomics);
 
 }  // namespace lightgrid

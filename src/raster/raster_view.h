@@ -1,10 +1,12 @@
 // Triangles to visibility: the number and the depth of the nearest triangle at each pixel. Needs OpenCL only.
 //
 //   RasterScene scene(device);
-//   scene.set_meshes(meshes);                    // when they change
-//   RasterView view(scene, programs, options);   // as many as are wanted: a camera, a second eye, a shadow
-//   map view.set_instances(instances);               // when they change or move view.set_camera(camera); //
-//   each frame const Visibility visibility = view.draw(); culler.depth_bounds({visibility.depth});
+//   scene.set_meshes(meshes);                     // when they change
+//   RasterView view(scene, programs, options);    // any number: a camera, a second eye, a shadow map
+//   view.set_instances(instances);                // when they change or move
+//   view.set_camera(camera);                      // each frame
+//   const Visibility visibility = view.draw();
+//   culler.depth_bounds({visibility.depth});
 //
 // A visibility buffer (Burns, Hunt, "The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading",
 // JCGT 2013), filled by tiles in software (Laine, Karras, "High-Performance Software Rasterization on GPUs",

@@ -43,6 +43,9 @@ struct ErrorMeasure {
   bool of_compare, gated;  // in results.json; held against an earlier frontier.json
 };
 
+// Whether an error is more than an earlier one, beyond the rounding of another compiler or driver.
+inline bool grew(double error, double earlier) { return error > 1.001 * earlier + 1e-9; }
+
 std::span<const ErrorMeasure> error_measures();           // of compare
 std::span<const ErrorMeasure> frontier_error_measures();  // over the truth's brightest channel
 

@@ -153,12 +153,12 @@ json settings_json(const std::map<std::string, std::string>& settings) {
 }
 
 // A pass whose result serves many frames is not in the frame's median; its share is added here.
-static json build_json(const PassResult& pass, double frame_ms, std::optional<double> world_cell) {
-  const auto shared = [&](int frames) { return frame_ms + pass.median_ms / frames; };
-  return {{"pass", pass.name},
-          {"world_cell", world_cell ? json(*world_cell) : json()},
-          {"median_ms", pass.median_ms},
-          {"frame_ms_over", {{"1", shared(1)}, {"10", shared(10)}, {"100", shared(100)}}}};
+static json build_json(const PassResult& pass, const RunResult& result) {
+  json build = {{"pass", pass.name}, {"median_ms", pass.median_ms}};
+  for (const auto& [key, value] : result.built_with) build[key] = value;
+  for (const int frames : {1, 10, 100})
+    build["frame_ms_over"][std::to_string(frames)] = result.frame_ms.median + pass.median_ms / frames;
+  return build;
 }
 
 json to_json(const RunResult& result) {
@@ -179,8 +179,7 @@ json to_json(const RunResult& result) {
               {"overflow", result.overflow},
               {"skipped", skipped}};
   for (const auto& pass : result.passes) {
-    if (pass.name == "build_world_grid")
-      out["build"] = build_json(pass, result.frame_ms.median, result.world_cell);
+    if (pass.name == result.built_by) out["build"] = build_json(pass, result);
   }
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;

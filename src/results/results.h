@@ -120,7 +120,8 @@ struct RunResult {
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
-  std::optional<double> world_cell;  // that world_grid's lists were built with
+  std::string built_by;                      // as in Frame
+  std::map<std::string, double> built_with;  // the same
   std::optional<PairCounts> pairs;   // absent without the oracle
   std::optional<ImageError> error;   // technique error: this image against the float image with every light
   // Whether it draws its surfaces in OpenCL. Its light is then judged by `same_surfaces`: this image against

@@ -1,6 +1,7 @@
 #include "scene/light_ranges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/random.h"
@@ -47,6 +48,74 @@ std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ran
   if (ranges.range == LightRange::scene) return lights;
   for (size_t i = 0; i < lights.size(); ++i) lights[i].radius_m = float(range_of(lights[i], i, ranges));
   return lights;
+}
+
+static std::vector<glm::dvec3> surface_points(const Scene& scene, size_t count) {
+  struct Part {
+    double area_until;
+    const Instance* instance;
+    size_t index;
+  };
+  std::vector<Part> parts;
+  double area = 0;
+  const auto corner = [&](const Instance& instance, size_t index) {
+    const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
+    return glm::dvec3(instance.world_from_object * glm::dvec4(mesh.positions[mesh.indices[index]], 1));
+  };
+  for (const Instance& instance : scene.instances) {
+    for (size_t i = 0; i + 2 < scene.meshes[size_t(instance.mesh)].indices.size(); i += 3) {
+      const glm::dvec3 a = corner(instance, i);
+      area += glm::length(glm::cross(corner(instance, i + 1) - a, corner(instance, i + 2) - a));
+      parts.push_back({area, &instance, i});
+    }
+  }
+  std::vector<glm::dvec3> points;
+  if (!(area > 0) || !std::isfinite(area)) return points;
+  for (size_t n = 0; n < count; ++n) {
+    const double at = area * (double(n) + 0.5) / double(count);
+    const auto part = std::ranges::lower_bound(parts, at, {}, &Part::area_until);
+    double u = random_of(1, 2 * n), v = random_of(1, 2 * n + 1);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const glm::dvec3 a = corner(*part->instance, part->index);
+    points.push_back(a + u * (corner(*part->instance, part->index + 1) - a) +
+                     v * (corner(*part->instance, part->index + 2) - a));
+  }
+  return points;
+}
+
+std::optional<CutoffEffect> helpful_cutoff(const Scene& scene) {
+  constexpr size_t count = 256, most_lights = 10'000;
+  const std::vector<glm::dvec3> points = surface_points(scene, count);
+  if (points.empty()) return {};
+  const size_t stride = scene.lights.size() / most_lights + 1;  // every n-th of many
+  std::vector<std::vector<double>> irradiances(points.size());
+  size_t lights = 0;
+  for (size_t i = 0; i < scene.lights.size(); i += stride) {
+    const Light& light = scene.lights[i];
+    if (is_directional(light)) continue;
+    ++lights;
+    for (size_t p = 0; p < points.size(); ++p) {
+      const glm::dvec3 to = light.position - points[p];
+      irradiances[p].push_back(brightest_intensity(light) / std::max(glm::dot(to, to), 1e-4));
+    }
+  }
+  const double most = std::max(double(lights) / 8, 8.0 / double(stride)), every = double(points.size());
+  for (int step = 0; step <= 30; ++step) {
+    const double cutoff = std::array{1, 2, 5}[size_t(step % 3)] * std::pow(10, step / 3 - 4);
+    double reach = 0, share = 0;
+    for (const std::vector<double>& at : irradiances) {
+      double kept = 0, sum = 0;
+      for (const double irradiance : at) {
+        sum += irradiance;
+        if (irradiance <= cutoff) continue;
+        const double squares = cutoff / irradiance;  // of distance over range
+        ++reach, kept += irradiance * (1 - squares * squares);
+      }
+      share += sum > 0 ? kept / sum : 1;
+    }
+    if (reach <= most * every) return CutoffEffect{cutoff, reach * double(stride) / every, share / every};
+  }
+  return {};
 }
 
 RangeWindow window_of(const LightRanges& ranges) {

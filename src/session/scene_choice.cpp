@@ -70,6 +70,21 @@ std::optional<double> parse_exposure(const SceneChoice& choice) {
   return ev;
 }
 
+// Many lights without a range are in every list, so that no technique can be faster than another.
+void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
+  constexpr ptrdiff_t many = 32;
+  const auto endless = std::ranges::count_if(
+      scene.lights, [](const Light& l) { return !is_directional(l) && std::isinf(l.radius_m); });
+  if (endless < many || chosen_settings(choice).ranges.range != LightRange::scene) return;
+  const std::optional<CutoffEffect> help = helpful_cutoff(scene);
+  log_warning("{}: {} of {} lights have no range: every technique lists them everywhere{}", choice.scene, endless,
+              scene.lights.size(),
+              help ? fmt::format("; with --set range=cutoff --set cutoff={:g} about {:.0f} reach a point, which "
+                                 "keeps {:.0f} % of its light",
+                                 help->cutoff, help->lights, 100 * help->share)
+                   : "");
+}
+
 }  // namespace
 
 Exposure chosen_exposure(const SceneChoice& choice, const Image& image) {
@@ -143,6 +158,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
     scene.ambient = added.ambient;
   }
   if (!choice.ambient.empty()) scene.ambient = glm::vec3(parse_ambient(choice.ambient));
+  tell_endless_lights(scene, choice);
   return view;
 }
 

@@ -93,7 +93,7 @@ RunResult TechniqueRun::result() const {
   }
   result.memory_total = view_.memory_bytes();
   result.memory_light_grid = frame_.light_grid_bytes();
-  result.world_cell = frame_.world_cell;
+  result.built_by = frame_.built_by, result.built_with = frame_.built_with;
   result.memory_gbuffer = view_.targets.bytes(TargetUse::gbuffer);
   result.nan_pixels = count_nan_pixels(image_);
   result.inf_pixels = count_inf_pixels(image_);

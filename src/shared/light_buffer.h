@@ -8,7 +8,6 @@
 //   appendix has it (docs/details/light_prepass.md#skin-and-minnaert).
 #pragma once
 
-#include "shared/power_of_cosine.h"
 #include "shared/punctual_light.h"
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

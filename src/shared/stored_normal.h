@@ -1,18 +1,30 @@
 // Unit normals as whole steps of an image's channels. 0 is itself a step: axis-aligned walls keep their
 // normals.
-//   NORMALS_OCTAHEDRAL  two channels of 16 bits (shared/octahedral.h)
+//   NORMALS_OCTAHEDRAL  two channels of 16 bits (normal_of_octahedral)
 //   NORMALS_SPHEREMAP   the same, an equal-area map of the sphere to a disc with its centre at +z (Mittring,
-//   "A Bit More
-//                       Deferred: CryEngine 3", 2009)
+//                       "A Bit More Deferred: CryEngine 3", 2009)
 //   NORMALS_XYZ8        three channels of 8 bits
-// Without any of them normals are stored as floats, and this header holds nothing.
+// Without any of them normals are stored as floats, and this header holds normal_of_octahedral alone.
 #pragma once
 
-#include "shared/octahedral.h"
+#include "shared/real.h"
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 namespace lightgrid {
 #endif
+
+// A unit vector of two numbers: the octahedron |x| + |y| + |z| = 1, its lower half folded over (Cigolle et
+// al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014). Both numbers are in
+// [-1, 1].
+SHARED_FUNCTION Real3 normal_of_octahedral(real u, real v) {
+  real across = max_real(u, -u), up = max_real(v, -v);
+  real z = 1.0f - across - up;
+  real folded_x = u < REAL(0.0f) ? up - 1.0f : 1.0f - up;
+  real folded_y = v < REAL(0.0f) ? across - 1.0f : 1.0f - across;
+  real x = z < REAL(0.0f) ? folded_x : u;
+  real y = z < REAL(0.0f) ? folded_y : v;
+  return scale3(real3(x, y, z), inverse_sqrt_real(x * x + y * y + z * z));
+}
 
 #if defined(NORMALS_OCTAHEDRAL) || defined(NORMALS_SPHEREMAP)
 #define NORMAL_CHANNEL_STEPS 65535.0f  // of a channel from 0 to 1

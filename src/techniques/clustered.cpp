@@ -1,6 +1,6 @@
 // Forward shading from light lists of clusters: tiles cut into depth slices. Without depth bounds one grid
 // serves opaque and blended surfaces (docs/techniques/clustered.md).
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

@@ -15,10 +15,14 @@ static Frame render(RenderView& v) {
   return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v.caches.light_volumes)};
 }
 
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  needs.stencil = settings.volume_culling == VolumeCulling::stencil;
+}
+
 extern const Technique deferred{.name = "deferred",
                                 .summary = "geometry buffer, then light volumes",
                                 .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-                                .needs = {.light_volumes = true},
+                                .needs = {.adapt = adapt},
                                 .settings = {"brdf", "buffer-bits", "volume-culling", "volume-mesh"},
                                 .render = render,
                                 .listed_by = ListedBy::pixel};

@@ -1,5 +1,5 @@
 // Tiled deferred shading: geometry once, then every pixel's lights from its tile's list, in OpenCL.
-#include "techniques/shade_tiled.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

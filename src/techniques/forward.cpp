@@ -1,5 +1,5 @@
 // Every light at every pixel: the brute-force image that every other technique is compared with.
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

@@ -1,5 +1,5 @@
 // Each object once for base lighting, then once more for each light that reaches it, added up.
-#include "techniques/shade_by_objects.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

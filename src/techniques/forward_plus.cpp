@@ -1,5 +1,5 @@
 // Forward shading from per-tile light lists, culled in OpenCL against the depth bounds of each tile.
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

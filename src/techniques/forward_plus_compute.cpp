@@ -1,6 +1,6 @@
 // Forward+ with its light loop in OpenCL, 16 pixels at once on a CPU: a depth prepass, culling, then only the
 // visible surfaces go through memory to the loop.
-#include "techniques/shade_tiled.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

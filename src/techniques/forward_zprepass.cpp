@@ -1,5 +1,5 @@
 // Each object with up to eight of its lights in a draw; the other lights in further draws, added up.
-#include "techniques/shade_by_objects.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 

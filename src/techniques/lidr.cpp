@@ -3,7 +3,7 @@
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
 #include "passes/shade_forward.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 
@@ -18,7 +18,7 @@ static Frame render(RenderView& v) {
   } else {
     shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
   }
-  return {.image = image, .listed = lights.listed, .light_index_bytes = lights.bytes};
+  return {.image = image, .listed = lights.listed, .list_bytes = lights.bytes};
 }
 
 extern const Technique lidr{

@@ -8,9 +8,17 @@
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
+
+enum class PrepassLights { tiles, volumes };
+
+static const OwnSetting<PrepassLights> prepass_lights{
+    "prepass-lights",
+    "prepass-specular",
+    "who adds up the light buffer: OpenCL from lists of tiles, or OpenGL, a light's volume after the other",
+    {{"tiles", PrepassLights::tiles}, {"volumes", PrepassLights::volumes}}};
 
 static Frame from_volumes(RenderView& v) {
   const NormalImage normals = fill_normals(v);
@@ -47,7 +55,7 @@ static Frame from_tiles(RenderView& v) {
 }
 
 static Frame render(RenderView& v) {
-  const bool volumes = v.plan.settings.prepass_lights == PrepassLights::volumes;
+  const bool volumes = prepass_lights.of(v.plan.settings) == PrepassLights::volumes;
   if (volumes && !v.plan.opengl)
     throw input_error(
         "light_prepass: OpenGL draws light volumes, so prepass-lights=volumes needs raster=opengl");
@@ -55,12 +63,17 @@ static Frame render(RenderView& v) {
   return volumes ? from_volumes(v) : from_tiles(v);
 }
 
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  if (prepass_lights.of(settings) == PrepassLights::tiles) return;
+  needs.light_grid = false, needs.no_light_grid = "prepass-lights=volumes";
+  needs.stencil = settings.volume_culling == VolumeCulling::stencil;
+}
+
 extern const Technique light_prepass{
     .name = "light_prepass",
     .summary = "depth and normals, then a buffer of light, then materials",
     .source = "Engel: Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer, ShaderX7, 2009",
-    .needs =
-        {.light_grid = true, .lists = true, .z_bins = true, .prepass_lights = true, .chosen_raster = true},
+    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true, .adapt = adapt},
     .settings = {"brdf", "prepass-lights", "prepass-specular", "prepass-shininess", "buffer-bits", "normals",
                  "volume-culling", "volume-mesh", "cull-test", "depth-bounds", "tile", "slice-spacing",
                  "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},

@@ -1,3 +1,6 @@
+// The techniques, and the settings that each reads.
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/text.h"
 #include "techniques/technique.h"
@@ -6,6 +9,23 @@ namespace lightgrid {
 
 extern const Technique forward, forward_multipass, forward_zprepass, forward_plus, clustered,
     forward_plus_compute, deferred, deferred_tiled, light_prepass, lidr, visibility, voxel_lights, world_grid;
+
+namespace {
+
+bool holds(const std::vector<const char*>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+// A range's settings are shown only with a range that reads them.
+bool has_effect(const Settings& settings, const std::string& key) {
+  const LightRange range = settings.ranges.range;
+  if (key == "cutoff") return range == LightRange::cutoff;
+  if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
+  if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
+  return true;
+}
+
+}  // namespace
 
 const std::vector<const Technique*>& techniques() {
   static const std::vector<const Technique*> all = {
@@ -30,6 +50,31 @@ const Technique& find_technique(const std::string& name) {
   for (const Technique* technique : techniques()) names.emplace_back(technique->name);
   throw input_error("technique \"{}\": unknown name{}; techniques are {}", name, did_you_mean(name, names),
                     technique_names());
+}
+
+const std::vector<const char*>& common_settings() {
+  static const std::vector<const char*> keys = [] {
+    std::vector<const char*> all;
+    for (const std::string& key : model_settings()) {
+      if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
+    }
+    all.push_back("everything-on");
+    return all;
+  }();
+  return keys;
+}
+
+bool reads_setting(const Technique& technique, const std::string& key) {
+  return holds(common_settings(), key) || holds(technique.settings, key);
+}
+
+std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {
+  std::map<std::string, std::string> all = to_strings(settings), own;
+  for (const SettingHelp& help : setting_help()) {
+    const std::string key = json_key(help.key);
+    if (reads_setting(technique, help.key) && has_effect(settings, help.key)) own[key] = all.at(key);
+  }
+  return own;
 }
 
 }  // namespace lightgrid

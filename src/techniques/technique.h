@@ -33,18 +33,6 @@ inline bool own_surfaces(const Technique& technique, const Settings& settings) {
   return !draws_with_opengl(technique.needs, settings);
 }
 
-// The frame of techniques that shade from a light grid: surfaces, depth bounds, cull, shade, blended
-// surfaces.
-Frame shade_from_light_grid(RenderView& v);
-
-// The frame without lists.
-Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
-
-// Blends blended surfaces over the frame's image, whose opaque ones have the lights of a grid. With depth
-// bounds, they get a grid of their own, stored in the frame; without, they use that of opaque surfaces, whose
-// lists become the frame's.
-void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
-
 const std::vector<const Technique*>& techniques();
 
 // Keys of the settings that every technique reads.

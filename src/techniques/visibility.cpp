@@ -1,19 +1,20 @@
 // Triangle numbers first, in OpenCL; then attributes, textures and light of each pixel in one pass, from its
 // tile's list.
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
+
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  needs.slices = settings.given.contains("slices");
+  if (!needs.slices) settings.slices = 1, needs.no_slices = "slices is not given";
+  if (settings.lights == ShadedLights::all) needs.light_grid = false, needs.no_light_grid = "lights=all";
+}
 
 extern const Technique visibility{
     .name = "visibility",
     .summary = "a visibility buffer, resolved and lit in OpenCL from per-tile light lists",
     .source = "Burns, Hunt: The Visibility Buffer, JCGT 2013",
-    .needs = {.light_grid = true,
-              .given_slices = true,
-              .lists = true,
-              .z_bins = true,
-              .opengl = false,
-              .chosen_lights = true},
+    .needs = {.light_grid = true, .lists = true, .z_bins = true, .opengl = false, .adapt = adapt},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins", "lights",
                  "texels", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};

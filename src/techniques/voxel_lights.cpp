@@ -1,7 +1,7 @@
 // Lights are added up at the samples of a volume; surfaces read the volume, however many lights there are.
 #include "passes/build_voxels.h"
 #include "passes/cull_lights.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 
@@ -28,11 +28,16 @@ static Frame render(RenderView& v) {
   return frame;
 }
 
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  if (settings.voxel_lights_exact == 0)
+    needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
+}
+
 extern const Technique voxel_lights{
     .name = "voxel_lights",
     .summary = "a volume of irradiance and mean directions: lights cost by the sample, not by the pixel",
     .source = "Geldreich: Light Indexed Deferred Rendering, on Halo Wars, 2009",
-    .needs = {.light_grid = true, .lists = true, .chosen_raster = true, .exact_lights = true},
+    .needs = {.light_grid = true, .lists = true, .chosen_raster = true, .adapt = adapt},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
                  "cull-test", "depth-bounds", "tile", "raster", "texels", "kernel-shape", "portable",
                  "group-size"},

@@ -1,7 +1,7 @@
 // Forward shading from light lists in cells of the world, which serve every view and change only when
 // lights move (docs/techniques/world_grid.md).
 #include "passes/build_world_grid.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 
@@ -13,8 +13,9 @@ static Frame render(RenderView& v) {
   frame.listed = lights.listed;
   frame.image = shade(v, surfaces, lights);
   blend(v, surfaces, lights, frame.image);
-  frame.world_grid_bytes = lights.bytes;
-  frame.world_cell = built_world_grid(v, v.caches.world_grid).layout().cell;
+  frame.list_bytes = lights.bytes;
+  frame.built_by = "build_world_grid";
+  frame.built_with = {{"world_cell", built_world_grid(v, v.caches.world_grid).layout().cell}};
   return frame;
 }
 

@@ -14,7 +14,7 @@
 #include "base/timer.h"
 #include "base/write_file.h"
 #include "capture/frame_file.h"
-#include "culling/oblique_view.h"
+#include "culling/view_depth.h"
 #include "plan/settings.h"
 #include "verify/check.h"
 

@@ -6,10 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "cl/growing_buffer.h"
+#include "cl/buffers.h"
 #include "cl/launch.h"
 #include "cl/program_cache.h"
-#include "cl/uploaded_buffer.h"
 #include "world_grid/world_blocks.h"
 
 namespace lightgrid {

@@ -1,5 +1,6 @@
-// The places that a technique, a light source, a cull test, an error measure, a column of the light table and
-// an answer of light_reaches need: the source files that name them are counted (docs/overview.md#how-to-add).
+// The places that a technique, its setting, a light source, a cull test, an error measure, a column of the
+// light table and an answer of light_reaches need: the source files that name them are counted
+// (docs/overview.md#how-to-add).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -74,7 +75,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/app/inspect.cpp", {"forward_plus"}},
       {"src/app/plan.cpp", {"forward_plus"}},
       {"src/app/view.cpp", {"deferred_tiled", "forward_plus"}},
-      {"src/bench/culling_run.cpp", {"forward_plus"}},
+      {"src/bench/runs.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
       {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
@@ -97,6 +98,26 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
     expected["src/techniques/" + name + ".cpp"] = {name};
     EXPECT_EQ(mentions(registry, name).size(), 2u) << name;
   }
+  EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+// Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
+// techniques`,
+// --set and JSON files follow.
+TEST(Adding, ASettingOfATechniqueTakesItsFile) {
+  std::map<std::string, std::vector<std::string>> texts;
+  Naming expected;
+  const std::regex own("OwnSetting<(\\w+)> (\\w+)\\{\\s*\"([^\"]+)\"");
+  for (const Technique* t : techniques()) {
+    const std::string path = std::string("src/techniques/") + t->name + ".cpp", text = code_of(text_at(path));
+    for (std::sregex_iterator at(text.begin(), text.end(), own), end; at != end; ++at) {
+      const std::string key = (*at)[3];
+      EXPECT_TRUE(reads_setting(*t, key)) << key;
+      texts[key] = {'"' + key + '"', '"' + key + '=', (*at)[1].str() + "::", (*at)[2].str() + ".of("};
+      expected[path].insert(key);
+    }
+  }
+  EXPECT_THAT(texts, testing::Contains(testing::Key("prepass-lights")));
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
 }
 

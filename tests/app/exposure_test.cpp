@@ -38,6 +38,7 @@ TEST_F(ExposureOption, OfALevelInCandelaIsTakenFromThePictureAndTold) {
   const ProgramRun as_it_is = run({"render", level, "-o", path("0.png"), "--exposure", "0"});
   EXPECT_THAT(as_it_is.err, Not(HasSubstr("exposed")));
   EXPECT_GT(share_of("0.png", 250), 0.99) << "the level is white without an exposure";
+  EXPECT_THAT(as_it_is.err, HasSubstr("300 of 300 lights have no range"));
   const ProgramRun exposed = run({"render", level, "-o", path("a.png"), "--json", path("a.json")});
   EXPECT_LT(share_of("a.png", 250), 0.05);
   EXPECT_GT(share_of("a.png", 60), 0.9);

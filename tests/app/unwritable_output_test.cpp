@@ -132,6 +132,43 @@ TEST(FullDisk, UnderAReportEndsWithThreeAndALineThatNamesTheFile) {
   EXPECT_THAT(run.err, HasSubstr("No space left on device"));
 }
 
+// As nobody where the tests run as root, whom no permission holds.
+TEST(FolderOfAnother, EndsWithTwoAndOneLineAndNothingIsLeft) {
+  const TempFolder others, temporary;
+  const auto inside = others.path / "inside";
+  std::filesystem::create_directories(inside);
+  std::filesystem::permissions(temporary.path, std::filesystem::perms::all);
+  std::filesystem::permissions(others.path, std::filesystem::perms::all);
+  const bool root = geteuid() == 0;
+  Words as_nobody;
+  if (root) as_nobody = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
+  if (root && run_words(with_words(as_nobody, {lightgrid_program, "--version"})).status != 0)
+    GTEST_SKIP() << "nobody cannot run the program here";
+  const auto expect_line = [&](const std::string& command, const std::string& output, const std::string& why) {
+    const ProgramRun run = run_words(
+        with_words(with_words(as_nobody, {lightgrid_program, command, "spheres", "--quiet", "-o"}), {output}),
+        {"HOME=/dev/null", "XDG_CACHE_HOME=/dev/null", "LIGHTGRID_TUNED=off", "TMPDIR=" + temporary.path.string()});
+    EXPECT_EQ(run.status, 2) << command << ": " << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(output)) << command;
+    EXPECT_THAT(run.err, HasSubstr(why)) << command;
+  };
+  using std::filesystem::perms;
+  std::filesystem::permissions(inside, perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
+  for (const char* command : {"compare", "capture", "frontier"}) {
+    expect_line(command, inside, "no file can be made in it: Permission denied");
+    expect_line(command, inside / "new", "cannot be made a folder: Permission denied");
+  }
+  expect_line("render", inside / "x.png", "no file can be made in " + inside.string() + ": Permission denied");
+  std::filesystem::permissions(others.path, perms::none);
+  for (const char* command : {"compare", "capture", "frontier"})
+    expect_line(command, inside / "new", "cannot be made a folder: Permission denied");
+  expect_line("render", inside / "x.png", inside.string() + ": Permission denied");
+  std::filesystem::permissions(others.path, perms::all);
+  EXPECT_TRUE(std::filesystem::is_empty(inside));
+  EXPECT_TRUE(std::filesystem::is_empty(temporary.path)) << "the temporary cache is left behind";
+}
+
 // Ends it by `signal` once its temporary cache is in use.
 TEST(TemporaryCacheFolder, IsRemovedByAnInterrupt) {
   for (const char* signal : {"INT", "TERM", "HUP"}) {
@@ -159,7 +196,7 @@ TEST(TooLittleMemory, IsToldAsThat) {
   GTEST_SKIP() << "AddressSanitizer needs terabytes of address space";
 #endif
   const TempFolder output;
-  for (const char* limit_kb : {"200000", "250000", "300000"}) {
+  for (const char* limit_kb : {"200000", "250000", "300000", "340000", "400000"}) {
     const ProgramRun run = run_words(with_words(
         {"sh", "-c", "ulimit -v " + std::string(limit_kb) + "; exec \"$@\"", "sh", lightgrid_program},
         {"render", "hall", "--size", "640x360", "-t", "forward_plus", "-o", output.path / "x.png"}));

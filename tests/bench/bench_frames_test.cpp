@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/cases.h"
 #include "bench/standard_frames.h"
 
 namespace lightgrid {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "bench/bench.h"
-#include "bench/raster_run.h"
+#include "bench/runs.h"
 #include "scene/builtin.h"
 
 namespace lightgrid {

@@ -1,5 +1,5 @@
 // A buffer that the host fills, and the values that it may free at once.
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 
 #include <gtest/gtest.h>
 

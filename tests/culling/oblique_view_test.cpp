@@ -1,5 +1,5 @@
 // Views with an oblique near plane: mirrors and portals. Positions are the oracle's, in double.
-#include "culling/oblique_view.h"
+#include "culling/view_depth.h"
 
 #include <algorithm>
 

@@ -47,9 +47,8 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
   settings.raster = RasterApi::opencl;
   settings.prepass_specular = PrepassSpecular::fifth_term;
   GpuScene gpu(renderer, scene);
-  RenderView v(
-      renderer, gpu, view, settings,
-      {.light_grid = true, .lists = true, .z_bins = true, .prepass_lights = true, .chosen_raster = true});
+  RenderView v(renderer, gpu, view, settings,
+               {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true});
   if (!v.plan.light_grid) return std::vector<SixSums>(v.grid().values(), SixSums{});
   ClDevice& device = *renderer.cl;
   SharedBuffer& depth = v.shared_pixels("depth", 4);

@@ -19,8 +19,13 @@
 namespace lightgrid {
 namespace {
 
-constexpr TechniqueNeeds needs{
-    .light_grid = true, .given_slices = true, .lists = true, .z_bins = true, .chosen_lights = true};
+constexpr TechniqueNeeds needs{.light_grid = true,
+                               .lists = true,
+                               .z_bins = true,
+                               .adapt = [](TechniqueNeeds& needs, Settings& settings) {
+                                 needs.slices = settings.given.contains("slices");
+                                 needs.light_grid = settings.lights == ShadedLights::grid;
+                               }};
 
 struct Resolved {
   Image image;

@@ -75,7 +75,7 @@ FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace s
            1, 10, 20);
   GpuScene gpu(renderer, scene);
   RenderView v(renderer, gpu, of.view, settings,
-               {.light_grid = true, .lists = true, .chosen_raster = true, .exact_lights = true});
+               {.lists = true, .chosen_raster = true});
   build_voxels(v, v.caches.voxels, {});
   FilledVoxels filled{read_voxels(v, v.caches.voxels), {}, most_slope(of.view)};
   View along;

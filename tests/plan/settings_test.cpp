@@ -39,6 +39,26 @@ TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
   }
 }
 
+TEST(Settings, CutoffAndAlphaAreNumbers) {
+  Settings settings;
+  apply_setting(settings, "cutoff=20");
+  apply_setting(settings, "alpha=3.5e-4");
+  EXPECT_EQ(settings.ranges.cutoff, 20);
+  EXPECT_EQ(settings.ranges.alpha, 3.5e-4);
+  EXPECT_EQ(to_strings(settings).at("cutoff"), "20");
+  EXPECT_EQ(to_strings(settings).at("alpha"), "0.00035");
+  EXPECT_TRUE(settings.given.contains("cutoff"));
+  apply_setting(settings, "cutoff=0.50");
+  EXPECT_EQ(to_strings(settings).at("cutoff"), "0.5");
+  for (const char* wrong : {"cutoff=0", "cutoff=-1", "cutoff=1e10", "alpha=nan", "alpha=inf", "cutoff=much"})
+    EXPECT_THAT(message_of(wrong), HasSubstr("is a number from 1e-09 to 1e+09")) << wrong;
+}
+
+TEST(Settings, UnknownWordsAreToldTheNearest) {
+  EXPECT_THAT(message_of("sliced=8"), HasSubstr("did you mean slices?"));
+  EXPECT_THAT(message_of("raster=opncl"), HasSubstr("did you mean opencl?"));
+}
+
 TEST(Settings, TheModelIsMadeOfTheSettingsThatItNames) {
   for (const SettingHelp& help : setting_help()) {
     Settings settings;

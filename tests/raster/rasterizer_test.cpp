@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "cl/growing_buffer.h"
+#include "cl/buffers.h"
 #include "cl/launch.h"
 #include "raster/many_triangles.h"
 #include "shared/raster_params.h"

@@ -69,5 +69,28 @@ TEST(LightRanges, AreIndependentBetweenLightsAndSeeds) {
   EXPECT_NEAR(double(seeds) / draws, expected, error);
 }
 
+// Lights ten metres from a triangle of a millimetre: 30 of irradiance 4, 270 of 1.5.
+TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
+  Scene scene;
+  EXPECT_FALSE(helpful_cutoff(scene)) << "no surface";
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{0, 0, 0}, {1e-3f, 0, 0}, {0, 1e-3f, 0}};
+  mesh.indices = {0, 1, 2};
+  scene.instances.push_back({"speck", 0, glm::dmat4(1)});
+  for (int i = 0; i < 300; ++i) {
+    Light light;
+    light.position = {0, 0, 10};
+    light.intensity = i % 10 ? 150 : 400;
+    scene.lights.push_back(light);
+  }
+  const std::optional<CutoffEffect> effect = helpful_cutoff(scene);
+  ASSERT_TRUE(effect);
+  EXPECT_DOUBLE_EQ(effect->cutoff, 2);
+  EXPECT_DOUBLE_EQ(effect->lights, 30);
+  EXPECT_NEAR(effect->share, 120 * 0.75 / 525, 1e-6) << "1 - (2 / 4)^2 is left by the window";
+  scene.lights.resize(8);
+  EXPECT_NEAR(helpful_cutoff(scene)->cutoff, 1e-4, 1e-12) << "eight lights are few";
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -17,7 +17,7 @@ inline constexpr const char* variant_names[] = {"plain", "fifth-term", "luminanc
 inline Settings volumes(PrepassSpecular specular, Brdf brdf = Brdf::blinn) {
   Settings s;
   s.brdf = brdf;
-  s.prepass_lights = PrepassLights::volumes;
+  apply_setting(s, "prepass-lights=volumes");
   s.prepass_specular = specular;
   return s;
 }

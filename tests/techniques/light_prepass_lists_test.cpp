@@ -12,7 +12,7 @@ using namespace light_prepass_by_hand;
 
 Settings tiles() {
   Settings s = volumes(PrepassSpecular::fifth_term);
-  s.prepass_lights = PrepassLights::tiles;
+  apply_setting(s, "prepass-lights=tiles");
   return s;
 }
 
@@ -57,7 +57,7 @@ TEST(LightPrepass, DrawsWithOpenClAlone) {
   settings.raster = RasterApi::opencl;
   expect_close(scene, view, settings, with_gl, "light_prepass");
   EXPECT_LT(distance_of(render(scene, view, "light_prepass", settings), with_gl).median, 1e-5);
-  settings.prepass_lights = PrepassLights::volumes;
+  apply_setting(settings, "prepass-lights=volumes");
   EXPECT_THROW(render(scene, view, "light_prepass", settings), Error);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,18 +52,18 @@ struct ShadedImage {
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
-  std::optional<ViewGrid> grid;        // of opaque surfaces
-  std::optional<ViewGrid> blend_grid;  // of blended ones
-  HostLists listed;                    // of opaque surfaces
-  size_t light_index_bytes = 0;        // of lidr's images
-  size_t world_grid_bytes = 0;         // of WorldGrid's lists
-  std::optional<double> world_cell;    // the value of world-cell that they were built with
-  std::optional<DepthBuffer> depth;    // of techniques that rasterise in OpenCL; else the depth image has it
+  std::optional<ViewGrid> grid;              // of opaque surfaces
+  std::optional<ViewGrid> blend_grid;        // of blended ones
+  HostLists listed;                          // of opaque surfaces
+  size_t list_bytes = 0;                     // of lists of lights in no grid
+  std::string built_by;                      // the pass whose result serves many frames, if there is one, and
+  std::map<std::string, double> built_with;  // values that it chose, by their keys in results.json
+  std::optional<DepthBuffer> depth;  // of techniques that rasterise in OpenCL; else the depth image has it
   std::optional<TriangleBuffer> triangles;  // of the same techniques
 
   // Bytes of all these, in use.
   size_t light_grid_bytes() const {
-    size_t bytes = light_index_bytes + world_grid_bytes;
+    size_t bytes = list_bytes;
     for (const auto* g : {&grid, &blend_grid}) bytes += *g ? (*g)->bytes() : 0;
     return bytes;
   }

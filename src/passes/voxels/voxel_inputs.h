@@ -2,7 +2,7 @@
 // lights in groups.
 #pragma once
 
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "renderer/work.h"
 #include "shared/voxel_volume.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cl/launch.h"
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 #include "gl/bindings.h"
 #include "gl/objects.h"
 #include "plan/frame_plan.h"

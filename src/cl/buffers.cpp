@@ -1,4 +1,4 @@
-#include "cl/uploaded_buffer.h"
+#include "cl/buffers.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,22 @@
 #include "cl/transfer.h"
 
 namespace lightgrid {
+
+cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
+  try {
+    return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, fmt::format("a buffer of {} bytes", bytes));
+  }
+}
+
+// Frees the old buffer first, so that both need not fit at once.
+cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
+  if (bytes <= bytes_ && buffer_()) return buffer_;
+  buffer_ = cl::Buffer(), bytes_ = 0;
+  buffer_ = device_buffer(device, bytes), bytes_ = bytes;
+  return buffer_;
+}
 
 constexpr size_t most_staged_bytes = 1 << 20;  // a wait takes about as long as a copy of this size
 

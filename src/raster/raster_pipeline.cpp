@@ -1,10 +1,14 @@
 // transform, clusters -> order -> setup -> scan -> fill -> tiles: for CPUs. Without tiles also for GPUs,
 // where lists have to be in drawing order.
+// transform, clusters -> small -> large -> keys: for GPUs. With 32-bit atomics small and large run twice.
+#include "raster/raster_arrays.h"
+
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "cl/launch.h"
 #include "cl/transfer.h"
-#include "raster/raster_pipeline.h"
 
 namespace lightgrid {
 namespace {
@@ -101,11 +105,113 @@ class RasterCpuPipeline : public RasterPipeline {
   GrowingBuffer buckets_, visible_, records_, next_block_, chunks_, tile_counts_, tile_begin_, lists_;
 };
 
+constexpr size_t group_items = 64, groups_a_unit = 32;
+constexpr size_t image_group = 256;  // of kernels with little work a pixel: groups of 64 start too slowly
+
+bool has_64_bit_atomics(ClDevice& device) {
+  return device.device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_int64_extended_atomics") !=
+         std::string::npos;
+}
+
+cl::NDRange items_for(size_t count, size_t group = group_items) {
+  return cl::NDRange(std::max<size_t>(1, (count + group - 1) / group) * group);
+}
+
+size_t pairs_of(size_t pixels) { return (pixels + 1) / 2; }
+
+class RasterGpuPipeline : public RasterPipeline {
+ public:
+  RasterGpuPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
+      : device_(device), programs_(programs), wide_(wide_atomics && has_64_bit_atomics(device)) {
+    transform_ = programs.kernel("raster/gpu/raster_transform", "");
+    clusters_ = programs.kernel("raster/gpu/raster_clusters", "");
+    if (!wide_) return;
+    clear_ = programs.kernel("raster/gpu/raster_clear", "");
+    keys_kernel_ = programs.kernel("raster/gpu/raster_keys", "");
+  }
+
+  uint32_t chunks(const RasterParams&) const override { return 1; }
+
+  void prepare(const RasterParams& p) override {
+    visible_.at_least(device_, size_t(p.pairs) * sizeof(cl_uint));
+    records_.at_least(device_, size_t(p.record_blocks) * RASTER_BLOCK * sizeof(RasterRecord));
+    entries_.at_least(device_, size_t(p.entry_capacity) * sizeof(cl_uint2));
+    keys_.at_least(device_, wide_ ? pairs_of(size_t(p.width) * p.height) * sizeof(cl_ulong2) : 0);
+  }
+
+  void enqueue(const RasterJob& job) override {
+    const RasterParams& p = job.params;
+    const size_t pixels = size_t(p.width) * p.height;
+    const cl::NDRange group(group_items);
+    const cl::NDRange all(size_t(std::max(1, device_.info().compute_units)) * groups_a_unit * group_items);
+    fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
+    if (wide_) {
+      launch(device_, "raster_clear", clear_, items_for(pairs_of(pixels), image_group),
+             cl::NDRange(image_group), keys_.get(), cl_uint(pairs_of(pixels)));
+    } else {
+      fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
+      fill_buffer(device_, "rasterizer: image", job.depths, 0, pixels * sizeof(cl_uint));
+    }
+    launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
+           group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
+    launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters,
+           job.frame, visible_.get(), job.counters, job.params_buffer);
+    const bool masks = job.masks.alphas() != nullptr;
+    // The second pass needs the depths of all triangles.
+    for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
+      launch(device_, "raster_small", kernel("raster/gpu/raster_small", pass, masks), all, group,
+             visible_.get(), job.pairs, job.clusters, job.instances, job.cluster_indices,
+             job.cluster_triangles, job.clip, job.instances, job.indices, job.clip, job.masks.vertices,
+             job.masks.materials, job.masks.alphas, records_.get(), entries_.get(), keys_.get(),
+             job.triangles, job.depths, job.counters, job.params_buffer);
+      launch(device_, "raster_large", kernel("raster/gpu/raster_large", pass, masks), all, group,
+             records_.get(), entries_.get(), job.instances, job.indices, job.clip, job.masks.vertices,
+             job.masks.materials, job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters,
+             job.params_buffer);
+    }
+    if (wide_) {
+      launch(device_, "raster_keys", keys_kernel_, items_for(pixels, image_group), cl::NDRange(image_group),
+             keys_.get(), job.triangles, job.depths, cl_uint(pixels));
+    }
+  }
+
+  // Its records are in no order.
+  RasterLists lists(const RasterParams&) const override { return {}; }
+
+  size_t memory_bytes() const override {
+    return visible_.bytes() + records_.bytes() + entries_.bytes() + keys_.bytes();
+  }
+
+ private:
+  // Built at first use.
+  cl::Kernel& kernel(const char* name, int pass, bool masks) {
+    cl::Kernel& kernel = kernels_[{name, pass, masks}];
+    if (kernel()) return kernel;
+    std::string defines = wide_       ? "-DATOMICS=64"
+                          : pass == 0 ? "-DATOMICS=32 -DPASS=1"
+                                      : "-DATOMICS=32 -DPASS=2";
+    if (masks) defines += " -DALPHA_MASKS";
+    return kernel = programs_.kernel(name, defines);
+  }
+
+  ClDevice& device_;
+  ProgramCache& programs_;
+  const bool wide_;
+  cl::Kernel transform_, clusters_, clear_, keys_kernel_;
+  std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;
+  GrowingBuffer visible_, records_, entries_, keys_;
+};
+
 }  // namespace
 
 std::unique_ptr<RasterPipeline> make_raster_cpu_pipeline(ClDevice& device, ProgramCache& programs,
                                                          bool portable) {
   return std::make_unique<RasterCpuPipeline>(device, programs, portable);
+}
+
+std::unique_ptr<RasterPipeline> make_raster_gpu_pipeline(ClDevice& device, ProgramCache& programs,
+                                                         bool wide_atomics) {
+  return std::make_unique<RasterGpuPipeline>(device, programs, wide_atomics);
 }
 
 }  // namespace lightgrid

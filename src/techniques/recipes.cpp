@@ -1,0 +1,86 @@
+#include "techniques/recipes.h"
+
+#include "passes/cull_lights.h"
+#include "passes/fill_gbuffer.h"
+#include "passes/find_object_lights.h"
+#include "passes/resolve.h"
+#include "passes/shade_forward.h"
+#include "passes/shade_objects.h"
+#include "passes/shade_tiles.h"
+
+namespace lightgrid {
+namespace {
+
+// Without point and spot lights there is no light pass, and the image takes all.
+BaseLighting base_lighting_of(const RenderView& v) {
+  return v.plan.light_grid && !v.plan.base_lighting ? BaseLighting::in_light_pass : BaseLighting::in_image;
+}
+
+GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
+  if (!surfaces) {
+    const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
+    surfaces = Surfaces{.image = gbuffer.depth_image};
+    return gbuffer;
+  }
+  if (!surfaces->visible) return fill_gbuffer(v, surfaces->drawn, base_lighting_of(v));
+  GBuffer gbuffer;
+  gbuffer.in_cl = resolve_gbuffer(v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
+  return gbuffer;
+}
+
+}  // namespace
+
+Frame shade_from_light_grid(RenderView& v) {
+  Surfaces surfaces = find_surfaces(v);
+  if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
+  Frame frame = frame_of(surfaces);
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  const LightSource lights = from_grid(v, *frame.grid);
+  frame.image = shade(v, surfaces, lights);
+  blend_from_grid(v, surfaces, lights, frame);
+  return frame;
+}
+
+Frame shade_every_light(RenderView& v, const Surfaces& surfaces) {
+  Frame frame = frame_of(surfaces);
+  const LightSource lights = every_light(v);
+  frame.image = shade(v, surfaces, lights);
+  blend(v, surfaces, lights, frame.image);
+  return frame;
+}
+
+void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame) {
+  frame.listed = opaque.listed;
+  if (surfaces.visible ? v.plan.blended.empty() : !v.plan.blend) return;
+  if (!v.plan.blend_grid) return blend(v, surfaces, opaque, frame.image);
+  frame.blend_grid = cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds_of(v, surfaces));
+  blend(v, surfaces, from_grid(v, *frame.blend_grid), frame.image);
+}
+
+Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
+  // If no light has a position, nothing adds to a geometry buffer. OpenGL fills it all the same, for its
+  // image.
+  if (!v.plan.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
+  const GBuffer gbuffer = fill(v, surfaces);
+  Frame frame = frame_of(*surfaces);
+  if (!v.plan.light_grid) {
+    frame.image = gbuffer.image;
+    blend(v, *surfaces, every_light(v), frame.image);
+    return frame;
+  }
+  const DepthBuffer& depth = depth_of(v, *surfaces);
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, *surfaces));
+  const LightSource lights = from_grid(v, *frame.grid);
+  frame.image = shade_tiles(v, v.caches.tile_shading, gbuffer, depth, lights);
+  blend_from_grid(v, *surfaces, lights, frame);
+  return frame;
+}
+
+Frame shade_by_objects(RenderView& v, uint32_t lights_a_draw, bool own_apart) {
+  const ObjectLights& objects = find_object_lights(v, v.caches.object_lights, find_surfaces(v).drawn);
+  const ShadedImage image = shade_objects(v, objects, lights_a_draw, own_apart);
+  shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
+  return {.image = image, .listed = [&v](auto&) { return listed_of_objects(v, v.caches.object_lights); }};
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,30 @@
+// The frames that several techniques share.
+#pragma once
+
+#include "techniques/technique.h"
+
+namespace lightgrid {
+
+// From a light grid, of forward_plus, clustered and visibility: surfaces, depth bounds, cull, shade, blended
+// surfaces. The plan's slices, and who draws surfaces, make the difference.
+Frame shade_from_light_grid(RenderView& v);
+
+// The frame without lists.
+Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
+
+// Blends blended surfaces over the frame's image, whose opaque ones have the lights of a grid. With depth
+// bounds, they get a grid of their own, stored in the frame; without, they use that of opaque surfaces, whose
+// lists become the frame's.
+void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
+
+// deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share this: surfaces
+// into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces
+// are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
+Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
+
+// forward_multipass and forward_zprepass share this: each object with the lights that reach its visible part,
+// `lights_a_draw` in each draw, added up; then blended surfaces. own_apart: the first draw has base lighting
+// alone.
+Frame shade_by_objects(RenderView& v, uint32_t lights_a_draw, bool own_apart);
+
+}  // namespace lightgrid
