@@ -45,9 +45,11 @@ function showPictures(view) {
   ].filter((group) => group.choices.length > 0);
   const fastest = rows.find((row) => row.winner && row.name !== name) ?? rows.find((row) => row.name !== name && row.image !== null);
   showSlider(groups, name, fastest?.name ?? "");
-  byId("reduced").textContent = reduced <= 1 ? "" :
+  const { ev, auto } = view.results.exposure ?? {};
+  const exposed = ev ? `Pictures are exposed by ${ev > 0 ? "+" : ""}${ev} EV${auto ? ", chosen from the picture" : ""}; figures are not. ` : "";
+  byId("reduced").textContent = exposed + (reduced <= 1 ? "" :
     `So that this page stays small, its pictures are shown at 1/${reduced} of their width and height; those in the folder ${folder} are whole. ` +
-    "A pixel stands for the mean of its block in a picture, its worst in a difference, its largest count in a heat map.";
+    "A pixel stands for the mean of its block in a picture, its worst in a difference, its largest count in a heat map.");
 }
 
 const columnsOf = (view) => [
@@ -223,7 +225,7 @@ function showView(view) {
   for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference.technique;
   for (const element of document.querySelectorAll(".brightest")) element.textContent = brightestInWords(view);
   showPictures(view);
-  showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : ""));
+  showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : row.overflow > 0 ? "loses lights by design" : ""));
   byId("figures-copy").replaceChildren(...copyButtons(() => byId("figures-table")));
   showErrors(view);
   byId("techniques").replaceChildren(...ranRows(view).map((row) => techniqueCard(view, row)));
