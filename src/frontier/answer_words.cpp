@@ -111,8 +111,8 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
     figures.push_back(fmt::format("{} {}", kind.name, error_in_words(kind.rmse)));
   }
   if (!(largest.rmse > 0)) return;
-  sentences.push_back(fmt::format("Its largest error is {}: {} (RMSE over the brightest channel).",
-                                  largest.in_words, fmt::join(figures, ", ")));
+  sentences.push_back(fmt::format("The largest error of {} is {}: {} (RMSE over the brightest channel).",
+                                  p.point.label, largest.in_words, fmt::join(figures, ", ")));
 }
 
 std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
@@ -128,8 +128,8 @@ void add_best_within(const FrontierAnswer& answer, const std::string& scene,
   }
   for (const BestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
-    sentences.push_back(fmt::format("Error up to {} (RMSE) in {}: {}{}, {} times {}.", percent_of(step->error),
-                                    scene_in_words(scene), p.point.label,
+    sentences.push_back(fmt::format("Error up to {} (RMSE) in {}: {}{}, {} times {}.",
+                                    percent_of(step->error), scene_in_words(scene), p.point.label,
                                     ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
                                     answer.part.baseline));
   }
@@ -193,7 +193,7 @@ void add_failures(const FrontierAnswer& answer, const std::string& scene,
                                      {"lost", "with lost lights"},
                                      {"wrong", "with wrong lights"},
                                      {"NaN", "with NaN"},
-                                     {"overflow", "with lists that overflow"}}) {
+                                     {"overflow", "with lists that overflow by design"}}) {
     size_t count = 0;
     for (const Failure& f : answer.failures) {
       if (f.cause != cause || f.point.scene != scene) continue;
@@ -230,7 +230,6 @@ std::string three_digits(double value) {
   const int decimals = std::clamp(2 - std::stoi(rounded.substr(rounded.find('e') + 1)), 0, 9);
   return fmt::format("{:.{}f}", value, decimals);
 }
-
 
 static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;

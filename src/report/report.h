@@ -88,8 +88,8 @@ inline constexpr double exact_max_rel = 1e-5;
 
 bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN; and it ran
 bool is_exact(const ImageError& error);
-// Passes, and its light is exact on its own surfaces (light_error) or was not compared. If every light was not
-// drawn on these surfaces, its image is held against the reference's.
+// Passes, and its light is exact on its own surfaces (light_error) or was not compared. If every light was
+// not drawn on these surfaces, its image is held against the reference's.
 bool is_exact(const RunResult& row);
 
 // Why lit pairs were lost, if that is by design: " by design (a pixel has room for 4 lights)".
@@ -98,8 +98,8 @@ std::string why_lost(const RunResult& row);
 // One sentence: the fastest exact technique, and why.
 std::string verdict(const CompareReport& report);
 
-// The fastest exact technique, the fastest whose picture nobody can tell from every light's, and the exact one
-// with least memory.
+// The fastest exact technique, the fastest whose picture nobody can tell from every light's, and the exact
+// one with least memory.
 std::vector<Choice> choices(const CompareReport& report);
 
 // The timed row of least median among those that `counts` accepts; null if there is none.

@@ -65,12 +65,13 @@ std::string light_clause(const CompareReport& report, const RunResult& row) {
                        error_clause(*row.error));
   }
   if (!error) return "";
-  const std::string every_light = fmt::format("every light at every pixel{} ({})",
-                                              other_surfaces ? " of its own surfaces" : "",
-                                              other_surfaces ? every_light_on(true) : report.reference);
+  const std::string every_light =
+      fmt::format("every light at every pixel{} ({})", other_surfaces ? " of its own surfaces" : "",
+                  other_surfaces ? every_light_on(true) : report.reference);
   if (error->bit_identical) return "exact: the image of " + every_light + ", bit for bit";
   return fmt::format("{}: its image differs from that of {} {}",
-                     is_exact(row) ? "exact within rounding" : "not exact", every_light, error_clause(*error));
+                     is_exact(row) ? "exact within rounding" : "not exact", every_light,
+                     error_clause(*error));
 }
 
 std::string lights_figure(const CompareReport& report, const RunResult& row) {
@@ -122,7 +123,8 @@ bool looks_exact(const RunResult& row) {
   const ImageError* error = light_error(row);
   const bool faultless = row.refused.empty() && row.nan_pixels == 0 &&
                          (!row.pairs || (row.pairs->wrong == 0 && row.pairs->lost == row.overflow));
-  return faultless && (is_exact(row) || (error && error->displayed && error->displayed->visible <= most_visible));
+  return faultless &&
+         (is_exact(row) || (error && error->displayed && error->displayed->visible <= most_visible));
 }
 
 // How sure it is that `row` is the fastest of those that `counts` accepts. Five frames or more hold the
@@ -130,14 +132,16 @@ bool looks_exact(const RunResult& row) {
 std::string how_sure(const CompareReport& report, const RunResult& row, const RowTest& counts) {
   const Spread& time = row.frame_ms;
   if (time.runs < 2) return "one frame makes no interval: --frames 5 gives one";
-  std::string words = fmt::format("{} to {} ms in {} frames{}", short_number(time.min), short_number(time.max),
-                                  time.runs, time.runs < 5 ? ", too few to be sure" : "");
+  std::string words =
+      fmt::format("{} to {} ms in {} frames{}", short_number(time.min), short_number(time.max), time.runs,
+                  time.runs < 5 ? ", too few to be sure" : "");
   const RunResult* next =
       fastest(report, [&](const RunResult& other) { return &other != &row && counts(other); });
   if (!next) return words;
   const std::string name = fmt::format("{} ({})", row_name(report, *next), ms_in_words(*next));
   if (time.max < next->frame_ms.min) return words + ": every frame is faster than any of the next, " + name;
-  if (time.median < next->frame_ms.min) return words + ": the median is below every frame of the next, " + name;
+  if (time.median < next->frame_ms.min)
+    return words + ": the median is below every frame of the next, " + name;
   return words + ": not surely faster than " + name;
 }
 
@@ -216,7 +220,8 @@ std::string why_lost(const RunResult& row) {
   if (row.overflow == 0) return "";
   const auto room = row.settings.find("lidr_overlap");
   const bool told = room != row.settings.end() && room->second != "auto";
-  return fmt::format(" by design (a pixel has room for {} lights)", told ? room->second : "a limited number of");
+  return fmt::format(" by design (a pixel has room for {} lights)",
+                     told ? room->second : "a limited number of");
 }
 
 std::vector<std::string> remarks(const CompareReport& report) {
@@ -257,9 +262,9 @@ std::string verdict(const CompareReport& report) {
   if (reference == row) {
     const RunResult* next =
         fastest(report, [&](const RunResult& other) { return &other != reference && is_exact(other); });
-    return fmt::format("Nothing exact beats {}{}.", name,
-                       next ? fmt::format("; {} comes next at {}", row_name(report, *next), ms_in_words(*next))
-                            : "");
+    return fmt::format(
+        "Nothing exact beats {}{}.", name,
+        next ? fmt::format("; {} comes next at {}", row_name(report, *next), ms_in_words(*next)) : "");
   }
   const std::string why = why_faster(report, *row, *reference);
   return fmt::format("{} is the fastest exact technique, {} times faster than {}{}{}.", name,
@@ -287,12 +292,14 @@ std::vector<Choice> choices(const CompareReport& report) {
   const RunResult *least = nullptr, *next = nullptr;
   for (const RunResult& other : report.rows) {
     if (!is_exact(other) || other.memory_total == 0) continue;
-    if (!least || other.memory_total < least->memory_total) next = least, least = &other;
-    else if (!next || other.memory_total < next->memory_total) next = &other;
+    if (!least || other.memory_total < least->memory_total)
+      next = least, least = &other;
+    else if (!next || other.memory_total < next->memory_total)
+      next = &other;
   }
   if (least) {
-    Choice& choice = all.emplace_back(Choice{"Least memory, exact", row_name(report, *least),
-                                             bytes_in_words(least->memory_total), "", ""});
+    Choice& choice = all.emplace_back(
+        Choice{"Least memory, exact", row_name(report, *least), bytes_in_words(least->memory_total), "", ""});
     choice.why = fmt::format("{} a frame", ms_in_words(*least));
     if (next)
       choice.why += fmt::format("; the next, {}, takes {}", row_name(report, *next),

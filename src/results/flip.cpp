@@ -323,7 +323,8 @@ DisplayedFlip displayed_flip(const Image& image, const Image& reference, const E
   const auto displayed = [&](const std::vector<uint8_t>& bytes) {
     Image linear(image.width, image.height);
     for (size_t i = 0; i < linear.pixels.size(); ++i) {
-      for (int c = 0; c < 3; ++c) linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
+      for (int c = 0; c < 3; ++c)
+        linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
     }
     return linear;
   };

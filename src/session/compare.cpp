@@ -127,7 +127,8 @@ ImageError error_of(const Image& image, const Measured& m) {
   return error;
 }
 
-// Where an own reference is not wanted, the report has no OwnSurfaces; where it cannot be had, it says why not.
+// Where an own reference is not wanted, the report has no OwnSurfaces; where it cannot be had, it says why
+// not.
 void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& compared,
                                       const std::vector<ContestantRun>& entries, Measured& m) {
   if (m.reference.run().frame().triangles) return;

@@ -291,7 +291,7 @@ TEST(Answer, SaysWhatTheFiguresSay) {
           "brightest "
           "channel) is visibility:range=scene (~ clustered): it takes 0.300 times (95 % interval 0.29"));
   EXPECT_EQ(answer.sentences[1],
-            "Its largest error is the model's (where a light's range ends, and its window): model 1.0e-4, "
+            "The largest error of visibility:range=scene is the model's (where a light's range ends, and its window): model 1.0e-4, "
             "precision 0, "
             "technique 0 (RMSE over the brightest channel).");
   EXPECT_EQ(answer.sentences[2],

@@ -137,8 +137,9 @@ CompareReport with_own_surfaces() {
 TEST(OwnSurfaces, AreToldApartFromLightThatIsExactOnThem) {
   const CompareReport report = with_own_surfaces();
   EXPECT_EQ(fastest_exact(report), &report.rows[2]);
-  EXPECT_THAT(verdict(report),
-              testing::StartsWith("visibility is the fastest exact technique, 24.2 times faster than forward"));
+  EXPECT_THAT(
+      verdict(report),
+      testing::StartsWith("visibility is the fastest exact technique, 24.2 times faster than forward"));
   EXPECT_THAT(
       telling_figures(report),
       ElementsAre(
@@ -171,9 +172,10 @@ TEST(OwnSurfaces, WithoutEveryLightOnThemNothingIsSaidOfTheirLight) {
 }
 
 TEST(Verdict, NamesTheFastestExactTechniqueAndWhy) {
-  EXPECT_EQ(verdict(two_rows()),
-            "forward_plus is the fastest exact technique, 11.3 times faster than forward: it goes through 2.0 "
-            "lights a pixel where forward goes through 10.0.");
+  EXPECT_EQ(
+      verdict(two_rows()),
+      "forward_plus is the fastest exact technique, 11.3 times faster than forward: it goes through 2.0 "
+      "lights a pixel where forward goes through 10.0.");
   EXPECT_EQ(verdict(with_faster_row(2e-3)), verdict(two_rows()));
   EXPECT_THAT(verdict(with_faster_row(9e-6)), testing::StartsWith("deferred is the fastest exact"));
 }
@@ -205,10 +207,11 @@ TEST(Verdict, SaysWhenNoRowPasses) {
 }
 
 TEST(Remarks, SayWhatAFasterTechniqueCosts) {
-  EXPECT_EQ(remarks(with_faster_row(2e-3)).back(),
-            "deferred is quicker (100 ms) but not exact: its image differs from that of every light at every "
-            "pixel (forward) by RMSE 5.0e-4 and at most 2.0e-3 of the brightest channel; FLIP of the pictures "
-            "as displayed is above 0.05 at 3 % of the pixels");
+  EXPECT_EQ(
+      remarks(with_faster_row(2e-3)).back(),
+      "deferred is quicker (100 ms) but not exact: its image differs from that of every light at every "
+      "pixel (forward) by RMSE 5.0e-4 and at most 2.0e-3 of the brightest channel; FLIP of the pictures "
+      "as displayed is above 0.05 at 3 % of the pixels");
   EXPECT_THAT(remarks(with_faster_row(9e-6)).back(), testing::StartsWith("lights per pixel"));
   auto report = with_faster_row(0.2);
   report.rows[2].pairs->wrong = 7;
@@ -255,7 +258,8 @@ TEST(Choices, SayHowSureTheyAre) {
   report.rows.push_back(report.rows[1]);
   report.rows[2].technique = "clustered";
   report.rows[2].frame_ms = {210, 240, 250, 260, 5};
-  EXPECT_THAT(choices(report)[0].sure, testing::EndsWith("5 frames: not surely faster than clustered (240 ms)"));
+  EXPECT_THAT(choices(report)[0].sure,
+              testing::EndsWith("5 frames: not surely faster than clustered (240 ms)"));
   report.rows[2].frame_ms.min = 215;
   EXPECT_THAT(choices(report)[0].sure,
               testing::EndsWith("the median is below every frame of the next, clustered (240 ms)"));
