@@ -143,7 +143,7 @@ function techniqueCard(view, row) {
   const figures = [];
   if (pictures.image !== null) figures.push(figure(pictures.image, "Picture"));
   if (pictures.difference !== null && !isReference) {
-    figures.push(figure(pictures.difference, `Difference from ${reference}: black is equal, white is NaN`,
+    figures.push(figure(pictures.difference, `Difference from ${reference}${hasOwnSurfaces(view, row) ? ", surfaces included" : ""}: black is equal, white is NaN`,
       legend(page.difference_legend, ["1e-7", "1e-6", "1e-5", "1e-4", "1e-3", "0.01", "0.1", "1"])));
   }
   if (pictures.listed) figures.push(heatFigure(view, pictures.listed, "listed"));
