@@ -208,8 +208,11 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
   }
   data["scenes"] = json::array();
   for (const std::string& scene : scenes_of(answer)) {
-    data["scenes"].push_back(
-        {{"key", scene}, {"title", scene_in_words(scene)}, {"sentences", sentences_of_scene(answer, scene)}});
+    const SceneWords words = words_of_scene(answer, scene);
+    data["scenes"].push_back({{"key", scene},
+                              {"title", scene_in_words(scene)},
+                              {"opening", words.opening},
+                              {"notes", words.notes}});
   }
   // In the order of their colors.
   data["techniques"] =

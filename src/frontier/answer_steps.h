@@ -55,8 +55,13 @@ std::vector<Growth> growth_of(Records records);
 std::vector<Failure> failures_of(Records records);
 
 // One paragraph a scene. A sentence whose figures are missing is left out.
-std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene);
 std::vector<std::string> sentences_of(const FrontierAnswer& answer);
+
+// What the page says of a scene above its table of errors, and below it.
+struct SceneWords {
+  std::vector<std::string> opening, notes;
+};
+SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene);
 
 // "forward", or of a series "forward, 10,000 lights".
 std::string label_in_series(const FrontierRecord& record);
@@ -80,8 +85,6 @@ std::vector<std::string> scenes_of(const FrontierAnswer& answer);
 
 // Three significant digits: "0.310", "31.0", "3,100"; "0" for 0.
 std::string three_digits(double value);
-
-std::string error_in_words(double error);  // "1.2e-3", "0"
 
 // The median and its 95 % confidence interval by order statistics of the binomial distribution (Hollander,
 // Wolfe and Chicken, Nonparametric Statistical Methods, 2014). Below six samples no such interval exists: it

@@ -20,20 +20,18 @@ using Points = std::vector<PointFigures>;
 
 // Below six runs there is no interval: median_interval.
 std::string ratio_in_words(const MedianInterval& ratio) {
-  const std::string what =
-      ratio.runs < 6 ? fmt::format("{} run{}", ratio.runs, ratio.runs == 1 ? "" : "s") : "95 % interval";
+  if (ratio.runs == 1)
+    return three_digits(ratio.median) + " times (one run: the budget was too short for an interval)";
+  const std::string what = ratio.runs < 6 ? fmt::format("{} runs", ratio.runs) : "95 % interval";
   return fmt::format("{} times ({} {} to {})", three_digits(ratio.median), what, three_digits(ratio.low),
                      three_digits(ratio.high));
 }
 
-// " (~ a, b and 3 more)": points that are not ranked against this one.
+// " (~ clustered)" or " (~ 43 others)": points that are not ranked against this one.
 std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
   if (tied.empty()) return "";
-  std::string words;
-  for (size_t i = 0; i < std::min<size_t>(tied.size(), 2); ++i) {
-    words += (i ? ", " : "") + points[tied[i]].point.label;
-  }
-  return fmt::format(" (~ {}{})", words, tied.size() > 2 ? fmt::format(" and {} more", tied.size() - 2) : "");
+  return tied.size() == 1 ? fmt::format(" (~ {})", points[tied[0]].point.label)
+                          : fmt::format(" (~ {} others)", tied.size());
 }
 
 // True if two points are meant to show the same: the settings that change the model agree.
@@ -113,13 +111,13 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
     figures.push_back(fmt::format("{} {}", kind.name, error_in_words(kind.rmse)));
   }
   if (!(largest.rmse > 0)) return;
-  sentences.push_back(fmt::format("Its largest error is {}: {} (RMSE over the brightest channel).",
-                                  largest.in_words, fmt::join(figures, ", ")));
+  sentences.push_back(fmt::format("The largest error of {} is {}: {} (RMSE over the brightest channel).",
+                                  p.point.label, largest.in_words, fmt::join(figures, ", ")));
 }
 
 std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
 
-// From the largest error down, each point at the least error that it is the best within.
+// A line a step: from the largest error down, each point at the least error that it is the best within.
 void add_best_within(const FrontierAnswer& answer, const std::string& scene,
                      std::vector<std::string>& sentences) {
   std::vector<const BestWithin*> steps;
@@ -128,16 +126,13 @@ void add_best_within(const FrontierAnswer& answer, const std::string& scene,
     if (steps.empty() || steps.back()->point != best->point) steps.push_back(nullptr);
     steps.back() = &*best;
   }
-  std::vector<std::string> words;
   for (const BestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
-    words.push_back(fmt::format("{}{} use {}{}, {} times {}", percent_of(step->error),
-                                words.empty() ? " (RMSE) in " + scene_in_words(scene) : "", p.point.label,
-                                ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
-                                answer.part.baseline));
+    sentences.push_back(fmt::format("Error up to {} (RMSE) in {}: {}{}, {} times {}.",
+                                    percent_of(step->error), scene_in_words(scene), p.point.label,
+                                    ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
+                                    answer.part.baseline));
   }
-  if (!words.empty())
-    sentences.push_back(fmt::format("If you can bear an error of {}.", fmt::join(words, "; of ")));
 }
 
 bool is_of_technique(const std::string& label, const std::string& technique) {
@@ -198,7 +193,7 @@ void add_failures(const FrontierAnswer& answer, const std::string& scene,
                                      {"lost", "with lost lights"},
                                      {"wrong", "with wrong lights"},
                                      {"NaN", "with NaN"},
-                                     {"overflow", "with lists that overflow"}}) {
+                                     {"overflow", "with lists that overflow by design"}}) {
     size_t count = 0;
     for (const Failure& f : answer.failures) {
       if (f.cause != cause || f.point.scene != scene) continue;
@@ -236,17 +231,7 @@ std::string three_digits(double value) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
-std::string error_in_words(double error) {
-  if (!std::isfinite(error)) return "not finite";
-  if (error == 0) return "0";
-  std::string text = fmt::format("{:.1e}", error);  // "1.2e-03"
-  const size_t exponent = text.find('e') + 2;
-  while (text[exponent] == '0' && exponent + 1 < text.size()) text.erase(exponent, 1);
-  if (text[exponent - 1] == '+') text.erase(exponent - 1, 1);
-  return text;
-}
-
-std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
+static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;
   add_fastest(answer, scene, sentences);
   add_best_within(answer, scene, sentences);
@@ -254,6 +239,16 @@ std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const 
   add_growth(answer, scene, sentences);
   add_failures(answer, scene, sentences);
   return sentences;
+}
+
+SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene) {
+  SceneWords words;
+  add_fastest(answer, scene, words.opening);
+  if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
+  add_failures(answer, scene, words.opening);
+  add_break_even(answer, scene, words.notes);
+  add_growth(answer, scene, words.notes);
+  return words;
 }
 
 std::vector<std::string> sentences_of(const FrontierAnswer& answer) {

@@ -104,7 +104,8 @@ std::string faster_sentence(const std::vector<ReportView>& views, const std::vec
         continue;
       tally_of(tallies, row_name(views[i].report, row))
           .places.push_back(
-              {names[i], fmt::format("{} times", short_number(best->frame_ms.median / row.frame_ms.median))});
+              {names[i], fmt::format("{} times{}", short_number(best->frame_ms.median / row.frame_ms.median),
+                                     row.overflow ? ", by design" : "")});
     }
   }
   if (tallies.empty()) return "";
@@ -158,8 +159,9 @@ std::vector<std::string> overview_sentences(const std::vector<ReportView>& views
   const auto names = short_views(views);
   std::vector<std::string> sentences = {winners_sentence(views, names)};
   for (const std::string& sentence :
-       {faster_sentence(views, names, "lossy",
-                        [](const RunResult& row) { return passes_gates(row) && !is_exact(row); }),
+       {faster_sentence(
+            views, names, "lossy",
+            [](const RunResult& row) { return passes_gates(row) && light_error(row) && !is_exact(row); }),
         faster_sentence(views, names, "with a gate failed",
                         [](const RunResult& row) { return !passes_gates(row); }),
         faster_where(views, "forward_plus", "clustered")}) {

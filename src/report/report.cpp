@@ -30,6 +30,8 @@ CompareReport without_images(const CompareReport& report) {
   rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
   rest.rows = report.rows;
   rest.reference_surfaces = report.reference_surfaces;
+  rest.brightest = report.brightest, rest.covered_pixels = report.covered_pixels;
+  rest.own_surfaces = report.own_surfaces;
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
   rest.exposure = report.exposure;
@@ -39,7 +41,8 @@ CompareReport without_images(const CompareReport& report) {
 ReportView finished_view(const fs::path& folder, const CompareReport& report, bool exr, size_t most_bytes) {
   ReportView view;
   view.verdict = verdict(report);
-  view.figures = telling_figures(report);
+  view.choices = choices(report);
+  view.figures = remarks(report);
   view.pictures = save_pictures(folder, report, exr, most_bytes);
   view.report = without_images(report);
   return view;
@@ -63,6 +66,7 @@ std::vector<CsvColumn> csv_columns() {
   add_columns(all, {"max_rel", "rmse_rel", "of_reference_max_rel"}, "/error/oracle", "oracle_");
   add_columns(all, {"reference_pixels"});
   add_columns(all, {"pixels", "sum_rel", "max_rel", "rmse_rel", "p99_rel"}, "/error/surfaces", "surfaces_");
+  add_columns(all, {"reference", "bit_identical", "max_rel", "rmse_rel"}, "/same_surfaces", "same_surfaces_");
   return all;
 }
 

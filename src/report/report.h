@@ -14,11 +14,17 @@
 
 namespace lightgrid {
 
+// An answer to "which one?": a technique, its figure, why it, and how sure that is.
+struct Choice {
+  std::string what, name, figure, why, sure;
+};
+
 // One view of a report as its page shows it; without the report's own images and counts.
 struct ReportView {
   CompareReport report;
   ReportPictures pictures;
   std::string verdict;
+  std::vector<Choice> choices;
   std::vector<std::string> figures;
   std::string folder;  // of its pictures, below the report's; empty for a single view
 };
@@ -67,9 +73,12 @@ std::vector<std::string> row_names_without(const CompareReport& report, const st
 std::string file_stem(const std::string& name);
 std::vector<std::string> file_stems(const std::vector<std::string>& names);  // distinct
 
-// The three most telling figures, one line each, for the terminal: time, image, lights per pixel. Fewer if
-// the report lacks their data.
+// The most telling figures, one line each, for the terminal: time, light, then the remarks. Fewer if the
+// report lacks their data.
 std::vector<std::string> telling_figures(const CompareReport& report);
+
+// Lights per pixel, surfaces, faster techniques and what they cost, changes along a path.
+std::vector<std::string> remarks(const CompareReport& report);
 
 // An image is exact if its distance from the oracle is at most this multiple of the reference's own, at the
 // same pixels. Both are granted a few float roundings (exact_floor, of the brightest channel).
@@ -79,10 +88,19 @@ inline constexpr double exact_max_rel = 1e-5;
 
 bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN; and it ran
 bool is_exact(const ImageError& error);
-bool is_exact(const RunResult& row);  // passes, and its image is exact or was not compared
+// Passes, and its light is exact on its own surfaces (light_error) or was not compared. If every light was
+// not drawn on these surfaces, its image is held against the reference's.
+bool is_exact(const RunResult& row);
 
-// The fastest exact technique, and why; then the faster ones and their price: a lossy image or a failed gate.
+// Why lit pairs were lost, if that is by design: " by design (a pixel has room for 4 lights)".
+std::string why_lost(const RunResult& row);
+
+// One sentence: the fastest exact technique, and why.
 std::string verdict(const CompareReport& report);
+
+// The fastest exact technique, the fastest whose picture nobody can tell from every light's, and the exact
+// one with least memory.
+std::vector<Choice> choices(const CompareReport& report);
 
 // The timed row of least median among those that `counts` accepts; null if there is none.
 using RowTest = std::function<bool(const RunResult& row)>;

@@ -43,11 +43,11 @@ json heat_entry(PictureStore& store, const std::optional<HeatMap>& heat) {
   return {{"picture", store.number_of(heat->png)}, {"mean", heat->mean}, {"max", heat->max}};
 }
 
-// "exact", "lossy", "failed" or "refused".
+// "exact", "lossy", "failed", "refused", or "unjudged": what its light is judged by was not drawn.
 const char* standing_of(const RunResult& row) {
   if (!row.refused.empty()) return "refused";
   if (!passes_gates(row)) return "failed";
-  return is_exact(row) ? "exact" : "lossy";
+  return is_exact(row) ? "exact" : row.error && !light_error(row) ? "unjudged" : "lossy";
 }
 
 json to_json(const Curve& curve) {
@@ -88,16 +88,21 @@ json view_data(PictureStore& store, const std::vector<ReportView>& views, size_t
     rows.push_back({{"name", pictures.name},
                     {"standing", standing_of(row)},
                     {"winner", &row == winner},
+                    {"why_lost", why_lost(row)},
                     {"image", store.number_of(pictures.image)},
                     {"difference", store.number_of(pictures.difference)},
                     {"listed", heat_entry(store, pictures.listed)}});
   }
+  json answers = json::array();
+  for (const Choice& c : view.choices)
+    answers.push_back({{"what", c.what}, {"name", c.name}, {"figure", c.figure}, {"why", c.why}, {"sure", c.sure}});
   const RunResult* reference = reference_row(view.report);
   const bool reference_ran = reference && reference->refused.empty();
   return {{"title", view_in_words(view.report)},
           {"folder", view.folder},
           {"reduced", view.pictures.reduced},
           {"verdict", view.verdict},
+          {"choices", answers},
           {"figures", view.figures},
           {"rows", rows},
           {"reference", store.number_of(view.pictures.reference)},
@@ -154,7 +159,7 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
   for (const char* name :
-       {"elements.js", "bars.js", "table.js", "plot.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
+       {"elements.js", "slider.js", "bars.js", "table.js", "plot.js", "charts.js", "matrix.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
   const json results =

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <numeric>
 
 #include "report/report.h"
@@ -16,87 +14,100 @@ std::string lights_number(double value) {
   return value >= 100 ? short_number(value) : fmt::format("{:.1f}", value);
 }
 
+// "12 lost pairs and 3 NaN pixels".
 std::string failed_gates(const RunResult& row) {
   std::vector<std::string> failures;
-  if (row.pairs && row.pairs->lost) failures.push_back(with_commas(row.pairs->lost) + " lost pairs");
+  if (row.pairs && row.pairs->lost)
+    failures.push_back(with_commas(row.pairs->lost) + " lost pairs" + why_lost(row));
   if (row.pairs && row.pairs->wrong) failures.push_back(with_commas(row.pairs->wrong) + " wrong pairs");
   if (row.nan_pixels) failures.push_back(with_commas(row.nan_pixels) + " NaN pixels");
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
-// Passes all gates but is not exact.
-const RunResult* fastest_lossy(const CompareReport& report) {
-  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
+double pixels_with_surfaces(const CompareReport& report) {
+  return report.covered_pixels ? double(report.covered_pixels) : double(report.width) * report.height;
 }
 
-const RunResult* fastest_of_all(const CompareReport& report) {
-  return fastest(report, [](const RunResult&) { return true; });
-}
-
-size_t index_of(const CompareReport& report, const RunResult& row) { return &row - report.rows.data(); }
-
-// Mean over the pixels; negative if not counted.
+// Mean over the pixels with a surface; negative if not counted.
 double listed_per_pixel(const CompareReport& report, const RunResult& row) {
-  const double pixels = double(report.width) * report.height;
-  if (row.pairs && pixels > 0) return row.pairs->listed / pixels;
-  const size_t i = index_of(report, row);
+  const double pixels = pixels_with_surfaces(report);
+  if (row.pairs && pixels > 0) return double(row.pairs->listed) / pixels;
+  const size_t i = size_t(&row - report.rows.data());
   if (i >= report.listed.size() || report.listed[i].empty()) return -1;
-  return std::accumulate(report.listed[i].begin(), report.listed[i].end(), 0.0) / report.listed[i].size();
+  return std::accumulate(report.listed[i].begin(), report.listed[i].end(), 0.0) / pixels;
 }
+
+std::string ms_in_words(const RunResult& row) { return short_number(row.frame_ms.median) + " ms"; }
 
 std::string time_figure(const CompareReport& report, const RunResult& row, const RunResult* reference) {
-  const auto& time = row.frame_ms;
+  const Spread& time = row.frame_ms;
   const auto runs = time.runs > 1 ? fmt::format("median of {}", time.runs) : "one run";
   if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
-    return fmt::format("{} is {} times faster than {}: {} ms against {} ms a frame ({})",
-                       row_name(report, row), short_number(reference->frame_ms.median / time.median),
-                       report.reference, short_number(time.median), short_number(reference->frame_ms.median),
-                       runs);
+    return fmt::format("{} is {} times faster than {}: {} against {} a frame ({})", row_name(report, row),
+                       short_number(reference->frame_ms.median / time.median), report.reference,
+                       ms_in_words(row), ms_in_words(*reference), runs);
   }
-  return fmt::format("{} takes {} ms a frame ({})", row_name(report, row), short_number(time.median), runs);
+  return fmt::format("{} takes {} a frame ({})", row_name(report, row), ms_in_words(row), runs);
 }
 
-bool same_colour(const glm::vec4& a, const glm::vec4& b) {
-  for (int c = 0; c < 3; ++c) {
-    if (std::bit_cast<uint32_t>(a[c]) != std::bit_cast<uint32_t>(b[c])) return false;
-  }
-  return true;
+std::string error_clause(const ImageError& error) {
+  return fmt::format("by RMSE {} and at most {} of the brightest channel", error_in_words(error.rmse_rel),
+                     error_in_words(error.max_rel));
 }
 
-// "3 of 153 pixels differ", or empty if an image is absent.
-std::string differing_pixels(const CompareReport& report, size_t a, size_t b) {
-  const auto &first = image_of(report, a).pixels, &second = image_of(report, b).pixels;
-  if (first.empty() || first.size() != second.size()) return "";
-  const auto same =
-      std::inner_product(first.begin(), first.end(), second.begin(), size_t(0), std::plus<>(), same_colour);
-  return fmt::format("{} of {} pixels differ", with_commas(first.size() - same), with_commas(first.size()));
-}
-
-std::string image_figure(const CompareReport& report, const RunResult& row, const RunResult& reference) {
-  const auto pixels = differing_pixels(report, index_of(report, row), index_of(report, reference));
-  if (row.error->bit_identical) {
-    return fmt::format("images are bit-identical{}{}", pixels.empty() ? "" : ": ", pixels);
+// "its light is every light's on its own surfaces (visibility:lights=all), bit for bit".
+std::string light_clause(const CompareReport& report, const RunResult& row) {
+  const ImageError* error = light_error(row);
+  const bool other_surfaces = row.own_surfaces && report.own_surfaces;
+  if (!error && row.error) {
+    return fmt::format("not known to be exact ({}): its image differs from {}'s {}",
+                       report.own_surfaces ? report.own_surfaces->why_not : "not measured", report.reference,
+                       error_clause(*row.error));
   }
-  return fmt::format("images differ: {}by at most {:.1e} of the brightest channel; absolute RMSE {:.1e}",
-                     pixels.empty() ? "" : pixels + ", ", row.error->max_rel, row.error->rmse);
+  if (!error) return "";
+  const std::string every_light =
+      fmt::format("every light at every pixel{} ({})", other_surfaces ? " of its own surfaces" : "",
+                  other_surfaces ? every_light_on(true) : report.reference);
+  if (error->bit_identical) return "exact: the image of " + every_light + ", bit for bit";
+  return fmt::format("{}: its image differs from that of {} {}",
+                     is_exact(row) ? "exact within rounding" : "not exact", every_light,
+                     error_clause(*error));
 }
 
 std::string lights_figure(const CompareReport& report, const RunResult& row) {
   auto line = fmt::format("lights per pixel: {} listed", lights_number(listed_per_pixel(report, row)));
   if (row.pairs) {
-    const double pixels = double(report.width) * report.height;
-    line += fmt::format(", {} lit, {} lost", lights_number(row.pairs->lit / pixels),
-                        with_commas(row.pairs->lost));
+    const double lit = double(row.pairs->lit) / pixels_with_surfaces(report);
+    line += fmt::format(", {} lit, {} lost", lights_number(lit), with_commas(row.pairs->lost));
     if (row.pairs->wrong) line += fmt::format(", {} wrong", with_commas(row.pairs->wrong));
   }
   return line;
 }
 
+// How far surfaces drawn in OpenCL are from OpenGL's, and whose are nearer to those in double.
+std::string surfaces_figure(const CompareReport& report) {
+  if (!report.own_surfaces || !report.own_surfaces->error) return "";
+  const ImageError& error = *report.own_surfaces->error;
+  std::string line = fmt::format("surfaces drawn in OpenCL, apart from light, differ from {}'s {}",
+                                 report.reference, error_clause(error));
+  if (error.silhouettes && error.silhouettes->silhouettes)
+    line += fmt::format("; {} pixels show another triangle", with_commas(error.silhouettes->silhouettes));
+  const auto& own = error.surfaces;
+  const auto& reference = report.reference_surfaces;
+  if (!own || !reference || own->pixels == 0) return line;
+  const double a = own->rmse_rel, b = reference->rmse_rel;
+  return line + fmt::format("; from surfaces in double they are RMSE {} off, {}'s {}{}", error_in_words(a),
+                            report.reference, error_in_words(b),
+                            a < b   ? ": OpenCL's are nearer"
+                            : b < a ? fmt::format(": {}'s are nearer", report.reference)
+                                    : "");
+}
+
 std::string why_faster(const CompareReport& report, const RunResult& row, const RunResult& reference) {
   const double own = listed_per_pixel(report, row), other = listed_per_pixel(report, reference);
   if (own >= 0 && other > own * 1.05) {
-    return fmt::format("because it goes through {} lights a pixel where {} goes through {}",
-                       lights_number(own), report.reference, lights_number(other));
+    return fmt::format("it goes through {} lights a pixel where {} goes through {}", lights_number(own),
+                       report.reference, lights_number(other));
   }
   const auto costliest = std::max_element(reference.passes.begin(), reference.passes.end(),
                                           [](auto& a, auto& b) { return a.median_ms < b.median_ms; });
@@ -105,76 +116,83 @@ std::string why_faster(const CompareReport& report, const RunResult& row, const 
                      short_number(costliest->median_ms));
 }
 
-std::string error_in_words(const RunResult& row) {
-  return fmt::format("differs by at most {:.1e} of the brightest channel", row.error->max_rel);
+// The share of pixels at which the pictures as displayed may differ, for nobody to tell them apart.
+constexpr double most_visible = 1e-4;
+
+bool looks_exact(const RunResult& row) {
+  const ImageError* error = light_error(row);
+  const bool faultless = row.refused.empty() && row.nan_pixels == 0 &&
+                         (!row.pairs || (row.pairs->wrong == 0 && row.pairs->lost == row.overflow));
+  return faultless &&
+         (is_exact(row) || (error && error->displayed && error->displayed->visible <= most_visible));
 }
 
-std::string image_clause(const RunResult& row) {
-  if (!row.error) return "";
-  if (row.error->bit_identical) return "; its image is the same to the last bit";
-  return "; its image " + error_in_words(row);
+// How sure it is that `row` is the fastest of those that `counts` accepts. Five frames or more hold the
+// median between their extremes with a probability of 15 in 16.
+std::string how_sure(const CompareReport& report, const RunResult& row, const RowTest& counts) {
+  const Spread& time = row.frame_ms;
+  if (time.runs < 2) return "one frame makes no interval: --frames 5 gives one";
+  std::string words =
+      fmt::format("{} to {} ms in {} frames{}", short_number(time.min), short_number(time.max), time.runs,
+                  time.runs < 5 ? ", too few to be sure" : "");
+  const RunResult* next =
+      fastest(report, [&](const RunResult& other) { return &other != &row && counts(other); });
+  if (!next) return words;
+  const std::string name = fmt::format("{} ({})", row_name(report, *next), ms_in_words(*next));
+  if (time.max < next->frame_ms.min) return words + ": every frame is faster than any of the next, " + name;
+  if (time.median < next->frame_ms.min)
+    return words + ": the median is below every frame of the next, " + name;
+  return words + ": not surely faster than " + name;
 }
 
-std::string fastest_clause(const CompareReport& report, const RunResult& row) {
-  return fmt::format("{} is the fastest at {} ms a frame", row_name(report, row),
-                     short_number(row.frame_ms.median));
+Choice fastest_choice(const CompareReport& report, const char* what, const RunResult& row,
+                      const RowTest& counts) {
+  return {what, row_name(report, row), ms_in_words(row), "", how_sure(report, row, counts)};
 }
 
-std::string unbeaten_clause(const CompareReport& report, const RunResult& reference) {
-  const auto* next =
-      fastest(report, [&](const RunResult& row) { return &row != &reference && is_exact(row); });
-  if (!next) return fastest_clause(report, reference);
-  return fmt::format("Nothing beats {}: {} ms a frame; {} comes next at {} ms", report.reference,
-                     short_number(reference.frame_ms.median), row_name(report, *next),
-                     short_number(next->frame_ms.median));
+std::string visible_in_words(const RunResult& row) {
+  const ImageError* error = light_error(row);
+  if (!error || !error->displayed) return "";
+  return fmt::format("FLIP of the pictures as displayed is above {} at {:.2g} % of the pixels", visible_flip,
+                     100 * error->displayed->visible);
 }
 
-// Other exact techniques with a run that was as fast: their order is uncertain.
-std::string close_clause(const CompareReport& report, const RunResult& winner) {
-  std::vector<std::string> close;
-  for (const RunResult& row : report.rows) {
-    if (&row == &winner || !is_exact(row) || row.frame_ms.runs == 0 ||
-        row.frame_ms.min > winner.frame_ms.median)
-      continue;
-    close.push_back(fmt::format("{} ({} ms)", row_name(report, row), short_number(row.frame_ms.median)));
+// Quicker than the best, and why it does not count.
+std::string quicker_figure(const CompareReport& report, const RunResult& row) {
+  const std::string name = fmt::format("{} is quicker ({}) but ", row_name(report, row), ms_in_words(row));
+  const std::string light = light_clause(report, row);
+  if (!passes_gates(row)) return name + "has " + failed_gates(row) + (light.empty() ? "" : "; " + light);
+  const std::string visible = visible_in_words(row);
+  return name + light + (visible.empty() ? "" : "; " + visible);
+}
+
+bool quicker(const RunResult* row, const RunResult* than) {
+  return row && row != than && (!than || row->frame_ms.median < than->frame_ms.median);
+}
+
+// Passes all gates but is not exact.
+const RunResult* fastest_lossy(const CompareReport& report) {
+  return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
+}
+
+// What the figures are about: the fastest exact row, or else the best there is; null if nothing was timed.
+const RunResult* best_row(const CompareReport& report) {
+  for (const RunResult* row : {fastest_exact(report), fastest_lossy(report)}) {
+    if (row) return row;
   }
-  return close.empty() ? "" : fmt::format(". Within the spread of the runs is {}", fmt::join(close, ", "));
-}
-
-std::string winner_clause(const CompareReport& report, const RunResult& row, const RunResult& reference) {
-  const auto why = why_faster(report, row, reference);
-  const double ratio = reference.frame_ms.median / std::max(row.frame_ms.median, 1e-9);
-  return fmt::format("{} wins: {} ms a frame, {} times faster than {}{}{}{}", row_name(report, row),
-                     short_number(row.frame_ms.median), short_number(ratio), report.reference,
-                     why.empty() ? "" : ", ", why, image_clause(row));
-}
-
-// The fastest of those that fail a gate.
-std::string failing_clause(const CompareReport& report, const RunResult& row) {
-  const bool visible = row.error && !is_exact(*row.error);
-  return fmt::format(". {} is quicker still ({} ms) but has {}{}", row_name(report, row),
-                     short_number(row.frame_ms.median), failed_gates(row),
-                     visible ? ", and its image " + error_in_words(row) : "");
-}
-
-std::string lossy_clause(const CompareReport& report, const RunResult& row) {
-  return fmt::format(". {} is quicker ({} ms) but lossy: its image {}", row_name(report, row),
-                     short_number(row.frame_ms.median), error_in_words(row));
-}
-
-// The sentence for a technique whose picture is another one: "visibility draws 34 frames a second (29.4 ms);
-// its image differs by …".
-std::string other_picture_figure(const CompareReport& report, const RunResult& row) {
-  return fmt::format("{} draws {} frames a second ({} ms); its image {}", row_name(report, row),
-                     short_number(1000 / std::max(row.frame_ms.median, 1e-9)),
-                     short_number(row.frame_ms.median), error_in_words(row));
-}
-
-bool quicker(const RunResult* row, const RunResult& than) {
-  return row && row->frame_ms.median < than.frame_ms.median;
+  return fastest(report, [](const RunResult&) { return true; });
 }
 
 }  // namespace
+
+const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
+  const RunResult* best = nullptr;
+  for (const RunResult& row : report.rows) {
+    const bool timed = row.frame_ms.runs > 0;
+    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
+  }
+  return best;
+}
 
 bool passes_gates(const RunResult& row) {
   return row.refused.empty() && row.nan_pixels == 0 &&
@@ -189,59 +207,106 @@ bool is_exact(const ImageError& error) {
   return error.oracle->max_rel <= most && error.max_rel <= std::max(exact_max_rel, of_reference + most);
 }
 
-bool is_exact(const RunResult& row) { return passes_gates(row) && (!row.error || is_exact(*row.error)); }
-
-const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
-  const RunResult* best = nullptr;
-  for (const auto& row : report.rows) {
-    const bool timed = row.frame_ms.runs > 0;
-    if (timed && counts(row) && (!best || row.frame_ms.median < best->frame_ms.median)) best = &row;
-  }
-  return best;
+bool is_exact(const RunResult& row) {
+  const ImageError* error = light_error(row);
+  return passes_gates(row) && (!row.error || is_exact(error ? *error : *row.error));
 }
 
 const RunResult* fastest_exact(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return is_exact(row); });
 }
 
-std::vector<std::string> telling_figures(const CompareReport& report) {
-  const auto* row = fastest_exact(report);
-  if (!row) row = fastest_lossy(report);
-  if (!row) row = fastest_of_all(report);
-  if (!row) return {};
-  const auto* reference = reference_row(report);
-  std::vector<std::string> lines = {time_figure(report, *row, reference)};
-  if (reference && reference != row && row->error) lines.push_back(image_figure(report, *row, *reference));
-  if (listed_per_pixel(report, *row) >= 0) lines.push_back(lights_figure(report, *row));
-  const auto* lossy = fastest_lossy(report);
-  if (lossy != row && quicker(lossy, *row) && lossy->error)
-    lines.push_back(other_picture_figure(report, *lossy));
+std::string why_lost(const RunResult& row) {
+  if (row.overflow == 0) return "";
+  const auto room = row.settings.find("lidr_overlap");
+  const bool told = room != row.settings.end() && room->second != "auto";
+  return fmt::format(" by design (a pixel has room for {} lights)",
+                     told ? room->second : "a limited number of");
+}
+
+std::vector<std::string> remarks(const CompareReport& report) {
+  const RunResult* best = best_row(report);
+  if (!best) return {};
+  std::vector<std::string> lines;
+  if (listed_per_pixel(report, *best) >= 0) lines.push_back(lights_figure(report, *best));
+  if (const std::string surfaces = surfaces_figure(report); !surfaces.empty()) lines.push_back(surfaces);
+  const RunResult* failing = fastest(report, [](const RunResult& row) { return !passes_gates(row); });
+  for (const RunResult* row : {fastest_lossy(report), failing}) {
+    if (quicker(row, best) && row->error) lines.push_back(quicker_figure(report, *row));
+  }
   if (const std::string changes = plan_changes_in_words(report); !changes.empty()) lines.push_back(changes);
   return lines;
 }
 
+std::vector<std::string> telling_figures(const CompareReport& report) {
+  const RunResult* best = best_row(report);
+  if (!best) return {};
+  const RunResult* reference = reference_row(report);
+  std::vector<std::string> lines = {time_figure(report, *best, reference)};
+  if (const std::string light = light_clause(report, *best); !light.empty() && best != reference)
+    lines.push_back(light);
+  for (std::string& line : remarks(report)) lines.push_back(std::move(line));
+  return lines;
+}
+
 std::string verdict(const CompareReport& report) {
-  const auto *quickest = fastest_of_all(report), *lossy = fastest_lossy(report), *row = fastest_exact(report);
-  const auto* failing = fastest(report, [](const RunResult& r) { return !passes_gates(r); });
-  if (!quickest) return "Nothing was timed.";
-  if (!row && !lossy) {
-    return fmt::format("No technique passes: {} has {}.", row_name(report, *quickest),
-                       failed_gates(*quickest));
+  const RunResult *row = fastest_exact(report), *best = best_row(report), *reference = reference_row(report);
+  if (!best) return "Nothing was timed.";
+  const std::string name = row_name(report, *best);
+  if (!passes_gates(*best)) return fmt::format("No technique passes: {} has {}.", name, failed_gates(*best));
+  if (!row)
+    return fmt::format("No technique is exact: {} is the fastest that fails no gate, {} a frame; {}.", name,
+                       ms_in_words(*best), light_clause(report, *best));
+  if (!reference || reference->frame_ms.runs == 0)
+    return fmt::format("{} is the fastest exact technique.", name);
+  if (reference == row) {
+    const RunResult* next =
+        fastest(report, [&](const RunResult& other) { return &other != reference && is_exact(other); });
+    return fmt::format(
+        "Nothing exact beats {}{}.", name,
+        next ? fmt::format("; {} comes next at {}", row_name(report, *next), ms_in_words(*next)) : "");
   }
-  if (!row) {
-    const auto text = fmt::format(
-        "No technique is exact: {} is the fastest that fails no gate, {} ms a frame, but its image {}",
-        row_name(report, *lossy), short_number(lossy->frame_ms.median), error_in_words(*lossy));
-    return text + (quicker(failing, *lossy) ? failing_clause(report, *failing) : "") + ".";
+  const std::string why = why_faster(report, *row, *reference);
+  return fmt::format("{} is the fastest exact technique, {} times faster than {}{}{}.", name,
+                     short_number(reference->frame_ms.median / std::max(row->frame_ms.median, 1e-9)),
+                     report.reference, why.empty() ? "" : ": ", why);
+}
+
+std::vector<Choice> choices(const CompareReport& report) {
+  std::vector<Choice> all;
+  const RowTest exact = [](const RunResult& row) { return is_exact(row); };
+  const RunResult *row = fastest_exact(report), *alike = fastest(report, looks_exact);
+  if (row) {
+    Choice& choice = all.emplace_back(fastest_choice(report, "Fastest exact", *row, exact));
+    choice.why = light_clause(report, *row);
   }
-  const auto* reference = reference_row(report);
-  auto text = !reference || reference->frame_ms.runs == 0 ? fastest_clause(report, *row)
-              : reference == row                          ? unbeaten_clause(report, *row)
-                                                          : winner_clause(report, *row, *reference);
-  if (row != reference) text += close_clause(report, *row);
-  if (quicker(lossy, *row)) text += lossy_clause(report, *lossy);
-  if (quicker(failing, *row)) text += failing_clause(report, *failing);
-  return text + ".";
+  if (alike) {
+    Choice& choice =
+        all.emplace_back(fastest_choice(report, "Fastest that nobody can tell apart", *alike, looks_exact));
+    choice.why = alike == row ? "the same: nothing quicker looks like every light" : visible_in_words(*alike);
+    if (alike->overflow) choice.why += "; it has " + failed_gates(*alike);
+    const std::string rule = fmt::format("FLIP as displayed may be above {} at one pixel of {}", visible_flip,
+                                         with_commas(uint64_t(1 / most_visible)));
+    choice.sure = alike == row ? rule : rule + "; " + choice.sure;
+  }
+  const RunResult *least = nullptr, *next = nullptr;
+  for (const RunResult& other : report.rows) {
+    if (!is_exact(other) || other.memory_total == 0) continue;
+    if (!least || other.memory_total < least->memory_total)
+      next = least, least = &other;
+    else if (!next || other.memory_total < next->memory_total)
+      next = &other;
+  }
+  if (least) {
+    Choice& choice = all.emplace_back(
+        Choice{"Least memory, exact", row_name(report, *least), bytes_in_words(least->memory_total), "", ""});
+    choice.why = fmt::format("{} a frame", ms_in_words(*least));
+    if (next)
+      choice.why += fmt::format("; the next, {}, takes {}", row_name(report, *next),
+                                bytes_in_words(next->memory_total));
+    choice.sure = "counted by allocations";
+  }
+  return all;
 }
 
 }  // namespace lightgrid

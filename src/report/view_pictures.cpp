@@ -63,7 +63,8 @@ HeatMap make_heat_map(const CompareReport& report, const std::vector<uint32_t>& 
   const auto picture =
       heat_map(width, height, largest_of_blocks(counts, report.width, report.height, reduced), top);
   return {encode_png(width, height, 3, srgb_bytes_as_is(picture)),
-          std::accumulate(counts.begin(), counts.end(), 0.0) / counts.size(),
+          std::accumulate(counts.begin(), counts.end(), 0.0) /
+              double(report.covered_pixels ? report.covered_pixels : counts.size()),
           *std::max_element(counts.begin(), counts.end())};
 }
 

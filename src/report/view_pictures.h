@@ -13,7 +13,7 @@ namespace lightgrid {
 
 struct HeatMap {
   std::vector<uint8_t> png;
-  double mean = 0;  // lights a pixel, of the whole picture
+  double mean = 0;  // lights a pixel that shows a surface
   uint32_t max = 0;
 };
 

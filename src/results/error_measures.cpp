@@ -28,14 +28,14 @@ double p99_rel(const Difference& d) { return over(d.percentile_99, d.brightest);
 
 constexpr ErrorMeasure measures[] = {
     {"max_abs", "", "", &ImageError::max_abs, max_abs, OverViews::largest, true, false},
-    {"max_rel", "Max error, of brightest", "largest", &ImageError::max_rel, max_rel, OverViews::largest, true,
+    {"max_rel", "Largest error", "largest", &ImageError::max_rel, max_rel, OverViews::largest, true,
      true},
-    {"rmse", "RMSE", "", &ImageError::rmse, rmse, OverViews::root_mean_square, true, false},
+    {"rmse", "", "", &ImageError::rmse, rmse, OverViews::root_mean_square, true, false},
     {"p99", "", "", &ImageError::p99, p99, OverViews::mean, true, false},
-    {"rmse_rel", "", "RMSE", &ImageError::rmse_rel, rmse_rel, OverViews::root_mean_square, false, true},
+    {"rmse_rel", "RMSE", "RMSE", &ImageError::rmse_rel, rmse_rel, OverViews::root_mean_square, true, true},
     {"relative_rmse", "", "relative RMSE", &ImageError::relative_rmse, relative_rmse,
      OverViews::root_mean_square, false, false},
-    {"p99_rel", "", "99th percentile", &ImageError::p99_rel, p99_rel, OverViews::mean, false, true},
+    {"p99_rel", "", "99th percentile", &ImageError::p99_rel, p99_rel, OverViews::mean, true, true},
 };
 
 template <typename Chosen>

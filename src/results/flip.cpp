@@ -317,6 +317,22 @@ std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const
   return HdrFlip(reference, exposures, pixels_per_degree).map(test);
 }
 
+DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure) {
+  const std::vector<uint8_t> shown = srgb_bytes(image, exposure), expected = srgb_bytes(reference, exposure);
+  if (shown == expected) return {};
+  const auto displayed = [&](const std::vector<uint8_t>& bytes) {
+    Image linear(image.width, image.height);
+    for (size_t i = 0; i < linear.pixels.size(); ++i) {
+      for (int c = 0; c < 3; ++c)
+        linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
+    }
+    return linear;
+  };
+  const std::vector<float> map = flip_map(displayed(shown), displayed(expected));
+  const auto visible = std::ranges::count_if(map, [](float flip) { return flip > visible_flip; });
+  return {mean_of(map), double(visible) / double(map.size())};
+}
+
 double mean_of(const std::vector<float>& map) {
   return map.empty() ? 0 : std::accumulate(map.begin(), map.end(), 0.0) / double(map.size());
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "results/results.h"
 
 namespace lightgrid {
 
@@ -49,5 +50,8 @@ class HdrFlip {
 };
 
 double mean_of(const std::vector<float>& map);
+
+// Between the pictures that PNG files show (srgb_bytes).
+DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure = {});
 
 }  // namespace lightgrid

@@ -9,6 +9,8 @@ namespace lightgrid {
 // Images of equal size; over the three colour channels. Equal infinities differ by 0. NaN in either image
 // counts as an infinite error; so does, for max_rel, any difference from a reference that is entirely black.
 ImageError compare_images(const Image& image, const Image& reference);
+// The same relative to another brightest channel than the reference's.
+ImageError compare_images(const Image& image, const Image& reference, double brightest);
 
 // The measures of the frontier alone, over `brightest`, the truth's brightest channel. The reference may be
 // in double.

@@ -31,6 +31,26 @@ json to_json(const std::optional<SurfacesError>& error) {
           {"p99_rel", finite_number(error->p99_rel)}};
 }
 
+json to_json(const std::optional<DisplayedFlip>& flip) {
+  if (!flip) return {};
+  return {{"mean", flip->mean}, {"visible_share", flip->visible}, {"visible_from", visible_flip}};
+}
+
+json measures_json(const ImageError& error) {
+  json values = {{"bit_identical", error.bit_identical}, {"displayed_flip", to_json(error.displayed)}};
+  for (const ErrorMeasure& measure : error_measures())
+    values[measure.key] = finite_number(error.*measure.value);
+  return values;
+}
+
+json same_surfaces_json(const RunResult& row) {
+  const ImageError* error = light_error(row);
+  if (!error) return {};
+  json values = measures_json(*error);
+  values["reference"] = every_light_on(row.own_surfaces);
+  return values;
+}
+
 json to_json(const ImageError& error) {
   json oracle;
   if (error.oracle) {
@@ -48,15 +68,20 @@ json to_json(const ImageError& error) {
               {"rmse_rel", finite_number(apart->rmse_rel)},
               {"p99_rel", finite_number(apart->p99_rel)}};
   }
-  json values = {{"flip_mean", error.flip_mean ? finite_number(*error.flip_mean) : json()},
-                 {"bit_identical", error.bit_identical},
+  json values = measures_json(error);
+  values.update({{"flip_mean", error.flip_mean ? finite_number(*error.flip_mean) : json()},
                  {"oracle", oracle},
                  {"silhouettes", silhouettes},
                  {"inside", inside},
-                 {"surfaces", to_json(error.surfaces)}};
-  for (const ErrorMeasure& measure : error_measures())
-    values[measure.key] = finite_number(error.*measure.value);
+                 {"surfaces", to_json(error.surfaces)}});
   return values;
+}
+
+json to_json(const std::optional<OwnSurfaces>& own) {
+  if (!own) return {};
+  return {{"technique", every_light_on(true)},
+          {"error", own->error ? to_json(*own->error) : json()},
+          {"why_not", own->why_not.empty() ? json() : json(own->why_not)}};
 }
 
 json to_json(const PairCounts& pairs) {
@@ -112,6 +137,13 @@ json to_json(const MovingResult& m) {
 
 }  // namespace
 
+const char* every_light_on(bool own_surfaces) { return own_surfaces ? "visibility:lights=all" : "forward"; }
+
+const ImageError* light_error(const RunResult& row) {
+  const std::optional<ImageError>& error = row.own_surfaces ? row.same_surfaces : row.error;
+  return error ? &*error : nullptr;
+}
+
 json exposure_json(const Exposure& exposure) { return {{"ev", exposure.ev}, {"auto", exposure.automatic}}; }
 
 json settings_json(const std::map<std::string, std::string>& settings) {
@@ -141,6 +173,7 @@ json to_json(const RunResult& result) {
               {"memory_bytes", memory_json(result)},
               {"pairs", result.pairs ? to_json(*result.pairs) : json()},
               {"error", result.error ? to_json(*result.error) : json()},
+              {"same_surfaces", same_surfaces_json(result)},
               {"nan_pixels", result.nan_pixels},
               {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},
@@ -203,8 +236,11 @@ json to_json(const CompareReport& report) {
               {"reference",
                {{"technique", report.reference},
                 {"pixels", report.reference_pixels},
+                {"brightest", finite_number(report.brightest)},
                 {"surfaces", to_json(report.reference_surfaces)}}},
               {"reference_errors", reference_errors},
+              {"own_surfaces", to_json(report.own_surfaces)},
+              {"covered_pixels", report.covered_pixels ? json(report.covered_pixels) : json()},
               {"rows", rows}};
   if (const auto& memory = report.path_memory) {
     out["moving"] = {

@@ -57,6 +57,14 @@ struct SurfacesError {
   double max_rel = 0, rmse_rel = 0, p99_rel = 0;
 };
 
+// FLIP between two pictures as they are displayed, the bytes of their PNG files. `visible`: of the pixels,
+// the share whose FLIP is above visible_flip. A uniform difference of one unit of CIELAB, which is about what
+// an eye can notice, has 0.06.
+inline constexpr double visible_flip = 0.05;
+struct DisplayedFlip {
+  double mean = 0, visible = 0;
+};
+
 // Linear light, over all pixels and the three colour channels; if the reference is a sample, over its pixels.
 struct ImageError {
   double max_abs = 0;
@@ -69,10 +77,11 @@ struct ImageError {
   // Absent where OpenGL draws the surfaces, and where the reference is a sample.
   std::optional<SilhouetteError> silhouettes;
   std::optional<SurfacesError> surfaces;  // absent if not requested
-  // In the frontier, relative to the truth's brightest channel (frontier_error); otherwise 0.
+  // Relative to the brightest channel of the reference or, in the frontier, of the truth.
   double rmse_rel = 0;
-  double relative_rmse = 0;  // over the truth's channel, at least 1e-3 of the brightest
   double p99_rel = 0;
+  double relative_rmse = 0;  // in the frontier: over the truth's channel, at least 1e-3 of the brightest
+  std::optional<DisplayedFlip> displayed;  // absent if not requested
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest
@@ -113,12 +122,24 @@ struct RunResult {
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
   std::string built_by;                      // as in Frame
   std::map<std::string, double> built_with;  // the same
-  std::optional<PairCounts> pairs;   // absent without the oracle
-  std::optional<ImageError> error;   // technique error: this image against the float image with every light
+  std::optional<PairCounts> pairs;           // absent without the oracle
+  std::optional<ImageError> error;  // technique error: this image against the float image with every light
+  // Whether it draws its surfaces in OpenCL. Its light is then judged by `same_surfaces`: this image against
+  // every light on these surfaces, relative to the brightest channel of `error`. Absent if that was not
+  // drawn.
+  bool own_surfaces = false;
+  std::optional<ImageError> same_surfaces;
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
   std::optional<MovingResult> moving;  // absent without a camera path
 };
+
+// The technique that shades every light at every pixel, on OpenGL's surfaces or on those drawn in OpenCL.
+const char* every_light_on(bool own_surfaces);
+
+// The error of the row's light apart from its surfaces: against every light on the same ones. Null if
+// unknown.
+const ImageError* light_error(const RunResult& row);
 
 // {"ev", "auto"}
 nlohmann::json exposure_json(const Exposure& exposure);
@@ -139,6 +160,13 @@ struct ReferenceErrors {
   uint64_t pixels_left_out = 0;  // covered by blended surfaces, which the oracle cannot shade
 };
 
+// Every light on the surfaces that rows draw in OpenCL, against the reference, which has OpenGL's: what the
+// surfaces alone differ by (texture filters, edges).
+struct OwnSurfaces {
+  std::string why_not;              // it was not drawn; empty if it was
+  std::optional<ImageError> error;  // with `surfaces`, `silhouettes` and `displayed`
+};
+
 // Everything that the report of one view shows.
 struct CompareReport {
   std::string scene;
@@ -148,7 +176,10 @@ struct CompareReport {
   std::string reference;  // the technique that the images are compared with: "forward", or with the setting
                           // that makes it one, "visibility:lights=all"
   uint64_t reference_pixels = 0;  // number of pixels compared: all, or a sample if all would take too long
+  double brightest = 0;           // channel of the reference's image, which errors are relative to
+  uint64_t covered_pixels = 0;    // with an opaque surface; 0 if not counted
   std::optional<SurfacesError> reference_surfaces;  // of the reference's image, at the rows' pixels
+  std::optional<OwnSurfaces> own_surfaces;          // absent if no row has such, and if the reference has
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear; read with image_of
   Image reference_image;                      // set only if no row is the reference

@@ -37,6 +37,23 @@ std::string short_number(double value) {
   return value >= 10 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
 }
 
+std::string error_in_words(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  if (value == 0) return "0";
+  std::string text = fmt::format("{:.1e}", value);  // "6.2e-03"
+  const int exponent = std::stoi(text.substr(text.find('e') + 1));
+  return fmt::format("{}e{}", text.substr(0, text.find('e')), exponent);
+}
+
+std::string bytes_in_words(uint64_t bytes) {
+  double value = double(bytes);
+  for (const char* unit : {"B", "KiB", "MiB"}) {
+    if (value < 1024) return *unit == 'B' ? fmt::format("{} B", bytes) : short_number(value) + " " + unit;
+    value /= 1024;
+  }
+  return short_number(value) + " GiB";
+}
+
 std::string spelled_setting(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
   return key;

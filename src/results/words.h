@@ -15,6 +15,11 @@ std::string with_commas(uint64_t value);  // 2420 -> "2,420"
 // Three significant digits: "2,420", "214", "11.3", "0.59".
 std::string short_number(double value);
 
+// Two significant digits: "0", "6.2e-3", "not finite".
+std::string error_in_words(double value);
+
+std::string bytes_in_words(uint64_t bytes);  // "11.9 MiB"
+
 std::string spelled_setting(
     std::string key);  // as the command line spells it: "lidr_overlap" -> "lidr-overlap"
 std::string short_scene(const CompareReport& report);    // without folders and extension

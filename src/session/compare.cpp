@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -101,7 +103,8 @@ struct Measured {
   ReferenceTriangles triangles = triangles_of(reference.run());
   RunResult result = reference.run().result();
   std::optional<FlipExposures> exposures{};
-  bool shown = false;  // the report will have the reference's image
+  bool shown = false;             // the report will have the reference's image
+  Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
 };
 
 Measured measured(Reference& reference, bool flip) {
@@ -124,6 +127,49 @@ ImageError error_of(const Image& image, const Measured& m) {
   return error;
 }
 
+// Where an own reference is not wanted, the report has no OwnSurfaces; where it cannot be had, it says why
+// not.
+void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& compared,
+                                      const std::vector<ContestantRun>& entries, Measured& m) {
+  if (m.reference.run().frame().triangles) return;
+  const auto own = std::ranges::find_if(entries, [](const ContestantRun& e) {
+    return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings);
+  });
+  if (own == entries.end()) return;
+  report.own_surfaces.emplace();
+  if (m.reference.sampled()) {
+    report.own_surfaces->why_not = "the reference is a sample";
+    return;
+  }
+  compared.tell(0.8, fmt::format("reference: {}", every_light_on(true)));
+  const auto failure = failure_of([&] {
+    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, own->contestant->settings);
+    run->run_frame(true);
+    m.every_light_on_own = run->take_image();
+    ImageError error = error_of(m.every_light_on_own, m);
+    error.displayed = displayed_flip(m.every_light_on_own, m.reference.image, report.exposure);
+    error.silhouettes =
+        silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
+    report.own_surfaces->error = std::move(error);
+  });
+  if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
+}
+
+// The row's error against the reference, and that of its light alone.
+void set_errors(RunResult& row, const Image& image, const CompareReport& report, const Measured& m) {
+  const Image& every_light = row.own_surfaces ? m.every_light_on_own : m.reference.image;
+  const bool other_surfaces = row.own_surfaces && !m.reference.run().frame().triangles;
+  if (other_surfaces && !every_light.pixels.empty()) {
+    row.same_surfaces = compare_images(image, every_light, report.brightest);
+    row.same_surfaces->displayed = displayed_flip(image, every_light, report.exposure);
+    if (row.same_surfaces->bit_identical) row.error = report.own_surfaces->error;
+  }
+  if (!row.error) row.error = error_of(image, m);
+  if (other_surfaces || m.reference.sampled()) return;
+  row.error->displayed = displayed_flip(image, m.reference.image, report.exposure);
+  if (row.own_surfaces) row.same_surfaces = row.error;
+}
+
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more.
 void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m) {
@@ -132,8 +178,9 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   if (!is_reference) run.run_frame(true);
   const Image& image = is_reference ? reference.image : run.image();
   RunResult row = is_reference ? m.result : run.result();
-  row.error = error_of(image, m);
-  if (run.frame().triangles) {
+  row.own_surfaces = run.frame().triangles.has_value();
+  set_errors(row, image, report, m);
+  if (row.own_surfaces) {
     const std::vector<SceneTriangle> own = own_triangles(run);
     for (size_t i = 0; i < own.size(); ++i) {
       if (own[i] != m.triangles.shown.opaque[i]) m.triangles.contested[i] = true;
@@ -172,6 +219,8 @@ void measure_surfaces(CompareReport& report, const Measured& m, std::vector<uint
       surfaces_in_double(reference.run().view(), m.triangles.shown.opaque, pixels);
   const double brightest = brightest_channel(reference.image);
   report.reference_surfaces = surfaces_error(reference.image, in_double, brightest);
+  if (!m.every_light_on_own.pixels.empty())
+    report.own_surfaces->error->surfaces = surfaces_error(m.every_light_on_own, in_double, brightest);
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (report.rows[i].error)
       report.rows[i].error->surfaces = surfaces_error(image_of(report, i, reference), in_double, brightest);
@@ -302,6 +351,11 @@ CompareReport measure(const Compared& compared) {
   draw_reference(reference, compared, entries);
   report.reference_pixels = reference.sampled() ? reference.sampled_pixels().size() : view.grid().pixels();
   Measured m = measured(reference, compared.options.flip);
+  report.brightest = brightest_channel(reference.image);
+  if (compared.options.exposure && !reference.sampled())
+    report.exposure = compared.options.exposure(reference.image);
+  report.covered_pixels = covered_pixels(m.depth).size();
+  draw_every_light_on_own_surfaces(report, compared, entries, m);
   measure_rows(report, compared, entries, m);
   measure_errors(report, compared, m);
   hand_over_image(report, m);

@@ -29,6 +29,7 @@ struct CompareOptions {
   std::vector<View> path;           // further frames with a moving camera: RunResult::moving
   SceneMotion advance;              // motion of the scene along that path; empty: at rest
   bool flip = false;            // HDR-FLIP of each image (results/flip.h), unless the reference is a sample
+  std::function<Exposure(const Image& reference)> exposure;  // of pictures as displayed; empty: none
   bool all_may_refuse = false;  // if all contestants are refused, report that instead of throwing
   // Called after each step with the progress (0 to 1) and the next step's name.
   std::function<void(double done, const std::string& step)> progress;
@@ -37,7 +38,8 @@ struct CompareOptions {
 };
 
 // Runs the contestants interleaved, frame by frame. The reference is `forward`, or without OpenGL
-// `visibility:lights=all`, run in addition if it is not among them. Errors are against its image; pairs are
+// `visibility:lights=all`, run in addition if it is not among them. Errors are against its image, and
+// those of light on surfaces drawn in OpenCL also against one frame of `visibility:lights=all`; pairs are
 // counted on opaque surfaces, by reference/lit_set.h. A contestant that throws Error, or runs out of memory,
 // becomes a row with `refused`, even if only reading its lists fails. If no contestant renders, the first
 // reason is thrown, unless all_may_refuse. If the reference is a sample (which needs OpenGL), contestants

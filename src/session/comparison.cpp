@@ -115,6 +115,7 @@ void run_comparison(const Comparison& comparison,
     options.progress = [&](double done, const std::string& step) {
       if (progress) progress((before + done * cost) / total, which + step);
     };
+    options.exposure = [&](const Image& reference) { return chosen_exposure(choices[i], reference); };
     options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
     CompareReport report = compare_techniques(devices, scene, view.view, contestants, options);
     report.exposure = chosen_exposure(choices[i], picture_of(report));

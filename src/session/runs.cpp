@@ -30,6 +30,11 @@ EveryLight every_light_technique(const Renderer& renderer) {
   return {&find_technique("visibility"), true};
 }
 
+std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings) {
+  settings.lights = ShadedLights::all;
+  return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, settings, find_technique("visibility"));
+}
+
 std::vector<ContestantRun> make_entries(const Compared& c) {
   std::vector<ContestantRun> entries;
   const auto shared = std::make_shared<TargetPool>();

@@ -89,6 +89,9 @@ struct Reference {
 // reference's technique are refused.
 Reference choose_reference(const Compared& compared, std::vector<ContestantRun>& entries);
 
+// A run of every light on the surfaces that are drawn in OpenCL, with the model and the texels of `settings`.
+std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& compared, Settings settings);
+
 // Draws the reference, unless one of the contestants that still run has drawn it. The image of a whole one
 // is still its run's.
 void draw_reference(Reference& reference, const Compared& compared,

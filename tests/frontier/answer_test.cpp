@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "frontier/answer_steps.h"
 #include "frontier/synthetic_records.h"
+#include "results/words.h"
 
 namespace lightgrid {
 namespace {
@@ -282,7 +283,7 @@ TEST(Failures, NameCauseAndFigureOnceAPoint) {
 
 TEST(Answer, SaysWhatTheFiguresSay) {
   const FrontierAnswer answer = answer_of({synthetic_sweep()});
-  ASSERT_THAT(answer.sentences, SizeIs(12));
+  ASSERT_THAT(answer.sentences, SizeIs(16));
   EXPECT_THAT(
       answer.sentences[0],
       HasSubstr(
@@ -290,29 +291,40 @@ TEST(Answer, SaysWhatTheFiguresSay) {
           "brightest "
           "channel) is visibility:range=scene (~ clustered): it takes 0.300 times (95 % interval 0.29"));
   EXPECT_EQ(answer.sentences[1],
-            "Its largest error is the model's (where a light's range ends, and its window): model 1.0e-4, "
+            "The largest error of visibility:range=scene is the model's (where a light's range ends, and its window): model 1.0e-4, "
             "precision 0, "
             "technique 0 (RMSE over the brightest channel).");
   EXPECT_EQ(answer.sentences[2],
-            "If you can bear an error of 1 % (RMSE) in hall use visibility:cutoff=0.01,range=cutoff, 0.200 "
-            "times forward_plus; "
-            "of 0.01 % use visibility:range=scene (~ clustered), 0.300 times forward_plus; "
-            "of 0.0001 % use deferred, 0.500 times forward_plus.");
+            "Error up to 1 % (RMSE) in hall: visibility:cutoff=0.01,range=cutoff, 0.200 times forward_plus.");
+  EXPECT_EQ(answer.sentences[3],
+            "Error up to 0.01 % (RMSE) in hall: visibility:range=scene (~ clustered), 0.300 times "
+            "forward_plus.");
+  EXPECT_EQ(answer.sentences[4],
+            "Error up to 0.0001 % (RMSE) in hall: deferred, 0.500 times forward_plus.");
   // 4 ns; exact over planes+aabb 3e6 / 6e5 = 5 ns, over sphere 3.5e6 / 2e6 = 1.75, planes+aabb over sphere
   // 0.5e6 / 1.4e6 = 0.36.
-  EXPECT_EQ(answer.sentences[3],
+  EXPECT_EQ(answer.sentences[5],
             "In hall a light at a pixel costs forward_plus 4.00 ns to shade: at that price the tighter cull "
             "test wins in 2 of 3 pairs.");
-  EXPECT_THAT(answer.sentences[4],
+  EXPECT_THAT(answer.sentences[6],
               testing::StartsWith("In hall the time of forward_plus grows as lights^0.50 (0.4"));
-  EXPECT_EQ(answer.sentences[5], "In hall 3 of 18 points failed: 1 refused, 1 with lost lights, 1 with NaN.");
-  EXPECT_THAT(answer.sentences[6], HasSubstr("In terrain the fastest point"));
+  EXPECT_EQ(answer.sentences[7], "In hall 3 of 18 points failed: 1 refused, 1 with lost lights, 1 with NaN.");
+  EXPECT_THAT(answer.sentences[8], HasSubstr("In terrain the fastest point"));
   EXPECT_THAT(answer_from({}).sentences, IsEmpty());
   const auto short_run = [](const char* technique, double ratio) {
     return synthetic_record(synthetic_point("hall", technique), ratio, 0, 0, 4);
   };
   EXPECT_THAT(answer_from({short_run("forward_plus", 1), short_run("visibility", 0.5)}).sentences[0],
               HasSubstr("is visibility: it takes 0.501 times (4 runs 0.496 to 0.505) as long."));
+  FrontierRecord once = short_run("visibility", 0.5), base = short_run("forward_plus", 1);
+  for (FrontierRecord* record : {&once, &base}) record->frame_ms.resize(1), record->baseline_ms.resize(1);
+  EXPECT_THAT(answer_from({base, once}).sentences[0],
+              HasSubstr("times (one run: the budget was too short for an interval) as long."));
+  const SceneWords words = words_of_scene(answer, scenes_of(answer)[0]);
+  ASSERT_THAT(words.opening, SizeIs(2));
+  EXPECT_EQ(words.opening[0], answer.sentences[0]);
+  EXPECT_EQ(words.opening[1], answer.sentences[7]);
+  EXPECT_THAT(words.notes, SizeIs(3));
   const FrontierAnswer one = answer_from({synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0)});
   EXPECT_THAT(one.sentences, ElementsAre(HasSubstr("In hall no point that computes the same picture"),
                                          HasSubstr("0.0001 %")));

@@ -7,7 +7,7 @@ namespace lightgrid {
 
 inline ImageError some_figures(double scale) {
   return {
-      .max_rel = 0.1 * scale, .rmse_rel = scale / 3, .relative_rmse = 0.07 * scale, .p99_rel = 0.011 * scale};
+      .max_rel = 0.1 * scale, .rmse_rel = scale / 3, .p99_rel = 0.011 * scale, .relative_rmse = 0.07 * scale};
 }
 
 // Of view `view` of a point whose tile is `tile`.

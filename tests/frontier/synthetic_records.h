@@ -25,8 +25,8 @@ inline ImageError synthetic_error(double max_rel, double rmse_rel, double relati
   return {.max_rel = max_rel,
           .flip_mean = flip_mean,
           .rmse_rel = rmse_rel,
-          .relative_rmse = relative_rmse,
-          .p99_rel = p99_rel};
+          .p99_rel = p99_rel,
+          .relative_rmse = relative_rmse};
 }
 
 // `runs` runs: the baseline takes 100 ms, the point `ratio` times that, alternately 1 % less and more. Its

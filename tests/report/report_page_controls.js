@@ -42,23 +42,57 @@ function tryPrint() {
     .map((element) => `${element.tagName} ${element.id} ${element.className} ${element.textContent.slice(0, 40)}`);
 }
 
+// Enlarges, reads a pixel, keeps the choice in the address and takes it from there.
+function trySlider(get) {
+  const slider = { at: [] };
+  slide(get, 25);
+  get("left-picture").selectedIndex = 0;
+  get("left-picture").dispatchEvent(new Event("change"));
+  get("zoom-in").click();
+  slider.scale = get("zoom-scale").textContent;
+  slider.transforms = ["left", "right"].map((side) => get(`${side}-image`).style.transform);
+  keepState();
+  slider.hash = decodeURIComponent(location.hash);
+  get("zoom-all").click();
+  slider.whole = get("left-image").style.transform;
+  setSliderState({ left: "lidr", right: "truly lit", cut: "75", zoom: "4,0.5,0.25" });
+  slider.set = sliderState();
+  slider.ramp = [0, 0.5, 1].map((share) => {
+    const ramp = ramps[page.heat_legend], at = Math.round(share * (ramp.length / 4 - 1));
+    return heatValue(60)([...ramp.slice(4 * at, 4 * at + 3)]);
+  });
+  slider.none = heatValue(60)([0, 0, 0]);
+  readPixel(0, 0);
+  slider.pixel = get("pixel").textContent;
+  setSliderState({ zoom: "1,0,0" });
+  return slider;
+}
+
+function slide(get, value) {
+  get("cut").value = value;
+  get("cut").dispatchEvent(new Event("input"));
+  return getComputedStyle(get("left-part")).clipPath;
+}
+
+// Of every pass of this program: a stage without a color of its own is "other".
+const PASSES = `blend_resolved build_voxels build_world_grid cull_lights cull_lights_for_blended depth_bounds depth_prepass
+  depth_to_cl draw_light_buffer fill_gbuffer fill_light_buffer fill_normals find_blended_object_lights find_object_lights
+  gbuffer_to_cl grid_to_gl image_to_gl light_buffer_to_gl light_index light_volumes list_blended normals_to_cl place_voxels
+  rasterize read_back resolve resolve_gbuffer resolve_materials resolve_normals shade_blended shade_forward
+  shade_light_volumes shade_objects shade_tiles tile_distances update_world_grid voxels_to_gl`.split(/\s+/);
+
 // Works the controls of the report page and writes what it saw into <pre id="outcome">.
 addEventListener("load", () => {
   const get = (id) => document.getElementById(id);
   const column = (n) =>
     [...document.querySelectorAll("#figures-table tbody tr")].map((line) => line.cells[n]?.firstChild.textContent.trim() ?? "");
   const click = (n) => document.querySelectorAll("#figures-table thead button")[n].click();
-  const slide = (value) => {
-    get("cut").value = value;
-    get("cut").dispatchEvent(new Event("input"));
-    return getComputedStyle(get("left-image")).clipPath;
-  };
 
   const seen = { title: document.title, verdict: get("verdict").textContent };
   seen.left = get("left-picture").selectedOptions[0]?.textContent;
   seen.right = get("right-picture").selectedOptions[0]?.textContent;
   seen.imageSize = [get("left-image").naturalWidth, get("left-image").naturalHeight];
-  seen.clips = [50, 12.5, 0, 100].map(slide);
+  seen.clips = [50, 12.5, 0, 100].map((value) => slide(get, value));
   get("cut").focus();
   seen.focused = document.activeElement.id;
   const before = get("right-image").src;
@@ -75,6 +109,15 @@ addEventListener("load", () => {
   seen.bySpeedUp = column(0);
   seen.lost = column(4);
   seen.sorted = [...document.querySelectorAll("#figures-table thead th")].findIndex((th) => th.getAttribute("aria-sort"));
+
+  seen.choices = [...get("choices").children].map((card) => [...card.children].map((part) => part.textContent));
+  seen.figures = [...get("figures").children].map((item) => item.textContent);
+  seen.markdown = tableText(get("figures-table"), "Markdown").split("\n");
+  seen.csv = tableText(get("figures-table"), "CSV").split("\n");
+  seen.copies = document.querySelectorAll("#figures-copy button").length;
+  seen.legend = [...document.querySelectorAll("#pass-legend li")].map((item) => [item.textContent, item.querySelector("i").style.background]);
+  seen.strayPasses = PASSES.filter((name) => stageOf(name).name === "other");
+  if (!get("slider").closest("section").hidden) seen.slider = trySlider(get);
 
   get("own-scale").click();
   const widthOf = (rect) => parseFloat(rect.getAttribute("width"));

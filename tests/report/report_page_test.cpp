@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "report/report.h"
 #include "report/synthetic_report.h"
@@ -82,6 +83,64 @@ TEST_F(ReportPage, ShowsSortsAndSlidesWhatResultsJsonHolds) {
   EXPECT_THAT(strings(seen["skipped"]), ElementsAre("light_prepass " + refused, "shadows: no light casts one",
                                                     "transparency: no blended surface is in view (forward, " +
                                                         both_tests + ", clustered, deferred_tiled, lidr)"));
+}
+
+TEST_F(ReportPage, AnswersWhichOneBeforeAnythingElse) {
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  const std::vector<Choice> expected = choices(report);
+  ASSERT_EQ(seen["choices"].size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_THAT(strings(seen["choices"][i]),
+                ElementsAre(expected[i].what, expected[i].name + " " + expected[i].figure, expected[i].why,
+                            expected[i].sure));
+  }
+  EXPECT_EQ(strings(seen["figures"]), remarks(report));
+  for (const std::string& line : strings(seen["figures"]))
+    EXPECT_EQ(verdict(report).find(line), std::string::npos) << "said twice";
+}
+
+TEST_F(ReportPage, ColorsPassesByWhatTheyDo) {
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  std::set<std::string> names, colors;
+  for (const json& entry : seen["legend"]) names.insert(entry[0]), colors.insert(entry[1]);
+  EXPECT_THAT(names, testing::ElementsAre("depth bounds", "geometry buffer", "light and materials",
+                                          "lists of lights", "the rest of the frame", "triangles and depth"));
+  EXPECT_EQ(colors.size(), names.size());
+  EXPECT_THAT(strings(seen["strayPasses"]), IsEmpty());
+}
+
+TEST_F(ReportPage, EnlargesReadsPixelsAndKeepsTheChoiceInItsAddress) {
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  const json& slider = seen["slider"];
+  EXPECT_EQ(slider["scale"], "2\u00d7");
+  EXPECT_THAT(strings(slider["transforms"]), Each(Eq("scale(2) translate(-25%, -25%)")));
+  EXPECT_THAT(slider["hash"].get<std::string>(), testing::StartsWith("#left=forward&right="));
+  EXPECT_THAT(slider["hash"].get<std::string>(), testing::EndsWith("&cut=25&zoom=2,0.25,0.25"));
+  EXPECT_EQ(slider["whole"], "scale(1) translate(0%, 0%)");
+  EXPECT_EQ(slider["set"],
+            json({{"left", "lidr"}, {"right", "truly lit"}, {"cut", "75"}, {"zoom", "4,0.5,0.25"}}));
+  EXPECT_THAT(strings(slider["ramp"]), ElementsAre("about 0", "about 30", "60 or more"));
+  EXPECT_EQ(slider["none"], "about 0");
+  // Of 34 x 18 pixels, a half from the left and a quarter from the top: 17, 4, or 13 from the bottom.
+  EXPECT_THAT(slider["pixel"].get<std::string>(),
+              testing::MatchesRegex("Pixel 17,13 .+ lidr: [0-9]+ [0-9]+ [0-9]+ .+ truly lit: about [0-9]+"));
+}
+
+TEST_F(ReportPage, CopiesItsTables) {
+  const auto seen = seen_in_browser(folder.path, controls, "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_EQ(seen["copies"], 2);
+  const std::vector<std::string> markdown = strings(seen["markdown"]), csv = strings(seen["csv"]);
+  ASSERT_EQ(csv.size(), 9u) << "a heading, seven rows and the end";
+  ASSERT_EQ(markdown.size(), 10u);
+  EXPECT_THAT(markdown[0], testing::StartsWith("| Technique | Frame, ms | Speed-up |"));
+  EXPECT_THAT(markdown[1], testing::StartsWith("| --- | ---: | ---: |"));
+  EXPECT_THAT(csv[0], testing::StartsWith("Technique,\"Frame, ms\",Speed-up,"));
+  EXPECT_THAT(csv, testing::Contains(testing::StartsWith("forward,2420,1,")));
+  EXPECT_THAT(markdown, testing::Contains(testing::StartsWith("| forward reference | 2,420 | 1.00")));
 }
 
 // The position of a time's dot, from the dots of the extreme times: axes are logarithmic.

@@ -142,5 +142,19 @@ TEST(Flip, HasNoExposuresForABlackReference) {
   EXPECT_FALSE(flip_exposures(Image()));
 }
 
+// What no byte of the picture shows is no difference; a pixel in four that turns from black to white is one.
+TEST(Flip, AsDisplayedComparesTheBytesOfThePictures) {
+  Image reference(8, 8), near = reference, far = reference;
+  for (glm::vec4& pixel : near.pixels) pixel.r = 1e-5f;
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) far.at(x, y) = glm::vec4(5);
+  }
+  EXPECT_EQ(displayed_flip(near, reference).mean, 0);
+  EXPECT_EQ(displayed_flip(near, reference).visible, 0);
+  EXPECT_GT(displayed_flip(near, reference, {.ev = 16}).visible, 0) << "exposed";
+  EXPECT_GT(displayed_flip(far, reference).mean, 0.2);
+  EXPECT_GE(displayed_flip(far, reference).visible, 0.25);
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -47,7 +47,11 @@ RunResult small_result() {
       OracleError{0.75, 0.375, 0.875},
       SilhouetteError{
           .silhouettes = 1, .blended = 2, .inside = 5, .max_rel = 0.25, .rmse_rel = 0.125, .p99_rel = 0.0625},
-      SurfacesError{.pixels = 4, .sum_rel = -0.5, .max_rel = 0.75, .rmse_rel = 0.25, .p99_rel = 0.375}};
+      SurfacesError{.pixels = 4, .sum_rel = -0.5, .max_rel = 0.75, .rmse_rel = 0.25, .p99_rel = 0.375},
+      0.1875,
+      0.03125,
+      0,
+      DisplayedFlip{0.25, 0.5}};
   result.nan_pixels = 11;
   result.inf_pixels = 13;
   result.overflow = 12;
@@ -66,13 +70,45 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
                 "kernels": [{"name": "resolve", "median_ms": 0.25}]}],
     "memory_bytes": {"total": 3, "light_grid": 2, "gbuffer": 1},
     "pairs": {"listed": 9, "lit": 8, "lost": 7, "wrong": 6},
+    "same_surfaces": {"reference": "forward", "max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625,
+              "rmse_rel": 0.1875, "p99_rel": 0.03125, "bit_identical": false,
+              "displayed_flip": {"mean": 0.25, "visible_share": 0.5, "visible_from": 0.05}},
     "error": {"max_abs": 0.5, "max_rel": 0.25, "rmse": 0.125, "p99": 0.0625, "flip_mean": null, "bit_identical": false,
+              "rmse_rel": 0.1875, "p99_rel": 0.03125,
+              "displayed_flip": {"mean": 0.25, "visible_share": 0.5, "visible_from": 0.05},
               "oracle": {"max_rel": 0.75, "rmse_rel": 0.375, "of_reference_max_rel": 0.875},
               "silhouettes": {"pixels": 1, "share": 0.125},
               "inside": {"pixels": 5, "max_rel": 0.25, "rmse_rel": 0.125, "p99_rel": 0.0625},
               "surfaces": {"pixels": 4, "sum_rel": -0.5, "max_rel": 0.75, "rmse_rel": 0.25, "p99_rel": 0.375}},
     "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
   EXPECT_EQ(to_json(small_result()), expected);
+}
+
+// Of surfaces drawn in OpenCL: not `error`, in which these surfaces are too.
+TEST(Results, JudgeLightOnTheSameSurfaces) {
+  RunResult result = small_result();
+  result.own_surfaces = true;
+  EXPECT_EQ(light_error(result), nullptr);
+  EXPECT_TRUE(to_json(result)["same_surfaces"].is_null());
+  result.same_surfaces = ImageError{};
+  const json same = to_json(result)["same_surfaces"];
+  EXPECT_EQ(same["reference"], "visibility:lights=all");
+  EXPECT_EQ(same["bit_identical"], true);
+  EXPECT_EQ(same["max_rel"], 0);
+}
+
+TEST(Results, OfOwnSurfacesSayHowFarTheyAreOrWhyThatIsUnknown) {
+  CompareReport report = synthetic_report(17, 9);
+  EXPECT_TRUE(to_json(report)["own_surfaces"].is_null());
+  report.own_surfaces = OwnSurfaces{"", ImageError{.max_rel = 0.5}};
+  const json drawn = to_json(report)["own_surfaces"];
+  EXPECT_EQ(drawn["technique"], "visibility:lights=all");
+  EXPECT_EQ(drawn["error"]["max_rel"], 0.5);
+  EXPECT_TRUE(drawn["why_not"].is_null());
+  report.own_surfaces = OwnSurfaces{"the reference is a sample", {}};
+  const json not_drawn = to_json(report)["own_surfaces"];
+  EXPECT_TRUE(not_drawn["error"].is_null());
+  EXPECT_EQ(not_drawn["why_not"], "the reference is a sample");
 }
 
 TEST(Results, OfAnEmptyRunKeepEveryKey) {
@@ -97,10 +133,10 @@ TEST(Results, WriteWhatIsNotFiniteAsNull) {
 
 TEST(Results, OfAReportHoldTheDocumentedKeys) {
   const auto value = to_json(synthetic_report(17, 9));
-  EXPECT_EQ(keys_of(value), (std::set<std::string>{"ambient", "scene", "size", "devices", "commit", "reference",
-                                                   "reference_errors", "rows"}));
+  EXPECT_EQ(keys_of(value), (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices", "commit", "reference",
+                                                   "reference_errors", "own_surfaces", "covered_pixels", "rows"}));
   EXPECT_EQ(value["size"], json::parse("[17, 9]"));
-  EXPECT_EQ(keys_of(value["reference"]), (std::set<std::string>{"technique", "pixels", "surfaces"}));
+  EXPECT_EQ(keys_of(value["reference"]), (std::set<std::string>{"technique", "pixels", "brightest", "surfaces"}));
   EXPECT_EQ(value["reference"]["technique"], "forward");
   EXPECT_EQ(value["reference"]["pixels"], 153);
   EXPECT_EQ(value["reference"]["surfaces"], value["rows"][0]["error"]["surfaces"]);

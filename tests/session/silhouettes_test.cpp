@@ -135,5 +135,41 @@ TEST(SilhouetteErrors, AreCountedApartByCompare) {
   EXPECT_LE(apart->max_rel, report.rows[1].error->max_rel);
 }
 
+// visibility's picture is not forward's, and yet every light's on its own surfaces.
+TEST(SameSurfaces, JudgeTheLightOfATechniqueApartFromItsSurfaces) {
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "mask"}) effect(name).add(s);
+  CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+  const std::vector<Contestant> contestants = {
+      {&find_technique("forward_plus"), {}},
+      {&find_technique("visibility"), {}},
+      {&find_technique("deferred_tiled"), {.raster = RasterApi::opencl}},
+      {&find_technique("lidr"), {.lidr_overlap = 1}}};
+  const View view = small_view(131, 77);
+  const CompareReport report = compare_techniques(software_devices(), s.scene, view, contestants, options);
+  ASSERT_TRUE(report.own_surfaces && report.own_surfaces->error);
+  const ImageError& surfaces = *report.own_surfaces->error;
+  EXPECT_FALSE(surfaces.bit_identical);
+  EXPECT_TRUE(surfaces.silhouettes && surfaces.surfaces && surfaces.displayed);
+  EXPECT_GT(report.covered_pixels, 131u * 77u / 4);
+  EXPECT_LT(report.covered_pixels, 131u * 77u);
+  EXPECT_NEAR(report.brightest, surfaces.max_abs / surfaces.max_rel, 1e-4 * report.brightest);
+  const std::vector<RunResult>& rows = report.rows;
+  EXPECT_EQ(light_error(rows[0]), &*rows[0].error);
+  ASSERT_TRUE(light_error(rows[1]) && light_error(rows[2]));
+  EXPECT_TRUE(light_error(rows[1])->bit_identical);
+  EXPECT_EQ(light_error(rows[1])->displayed->mean, 0);
+  EXPECT_EQ(rows[1].error->max_rel, surfaces.max_rel);
+  EXPECT_LT(light_error(rows[2])->max_rel, 1e-5);
+  EXPECT_GT(light_error(rows[3])->displayed->visible, 0) << "one light a pixel";
+
+  options.reference = ReferencePixels::sampled;
+  const CompareReport sampled = compare_techniques(software_devices(), s.scene, view, contestants, options);
+  ASSERT_TRUE(sampled.own_surfaces.has_value());
+  EXPECT_FALSE(sampled.own_surfaces->error.has_value());
+  EXPECT_EQ(sampled.own_surfaces->why_not, "the reference is a sample");
+  EXPECT_EQ(light_error(sampled.rows[1]), nullptr);
+}
+
 }  // namespace
 }  // namespace lightgrid

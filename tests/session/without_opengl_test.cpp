@@ -59,6 +59,8 @@ TEST(RendererWithoutOpenGl, ComparesWithEveryLightAlongAPath) {
   const RunResult& row = report.rows[0];
   EXPECT_EQ(row.refused, "");
   EXPECT_TRUE(row.error->bit_identical);
+  EXPECT_TRUE(light_error(row)->bit_identical) << "the reference has these surfaces";
+  EXPECT_FALSE(report.own_surfaces.has_value());
   EXPECT_EQ(row.moving->max_abs, 0);
   EXPECT_GT(row.moving->pairs.lit, row.pairs->lit);
   EXPECT_EQ(row.moving->pairs.lost, 0u);

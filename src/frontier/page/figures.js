@@ -13,7 +13,7 @@ function threeDigits(value) {
 
 // Below six runs there is no interval: the range of the runs, with their number.
 const intervalInWords = ({ median, ci95: [low, high], runs }, unit) =>
-  `${threeDigits(median)}${unit} (${threeDigits(low)} to ${threeDigits(high)}${runs < 6 ? `, ${runs} run${runs === 1 ? "" : "s"}` : ""})`;
+  `${threeDigits(median)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 ? `, ${runs} runs` : ""}`})`;
 
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,

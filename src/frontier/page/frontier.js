@@ -32,7 +32,7 @@ function withinCell(best) {
   const point = page.points[best.point], tied = best.tied.map((index) => page.points[index].label);
   return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
     make("div", { class: "note" }, `${intervalInWords(point.ratio, "\u00d7")}, ${milliseconds(point.frame_ms.median)}`),
-    ...(tied.length ? [make("div", { class: "note" }, `~ ${tied.slice(0, 2).join(", ")}${tied.length > 2 ? ` and ${tied.length - 2} more` : ""}`)] : []));
+    ...(tied.length ? [make("div", { class: "note", title: tied.join(", ") }, `~ ${tied.length > 1 ? `${tied.length} others` : tied[0]}`)] : []));
 }
 
 function showBestWithin() {
@@ -150,7 +150,9 @@ function chooseScene(key) {
   if (state.points.length > 0 && key === state.scene) return;
   state.scene = key;
   byId("scene-choice").value = key;
-  byId("paragraph").textContent = page.scenes.find((scene) => scene.key === key).sentences.join(" ");
+  const { opening, notes } = page.scenes.find((scene) => scene.key === key);
+  byId("paragraph").textContent = opening.join(" ");
+  byId("notes").replaceChildren(...notes.map((line) => make("li", {}, line)));
   state.points = page.points.filter((point) => point.scene === key);
   showTechniques();
   const frontTag = (point) => (point.front ? (tiedNoWorse(point).length ? "front ~" : "front") : "");

@@ -2,6 +2,18 @@
 
 const REST_COLOR = "#8a857c";
 
+// What a pass does, by its name: one color for all techniques. The first that fits counts.
+const STAGES = [
+  { name: "copies between APIs", color: "#8c6a4f", passes: /_to_(cl|gl)$|^read_back$/ },
+  { name: "blended surfaces", color: "#c25aa0", passes: /blend/ },
+  { name: "depth bounds", color: "#7d5bb0", passes: /^depth_bounds$|^tile_distances$/ },
+  { name: "geometry buffer", color: "#2a9aa0", passes: /gbuffer|geometry_buffer|normals/ },
+  { name: "triangles and depth", color: "#3b6fb6", passes: /^depth_prepass$|^rasterize$/ },
+  { name: "light and materials", color: "#d9822b", passes: /^shade|^resolve|light_buffer|materials/ },
+  { name: "lists of lights", color: "#3f9b58", passes: /cull|light|grid|voxels/ },
+];
+const stageOf = (pass) => STAGES.find((stage) => stage.passes.test(pass)) ?? { name: "other", color: REST_COLOR };
+
 function drawBar(bar, scale, width, colorOf, text) {
   const svg = make("svg", { role: "img", "aria-label": `${bar.name}: ${bar.parts.map((p) => `${p.name} ${text(p.value)}`).join(", ")}` },
     make("rect", { class: "track", width: "100%", height: "100%", rx: 3 }));
@@ -19,16 +31,17 @@ function drawBar(bar, scale, width, colorOf, text) {
   return svg;
 }
 
-// bars: [{ name, note, parts: [{ name, on, value }] }]. The part named `rest` is gray. ownScale: a checkbox, or null.
-// Returns a function that redraws them.
-function showBars(container, legend, bars, rest, text, ownScale) {
-  const names = [...new Set(bars.flatMap((bar) => bar.parts.map((part) => part.name)))].filter((name) => name !== rest);
-  const colorOf = (name) => (name === rest ? REST_COLOR : colorNumber(names.indexOf(name)));
+// bars: [{ name, note, parts: [{ name, on, value }] }]. The part named `rest` is gray; groupOf(name): what the legend names,
+// { name, color }. ownScale: a checkbox, or null. Returns a function that redraws them.
+function showBars(container, legend, bars, rest, groupOf, text, ownScale) {
+  const partNames = [...new Set(bars.flatMap((bar) => bar.parts.map((part) => part.name)))].filter((name) => name !== rest);
+  const groups = new Map(partNames.map((name) => groupOf(name, partNames)).map((group) => [group.name, group.color]));
+  const colorOf = (name) => (name === rest ? REST_COLOR : groupOf(name, partNames).color);
   const total = (bar) => bar.parts.reduce((sum, part) => sum + part.value, 0);
   const longest = Math.max(...bars.map(total), 0);
   const hasRest = bars.some((bar) => bar.parts.some((part) => part.name === rest));
-  legend.replaceChildren(...[...names, ...(hasRest ? [rest] : [])].map((name) =>
-    make("li", {}, make("i", { style: `background:${colorOf(name)}` }), name)));
+  legend.replaceChildren(...[...groups, ...(hasRest ? [[rest, REST_COLOR]] : [])].map(([name, color]) =>
+    make("li", {}, make("i", { style: `background:${color}` }), name)));
   const draw = () => {
     const width = container.clientWidth;
     container.replaceChildren(...bars.map((bar) =>
@@ -45,7 +58,7 @@ function timeBar(name, row) {
   const parts = row.passes.map((pass) => ({ name: pass.name, on: pass.on, value: pass.median_ms ?? 0 }));
   const rest = (row.frame_ms.median ?? 0) - parts.reduce((sum, part) => sum + part.value, 0);
   if (rest > 0) parts.push({ name: "the rest of the frame", value: rest });
-  const note = `${milliseconds(row.frame_ms.median ?? 0)} (${shortNumber(row.frame_ms.min ?? 0)} to ${shortNumber(row.frame_ms.max ?? 0)}, ${row.frame_ms.runs} runs)`;
+  const note = `${milliseconds(row.frame_ms.median ?? 0)} (${row.frame_ms.runs > 1 ? `${shortNumber(row.frame_ms.min ?? 0)} to ${shortNumber(row.frame_ms.max ?? 0)}, ${row.frame_ms.runs} frames` : "one frame"})`;
   return { name, note, parts };
 }
 

@@ -33,7 +33,7 @@ function shortCount(value) {
 }
 
 const milliseconds = (value) => `${shortNumber(value)} ms`;
-const errorNumber = (value) => (value === 0 ? "0" : value.toExponential(1));
+const errorNumber = (value) => (value === 0 ? "0" : value.toExponential(1).replace("+", ""));
 
 function byteNumber(value) {
   for (const unit of ["B", "KiB", "MiB"]) {
@@ -47,27 +47,27 @@ function byteNumber(value) {
 function errorInWords(error) {
   if (error.bit_identical) return "bit-identical";
   if (error.max_rel === null) return "not finite: a NaN, or a black reference";
-  return `at most ${errorNumber(error.max_abs)}, which is ${errorNumber(error.max_rel)} of the brightest channel; RMSE ${errorNumber(error.rmse)}`;
+  return `RMSE ${errorNumber(error.rmse_rel)}, at most ${errorNumber(error.max_rel)}`;
 }
 
 // Both images compared with the oracle, at the same pixels.
 function oracleInWords(oracle, reference) {
   if (!oracle || oracle.max_rel === null || oracle.of_reference_max_rel === null) return "";
-  return `; off the oracle by ${errorNumber(oracle.max_rel)} of the brightest channel, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
+  return `; off the oracle by at most ${errorNumber(oracle.max_rel)}, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
 }
 
 // Against light and surfaces both in double.
 function surfacesInWords({ sum_rel, rmse_rel }) {
   if (sum_rel === null || rmse_rel === null) return "not finite";
   const sum = `${errorNumber(100 * Math.abs(sum_rel))} % ${sum_rel < 0 ? "darker" : "brighter"}`;
-  return `RMSE ${errorNumber(rmse_rel)} of the brightest channel, in sum ${sum_rel === 0 ? "equal" : sum}`;
+  return `RMSE ${errorNumber(rmse_rel)}, in sum ${sum_rel === 0 ? "equal" : sum}`;
 }
 
 // Says what differs beside the silhouettes of a technique with a rasteriser of its own.
 function silhouettesInWords({silhouettes, inside}) {
   if (!silhouettes || inside.max_rel === null) return '';
-  return `; ${wholeNumber(silhouettes.pixels)} pixels show another triangle, elsewhere it is at most ${
-      errorNumber(inside.max_rel)} of the brightest channel, RMSE ${errorNumber(inside.rmse_rel)}`;
+  return `; ${wholeNumber(silhouettes.pixels)} pixels show another triangle, elsewhere RMSE ${
+      errorNumber(inside.rmse_rel)}, at most ${errorNumber(inside.max_rel)}`;
 }
 
 // Twenty colors that are distinguishable on light and dark paper; the first ten best.

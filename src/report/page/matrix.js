@@ -3,7 +3,7 @@
 const VIEWS_ACROSS = 6;  // in one table, so that it fits a sheet of paper
 
 const failures = (row) => [
-  row.pairs?.lost > 0 && `${shortCount(row.pairs.lost)} lost`,
+  row.pairs?.lost > 0 && `${shortCount(row.pairs.lost)} lost${row.overflow > 0 ? " by design" : ""}`,
   row.pairs?.wrong > 0 && `${shortCount(row.pairs.wrong)} wrong`,
   row.nan_pixels > 0 && `${shortCount(row.nan_pixels)} NaN`,
 ].filter(Boolean).join(", ");
@@ -11,8 +11,9 @@ const failures = (row) => [
 function matrixCell(row, pictures) {
   if (!row) return make("td", {}, "\u2013");
   if (row.refused) return make("td", { class: "refused", title: row.refused }, "refused");
-  const error = !row.error ? "" : row.error.bit_identical ? "identical" : row.error.max_rel === null ? "not finite" : errorNumber(row.error.max_rel);
-  const note = { exact: error, lossy: `${error} lossy`, failed: failures(row) }[pictures.standing];
+  const judged = row.same_surfaces ?? row.error;
+  const error = !judged ? "" : judged.bit_identical ? "identical" : judged.max_rel === null ? "not finite" : errorNumber(judged.max_rel);
+  const note = { exact: error, lossy: `${error} lossy`, unjudged: `${error} with surfaces`, failed: failures(row) }[pictures.standing];
   const mark = pictures.winner ? "\u2605\u00a0" : "";
   return make("td", { class: `${pictures.standing}${pictures.winner ? " winner" : ""}` },
     make("div", {}, mark + milliseconds(row.frame_ms.median ?? 0)), make("div", { class: "note" }, note));

@@ -34,6 +34,7 @@ function startOverview() {
   byId("overview").hidden = byId("view-part").hidden = views.length < 2;
   if (views.length < 2) return;
   byId("overview-sentences").replaceChildren(...page.overview.sentences.map((line) => make("li", {}, line)));
+  byId("matrix-copy").replaceChildren(...copyButtons(() => byId("matrix")));
   showMatrix(byId("matrix"), views, (number) => {
     chooseView(number);
     byId("view-part").scrollIntoView();
@@ -41,14 +42,39 @@ function startOverview() {
   byId("curves-part").hidden = page.overview.charts.length === 0;
   redrawsOfAll = [showCharts(byId("curves"), page.overview.charts)];
   byId("view-choice").replaceChildren(...views.map((view, i) => make("option", { value: i }, view.page.title)));
-  byId("view-choice").addEventListener("change", () => chooseView(Number(byId("view-choice").value)));
+  byId("view-choice").addEventListener("change", () => {
+    chooseView(Number(byId("view-choice").value));
+    keepState();
+  });
+}
+
+// The address keeps the view and the slider's pictures, so that a link shows the same.
+let stateInAddress = "", keeping = 0;
+function keepState() {
+  clearTimeout(keeping);
+  const view = views.length > 1 ? { view: byId("view-choice").value } : {};
+  stateInAddress = `#${new URLSearchParams({ ...view, ...sliderState() })}`;
+  location.replace(stateInAddress);
+}
+function keepStateSoon() {
+  clearTimeout(keeping);
+  keeping = setTimeout(keepState, 300);
+}
+function readState() {
+  if (location.hash.length < 2 || location.hash === stateInAddress) return;
+  const state = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+  if (state.view && views[state.view]) chooseView(Number(state.view));
+  setSliderState(state);
 }
 
 const redrawAll = () => [...redrawsOfAll, ...redraws].forEach((draw) => draw());
 
 showHeader();
-startSlider();
+[page.difference_legend, page.heat_legend].forEach(loadRamp);
+startSlider(keepStateSoon);
 startOverview();
 chooseView(0);
+readState();
+addEventListener("hashchange", readState);
 byId("own-scale").addEventListener("change", redrawAll);
 addEventListener("resize", redrawAll);

@@ -8,7 +8,7 @@ function showTable(table, columns, rows, tagOf) {
   const cell = (column, row) => {
     const value = column.value(row);
     const text = value === null ? "\u2013" : column.text ? column.text(value) : value;
-    const data = make("td", {}, text);
+    const data = make("td", value === null ? {} : { "data-value": value }, text);
     if (column.gate && value !== null) data.className = value === 0 ? "good" : "bad";
     return data;
   };
@@ -48,4 +48,42 @@ function showTable(table, columns, rows, tagOf) {
   });
   table.replaceChildren(make("thead", {}, make("tr", {}, ...headings)), body);
   sortBy(columns[1], "ascending");
+}
+
+// The tables in an element as text, in the order shown: Markdown has what is read, CSV the numbers behind it.
+function tableText(element, format) {
+  const tables = element.matches("table") ? [element] : [...element.querySelectorAll("table")];
+  const textOf = (cell) => [...(cell.querySelector("div, span:not(.tag)") ? cell.querySelectorAll("div, span") : [cell])]
+    .map((part) => part.textContent.trim()).join(" ").replace(/\s+/g, " ");
+  const field = (cell) => {
+    const text = cell.dataset.value ?? textOf(cell);
+    return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  };
+  return tables.map((table) => [...table.rows].map((row, i) => {
+    if (format === "CSV") return `${[...row.cells].map(field).join(",")}\n`;
+    const line = `| ${[...row.cells].map((cell) => textOf(cell).replaceAll("|", "\\|")).join(" | ")} |\n`;
+    return i > 0 ? line : `${line}|${[...row.cells].map((_, k) => (k ? " ---: |" : " --- |")).join("")}\n`;
+  }).join("")).join("\n");
+}
+
+function copyButtons(element) {
+  return ["Markdown", "CSV"].map((format) => {
+    const button = make("button", { type: "button", class: "copy" }, `Copy as ${format}`);
+    button.addEventListener("click", async () => {
+      const text = tableText(element(), format);
+      let done = true;
+      try {
+        await navigator.clipboard.writeText(text);
+      } catch {  // a page without the right to
+        const area = make("textarea", {});
+        area.value = text;
+        document.body.append(area);
+        area.select();
+        done = document.execCommand("copy");
+        area.remove();
+      }
+      button.textContent = done ? `Copied as ${format}` : "Not allowed to copy";
+    });
+    return button;
+  });
 }

@@ -6,64 +6,50 @@ const referenceOf = (view) =>
     view.results.rows[view.page.reference_row];  // undefined if the reference is no row that ran
 const ranRows = (view) => view.results.rows.filter((row) => !row.refused);
 
+// Whether it draws its surfaces in OpenCL and the reference does not.
+const hasOwnSurfaces = (view, row) => Boolean(row.error?.silhouettes ?? (row.same_surfaces && row.same_surfaces.reference !== view.results.reference.technique));
+
 function speedUp(view, row) {
   const reference = referenceOf(view);
   return reference && row.frame_ms.median ? reference.frame_ms.median / row.frame_ms.median : null;
 }
 
+const brightestInWords = ({ results: { reference } }) => `the brightest channel of ${reference.technique}'s image (${shortNumber(reference.brightest ?? 0)} of radiance)`;
+
 const DIFFERENCE_NOTE = "Difference: black is equal, blue 1e-7 to red 1 of the reference's brightest channel, white NaN.";
 const heatNote = (view) => `Lights: black is none, violet few, yellow ${wholeNumber(view.page.heat_top)} and more.`;
 
-// The before/after slider: any two pictures, cut at the position of the range input.
-let sliderChoices = [];
-
-function showSliderSide(side) {
-  const chosen = (s) => sliderChoices[byId(`${s}-picture`).value];
-  byId(`${side}-image`).src = chosen(side).url;
-  byId(`${side}-image`).alt = chosen(side).label;
-  const notes = ["left", "right"].map((s) => chosen(s)?.note).filter(Boolean);
-  byId("slider-legend").textContent = [...new Set(notes)].join(" ");
+// A color of a difference or of a heat map as the number that it stands for.
+function differenceValue(color) {
+  if (color.every((c) => c === 0)) return "equal";
+  if (color.every((c) => c === 255)) return "NaN";
+  const share = shareOnRamp(page.difference_legend, color);
+  return share === null ? "" : `${share === 0 ? "at most " : ""}${errorNumber(10 ** (7 * share - 7))}`;
 }
-
-// groups: [{ label, choices: [{ label, url, note }] }]; left and right: the labels shown first.
-function showSlider(groups, left, right) {
-  sliderChoices = groups.flatMap((group) => group.choices);
-  byId("slider").closest("section").hidden = sliderChoices.length === 0;
-  if (sliderChoices.length === 0) return;
-  for (const [side, first] of [["left", left], ["right", right]]) {
-    const select = byId(`${side}-picture`);
-    select.replaceChildren(...groups.map((group) => make("optgroup", { label: group.label },
-      ...group.choices.map((c) => make("option", { value: sliderChoices.indexOf(c) }, c.label)))));
-    select.value = Math.max(0, sliderChoices.findIndex((choice) => choice.label === first));
-  }
-  showSliderSide("left");
-  showSliderSide("right");
-}
-
-function startSlider() {
-  for (const side of ["left", "right"]) byId(`${side}-picture`).addEventListener("change", () => showSliderSide(side));
-  const cut = byId("cut");
-  const move = () => byId("slider").style.setProperty("--cut", `${cut.value}%`);
-  cut.addEventListener("input", move);
-  move();
-}
+const heatValue = (top) => (color) => {
+  const share = color.every((c) => c === 0) ? 0 : shareOnRamp(page.heat_legend, color);
+  return share === null ? "" : share === 1 ? `${wholeNumber(top)} or more` : `about ${wholeNumber(Math.round(share * top))}`;
+};
 
 function showPictures(view) {
   const { rows, lit, reference, reduced, folder } = view.page;
-  const choicesOf = (pick, suffix, note) =>
-    rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note }));
-  const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view) }] : [];
+  const lights = heatValue(view.page.heat_top);
+  const choicesOf = (pick, suffix, note, value) =>
+    rows.filter((row) => pick(row) !== null).map((row) => ({ label: row.name + suffix, url: pictureUrl(pick(row)), note, value, reduced }));
+  const litChoices = lit ? [{ label: "truly lit", url: pictureUrl(lit.picture), note: heatNote(view), value: lights, reduced }] : [];
   const name = referenceOf(view) ? nameOf(view, referenceOf(view)) : view.results.reference.technique;
   const groups = [
-    { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference) }]), ...choicesOf((row) => row.image, "")] },
-    { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE) },
-    { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote(view)), ...litChoices] },
+    { label: "Pictures", choices: [...(reference === null ? [] : [{ label: name, url: pictureUrl(reference), reduced }]), ...choicesOf((row) => row.image, "")] },
+    { label: "Differences", choices: choicesOf((row) => row.difference, ", difference", DIFFERENCE_NOTE, differenceValue) },
+    { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote(view), lights), ...litChoices] },
   ].filter((group) => group.choices.length > 0);
   const fastest = rows.find((row) => row.winner && row.name !== name) ?? rows.find((row) => row.name !== name && row.image !== null);
   showSlider(groups, name, fastest?.name ?? "");
-  byId("reduced").textContent = reduced <= 1 ? "" :
+  const { ev, auto } = view.results.exposure ?? {};
+  const exposed = ev ? `Pictures are exposed by ${ev > 0 ? "+" : ""}${ev} EV${auto ? ", chosen from the picture" : ""}; figures are not. ` : "";
+  byId("reduced").textContent = exposed + (reduced <= 1 ? "" :
     `So that this page stays small, its pictures are shown at 1/${reduced} of their width and height; those in the folder ${folder} are whole. ` +
-    "A pixel stands for the mean of its block in a picture, its worst in a difference, its largest count in a heat map.";
+    "A pixel stands for the mean of its block in a picture, its worst in a difference, its largest count in a heat map.");
 }
 
 const columnsOf = (view) => [
@@ -74,13 +60,14 @@ const columnsOf = (view) => [
   { title: "Lost pairs", value: (row) => row.pairs?.lost ?? null, text: wholeNumber, gate: true },
   { title: "Wrong pairs", value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (row) => row.nan_pixels, text: wholeNumber, gate: true },
-  ...page.measures.map(({ key, title }) => ({ title, value: (row) => row.error?.[key] ?? null, text: errorNumber })),
+  ...page.measures.map(({ key, title }) => ({ title, value: (row) => row.same_surfaces?.[key] ?? null, text: errorNumber })),
+  ...(view.results.own_surfaces?.error
+    ? [{ title: "Surfaces off, RMSE", value: (row) => (hasOwnSurfaces(view, row) ? view.results.own_surfaces.error.rmse_rel : null), text: errorNumber }] : []),
   ...(view.results.rows.some((row) => typeof row.error?.flip_mean === "number")
     ? [{ title: "FLIP, mean", value: (row) => row.error?.flip_mean ?? null, text: errorNumber }] : []),
-  { title: "Off the oracle", value: (row) => row.error?.oracle?.max_rel ?? null, text: errorNumber },
-  { title: "Off double surfaces", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
+  { title: "Off the oracle, largest", value: (row) => (hasOwnSurfaces(view, row) ? null : row.error?.oracle?.max_rel ?? null), text: errorNumber },
+  { title: "Off double surfaces, RMSE", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
   { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
-  { title: "Lit pairs", value: (row) => row.pairs?.lit ?? null, text: shortCount },
   { title: "Light grid", value: (row) => row.memory_bytes.light_grid, text: byteNumber },
   { title: "G-buffer", value: (row) => row.memory_bytes.gbuffer, text: byteNumber },
   { title: "Memory, all", value: (row) => row.memory_bytes.total, text: byteNumber },
@@ -98,12 +85,14 @@ function showErrors(view) {
   const measured = ranRows(view).filter((row) => row.error && row !== referenceOf(view));
   const { technique, pixels } = view.results.reference, all = view.results.size[0] * view.results.size[1];
   const where = pixels < all ? ` at ${wholeNumber(pixels)} of ${wholeNumber(all)} pixels` : "";
-  add('Technique', `This picture against ${technique}${where}, which shades every light in float:`,
+  add('Technique', `This picture against every light in float on the same surfaces${where}:`,
       ...measured.map(
-          (row) => `${nameOf(view, row)}: ${errorInWords(row.error)}${silhouettesInWords(row.error)}${
-              oracleInWords(row.error.oracle, technique)}.`),
+          (row) => `${nameOf(view, row)}: ${row.same_surfaces ? `${row.same_surfaces.reference}, ${errorInWords(row.same_surfaces)}` : `not known, ${view.results.own_surfaces?.why_not ?? unknown}`}${
+              hasOwnSurfaces(view, row) ? '' : oracleInWords(row.error.oracle, technique)}.`),
       ...(measured.length === 0 ? [unknown + '.'] : []));
   const judged = ranRows(view).filter((row) => row.error?.surfaces?.pixels > 0);
+  const own = view.results.own_surfaces?.error;
+  if (own) add("Surfaces drawn in OpenCL", `Every light on them against ${technique}: ${errorInWords(own)}${silhouettesInWords(own)}.`);
   if (judged.length > 0) {
     const { surfaces } = view.results.reference;
     add("Surfaces", `Each picture against light and surfaces both in double, textures included, at ${wholeNumber(surfaces.pixels)} pixels:`,
@@ -147,14 +136,14 @@ function techniqueCard(view, row) {
   const summary = [
     milliseconds(row.frame_ms.median ?? 0) + " a frame",
     !isReference && ratio !== null && `${shortNumber(ratio)} times the speed of ${reference}`,
-    isReference ? "the reference" : row.error && errorInWords(row.error),
+    isReference ? "the reference" : row.same_surfaces && `light: ${errorInWords(row.same_surfaces)}`,
     row.inf_pixels > 0 && `${wholeNumber(row.inf_pixels)} pixels pass the largest float`,
-    row.overflow > 0 && `${wholeNumber(row.overflow)} list entries did not fit`,
+    row.overflow > 0 && `${wholeNumber(row.overflow)} lit lights left out${pictures.why_lost}`,
   ];
   const figures = [];
   if (pictures.image !== null) figures.push(figure(pictures.image, "Picture"));
   if (pictures.difference !== null && !isReference) {
-    figures.push(figure(pictures.difference, `Difference from ${reference}: black is equal, white is NaN`,
+    figures.push(figure(pictures.difference, `Difference from ${reference}${hasOwnSurfaces(view, row) ? ", surfaces included" : ""}: black is equal, white is NaN`,
       legend(page.difference_legend, ["1e-7", "1e-6", "1e-5", "1e-4", "1e-3", "0.01", "0.1", "1"])));
   }
   if (pictures.listed) figures.push(heatFigure(view, pictures.listed, "listed"));
@@ -229,10 +218,15 @@ function showPlanChanges(view) {
 function showView(view) {
   byId("view-title").textContent = view.page.title;
   byId("verdict").textContent = view.page.verdict;
+  byId("choices").replaceChildren(...view.page.choices.map(({ what, name, figure, why, sure }) =>
+    make("div", { class: "choice-card" }, make("h3", {}, what), make("p", {}, make("strong", {}, nameElement(name)), ` ${figure}`),
+      make("p", {}, why), make("p", { class: "quiet" }, sure))));
   byId("figures").replaceChildren(...view.page.figures.map((line) => make("li", {}, line)));
   for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference.technique;
+  for (const element of document.querySelectorAll(".brightest")) element.textContent = brightestInWords(view);
   showPictures(view);
-  showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : ""));
+  showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : row.overflow > 0 ? "loses lights by design" : ""));
+  byId("figures-copy").replaceChildren(...copyButtons(() => byId("figures-table")));
   showErrors(view);
   byId("techniques").replaceChildren(...ranRows(view).map((row) => techniqueCard(view, row)));
   showSkipped(view);
@@ -240,8 +234,8 @@ function showView(view) {
   byId("settings-part").hidden = view.page.charts.length === 0;
   const rows = ranRows(view);
   return [
-    showBars(byId("time-bars"), byId("pass-legend"), rows.map((row) => timeBar(nameOf(view, row), row)), "the rest of the frame", milliseconds, byId("own-scale")),
-    showBars(byId("memory-bars"), byId("memory-legend"), rows.map((row) => memoryBar(nameOf(view, row), row)), "scene, images, lights", byteNumber, null),
+    showBars(byId("time-bars"), byId("pass-legend"), rows.map((row) => timeBar(nameOf(view, row), row)), "the rest of the frame", stageOf, milliseconds, byId("own-scale")),
+    showBars(byId("memory-bars"), byId("memory-legend"), rows.map((row) => memoryBar(nameOf(view, row), row)), "scene, images, lights", (name, names) => ({ name, color: colorNumber(names.indexOf(name)) }), byteNumber, null),
     showCharts(byId("settings-charts"), view.page.charts),
   ];
 }
