@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -66,7 +66,8 @@ constexpr std::array lists = {"-t",     "--technique", "--techniques",   "--size
                               "--vary", "--compare",   "--light-radius", "--camera", "--pixel"};
 
 bool is_list(const std::string& option, const std::string& value) {
-  if (option == "--camera" && !value.starts_with("eye:") && !value.starts_with("target:")) return false;  // a name
+  if (option == "--camera" && !value.starts_with("eye:") && !value.starts_with("target:"))
+    return false;  // a name
   return std::ranges::count(lists, option) > 0;
 }
 
@@ -119,7 +120,8 @@ std::string unexpected(const CLI::App& app, const std::vector<CLI::App*>& comman
   }
   for (const std::string& word : words) {
     const std::string name = word.substr(0, word.find('='));
-    if (word.size() < 2 || word[0] != '-' || std::ranges::count(options, name) > 0 || parse_number<double>(word))
+    if (word.size() < 2 || word[0] != '-' || std::ranges::count(options, name) > 0 ||
+        parse_number<double>(word))
       continue;
     return fmt::format("{} has no option {}{}", known[command], name, did_you_mean(name, options));
   }
@@ -129,7 +131,11 @@ std::string unexpected(const CLI::App& app, const std::vector<CLI::App*>& comman
 }  // namespace
 
 Command CommandLine::parse(int argc, const char* const* argv) {
-  const std::vector<std::string> words = words_of(argc, argv);
+  std::vector<std::string> words = words_of(argc, argv);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    if (!words.empty()) words.push_back("--help");
+  }
   const std::vector<CLI::App*> commands = app_->get_subcommands([](const CLI::App*) { return true; });
   for (CLI::App* command : commands) {
     if (command->get_option_no_throw("--gl")) continue;

@@ -1,10 +1,13 @@
 #include "app/environment.h"
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
+#include <fcntl.h>
 #include <sched.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include "base/log.h"
@@ -45,6 +48,29 @@ bool has_room(const std::filesystem::path& folder) {
   return unknown || disk.available >= room_bytes;
 }
 
+// By a process that waits for the end of a pipe, which this one alone holds open: however this one ends. A handler of
+// signals would not do: LLVM puts its own in its place, which two interrupts in a row pass by.
+void remove_after_the_end(const std::string& folder) {
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) return;
+  if (fork() != 0) {  // or no process can be made
+    close(pipe_ends[0]);
+    return;
+  }
+  setsid();
+  sigset_t all;
+  sigfillset(&all);
+  sigprocmask(SIG_SETMASK, &all, nullptr);
+  const int nowhere = open("/dev/null", O_RDWR);
+  for (int stream = 0; stream <= 2; ++stream) dup2(nowhere, stream);  // whoever reads them need not wait
+  close(pipe_ends[1]);
+  char none;
+  while (read(pipe_ends[0], &none, 1) < 0 && errno == EINTR) continue;
+  // Twice: a linker that PoCL started may still write while the first one runs.
+  execl("/bin/sh", "sh", "-c", "rm -rf -- \"$0\"; sleep 0.5; exec rm -rf -- \"$0\"", folder.c_str(), nullptr);
+  _exit(1);
+}
+
 }  // namespace
 
 TemporaryCache::TemporaryCache() {
@@ -59,6 +85,7 @@ TemporaryCache::TemporaryCache() {
   std::string name = (temporary / "lightgrid_XXXXXX").string();
   if (!mkdtemp(name.data())) return;
   folder_ = name;
+  remove_after_the_end(name);
   why_ = fmt::format("{}: {}", usual.string(), writable ? "its disk is full" : "cannot be written");
   setenv("POCL_CACHE_DIR", name.c_str(), 1);
 }

@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   reserve_standard_streams();
   prepare_environment();
   const TemporaryCache cache;
-  const SuddenEnds ends(pocl_cache_folder(), cache.folder());
+  const SuddenEnds ends(pocl_cache_folder());
   CommandLine line("lightgrid",
                    "lightgrid: scenes with very many lights: accuracy and time of each technique");
   for (const auto add : {add_render, add_compare, add_plan, add_capture, add_cull, add_inspect, add_info, add_scenes,

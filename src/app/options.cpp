@@ -31,9 +31,10 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
 }
 
 void add_exposure_option(Subcommand& command, SceneChoice& o) {
-  command.option("--exposure", o.exposure,
-                 "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in "
-                 "scenes)");
+  command.option(
+      "--exposure", o.exposure,
+      "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in "
+      "scenes)");
 }
 
 void add_path_option(Subcommand& command, SceneChoice& o) {

@@ -23,7 +23,8 @@ void add_technique_option(Subcommand& command, std::string& technique, const std
 // a folder or not writable, or it is a folder itself. Call it before long work; "-" is always valid.
 void check_output_file(const std::string& option, const std::filesystem::path& path);
 
-// Makes the folder, and does the work. If that throws, a folder that is new is removed with what was written into it.
+// Makes the folder, and does the work. If that throws, a folder that is new is removed with what was written
+// into it.
 int with_output_folder(const std::filesystem::path& folder, const std::function<int()>& work);
 
 // Writes JSON text to a file, or to stdout for "-".

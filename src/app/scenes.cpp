@@ -1,4 +1,5 @@
-// lightgrid scenes: the built-in scenes and their contents. lightgrid info SCENE: the contents of one, or of a file.
+// lightgrid scenes: the built-in scenes and their contents. lightgrid info SCENE: the contents of one, or of
+// a file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -35,10 +36,8 @@ Contents contents_of(const Scene& scene) {
 }
 
 nlohmann::ordered_json lights_json(const Contents& all) {
-  return {{"total", all.lights()},
-          {"point", all.point},
-          {"spot", all.spot},
-          {"directional", all.directional}};
+  return {
+      {"total", all.lights()}, {"point", all.point}, {"spot", all.spot}, {"directional", all.directional}};
 }
 
 int list_scenes(const std::string& json) {
@@ -95,23 +94,27 @@ void print_info(const Scene& scene, const InfoOptions& o, const std::vector<Gltf
   line("scene", o.scene);
   if (!box.empty()) {
     const glm::dvec3 size = box.max - box.min, a = box.min, b = box.max;
-    line("extent", fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g}",
-                               size.x, size.y, size.z, a.x, a.y, a.z, b.x, b.y, b.z));
+    line("extent",
+         fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g}", size.x,
+                     size.y, size.z, a.x, a.y, a.z, b.x, b.y, b.z));
   }
   line("triangles", fmt::format("{}, in {} instances of {} meshes; {} materials, {} textures", all.triangles,
                                 scene.instances.size(), scene.meshes.size(), scene.materials.size(),
                                 scene.textures.size()));
-  line("cameras", all.cameras.empty() ? "none: the eye stands in the room if there is one, else it sees the whole"
-                                      : fmt::format("{}: \"{}\"", all.cameras.size(), fmt::join(all.cameras, "\", \"")));
-  line("lights", all.lights() == 0
-                     ? "none: a key and a fill light are added (--lights N scatters others)"
-                     : fmt::format("{}: {} point, {} spot, {} directional; of point and spot lights {} have a range, "
-                                   "{} none",
-                                   all.lights(), all.point, all.spot, all.directional,
-                                   all.point + all.spot - all.without_range, all.without_range));
+  line("cameras", all.cameras.empty()
+                      ? "none: the eye stands in the room if there is one, else it sees the whole"
+                      : fmt::format("{}: \"{}\"", all.cameras.size(), fmt::join(all.cameras, "\", \"")));
+  line("lights",
+       all.lights() == 0
+           ? "none: a key and a fill light are added (--lights N scatters others)"
+           : fmt::format("{}: {} point, {} spot, {} directional; of point and spot lights {} have a range, "
+                         "{} none",
+                         all.lights(), all.point, all.spot, all.directional,
+                         all.point + all.spot - all.without_range, all.without_range));
   const int animations = animation_count(scene);
-  line("animations", animations ? fmt::format("{}, {:.4g} s: --time T shows one moment", animations, duration_of(scene))
-                                : "none");
+  line("animations",
+       animations ? fmt::format("{}, {:.4g} s: --time T shows one moment", animations, duration_of(scene))
+                  : "none");
   for (const GltfExtension& e : extensions) {
     line(&e == &extensions.front() ? "extensions" : "",
          fmt::format("{}: {}{}", e.name, e.supported ? "drawn" : "not drawn, left out with a warning",
@@ -129,7 +132,8 @@ int info(const InfoOptions& o) {
   if (o.json.empty()) {
     print_info(scene, o, extensions);
   } else {
-    write_json(o.json, info_json(scene, o, extensions).dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    write_json(o.json,
+               info_json(scene, o, extensions).dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   }
   return 0;
 }
@@ -144,8 +148,9 @@ void add_scenes(CommandLine& line) {
 
 void add_info(CommandLine& line) {
   auto o = std::make_shared<InfoOptions>();
-  Subcommand command = line.add("info", "what a scene or file holds: cameras, lights, extent, animations, extensions",
-                                [o] { return info(*o); });
+  Subcommand command =
+      line.add("info", "what a scene or file holds: cameras, lights, extent, animations, extensions",
+               [o] { return info(*o); });
   command.option("scene", o->scene, "a .gltf or .glb file, or a built-in scene");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }

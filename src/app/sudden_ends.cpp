@@ -3,11 +3,9 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/statvfs.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <new>
 
@@ -22,11 +20,10 @@ namespace {
 constexpr uint64_t full_below_bytes = 4 << 20;  // the files of one kernel take less
 constexpr size_t spare_bytes = 64 << 20;        // no crash is for lack of memory while these can be had
 constexpr int faults[] = {SIGSEGV, SIGBUS};
-constexpr int interrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
 // The handlers read this. They call only what a signal handler may.
 struct Ends {
-  std::string cache, temporary, full_line;
+  std::string cache, full_line;
   struct sigaction before[NSIG] = {};
   std::terminate_handler terminate = nullptr;
   volatile sig_atomic_t main_runs = 0;
@@ -57,24 +54,8 @@ std::string_view lacking() {
   return cache_is_full() ? ends().full_line : memory_is_short() ? out_of_memory_line : std::string_view();
 }
 
-// By a process that waits until this one, whose threads may still write there, is gone. The system call
-// alone: fork() would also take locks, which the thread that the signal interrupted may hold.
-void remove_temporary() {
-  if (ends().temporary.empty()) return;
-  const pid_t parent = getpid();
-  if (syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0) != 0) return;
-  setsid();
-  const timespec a_while = {0, 5'000'000};
-  while (getppid() == parent) nanosleep(&a_while, nullptr);
-  // Twice: a linker that PoCL started may still have written while the first one ran.
-  execl("/bin/sh", "sh", "-c", "rm -rf -- \"$0\"; sleep 0.5; exec rm -rf -- \"$0\"", ends().temporary.c_str(),
-        nullptr);
-  _exit(1);
-}
-
 [[noreturn]] void end_with(std::string_view line) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
-  remove_temporary();
   _exit(int(ErrorKind::machine));
 }
 
@@ -96,20 +77,12 @@ void on_terminate() {
 
 void on_fault(int signal) {
   if (const std::string_view why = lacking(); ends().main_runs && !why.empty()) end_with(why);
-  remove_temporary();
   sigaction(signal, &ends().before[signal], nullptr);  // the instruction is then repeated
-}
-
-void on_interrupt(int signal) {
-  remove_temporary();
-  sigaction(signal, &ends().before[signal], nullptr);
-  raise(signal);
 }
 
 void handle(int signal, void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
-  sigfillset(&action.sa_mask);  // a second interrupt would end the process that removes the folder
   sigaction(signal, nullptr, &ends().before[signal]);
   if (ends().before[signal].sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
 }
@@ -129,7 +102,6 @@ std::filesystem::path nearest_existing(std::filesystem::path folder) {
 extern "C" void abort() {
   using namespace lightgrid;
   if (const std::string_view why = lacking(); ends().main_runs && !why.empty()) end_with(why);
-  remove_temporary();
   raise(SIGABRT);
   signal(SIGABRT, SIG_DFL);
   raise(SIGABRT);
@@ -138,10 +110,9 @@ extern "C" void abort() {
 
 namespace lightgrid {
 
-SuddenEnds::SuddenEnds(const std::filesystem::path& cache, const std::filesystem::path& temporary) {
+SuddenEnds::SuddenEnds(const std::filesystem::path& cache) {
   Ends& s = ends();
   s.cache = nearest_existing(cache);
-  s.temporary = temporary;
   s.full_line = fmt::format(
       "lightgrid: {}: no room for compiled kernels: free some on its disk, or set POCL_CACHE_DIR to a folder "
       "on "
@@ -149,9 +120,6 @@ SuddenEnds::SuddenEnds(const std::filesystem::path& cache, const std::filesystem
       cache.string());
   s.terminate = std::set_terminate(on_terminate);
   for (const int signal : faults) handle(signal, on_fault);
-  if (!s.temporary.empty()) {
-    for (const int signal : interrupts) handle(signal, on_interrupt);
-  }
   s.main_runs = 1;
   std::atexit(at_exit);
 }

@@ -8,12 +8,11 @@ namespace lightgrid {
 
 // While it exists, a driver that ends the process does so with status 3 and a line that says why: LLVM calls
 // exit(1) and PoCL abort() if the disk under PoCL's cache is full; without memory they also throw in threads
-// of their own, or crash. A signal keeps its effect if there is room on the disk and memory. `temporary` is a
-// folder to be removed, also by an interrupt (SIGINT, SIGTERM, SIGHUP); empty: none. main creates one, before
-// other threads start.
+// of their own, or crash. A signal keeps its effect if there is room on the disk and memory. main creates one,
+// before other threads start.
 class SuddenEnds {
  public:
-  SuddenEnds(const std::filesystem::path& cache, const std::filesystem::path& temporary);
+  explicit SuddenEnds(const std::filesystem::path& cache);
   ~SuddenEnds();
   SuddenEnds(const SuddenEnds&) = delete;
   SuddenEnds& operator=(const SuddenEnds&) = delete;

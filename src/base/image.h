@@ -37,8 +37,8 @@ struct Exposure {
   float scale() const { return float(std::exp2(ev)); }
 };
 
-// The exposure at which the logarithmic mean of the picture's luminances becomes 0.18, to half a stop, so that
-// pictures that differ little share it. Pixels that are black, not finite, or below 1/10,000 of the 99th
+// The exposure at which the logarithmic mean of the picture's luminances becomes 0.18, to half a stop, so
+// that pictures that differ little share it. Pixels that are black, not finite, or below 1/10,000 of the 99th
 // percentile are left out; 0 if none is left. At least -60 and at most 60.
 Exposure automatic_exposure(const Image& image);
 

@@ -82,7 +82,8 @@ Exposure automatic_exposure(const Image& image) {
 }
 
 std::vector<uint8_t> srgb_bytes(const Image& image, const Exposure& exposure) {
-  return bytes_of(image, [scale = exposure.scale()](glm::vec3 linear) { return tone_map_neutral(scale * linear); });
+  return bytes_of(image,
+                  [scale = exposure.scale()](glm::vec3 linear) { return tone_map_neutral(scale * linear); });
 }
 
 std::vector<uint8_t> srgb_bytes_as_is(const Image& image) {

@@ -86,13 +86,15 @@ std::vector<Setting>& all_settings() {
                                    {"infinite", LightRange::infinite}})},
       {"cutoff", "irradiance at which lights end with range=cutoff: intensity over squared distance",
        numbers(&LightRanges::cutoff, {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002",
-                                      "0.001", "0.0005", "0.0002", "0.0001"}), &LightRanges::cutoff},
+                                      "0.001", "0.0005", "0.0002", "0.0001"}),
+       &LightRanges::cutoff},
       {"window", "how a light fades towards its range: 1 - (d / range)^4, its square, or not at all",
        named(&LightRanges::window,
              {{"khr", RangeWindow::khr}, {"smooth", RangeWindow::smooth}, {"none", RangeWindow::none}})},
       {"alpha", "irradiance below which a light reaches a point by chance, with range=stochastic",
        numbers(&LightRanges::alpha, {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002",
-                                     "0.001", "0.0005", "0.0002", "0.0001"}), &LightRanges::alpha},
+                                     "0.001", "0.0005", "0.0002", "0.0001"}),
+       &LightRanges::alpha},
       {"light-seed", "of the random ranges, with range=stochastic",
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
@@ -239,8 +241,8 @@ void apply_setting(Settings& settings, const std::string& assignment) {
   if (equals == std::string::npos || setting == all.end()) {
     std::vector<std::string> keys;
     for (const Setting& s : all) keys.push_back(s.key);
-    throw input_error("set {}: not KEY=VALUE with a known key{}; keys are {}", assignment, did_you_mean(key, keys),
-                      fmt::join(keys, ", "));
+    throw input_error("set {}: not KEY=VALUE with a known key{}; keys are {}", assignment,
+                      did_you_mean(key, keys), fmt::join(keys, ", "));
   }
   const std::string value = assignment.substr(equals + 1);
   std::vector<std::string> values;

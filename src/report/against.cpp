@@ -37,9 +37,9 @@ std::map<std::string, Row> rows_of(const json& results) {
   const auto add = [&](const json& view) {
     for (const json& row : view.at("rows")) {
       const std::string name =
-          fmt::format("{} {}x{}, {} lights, {}", view.at("scene").get<std::string>(), view.at("size").at(0).dump(),
-                      view.at("size").at(1).dump(), row.at("lights").at("total").dump(),
-                      row.at("technique").get<std::string>());
+          fmt::format("{} {}x{}, {} lights, {}", view.at("scene").get<std::string>(),
+                      view.at("size").at(0).dump(), view.at("size").at(1).dump(),
+                      row.at("lights").at("total").dump(), row.at("technique").get<std::string>());
       std::string key = name + row.at("settings").dump();
       while (rows.contains(key)) key += "+";
       rows[key] = {&row, &view, name};
@@ -62,13 +62,16 @@ Interval time_of(const json& row) {
   return {ms.at("median"), ms.at("min"), ms.at("max")};
 }
 
-Interval over(const Interval& a, const Interval& b) { return {a.median / b.median, a.low / b.high, a.high / b.low}; }
+Interval over(const Interval& a, const Interval& b) {
+  return {a.median / b.median, a.low / b.high, a.high / b.low};
+}
 
 void compare_times(const Row& now, const Row& earlier, AgainstResult& result) {
   const int runs = now.row->at("frame_ms").at("runs"), before = earlier.row->at("frame_ms").at("runs");
   if (std::min(runs, before) < least_runs) {
-    result.told.push_back(fmt::format("{}: times are not compared: {} and {} frames make no interval (--frames {})",
-                                      now.name, runs, before, least_runs));
+    result.told.push_back(
+        fmt::format("{}: times are not compared: {} and {} frames make no interval (--frames {})", now.name,
+                    runs, before, least_runs));
     return;
   }
   const Interval a = time_of(*now.row), b = time_of(*earlier.row);
@@ -78,9 +81,10 @@ void compare_times(const Row& now, const Row& earlier, AgainstResult& result) {
     if (over(a, time_of(*reference)).low <= over(b, time_of(*reference_before)).high) return;
   }
   const double sure = 100 * (1 - std::pow(2.0, 1 - std::min(runs, before)));
-  result.worse.push_back(fmt::format("{}: {:.3g} ms ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to {:.3g}): slower; {:.0f} % "
-                                     "intervals of the median",
-                                     now.name, a.median, a.low, a.high, b.median, b.low, b.high, sure));
+  result.worse.push_back(
+      fmt::format("{}: {:.3g} ms ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to {:.3g}): slower; {:.0f} % "
+                  "intervals of the median",
+                  now.name, a.median, a.low, a.high, b.median, b.low, b.high, sure));
 }
 
 void compare_errors(const Row& now, const Row& earlier, AgainstResult& result) {
@@ -128,8 +132,8 @@ AgainstResult compare_results(const json& now, const json& earlier) {
     if (row.row->contains("refused")) continue;
     ++compared;
     if (found->second.row->contains("refused")) {
-      result.worse.push_back(
-          fmt::format("{}: is refused now: {}", row.name, found->second.row->at("refused").get<std::string>()));
+      result.worse.push_back(fmt::format("{}: is refused now: {}", row.name,
+                                         found->second.row->at("refused").get<std::string>()));
       continue;
     }
     compare_errors(found->second, row, result);
@@ -138,14 +142,15 @@ AgainstResult compare_results(const json& now, const json& earlier) {
     if (devices == devices_before) {
       compare_times(found->second, row, result);
     } else if (!std::exchange(other_devices, true)) {
-      result.told.push_back(
-          fmt::format("times are not compared: measured on {}, earlier on {}", devices.dump(), devices_before.dump()));
+      result.told.push_back(fmt::format("times are not compared: measured on {}, earlier on {}",
+                                        devices.dump(), devices_before.dump()));
     }
   }
   for (const auto& [key, row] : rows) {
     if (!before.contains(key)) result.told.push_back(row.name + ": was not measured earlier");
   }
-  if (compared == 0) throw input_error("none of its rows is measured here with the same scene, size, lights and settings");
+  if (compared == 0)
+    throw input_error("none of its rows is measured here with the same scene, size, lights and settings");
   return result;
 }
 
@@ -154,7 +159,8 @@ AgainstResult compare_results(const json& now, const json& earlier) {
 json read_results_json(const std::filesystem::path& path) {
   std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, ignored) || !file) throw input_error("{}: no such file", path.string());
+  if (!std::filesystem::is_regular_file(path, ignored) || !file)
+    throw input_error("{}: no such file", path.string());
   try {
     json results = json::parse(file);
     if (rows_of(results).empty()) throw input_error("{}: has no rows", path.string());

@@ -45,14 +45,15 @@ double least_falloff(const Light& light, const LightRanges& ranges);
 // The scene's lights with their ranges as radius_m.
 std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ranges);
 
-// What a cutoff leaves of the point and spot lights at the scene's surfaces, cones and directions aside: lights that
-// reach a point on average, and the share of its light that a point keeps on average, with the window khr.
+// What a cutoff leaves of the point and spot lights at the scene's surfaces, cones and directions aside:
+// lights that reach a point on average, and the share of its light that a point keeps on average, with the
+// window khr.
 struct CutoffEffect {
   double cutoff = 0, lights = 0, share = 0;
 };
 
-// The least of 0.0001, 0.0002, 0.0005, … 1000000 with which an eighth of the lights, or eight, reach a point on average.
-// None without surfaces, or if no such cutoff is enough. Deterministic.
+// The least of 0.0001, 0.0002, 0.0005, … 1000000 with which an eighth of the lights, or eight, reach a point
+// on average. None without surfaces, or if no such cutoff is enough. Deterministic.
 std::optional<CutoffEffect> helpful_cutoff(const Scene& scene);
 
 // The window that shading uses.

@@ -111,7 +111,8 @@ void take_own_settings(std::string& technique, std::vector<std::string>& set) {
   if (items.empty()) return;
   const size_t count = named_contestants(items, {}).size();
   if (count != 1)
-    throw input_error("technique {}: {} techniques; one is drawn here, and compare takes several", technique, count);
+    throw input_error("technique {}: {} techniques; one is drawn here, and compare takes several", technique,
+                      count);
   const size_t colon = technique.find(':');
   technique = technique.substr(0, colon);
   if (colon == std::string::npos) return;
@@ -119,7 +120,8 @@ void take_own_settings(std::string& technique, std::vector<std::string>& set) {
   set.insert(set.end(), items.begin(), items.end());
 }
 
-void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques, bool grid) {
+void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques,
+                          bool grid) {
   for (const std::string& key : settings.given) {
     const auto reads = [&](const Technique* technique) { return reads_setting(*technique, key); };
     if (std::ranges::any_of(techniques, reads)) continue;
@@ -129,8 +131,9 @@ void check_given_settings(const Settings& settings, const std::vector<const Tech
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     const bool one = names.size() == 1;
-    throw input_error("set {}: {} {} not read it, and it would change nothing; lightgrid techniques lists what each reads",
-                      key, fmt::join(names, ", "), one ? "does" : "do");
+    throw input_error(
+        "set {}: {} {} not read it, and it would change nothing; lightgrid techniques lists what each reads",
+        key, fmt::join(names, ", "), one ? "does" : "do");
   }
 }
 

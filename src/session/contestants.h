@@ -28,14 +28,16 @@ std::vector<Contestant> named_contestants(const std::vector<std::string>& items,
 // given. Throws Error(input) for several techniques.
 void take_own_settings(std::string& technique, std::vector<std::string>& set);
 
-// Throws Error(input) for a given setting that none of the techniques reads, nor culling where `grid` says so.
+// Throws Error(input) for a given setting that none of the techniques reads, nor culling where `grid` says
+// so.
 void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques,
                           bool grid = false);
 
 // techniques: a list split at its commas, such as "forward", "forward_plus:tile=32", "cull-test=aabb"; an
 // item with "=" and without a name before a colon is another setting of the name before it. comparisons:
 // "KEY=A,B", applied to each technique that reads KEY. Throws Error(input) for a setting that a technique
-// does not read, a KEY or a given setting that none reads, and for different BRDFs, since one reference image cannot serve both.
+// does not read, a KEY or a given setting that none reads, and for different BRDFs, since one reference image
+// cannot serve both.
 std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techniques, const Settings& common,
                                            const std::vector<std::string>& comparisons);
 

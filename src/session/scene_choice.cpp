@@ -77,12 +77,13 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
       scene.lights, [](const Light& l) { return !is_directional(l) && std::isinf(l.radius_m); });
   if (endless < many || chosen_settings(choice).ranges.range != LightRange::scene) return;
   const std::optional<CutoffEffect> help = helpful_cutoff(scene);
-  log_warning("{}: {} of {} lights have no range: every technique lists them everywhere{}", choice.scene, endless,
-              scene.lights.size(),
-              help ? fmt::format("; with --set range=cutoff --set cutoff={:g} about {:.0f} reach a point, which "
-                                 "keeps {:.0f} % of its light",
-                                 help->cutoff, help->lights, 100 * help->share)
-                   : "");
+  log_warning(
+      "{}: {} of {} lights have no range: every technique lists them everywhere{}", choice.scene, endless,
+      scene.lights.size(),
+      help ? fmt::format("; with --set range=cutoff --set cutoff={:g} about {:.0f} reach a point, which "
+                         "keeps {:.0f} % of its light",
+                         help->cutoff, help->lights, 100 * help->share)
+           : "");
 }
 
 }  // namespace
@@ -94,8 +95,9 @@ Exposure chosen_exposure(const SceneChoice& choice, const Image& image) {
 
 void tell_exposure(const Exposure& exposure, const std::string& view) {
   if (!exposure.automatic || exposure.ev == 0) return;
-  log_info("{}pictures are exposed by {:+g} EV, chosen from the picture (--exposure {:g} keeps it, 0 is none)", view,
-           exposure.ev, exposure.ev);
+  log_info(
+      "{}pictures are exposed by {:+g} EV, chosen from the picture (--exposure {:g} keeps it, 0 is none)",
+      view, exposure.ev, exposure.ev);
 }
 
 std::optional<double> chosen_time(const SceneChoice& choice) {
@@ -145,9 +147,10 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
   const Camera chosen = choose_camera(scene, camera, double(size.width) / size.height);
   if (camera.empty() && scene.cameras.empty()) {
     const glm::dvec3 eye(chosen.world_from_view[3]), target = eye - glm::dvec3(chosen.world_from_view[2]);
-    log_info("{}: no camera; {} (--camera eye:{:.6g},{:.6g},{:.6g},target:{:.6g},{:.6g},{:.6g})", choice.scene,
-             chosen.name == "room" ? "the eye stands in the room" : "the whole is seen from outside", eye.x, eye.y,
-             eye.z, target.x, target.y, target.z);
+    log_info("{}: no camera; {} (--camera eye:{:.6g},{:.6g},{:.6g},target:{:.6g},{:.6g},{:.6g})",
+             choice.scene,
+             chosen.name == "room" ? "the eye stands in the room" : "the whole is seen from outside", eye.x,
+             eye.y, eye.z, target.x, target.y, target.z);
   }
   const View view = make_view(chosen, size.width, size.height);
   if (scene.lights.empty() && choice.lights < 0 && choice.lights_file.empty()) {
@@ -183,7 +186,8 @@ SceneMotion chosen_motion(Scene& scene, const SceneChoice& choice) {
 std::vector<View> chosen_path(const Scene& scene, const View& start, const SceneChoice& choice) {
   if (!choice.camera_path.empty()) return camera_path(scene, start, choice.camera_path);
   if (light_motion(choice.light_motion) != LightMotion::none)
-    log_warning("light-motion {}: lights move along a camera-path; without one they stand still", choice.light_motion);
+    log_warning("light-motion {}: lights move along a camera-path; without one they stand still",
+                choice.light_motion);
   return {};
 }
 

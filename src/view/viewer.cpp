@@ -338,8 +338,8 @@ void Viewer::expose() {
   Exposure exposure = job_.expose ? job_.expose({}) : Exposure();
   if (exposure.automatic) {
     Image image(left.width(), left.height());
-    glGetTextureImage(left.picture(), 0, GL_RGBA, GL_FLOAT, GLsizei(image.pixels.size() * sizeof image.pixels[0]),
-                      image.pixels.data());
+    glGetTextureImage(left.picture(), 0, GL_RGBA, GL_FLOAT,
+                      GLsizei(image.pixels.size() * sizeof image.pixels[0]), image.pixels.data());
     exposure = job_.expose(image);
     if (exposure.ev != 0) tell(fmt::format("pictures are exposed by {:+g} EV (--exposure)", exposure.ev));
   }

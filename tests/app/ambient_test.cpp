@@ -36,9 +36,9 @@ TEST_F(AmbientOption, GivesEveryTechniqueAndTheOracleTheSameLight) {
   for (const Technique* t : techniques()) names += (names.empty() ? "" : ",") + std::string(t->name);
   const std::string out = folder.path / "out";
   const auto compare = [&](const char* ambient) {
-    const ProgramRun run =
-        run_program({"compare", file, "--camera", camera, "--size", "32x32", "--frames", "1", "--warmup", "0",
-                     "--lights", "0", "--ambient", ambient, "--exposure", "0", "-t", names, "-o", out});
+    const ProgramRun run = run_program(
+        {"compare",  file, "--camera",  camera,  "--size",     "32x32", "--frames", "1",   "--warmup", "0",
+         "--lights", "0",  "--ambient", ambient, "--exposure", "0",     "-t",       names, "-o",       out});
     EXPECT_EQ(run.status, 0) << run.err;
     return nlohmann::json::parse(file_bytes(std::filesystem::path(out) / "results.json"));
   };

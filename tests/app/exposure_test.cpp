@@ -17,7 +17,8 @@ struct ExposureOption : testing::Test {
   std::string level = folder.write("level.gltf", exported_level(300).text());
 
   ProgramRun run(std::vector<std::string> words, const std::vector<std::string>& more = {}) {
-    for (const char* word : {"--size", "64x36", "--camera", "eye:8,1.7,4,target:-8,1,-4"}) words.emplace_back(word);
+    for (const char* word : {"--size", "64x36", "--camera", "eye:8,1.7,4,target:-8,1,-4"})
+      words.emplace_back(word);
     words.insert(words.end(), more.begin(), more.end());
     const ProgramRun run = run_program(words);
     EXPECT_EQ(run.status, 0) << run.err;
@@ -48,16 +49,17 @@ TEST_F(ExposureOption, OfALevelInCandelaIsTakenFromThePictureAndTold) {
   const std::string ev = fmt::format("{:g}", told["ev"].get<double>());
   EXPECT_THAT(exposed.err, HasSubstr("exposed by " + ev + " EV"));
   run({"render", level, "-o", path("b.png")}, {"--exposure", ev});
-  EXPECT_EQ(file_bytes(path("b.png")), file_bytes(path("a.png"))) << "the line's own option keeps the picture";
+  EXPECT_EQ(file_bytes(path("b.png")), file_bytes(path("a.png")))
+      << "the line's own option keeps the picture";
 }
 
 TEST_F(ExposureOption, ChangesNeitherExrNorErrors) {
   run({"render", level, "-o", path("0.exr"), "--exposure", "0"});
   run({"render", level, "-o", path("a.exr")});
   EXPECT_EQ(file_bytes(path("a.exr")), file_bytes(path("0.exr")));
-  const std::vector<std::string> compare = {"compare", level,      "-t",       "forward,forward_plus",
-                                            "--frames", "1",       "--warmup", "0",
-                                            "--lights", "2",       "-o",       path("r")};
+  const std::vector<std::string> compare = {"compare",  level, "-t",       "forward,forward_plus",
+                                            "--frames", "1",   "--warmup", "0",
+                                            "--lights", "2",   "-o",       path("r")};
   run(compare);
   const nlohmann::json exposed = json("r/results.json");
   const std::string picture = file_bytes(path("r/forward.png"));

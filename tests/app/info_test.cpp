@@ -17,7 +17,8 @@ TEST(InfoCommand, TellsWhatALevelHolds) {
   lights.push_back({{"type", "directional"}});
   made.root["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 1;
   made.root["nodes"][2]["extensions"]["KHR_lights_punctual"]["light"] = 2;
-  made.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}, {"name", "door"}}};
+  made.root["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}, {"name", "door"}}};
   made.node()["camera"] = 0;
   made.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_iridescence"};
   made.root["extensionsRequired"] = {"KHR_lights_punctual"};
@@ -28,8 +29,12 @@ TEST(InfoCommand, TellsWhatALevelHolds) {
   EXPECT_EQ(json["extent"], nlohmann::json({{"min", {-10, 0, -6}}, {"max", {10, 4, 6}}}));
   EXPECT_EQ(json["triangles"], 12);
   EXPECT_EQ(json["cameras"], nlohmann::json({"door"}));
-  EXPECT_EQ(json["lights"], nlohmann::json({{"total", 3}, {"point", 1}, {"spot", 1}, {"directional", 1},
-                                            {"with_range", 1}, {"without_range", 1}}));
+  EXPECT_EQ(json["lights"], nlohmann::json({{"total", 3},
+                                            {"point", 1},
+                                            {"spot", 1},
+                                            {"directional", 1},
+                                            {"with_range", 1},
+                                            {"without_range", 1}}));
   EXPECT_EQ(json["animations"]["count"], 0);
   EXPECT_EQ(json["extensions"],
             nlohmann::json({{{"name", "KHR_lights_punctual"}, {"drawn", true}, {"required", true}},

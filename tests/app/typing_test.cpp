@@ -1,4 +1,5 @@
-// What is typed at the command line: mistakes get one line that helps, and an option means the same in every command.
+// What is typed at the command line: mistakes get one line that helps, and an option means the same in every
+// command.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -42,12 +43,15 @@ const Mistake mistakes[] = {
      "--set slices: forward does not read it"},
     {{"compare", "hall", "-t", "forward,forward_plus", "--set", "slices=8", "-o", "FOLDER/r"},
      "--set slices: forward, forward_plus do not read it"},
-    {{"render", "spheres", "--camera-path", "turn:0", "-o", "FOLDER/x.png"}, "--camera-path turn:0: not turn:N"},
-    {{"render", "spheres", "--exposure", "bright", "-o", "FOLDER/x.png"}, "--exposure bright: neither auto nor a number"},
+    {{"render", "spheres", "--camera-path", "turn:0", "-o", "FOLDER/x.png"},
+     "--camera-path turn:0: not turn:N"},
+    {{"render", "spheres", "--exposure", "bright", "-o", "FOLDER/x.png"},
+     "--exposure bright: neither auto nor a number"},
     {{"render", "spheres", "--exposure", "100", "-o", "FOLDER/x.png"}, "from -60 to 60"},
     {{"render", "spheres", "--set", "tyle=8", "-o", "FOLDER/x.png"}, "did you mean tile?"},
     {{"render", "spheres", "--set", "range=cut-off", "-o", "FOLDER/x.png"}, "did you mean cutoff?"},
-    {{"render", "spheres", "--set", "cutoff=0", "-o", "FOLDER/x.png"}, "--set cutoff=0: cutoff is a number from"},
+    {{"render", "spheres", "--set", "cutoff=0", "-o", "FOLDER/x.png"},
+     "--set cutoff=0: cutoff is a number from"},
     {{"verify", "--gl", "glx", "--list"}, "\"glx\" is not one of auto, osmesa"},
     {{"scenes", "--gl", "glx"}, "\"glx\" is not one of auto, osmesa"},
     {{"info", "spheers"}, "did you mean spheres?"},
@@ -77,17 +81,20 @@ TEST(Typing, OfNothingListsTheCommandsAndOfVersionTheCommit) {
   EXPECT_EQ(nothing.status, 0);
   for (const char* command : {"render", "compare", "info", "view", "frontier"})
     EXPECT_THAT(nothing.out, HasSubstr(std::string("\n  ") + command + " "));
+  EXPECT_EQ(run_program({"help"}).out, nothing.out);
+  EXPECT_EQ(run_program({"help", "info"}).out, run_program({"info", "--help"}).out);
   const ProgramRun version = run_program({"--version"});
   EXPECT_EQ(version.status, 0);
-  EXPECT_TRUE(std::regex_match(version.out, std::regex(R"(lightgrid \d+\.\d+\.\d+, commit \S+\n)"))) << version.out;
+  EXPECT_TRUE(std::regex_match(version.out, std::regex(R"(lightgrid \d+\.\d+\.\d+, commit \S+\n)")))
+      << version.out;
 }
 
 TEST(Typing, ASpaceAfterACommaIsNoMistake) {
   const TempFolder folder;
   const std::string out = folder.path / "r";
-  const ProgramRun spaced = run_program({"compare", "spheres", "--size", "16x9,", "17x9", "--lights", "1, 2", "-t",
-                                         "visibility:lights=all,", "texels=8,", "visibility", "--gl", "none",
-                                         "--frames", "1", "-o", out});
+  const ProgramRun spaced = run_program({"compare", "spheres", "--size", "16x9,", "17x9", "--lights", "1, 2",
+                                         "-t", "visibility:lights=all,", "texels=8,", "visibility", "--gl",
+                                         "none", "--frames", "1", "-o", out});
   EXPECT_EQ(spaced.status, 0) << spaced.err;
   const auto json = nlohmann::json::parse(file_bytes(std::filesystem::path(out) / "results.json"));
   ASSERT_EQ(json["views"].size(), 4u);
@@ -98,7 +105,8 @@ TEST(Typing, ASpaceAfterACommaIsNoMistake) {
 TEST(Typing, OfATechniqueIsTheSameInEveryCommand) {
   const TempFolder folder;
   const auto frame = [&](const std::vector<std::string>& words) {
-    std::vector<std::string> all = {"render", "spheres", "--size", "16x9", "--gl", "none", "-o", folder.path / "x.exr"};
+    std::vector<std::string> all = {"render", "spheres", "--size", "16x9",
+                                    "--gl",   "none",    "-o",     folder.path / "x.exr"};
     all.insert(all.end(), words.begin(), words.end());
     const ProgramRun run = run_program(all);
     EXPECT_EQ(run.status, 0) << run.err;
@@ -112,8 +120,8 @@ TEST(Typing, OfATechniqueIsTheSameInEveryCommand) {
 
 TEST(Typing, OfATimeOrAMotionWithoutEffectIsTold) {
   const TempFolder folder;
-  const std::vector<std::string> render = {"render", "spheres", "--size", "16x9", "--gl",          "none",
-                                           "-t",     "visibility", "-o",  folder.path / "x.png"};
+  const std::vector<std::string> render = {"render", "spheres", "--size",     "16x9", "--gl",
+                                           "none",   "-t",      "visibility", "-o",   folder.path / "x.png"};
   const auto told = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = render;
     words.insert(words.end(), more.begin(), more.end());
@@ -122,7 +130,8 @@ TEST(Typing, OfATimeOrAMotionWithoutEffectIsTold) {
     return run.err;
   };
   EXPECT_THAT(told({"--time", "2"}), HasSubstr("spheres has no animation"));
-  EXPECT_THAT(told({"--light-motion", "orbit"}), HasSubstr("light-motion orbit: lights move along a camera-path; without one"));
+  EXPECT_THAT(told({"--light-motion", "orbit"}),
+              HasSubstr("light-motion orbit: lights move along a camera-path; without one"));
   EXPECT_EQ(told({"--light-motion", "orbit", "--time", "1", "--camera-path", "turn:1"}), "");
 }
 
@@ -138,7 +147,8 @@ std::map<std::string, Option> options_of(const std::string& command) {
   std::smatch found;
   Option* last = nullptr;
   for (std::string line; std::getline(help, line);) {
-    if (line.starts_with("          ") && last && last->text.empty()) last->text = line.substr(line.find_first_not_of(' '));
+    if (line.starts_with("          ") && last && last->text.empty())
+      last->text = line.substr(line.find_first_not_of(' '));
     last = nullptr;
     if (!std::regex_match(line, found, row)) continue;
     const std::string names = found[1];
@@ -149,18 +159,18 @@ std::map<std::string, Option> options_of(const std::string& command) {
   return options;
 }
 
-// Options of one name have the same short names and the same words in every command, but for those whose value is what
-// the command itself is about.
+// Options of one name have the same short names and the same words in every command, but for those whose
+// value is what the command itself is about.
 TEST(Options, MeanTheSameInEveryCommand) {
-  const std::set<std::string> own_words = {
-      "--size",     // compare takes several
-      "--lights",   // likewise
-      "--technique", "--output", "--compare", "--filter", "--frames", "--replay", "--seed", "--set", "--device",
-      "--json", "--camera-path", "--page-mb", "--gl"};
+  const std::set<std::string> own_words = {"--size",    // compare takes several
+                                           "--lights",  // likewise
+                                           "--technique",   "--output",  "--compare", "--filter", "--frames",
+                                           "--replay",      "--seed",    "--set",     "--device", "--json",
+                                           "--camera-path", "--page-mb", "--gl"};
   std::map<std::string, std::pair<std::string, Option>> first;
   size_t compared = 0;
-  for (const char* command : {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes", "techniques",
-                              "devices", "bench", "verify", "view", "frontier"}) {
+  for (const char* command : {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes",
+                              "techniques", "devices", "bench", "verify", "view", "frontier"}) {
     const std::map<std::string, Option> options = options_of(command);
     EXPECT_TRUE(options.contains("--gl")) << command;
     EXPECT_TRUE(options.contains("--json") || std::string(command) == "view") << command;
@@ -169,9 +179,11 @@ TEST(Options, MeanTheSameInEveryCommand) {
       const auto [earlier, is_new] = first.try_emplace(name, command, option);
       if (is_new) continue;
       ++compared;
-      EXPECT_EQ(option.names, earlier->second.second.names) << name << " of " << command << " and " << earlier->second.first;
+      EXPECT_EQ(option.names, earlier->second.second.names)
+          << name << " of " << command << " and " << earlier->second.first;
       if (own_words.contains(name)) continue;
-      EXPECT_EQ(option.text, earlier->second.second.text) << name << " of " << command << " and " << earlier->second.first;
+      EXPECT_EQ(option.text, earlier->second.second.text)
+          << name << " of " << command << " and " << earlier->second.first;
     }
   }
   EXPECT_GT(compared, 60u);

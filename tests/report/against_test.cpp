@@ -36,7 +36,9 @@ json results(const std::vector<json>& rows) {
           {"rows", rows}};
 }
 
-AgainstResult against(const json& now, const json& earlier) { return results_against(now, earlier, "old.json"); }
+AgainstResult against(const json& now, const json& earlier) {
+  return results_against(now, earlier, "old.json");
+}
 
 TEST(Against, ItselfIsNotWorse) {
   const json same = results({row("forward", 10), row("visibility", 2)});
@@ -49,9 +51,11 @@ TEST(Against, ASlowerRowIsNamedWithItsIntervals) {
   const json before = results({row("forward", 10), row("visibility", 2)});
   EXPECT_THAT(against(results({row("forward", 10), row("visibility", 2.15)}), before).worse, IsEmpty())
       << "the intervals overlap";
-  EXPECT_THAT(against(results({row("forward", 10), row("visibility", 2.6)}), before).worse,
-              ElementsAre("hall 64x36, 7 lights, visibility: 2.6 ms (2.47 to 2.73), earlier 2 (1.9 to 2.1): slower; 94 % "
-                          "intervals of the median"));
+  EXPECT_THAT(
+      against(results({row("forward", 10), row("visibility", 2.6)}), before).worse,
+      ElementsAre(
+          "hall 64x36, 7 lights, visibility: 2.6 ms (2.47 to 2.73), earlier 2 (1.9 to 2.1): slower; 94 % "
+          "intervals of the median"));
   EXPECT_THAT(against(results({row("forward", 13), row("visibility", 2.6)}), before).worse,
               ElementsAre(HasSubstr("lights, forward: 13 ms")))
       << "the machine was slower: the ratio to the reference is the same";
@@ -71,18 +75,21 @@ TEST(Against, FewFramesOrOtherDevicesSayNothingOfTimes) {
 
 TEST(Against, ErrorsCountsAndRefusalsAreWorse) {
   const json before = results({row("forward", 10), row("visibility", 2)});
-  EXPECT_THAT(against(results({row("forward", 10), row("visibility", 2, 3e-6)}), before).worse,
-              ElementsAre(HasSubstr("max_rel grew from 1e-06 to 3e-06"), HasSubstr("rmse grew from 1e-07 to 3e-07")));
+  EXPECT_THAT(
+      against(results({row("forward", 10), row("visibility", 2, 3e-6)}), before).worse,
+      ElementsAre(HasSubstr("max_rel grew from 1e-06 to 3e-06"), HasSubstr("rmse grew from 1e-07 to 3e-07")));
   json now = before;
   now["rows"][1]["pairs"]["lost"] = 3;
   now["rows"][1]["nan_pixels"] = 1;
   EXPECT_THAT(against(now, before).worse,
-              ElementsAre(HasSubstr("3 pairs of a pixel and a light are lost, earlier 0"), HasSubstr("1 pixels are NaN")));
+              ElementsAre(HasSubstr("3 pairs of a pixel and a light are lost, earlier 0"),
+                          HasSubstr("1 pixels are NaN")));
   now = before;
   now["rows"][1]["refused"] = "too many lights";
   EXPECT_THAT(against(now, before).worse, ElementsAre(HasSubstr("is refused now: too many lights")));
   EXPECT_THAT(against(results({row("forward", 10), row("clustered", 2)}), before).told,
-              ElementsAre(HasSubstr("visibility: was measured earlier alone"), HasSubstr("clustered: was not measured")));
+              ElementsAre(HasSubstr("visibility: was measured earlier alone"),
+                          HasSubstr("clustered: was not measured")));
 }
 
 TEST(Against, AFileThatIsNoneIsNamed) {

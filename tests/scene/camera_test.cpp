@@ -307,8 +307,10 @@ TEST(ChooseCamera, DefaultKeepsItsDistanceFromALine) {
 Scene box_of(const glm::dvec3& size, bool inside) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
-  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 0.5f : -0.5f, i & 2 ? 1 : 0, i & 4 ? 0.5f : -0.5f);
-  mesh.indices = {0, 1, 3, 0, 3, 2, 5, 4, 6, 5, 6, 7, 4, 0, 2, 4, 2, 6, 1, 5, 7, 1, 7, 3, 4, 5, 1, 4, 1, 0, 2, 3, 7, 2, 7, 6};
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back(i & 1 ? 0.5f : -0.5f, i & 2 ? 1 : 0, i & 4 ? 0.5f : -0.5f);
+  mesh.indices = {0, 1, 3, 0, 3, 2, 5, 4, 6, 5, 6, 7, 4, 0, 2, 4, 2, 6,
+                  1, 5, 7, 1, 7, 3, 4, 5, 1, 4, 1, 0, 2, 3, 7, 2, 7, 6};
   if (!inside) std::ranges::reverse(mesh.indices);
   for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
   scene.instances.push_back({"box", 0, glm::scale(glm::dmat4(1), size)});
@@ -323,7 +325,8 @@ TEST(ChooseCamera, DefaultStandsInARoom) {
   EXPECT_LT(std::abs(camera.world_from_view[3].x), 10);
   const double towards = -camera.world_from_view[2].x * camera.world_from_view[3].x;
   EXPECT_LT(towards, 0) << "looks along its length";
-  EXPECT_EQ(choose_camera(box_of({-20, 4, 8}, true), "").name, "room") << "glTF turns a mirrored node's winding";
+  EXPECT_EQ(choose_camera(box_of({-20, 4, 8}, true), "").name, "room")
+      << "glTF turns a mirrored node's winding";
   EXPECT_EQ(choose_camera(box_of({-20, 4, 8}, false), "").name, "overview");
 }
 

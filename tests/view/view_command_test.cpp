@@ -270,8 +270,9 @@ TEST(ViewCommand, ExposesTheFirstPictureOfAFile) {
   const std::string level = folder.write("level.gltf", exported_level(20).text());
   const auto mean = [&](const std::string& more) {
     const std::string picture = folder.path / "view.png";
-    const CommandOutcome run = run_in_display("view " + level + " --left visibility --right visibility --size 320x180 " +
-                                              "--frames 3 --screenshot " + picture + more);
+    const CommandOutcome run =
+        run_in_display("view " + level + " --left visibility --right visibility --size 320x180 " +
+                       "--frames 3 --screenshot " + picture + more);
     EXPECT_EQ(run.status, 0) << run.output;
     return mean_of(read_png(picture), 0, width);
   };
