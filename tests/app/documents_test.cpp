@@ -8,6 +8,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "support/paths.h"
 
@@ -77,9 +78,22 @@ void for_matches(const std::string& text, const char* pattern, auto&& found) {
     found((*i)[1].str());
 }
 
+// Without blocks of code, where [](x) is no link.
+std::string prose_of(const fs::path& page) {
+  std::istringstream lines(whole_text(page));
+  std::string prose;
+  bool in_code = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool fence = line.starts_with("```");
+    in_code ^= fence;
+    if (!in_code && !fence) prose += line + '\n';
+  }
+  return prose;
+}
+
 TEST(Documents, HaveLinksThatLeadSomewhere) {
   for (const fs::path& page : all_pages()) {
-    for_matches(whole_text(page), R"(\]\(([^)\s]+)\))", [&](const std::string& link) {
+    for_matches(prose_of(page), R"(\]\(([^)\s]+)\))", [&](const std::string& link) {
       if (!link.starts_with("http")) expect_target(page, page.parent_path(), link);
     });
   }
