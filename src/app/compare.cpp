@@ -38,6 +38,10 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
     failed = true;
     fmt::print(stderr, "lightgrid: {}{}: {} lost{} and {} wrong pairs, {} NaN pixels; all must be 0\n", view,
                names[i], row.pairs->lost, why_lost(row), row.pairs->wrong, row.nan_pixels);
+    if (row.unshaded.value_or(0) > most_unshaded)
+      fmt::print(stderr,
+                 "lightgrid: {}{}: its lists hold every light, but its image lacks {:.3g} % of their light\n",
+                 view, names[i], 100 * *row.unshaded);
   }
   return failed;
 }

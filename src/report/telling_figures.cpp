@@ -195,7 +195,7 @@ const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
 }
 
 bool passes_gates(const RunResult& row) {
-  return row.refused.empty() && row.nan_pixels == 0 &&
+  return row.refused.empty() && row.nan_pixels == 0 && row.unshaded.value_or(0) <= most_unshaded &&
          (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
 }
 

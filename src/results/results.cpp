@@ -174,6 +174,7 @@ json to_json(const RunResult& result) {
               {"pairs", result.pairs ? to_json(*result.pairs) : json()},
               {"error", result.error ? to_json(*result.error) : json()},
               {"same_surfaces", same_surfaces_json(result)},
+              {"unshaded", result.unshaded ? json(*result.unshaded) : json()},
               {"nan_pixels", result.nan_pixels},
               {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},

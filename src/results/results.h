@@ -112,6 +112,9 @@ struct SkippedEffect {
   std::string effect, why;
 };
 
+// Half of a listed light is far more; 8-bit geometry buffers lose less.
+inline constexpr double most_unshaded = 0.01;
+
 struct RunResult {
   std::string technique;
   std::string refused;  // why the machine or the technique cannot do this; empty if it ran
@@ -129,6 +132,10 @@ struct RunResult {
   // drawn.
   bool own_surfaces = false;
   std::optional<ImageError> same_surfaces;
+  // The share of every light's light that is not in the image although no list lacks a light: above
+  // most_unshaded, its loop does not shade what it lists. Absent where lists lack lights, where the picture
+  // is not forward's by nature, and where every light was not drawn on these surfaces.
+  std::optional<double> unshaded;
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
   std::optional<MovingResult> moving;  // absent without a camera path

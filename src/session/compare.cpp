@@ -1,6 +1,7 @@
 #include "session/compare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -170,6 +171,18 @@ void set_errors(RunResult& row, const Image& image, const CompareReport& report,
   if (row.own_surfaces) row.same_surfaces = row.error;
 }
 
+// The share of `every_light`'s radiance, over all channels and pixels, that the image lacks. Negative: it has
+// more.
+double missing_light(const Image& image, const Image& every_light) {
+  const auto sum_of = [](const glm::vec4& c) { return double(c.r) + c.g + c.b; };
+  double has = 0, all = 0;
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    has += sum_of(image.pixels[i]);
+    all += sum_of(every_light.pixels[i]);
+  }
+  return all > 0 && std::isfinite(has) && std::isfinite(all) ? 1 - has / all : 0;
+}
+
 // All or nothing: the lists may not fit in memory. The run's images may hold another run's frame, so it draws
 // once more.
 void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m) {
@@ -191,6 +204,10 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : m.depth);
   row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
+  const Image& every_light =
+      row.own_surfaces && !reference.run().frame().triangles ? m.every_light_on_own : reference.image;
+  if (pairs.lost == 0 && !run.technique().approximate && !reference.sampled() && !every_light.pixels.empty())
+    row.unshaded = missing_light(image, every_light);
   Image taken = run.take_image();
   if (!is_reference && !(m.shown && row.error->bit_identical)) report.images[place] = std::move(taken);
   m.shown |= is_reference;

@@ -55,6 +55,7 @@ RunResult small_result() {
   result.nan_pixels = 11;
   result.inf_pixels = 13;
   result.overflow = 12;
+  result.unshaded = 0.25;
   result.skipped = {{"shadows", "no light casts one"}};
   return result;
 }
@@ -80,7 +81,7 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
               "silhouettes": {"pixels": 1, "share": 0.125},
               "inside": {"pixels": 5, "max_rel": 0.25, "rmse_rel": 0.125, "p99_rel": 0.0625},
               "surfaces": {"pixels": 4, "sum_rel": -0.5, "max_rel": 0.75, "rmse_rel": 0.25, "p99_rel": 0.375}},
-    "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
+    "unshaded": 0.25, "nan_pixels": 11, "inf_pixels": 13, "overflow": 12, "skipped": [{"effect": "shadows", "why": "no light casts one"}]})");
   EXPECT_EQ(to_json(small_result()), expected);
 }
 

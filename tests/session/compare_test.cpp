@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "passes/surfaces.h"
 #include "results/metrics.h"
 #include "results/results.h"
 #include "session/technique_run.h"
@@ -53,6 +54,30 @@ TEST(TechniqueRun, SharesItsBuffersWithRunsOfItsPoolAndGivesTheRestBack) {
   first.run_frame();
   EXPECT_EQ(first.view().memory_bytes(), held);
   EXPECT_TRUE(compare_images(first.image(), alone.image()).bit_identical) << "after its release";
+}
+
+// Lists every light, and shades none of those with a position.
+const Technique lists_alone{.name = "lists_alone",
+                            .summary = "lists_alone",
+                            .source = "none",
+                            .needs = {},
+                            .settings = {},
+                            .render = [](RenderView& v) {
+                              const Surfaces surfaces = find_surfaces(v);
+                              Frame frame = frame_of(surfaces);
+                              frame.image =
+                                  shade(v, surfaces, LightSource([&v] { return base_lighting(v); }));
+                              return frame;
+                            }};
+
+TEST(CompareTechniques, TellsWhoseLoopShadesLessThanItsListsHold) {
+  const CompareReport report = compared(
+      {{&lists_alone, {}}, {&find_technique("forward_plus"), {}}, {&find_technique("visibility"), {}}});
+  ASSERT_EQ(report.rows.size(), 3u);
+  EXPECT_EQ(report.rows[0].pairs->lost, 0u);
+  EXPECT_GT(report.rows[0].unshaded.value(), most_unshaded);
+  EXPECT_EQ(report.rows[1].unshaded.value(), 0);
+  EXPECT_EQ(report.rows[2].unshaded.value(), 0) << "against every light on its own surfaces";
 }
 
 TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {

@@ -1,7 +1,7 @@
 // The table of figures, sorted by the clicked heading.
 
 // columns: [{ title, value(row) -> number, string or null, text(value), best: "low" or "high", gate }];
-// a gate's value must be 0.
+// a gate's value must be 0, and fails(row) false if it is there.
 function showTable(table, columns, rows, tagOf) {
   const body = make("tbody");
 
@@ -9,7 +9,7 @@ function showTable(table, columns, rows, tagOf) {
     const value = column.value(row);
     const text = value === null ? "\u2013" : column.text ? column.text(value) : value;
     const data = make("td", value === null ? {} : { "data-value": value }, text);
-    if (column.gate && value !== null) data.className = value === 0 ? "good" : "bad";
+    if (column.gate && value !== null) data.className = value === 0 && !column.fails?.(row) ? 'good' : 'bad';
     return data;
   };
   const cellsOf = (row) => {

@@ -52,25 +52,57 @@ function showPictures(view) {
     "A pixel stands for the mean of its block in a picture, its worst in a difference, its largest count in a heat map.");
 }
 
-const columnsOf = (view) => [
-  { title: "Technique", value: (row) => nameOf(view, row), text: nameElement },
-  { title: "Frame, ms", value: (row) => row.frame_ms.median, text: shortNumber },
-  { title: "Speed-up", value: (row) => speedUp(view, row), text: (ratio) => `${shortNumber(ratio)}\u00d7`, best: "high" },
-  { title: "Listed / lit", value: (row) => (row.pairs?.lit ? row.pairs.listed / row.pairs.lit : null), text: shortNumber },
-  { title: "Lost pairs", value: (row) => row.pairs?.lost ?? null, text: wholeNumber, gate: true },
-  { title: "Wrong pairs", value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true },
-  { title: "NaN pixels", value: (row) => row.nan_pixels, text: wholeNumber, gate: true },
-  ...page.measures.map(({ key, title }) => ({ title, value: (row) => row.same_surfaces?.[key] ?? null, text: errorNumber })),
-  ...(view.results.own_surfaces?.error
-    ? [{ title: "Surfaces off, RMSE", value: (row) => (hasOwnSurfaces(view, row) ? view.results.own_surfaces.error.rmse_rel : null), text: errorNumber }] : []),
-  ...(view.results.rows.some((row) => typeof row.error?.flip_mean === "number")
-    ? [{ title: "FLIP, mean", value: (row) => row.error?.flip_mean ?? null, text: errorNumber }] : []),
-  { title: "Off the oracle, largest", value: (row) => (hasOwnSurfaces(view, row) ? null : row.error?.oracle?.max_rel ?? null), text: errorNumber },
-  { title: "Off double surfaces, RMSE", value: (row) => row.error?.surfaces?.rmse_rel ?? null, text: errorNumber },
-  { title: "Listed pairs", value: (row) => row.pairs?.listed ?? null, text: shortCount },
-  { title: "Light grid", value: (row) => row.memory_bytes.light_grid, text: byteNumber },
-  { title: "G-buffer", value: (row) => row.memory_bytes.gbuffer, text: byteNumber },
-  { title: "Memory, all", value: (row) => row.memory_bytes.total, text: byteNumber },
+// Its lists hold every light, but its image lacks more than 1 % of their light.
+const shadesLess = (row) => row.unshaded > 0.01;
+
+const columnsOf = (view) =>
+    [{title: 'Technique', value: (row) => nameOf(view, row), text: nameElement},
+     {title: 'Frame, ms', value: (row) => row.frame_ms.median, text: shortNumber},
+     {
+       title: 'Speed-up',
+       value: (row) => speedUp(view, row),
+       text: (ratio) => `${shortNumber(ratio)}\u00d7`,
+       best: 'high'
+     },
+     {
+       title: 'Listed / lit',
+       value: (row) => (row.pairs?.lit ? row.pairs.listed / row.pairs.lit : null),
+       text: shortNumber
+     },
+     {
+       title: 'Lost pairs',
+       value: (row) => row.pairs?.lost ?? null,
+       text: wholeNumber,
+       gate: true,
+       fails: shadesLess
+     },
+     {title: 'Wrong pairs', value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true},
+     {title: 'NaN pixels', value: (row) => row.nan_pixels, text: wholeNumber, gate: true},
+     ...page.measures.map(
+         ({key, title}) => ({title, value: (row) => row.same_surfaces?.[key] ?? null, text: errorNumber})),
+     ...(view.results.own_surfaces?.error ? [{
+       title: 'Surfaces off, RMSE',
+       value: (row) => (hasOwnSurfaces(view, row) ? view.results.own_surfaces.error.rmse_rel : null),
+       text: errorNumber
+     }] :
+                                            []),
+     ...(view.results.rows.some((row) => typeof row.error?.flip_mean === 'number') ?
+             [{title: 'FLIP, mean', value: (row) => row.error?.flip_mean ?? null, text: errorNumber}] :
+             []),
+     {
+       title: 'Off the oracle, largest',
+       value: (row) => (hasOwnSurfaces(view, row) ? null : row.error?.oracle?.max_rel ?? null),
+       text: errorNumber
+     },
+     {
+       title: 'Off double surfaces, RMSE',
+       value: (row) => row.error?.surfaces?.rmse_rel ?? null,
+       text: errorNumber
+     },
+     {title: 'Listed pairs', value: (row) => row.pairs?.listed ?? null, text: shortCount},
+     {title: 'Light grid', value: (row) => row.memory_bytes.light_grid, text: byteNumber},
+     {title: 'G-buffer', value: (row) => row.memory_bytes.gbuffer, text: byteNumber},
+     {title: 'Memory, all', value: (row) => row.memory_bytes.total, text: byteNumber},
 ];
 
 function showErrors(view) {
@@ -225,7 +257,13 @@ function showView(view) {
   for (const element of document.querySelectorAll(".reference")) element.textContent = view.results.reference.technique;
   for (const element of document.querySelectorAll(".brightest")) element.textContent = brightestInWords(view);
   showPictures(view);
-  showTable(byId("figures-table"), columnsOf(view), view.results.rows, (row) => (row === referenceOf(view) ? "reference" : row.overflow > 0 ? "loses lights by design" : ""));
+  showTable(
+      byId('figures-table'), columnsOf(view), view.results.rows,
+      (row) =>
+          (row === referenceOf(view) ? 'reference' :
+               row.overflow > 0      ? 'loses lights by design' :
+               shadesLess(row)       ? 'shades less than it lists' :
+                                       ''));
   byId("figures-copy").replaceChildren(...copyButtons(() => byId("figures-table")));
   showErrors(view);
   byId("techniques").replaceChildren(...ranRows(view).map((row) => techniqueCard(view, row)));
