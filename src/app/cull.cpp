@@ -20,17 +20,8 @@ struct CullOptions {
   TimingOptions timing;
 };
 
-int cull(CullOptions o) {
-  take_own_settings(o.technique, o.set);
-  if (o.frame.empty())
-    throw input_error(
-        "cull: FRAME is missing; it is a folder that `lightgrid capture` or another engine wrote");
-  const TechniqueNeeds needs =
-      grid_needs(o.technique, frame_settings({}, o.set));  // reports faults in these first
-  if (!o.json.empty()) check_output_file("--json", o.json);
-  const CapturedFrame frame = read_frame(o.frame);
-  const Settings settings = frame_settings(frame, o.set);
-  make_folder(o.output);
+int cull_into_folder(const CullOptions& o, const CapturedFrame& frame, const Settings& settings,
+                     const TechniqueNeeds& needs) {
   ClDevice device(o.device);
   ProgramCache programs(device);
   FrameCuller culler(device, programs, frame, settings, needs);
@@ -47,6 +38,20 @@ int cull(CullOptions o) {
   if (!o.json.empty()) write_json(o.json, summary_json(frame, grid, device.info().name, time));
   if (o.json != "-") fmt::print("{}: {}, {:.3f} ms\n", o.output, summary_line(frame, grid), time.median);
   return 0;
+}
+
+int cull(CullOptions o) {
+  take_own_settings(o.technique, o.set);
+  if (o.frame.empty())
+    throw input_error(
+        "cull: FRAME is missing; it is a folder that `lightgrid capture` or another engine wrote");
+  const TechniqueNeeds needs =
+      grid_needs(o.technique, frame_settings({}, o.set));  // reports faults in these first
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  const CapturedFrame frame = read_frame(o.frame);
+  const Settings settings = frame_settings(frame, o.set);
+  check_given_settings(settings, {&find_technique(o.technique)}, true);
+  return with_output_folder(o.output, [&] { return cull_into_folder(o, frame, settings, needs); });
 }
 
 }  // namespace

@@ -54,6 +54,8 @@ const Mistake mistakes[] = {
      "--set cutoff=0: cutoff is a number from"},
     {{"verify", "--gl", "glx", "--list"}, "\"glx\" is not one of auto, osmesa"},
     {{"scenes", "--gl", "glx"}, "\"glx\" is not one of auto, osmesa"},
+    {{"inspect", "spheres", "--set", "raster=opencl", "--pixel", "1,1"},
+     "--set raster: forward_plus does not read it"},
     {{"info", "spheers"}, "did you mean spheres?"},
     {{"render", "spheres", "--size", "64", "-o", "FOLDER/x.png"}, "--size 64: not WxH"},
 };
