@@ -28,8 +28,8 @@ glm::vec3 tone_map_neutral(glm::vec3 linear);
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
 
-// Of pictures alone: each linear value is multiplied by 2^ev before the tone map. Files of linear values and
-// errors are without it.
+// Pictures alone have one: each linear value is multiplied by 2^ev before the tone map. Files of linear
+// values and errors are without it.
 struct Exposure {
   double ev = 0;
   bool automatic = false;  // ev was taken from a picture

@@ -52,7 +52,7 @@ Hit nearest_hit(const std::vector<Corners>& triangles, const glm::dvec3& from, c
   return nearest;
 }
 
-// Those that touch the height, which rays at it can meet.
+// The triangles that touch the height: rays at it can meet no other.
 std::vector<Corners> at_height(const std::vector<Corners>& triangles, double y) {
   std::vector<Corners> at;
   std::ranges::copy_if(triangles, std::back_inserter(at), [&](const Corners& t) {

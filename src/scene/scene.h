@@ -124,7 +124,8 @@ struct Light {
   int node = -1;  // of the rig, which moves it; -1: static
 };
 
-// Of Light and ViewLight. Directional lights have no place: they reach every surface, and are in no list.
+// Both take a Light or a ViewLight. Directional lights have no place: they reach every surface, and are in no
+// list.
 inline bool is_directional(const auto& light) { return light.type == LightType::directional; }
 inline bool has_cone(const auto& light) { return light.type == LightType::spot; }
 

@@ -23,7 +23,7 @@ struct ViewLight {
 // In the scene's order. Positions are subtracted from the eye in double, so that a scene and a camera moved
 // together by an exact amount give the same bits.
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges = {});
-// Those at `indices`.
+// The lights at `indices` alone.
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges,
                                       const std::vector<int>& indices);
 

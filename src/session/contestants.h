@@ -24,8 +24,8 @@ std::vector<BenchContestant> culling_contestants(const Settings& base,
 // it. Throws Error(input) for a setting that a technique does not read.
 std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common);
 
-// Of one technique, given as in a list: leaves its name, and appends its settings to `set`. Empty: nothing is
-// given. Throws Error(input) for several techniques.
+// Takes one technique as it stands in a list: leaves its name, and appends its settings to `set`. Nothing is
+// given if it is empty. Throws Error(input) for several techniques.
 void take_own_settings(std::string& technique, std::vector<std::string>& set);
 
 // Throws Error(input) for a given setting that none of the techniques reads, nor culling where `grid` says

@@ -65,9 +65,9 @@ struct ChosenScene {
 };
 ChosenScene load_chosen_scene(const SceneChoice& choice);
 Settings chosen_settings(const SceneChoice& choice);
-// Of the pictures of a run; auto from `image`, and 0 if that has no pixels.
+// The exposure of a run's pictures; auto takes it from `image`, or 0 if that has no pixels.
 Exposure chosen_exposure(const SceneChoice& choice, const Image& image);
-// In the log, if it was chosen here and is not 0. `view` begins the line.
+// Logs an exposure that was chosen here and is not 0. `view` begins the line.
 void tell_exposure(const Exposure& exposure, const std::string& view = "");
 
 // The devices for a technique by its name, with these settings; empty: whichever can be had. OpenGL is opened

@@ -73,7 +73,7 @@ struct FrameTimes {
   double total_ms() const;
 };
 
-// Of the last frames of one side.
+// Frame times of one side, the last ones.
 class Timings {
  public:
   static constexpr size_t kept_frames = 120;

@@ -61,7 +61,7 @@ void show_overlay(const Controls& controls, const Shown& shown);
 // The upper edge of the right side's label, so that it is never over the left one's; sizes of their texts.
 inline constexpr float first_label_y = 4;
 float second_label_y(float left_width, float left_height, float right_width, float picture_width);
-// Of the last item, if the pointer is over it; wrapped.
+// Shows `text`, wrapped, if the pointer is over the last item.
 void tooltip(const std::string& text);
 // A list to choose from, over the width that is left. Returns the choice made in this frame. `about`: a
 // tooltip of each name. Escape closes it.

@@ -38,7 +38,7 @@ class Side {
   // neither here nor in timings(); it is drawn again.
   double frame_ms() const;
   double last_ms() const { return frame_ms_.empty() ? 0 : frame_ms_.back(); }
-  // Of all figures so far, for scripts.
+  // Count and maximum of all figures so far, for scripts.
   int figures() const { return figures_; }
   double slowest_ms() const { return slowest_ms_; }
   // Identifies the picture among those of all sides.
