@@ -1,0 +1,187 @@
+// Exact shadow rays against the oracle in long double, and both kernel shapes against each other.
+#include <gmock/gmock.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "rays/ray_oracle.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+// A mesh of its own for each placement; triangles come out relative to the scene's origin.
+struct Placed {
+  std::vector<glm::vec3> positions;
+  std::vector<uint32_t> indices;
+  std::vector<RayInstance> instances;
+  std::vector<Corners> relative(const glm::dvec3& origin) const {
+    std::vector<Corners> made;
+    for (const RayInstance& instance : instances) {
+      for (size_t i = 0; i < indices.size(); i += 3) {
+        Corners& c = made.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+          const glm::dvec4 at(glm::dvec3(positions[indices[i + k]]), 1);
+          c[k] = glm::vec3(glm::dvec3(instance.world_from_object * at) - origin);
+        }
+      }
+    }
+    return made;
+  }
+};
+
+Placed placed(const std::vector<Corners>& triangles, std::vector<glm::dmat4> places = {glm::dmat4(1)}) {
+  Placed made;
+  for (const Corners& c : triangles) {
+    for (const glm::vec3& p : c) {
+      made.indices.push_back(uint32_t(made.positions.size()));
+      made.positions.push_back(p);
+    }
+  }
+  for (const glm::dmat4& m : places) made.instances.push_back({0, m});
+  return made;
+}
+
+void set(RayScene& scene, const Placed& p) {
+  const RayMesh mesh{p.positions, p.indices};
+  scene.set_meshes({&mesh, 1});
+  scene.set_instances(p.instances);
+}
+
+RayScene scene_of(const Placed& p, const RayOptions& options = {}) {
+  RayScene scene(rays_device(), rays_programs(), options);
+  set(scene, p);
+  return scene;
+}
+
+std::vector<uint32_t> answers(const Placed& p, const Queries& q, KernelShape shape = KernelShape::lanes) {
+  RayScene scene = scene_of(p, {.shape = shape});
+  return scene.occlusion(q.points, q.lights, q.packets);
+}
+
+struct Tally {
+  size_t hidden = 0, seen = 0, either = 0, leaked = 0, acned = 0;
+};
+
+Tally against_oracle(const std::vector<Corners>& triangles, const Queries& q,
+                     const std::vector<uint32_t>& bits) {
+  std::vector<Tally> tallies(q.packets.size());
+  parallel_for(int(q.packets.size()), [&](int i) {
+    const RayPacket& packet = q.packets[i];
+    Tally& t = tallies[i];
+    for (int lane = 0; lane < 16; ++lane) {
+      const bool hidden = bits[i] >> lane & 1;
+      if (!(packet.lanes >> lane & 1)) {
+        t.acned += hidden;  // was not asked for
+        continue;
+      }
+      const Answer answer =
+          RayOracle::all(triangles, q.lights[packet.light], q.points[packet.block * 16 + lane]);
+      ++(answer == Answer::either ? t.either : answer == Answer::yes ? t.hidden : t.seen);
+      t.leaked += answer == Answer::yes && !hidden, t.acned += answer == Answer::no && hidden;
+    }
+  });
+  Tally sum;
+  for (const Tally& t : tallies) {
+    sum.hidden += t.hidden, sum.seen += t.seen, sum.either += t.either;
+    sum.leaked += t.leaked, sum.acned += t.acned;
+  }
+  return sum;
+}
+
+void expect_exact(const Tally& t, double most_either) {
+  const size_t pairs = t.hidden + t.seen + t.either;
+  EXPECT_EQ(t.leaked, 0u);
+  EXPECT_EQ(t.acned, 0u);
+  EXPECT_GT(t.hidden, pairs / 200);
+  EXPECT_GT(t.seen, pairs / 200);
+  EXPECT_LT(double(t.either), most_either * double(pairs));
+}
+
+// A triangle in the plane z = 0 with corners (0, 0), (4, 0), (0, 4), relative to the origin at (0, 0, 0).
+const std::vector<Corners> one_triangle{{glm::vec3(0), glm::vec3(4, 0, 0), glm::vec3(0, 4, 0)}};
+
+// Solved by hand: the oracle first, then the kernels.
+class RaysByHand : public testing::TestWithParam<KernelShape> {};
+
+TEST_P(RaysByHand, OneTriangle) {
+  const RayLight above(1, 1, 2, 1), aside(10, 1, 2, 1), in_plane(-1, 1, 0, 1), up(0, 0, 1, 0);
+  struct Case {
+    RayLight light;
+    RayPoint point;
+    bool hidden;
+  };
+  const Case cases[] = {
+      {above, {{1, 1, -1}}, true},            // straight through
+      {above, {{2.5, 2.5, -2}}, true},        // through (1.75, 1.75)
+      {above, {{6, 6, -2}}, false},           // through (3.5, 3.5), past the long side
+      {above, {{1, 1, 1}}, false},            // ends before it
+      {above, {{1, 1, -0.25}, 0.5f}, false},  // the gap takes the crossing away
+      {above, {{1, 1, -0.25}, 0.125f}, true},
+      {above, {{1, 1, -1}, 1e-3f, 0}, false},  // its own
+      {above, {{1, 1, -1}, 1e-3f, 7}, true},   // another one's
+      {above, {{1, 1, -1}, 5}, false},         // the gap is longer than the segment
+      {aside, {{-2, 1, -1}}, true},            // through (2, 1)
+      {aside, {{8, 1, -2}}, false},            // through (9, 1)
+      {in_plane, {{3, 1, 0}}, false},          // a light in its plane sees nothing of it
+      {in_plane, {{3, 1, -1}}, false},
+      {up, {{1, 1, -1}}, true},
+      {up, {{1, 1, -1000}}, true},
+      {up, {{1, 1, 1}}, false},
+      {up, {{-1, 1, -1}}, false},
+      {up, {{1, 1, -0.25}, 0.5f}, false},
+      {up, {{1, 1, -1}, 1e-3f, 0}, false},
+  };
+  Queries q;
+  for (const Case& c : cases) {
+    const uint32_t number = uint32_t(q.points.size()), light = uint32_t(q.lights.size());
+    q.points.push_back(c.point);
+    q.lights.push_back(c.light);
+    q.packets.push_back({number / 16, light, 1u << number % 16});
+    if (c.light != in_plane) {
+      EXPECT_EQ(RayOracle::all(one_triangle, c.light, c.point), c.hidden ? Answer::yes : Answer::no)
+          << number;
+    }
+  }
+  RayScene scene(rays_device(), rays_programs(), {.shape = GetParam(), .origin = glm::dvec3(0)});
+  set(scene, placed(one_triangle));
+  const std::vector<uint32_t> bits = scene.occlusion(q.points, q.lights, q.packets);
+  for (size_t i = 0; i < bits.size(); ++i) EXPECT_EQ(bits[i], uint32_t(cases[i].hidden) << i % 16) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, RaysByHand, testing::Values(KernelShape::lanes, KernelShape::group),
+                         [](const auto& info) {
+                           return info.param == KernelShape::lanes ? "Lanes" : "Group";
+                         });
+
+class RaysInSoups : public testing::TestWithParam<int> {
+ protected:
+  const Soup soup = hard_soups()[GetParam()];
+};
+
+TEST_P(RaysInSoups, AreExactInBothShapes) {
+  const Placed scene = placed(soup.triangles);
+  const std::vector<Corners> triangles = scene.relative(scene_of(scene).origin());
+  const Queries q = queries_of(triangles, 24, 40, 17);
+  const std::vector<uint32_t> lanes = answers(scene, q);
+  expect_exact(against_oracle(triangles, q, lanes), 0.15);
+  EXPECT_EQ(lanes, answers(scene, q, KernelShape::group));
+}
+
+TEST_P(RaysInSoups, FarFromTheOriginMirroredAndScaled) {
+  glm::dmat4 mirrored(1), scaled(1);
+  mirrored[0][0] = -1, mirrored[3] = {1e5, -2e5, 1e5 + 1.25, 1};
+  scaled = {{0, 0, 3, 0}, {0.5, 0, 0.25, 0}, {0, 1, 0, 0}, {1e5 + 3, -2e5, 1e5, 1}};
+  const Placed scene = placed(soup.triangles, {mirrored, scaled});
+  const std::vector<Corners> triangles = scene.relative(scene_of(scene).origin());
+  const Queries q = queries_of(triangles, 12, 24, 18);
+  const std::vector<uint32_t> lanes = answers(scene, q);
+  expect_exact(against_oracle(triangles, q, lanes), 0.15);
+  EXPECT_EQ(lanes, answers(scene, q, KernelShape::group));
+}
+
+INSTANTIATE_TEST_SUITE_P(Soups, RaysInSoups, testing::Range(0, 6),
+                         [](const auto& info) { return hard_soups()[info.param].name; });
+
+}  // namespace
+}  // namespace lightgrid
