@@ -121,9 +121,14 @@ static inline real plane_side(const RayPacket* p, RayPlane plane, double turn) {
                   (float)(plane.offset * turn));
 }
 
-// Lanes whose segments cross the triangle. A light in its plane sees nothing of it. Edges are computed only
-// if a segment reaches the plane.
-static inline mask_t meets_triangle(const RayPacket* p, global const RayTriangle* t) {
+// Of the corners, where a segment crosses; they add up to anything.
+typedef struct RayWeights {
+  real first, second, third;
+} RayWeights;
+
+// Lanes whose segments cross the triangle. A light in its plane sees nothing of it. Edges are computed only if
+// a segment reaches the plane.
+static inline mask_t meets_triangle(const RayPacket* p, global const RayTriangle* t, RayWeights* weights) {
   const RaySource l = p->light;
   const bool point = l.w != 0;
   const double lx = point ? l.x : 0, ly = point ? l.y : 0, lz = point ? l.z : 0;
@@ -139,10 +144,10 @@ static inline mask_t meets_triangle(const RayPacket* p, global const RayTriangle
   if (!any_lane(live >= 0.0f)) return (mask_t)(0);
   const double bx = t->corners[3] - lx, by = t->corners[4] - ly, bz = t->corners[5] - lz;
   const double cx = t->corners[6] - lx, cy = t->corners[7] - ly, cz = t->corners[8] - lz;
-  const real u = plane_side(p, edge_plane(l, bx, by, bz, cx, cy, cz), turn),
-             v = plane_side(p, edge_plane(l, cx, cy, cz, ax, ay, az), turn),
-             w = plane_side(p, edge_plane(l, ax, ay, az, bx, by, bz), turn);
-  return lane_min(lane_min(u, v), lane_min(w, live)) >= 0.0f;
+  weights->first = plane_side(p, edge_plane(l, bx, by, bz, cx, cy, cz), turn);
+  weights->second = plane_side(p, edge_plane(l, cx, cy, cz, ax, ay, az), turn);
+  weights->third = plane_side(p, edge_plane(l, ax, ay, az, bx, by, bz), turn);
+  return lane_min(lane_min(weights->first, weights->second), lane_min(weights->third, live)) >= 0.0f;
 }
 
 static inline float least_of_3(float a, float b, float c) { return fmin(fmin(a, b), c); }

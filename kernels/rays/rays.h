@@ -10,18 +10,35 @@
 #pragma once
 
 #include "kernels/rays/ray_packet.h"
+#include "shared/surface_records.h"
+
+#ifdef RAYS_MASKS
+#include "kernels/rays/ray_masks.h"
+#endif
 
 #define RAYS_ARGUMENTS                                                                                     \
   global const RayNode *ray_nodes, global const RayTriangle *ray_triangles, global const uint *ray_places, \
-      float ray_extent
+      float ray_extent, global const uint4 *ray_masks, global const SurfaceVertex *ray_vertices,           \
+      global const SurfaceMaterial *ray_materials, global const uint *ray_alphas
+#ifdef RAYS_MASKS
+#define RAYS_MASK_SOURCE                                                   \
+  , {                                                                      \
+    ray_masks, { ray_vertices, ray_materials, ray_alphas, (float2)(0.0f) } \
+  }
+#else
+#define RAYS_MASK_SOURCE
+#endif
 #define RAYS_SCENE \
-  { ray_nodes, ray_triangles, ray_places, ray_extent }
+  { ray_nodes, ray_triangles, ray_places, ray_extent RAYS_MASK_SOURCE }
 
 typedef struct RayScene {
   global const RayNode* nodes;
   global const RayTriangle* triangles;  // in the order of the tree, then those that cast nothing
   global const uint* places;            // a triangle's number to its place in `triangles`
-  float extent;
+  float extent;                         // no coordinate is greater
+#ifdef RAYS_MASKS
+  RayMasks masks;
+#endif
 } RayScene;
 
 // Relative to the scene's origin, x y z of each.
@@ -34,9 +51,14 @@ static inline void rays_triangle(const RayScene* scene, uint number, float corne
 static inline bool ray_blocked(const RayScene* scene, RayPacket* p, int place, whole own, uint live,
                                mask_t* hidden) {
   global const RayTriangle* t = scene->triangles + place;
-  mask_t met = meets_triangle(p, t);
+  RayWeights weights;
+  mask_t met = meets_triangle(p, t, &weights);
   if (!any_lane(met)) return false;
-  met &= meets_own_box(p, t->corners) & (own != (whole)((int)t->number));
+  met &= meets_own_box(p, t->corners) & (own != (whole)((int)(t->number & ~RAY_MASKED)));
+#ifdef RAYS_MASKS
+  if (t->number & RAY_MASKED)
+    met &= hides_by_mask(&scene->masks, place, weights.first, weights.second, weights.third);
+#endif
   *hidden |= met;
   p->end = met ? REAL(-1.0f) : p->end;
   return lane_bits(*hidden) == live;

@@ -9,29 +9,20 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint64_t most_triangles = 0x7fffffffu;  // kernels compare their numbers as signed ones
-constexpr float most_extent = 1e15f;              // metres: products of three stay finite
+constexpr uint64_t most_triangles = 0x7fffffffu;  // the top bit is RAY_MASKED
+constexpr float most_extent = 0x1p50f;            // metres: products of three stay finite
 constexpr uint32_t triangles_a_task = 4096;
-
-// Rows of world_from_object, relative to the origin.
-struct Placement {
-  glm::dvec3 x, y, z, at;
-};
-
-Placement placement_of(const glm::dmat4& m, const glm::dvec3& origin) {
-  return {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3]) - origin};
-}
-
-glm::dvec3 placed(const Placement& p, const glm::vec3& v) {
-  return p.x * double(v.x) + p.y * double(v.y) + p.z * double(v.z) + p.at;
-}
 
 bool all_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool fits(const glm::vec3& v) {
-  return std::abs(v.x) <= most_extent && std::abs(v.y) <= most_extent && std::abs(v.z) <= most_extent;
+// kernels/rays/refit_triangles.cl has the same arithmetic from here to triangle_of.
+glm::dvec3 placed(const RayMoved& m, const glm::vec3& v) {
+  glm::dvec3 p;
+  for (int k = 0; k < 3; ++k)
+    p[k] = m.x[k] * double(v.x) + m.y[k] * double(v.y) + m.z[k] * double(v.z) + m.at[k];
+  return p;
 }
 
 // Divided by its greatest component, so that it stays in float's range for any size of triangle.
@@ -57,7 +48,11 @@ RayBox box_of(const RayTriangle& t) {
   return box;
 }
 
-// Calls body(instance, first triangle of its mesh, last + 1, number of the first) on all cores.
+bool fits(const RayTriangle& t) {
+  return std::all_of(t.corners, t.corners + 9, [](float v) { return std::abs(v) <= most_extent; });
+}
+
+// Calls body(instance's number, first triangle of its mesh, last + 1, number of the first) on all cores.
 template <typename Body>
 void for_triangles(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes,
                    const Body& body) {
@@ -69,15 +64,13 @@ void for_triangles(std::span<const RayInstance> instances, std::span<const RayMe
   uint32_t number = 0;
   for (size_t i = 0; i < instances.size(); ++i) {
     const uint32_t count = meshes[instances[i].mesh].triangles();
-    for (uint32_t first = 0; first < count; first += triangles_a_task) {
-      const uint32_t end = std::min(count, first + triangles_a_task);
-      parts.push_back({i, first, end, number + first});
-    }
+    for (uint32_t first = 0; first < count; first += triangles_a_task)
+      parts.push_back({i, first, std::min(count, first + triangles_a_task), number + first});
     number += count;
   }
   parallel_for(int(parts.size()), [&](int i) {
     const Part& p = parts[i];
-    body(instances[p.instance], p.first, p.end, p.number);
+    body(p.instance, p.first, p.end, p.number);
   });
 }
 
@@ -85,16 +78,27 @@ void for_triangles(std::span<const RayInstance> instances, std::span<const RayMe
 
 std::vector<RayMeshData> ray_meshes(std::span<const RayMesh> meshes) {
   std::vector<RayMeshData> made;
+  size_t indices = 0, vertices = 0;
   for (size_t m = 0; m < meshes.size(); ++m) {
     const RayMesh& mesh = meshes[m];
     if (mesh.indices.size() % 3 != 0)
       throw input_error("rays: mesh {}: {} indices are no triangles", m, mesh.indices.size());
-    const auto largest = std::max_element(mesh.indices.begin(), mesh.indices.end());
-    if (largest != mesh.indices.end() && *largest >= mesh.positions.size())
-      throw input_error("rays: mesh {}: index {} is past its {} positions", m, *largest,
-                        mesh.positions.size());
-    made.push_back(
-        {{mesh.positions.begin(), mesh.positions.end()}, {mesh.indices.begin(), mesh.indices.end()}});
+    RayMeshData& data =
+        made.emplace_back(RayMeshData{.first_index = uint32_t(indices), .first_vertex = uint32_t(vertices)});
+    indices += mesh.indices.size(), vertices += mesh.positions.size();
+    if (std::max(indices, vertices) > 0xffffffffu)
+      throw machine_error("rays: meshes have 2^32 indices or vertices or more");
+    for (const uint32_t i : mesh.indices) {
+      if (i >= mesh.positions.size())
+        throw input_error("rays: mesh {}: index {} is past its {} positions", m, i, mesh.positions.size());
+      const glm::dvec3 p(mesh.positions[i]);
+      if (!all_finite(p))
+        data.finite = false;
+      else
+        data.low = glm::min(data.low, p), data.high = glm::max(data.high, p);
+    }
+    data.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    data.indices.assign(mesh.indices.begin(), mesh.indices.end());
   }
   return made;
 }
@@ -116,58 +120,94 @@ void check_ray_instances(std::span<const RayInstance> instances, std::span<const
     throw machine_error("rays: instances have {} triangles, 2^31 or more", triangles);
 }
 
-glm::dvec3 ray_origin(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes) {
-  glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+RayBounds ray_bounds(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes) {
+  RayBounds all{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
   for (const RayInstance& instance : instances) {
-    const Placement place = placement_of(instance.world_from_object, glm::dvec3(0));
     const RayMeshData& mesh = meshes[instance.mesh];
-    for (const uint32_t i : mesh.indices) {
-      const glm::dvec3 p = placed(place, mesh.positions[i]);
-      if (all_finite(p)) low = glm::min(low, p), high = glm::max(high, p);
+    all.finite = all.finite && mesh.finite;
+    if (!(mesh.low.x <= mesh.high.x)) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p(corner & 1 ? mesh.high.x : mesh.low.x, corner & 2 ? mesh.high.y : mesh.low.y,
+                         corner & 4 ? mesh.high.z : mesh.low.z);
+      const glm::dvec3 q(instance.world_from_object * glm::dvec4(p, 1));
+      if (!all_finite(q))
+        all.finite = false;
+      else
+        all.low = glm::min(all.low, q), all.high = glm::max(all.high, q);
     }
   }
-  const glm::dvec3 center(glm::vec3(low * 0.5 + high * 0.5));
-  return all_finite(center) ? center : glm::dvec3(0);
+  if (!(all.low.x <= all.high.x)) all.low = all.high = glm::dvec3(0);
+  return all;
+}
+
+// A little more than the bounds, which are of other sums than corners are.
+static double reach_of(const RayBounds& bounds, const glm::dvec3& origin) {
+  const glm::dvec3 far = glm::max(glm::abs(bounds.low - origin), glm::abs(bounds.high - origin));
+  return std::max({far.x, far.y, far.z}) * (1 + 0x1p-20);
+}
+
+bool all_are_valid(const RayBounds& bounds, const glm::dvec3& origin) {
+  return bounds.finite && reach_of(bounds, origin) <= most_extent;
+}
+
+float ray_extent(const RayBounds& bounds, const glm::dvec3& origin) {
+  const double reach = reach_of(bounds, origin);
+  return reach <= most_extent ? float(std::exp2(std::ceil(std::log2(std::max(reach, 0x1p-60)))))
+                              : most_extent;
+}
+
+RayMoved ray_placement(const RayInstance& instance, const RayMeshData& mesh, const glm::dvec3& origin,
+                       uint32_t first_triangle) {
+  RayMoved moved{.first_triangle = first_triangle,
+                 .triangles = mesh.triangles(),
+                 .first_index = mesh.first_index,
+                 .first_vertex = mesh.first_vertex};
+  const glm::dmat4& m = instance.world_from_object;
+  for (int k = 0; k < 3; ++k)
+    moved.x[k] = m[0][k], moved.y[k] = m[1][k], moved.z[k] = m[2][k], moved.at[k] = m[3][k] - origin[k];
+  return moved;
 }
 
 RayArrays ray_arrays(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes,
                      const glm::dvec3& origin) {
   size_t count = 0;
-  for (const RayInstance& instance : instances) count += meshes[instance.mesh].triangles();
+  bool masked = false;
+  for (const RayInstance& instance : instances) {
+    count += meshes[instance.mesh].triangles();
+    masked = masked || (instance.casts && instance.alpha_material >= 0);
+  }
   std::vector<RayTriangle> by_number(count);
+  std::vector<std::array<uint32_t, 4>> masks(masked ? count : 0);
   enum Kind : uint8_t { in_tree, no_caster, invalid };
   std::vector<Kind> kinds(count);
-  for_triangles(instances, meshes,
-                [&](const RayInstance& instance, uint32_t first, uint32_t end, uint32_t number) {
-                  const RayMeshData& mesh = meshes[instance.mesh];
-                  const Placement place = placement_of(instance.world_from_object, origin);
-                  for (uint32_t t = first; t < end; ++t, ++number) {
-                    glm::vec3 corners[3];
-                    for (int k = 0; k < 3; ++k)
-                      corners[k] = glm::vec3(placed(place, mesh.positions[mesh.indices[3 * t + k]]));
-                    by_number[number] = triangle_of(corners, number);
-                    const bool valid = fits(corners[0]) && fits(corners[1]) && fits(corners[2]);
-                    kinds[number] = !valid ? invalid : instance.casts ? in_tree : no_caster;
-                  }
-                });
+  for_triangles(instances, meshes, [&](size_t i, uint32_t first, uint32_t end, uint32_t number) {
+    const RayInstance& instance = instances[i];
+    const RayMeshData& mesh = meshes[instance.mesh];
+    const RayMoved place = ray_placement(instance, mesh, origin, 0);
+    const bool is_masked = instance.casts && instance.alpha_material >= 0;
+    for (uint32_t t = first; t < end; ++t, ++number) {
+      const uint32_t* at = &mesh.indices[3 * size_t(t)];
+      glm::vec3 corners[3];
+      for (int k = 0; k < 3; ++k) corners[k] = glm::vec3(placed(place, mesh.positions[at[k]]));
+      by_number[number] = triangle_of(corners, is_masked ? number | RAY_MASKED : number);
+      kinds[number] = !fits(by_number[number]) ? invalid : instance.casts ? in_tree : no_caster;
+      if (!is_masked) continue;
+      const uint32_t v = mesh.first_vertex;
+      masks[number] = {uint32_t(instance.alpha_material), v + at[0], v + at[1], v + at[2]};
+    }
+  });
 
   RayArrays arrays;
   std::vector<RayBox> boxes;
   std::vector<uint32_t> numbers, others;
-  RayBox all;
   for (uint32_t number = 0; number < count; ++number) {
-    if (kinds[number] == invalid) ++arrays.invalid;
+    arrays.invalid += kinds[number] == invalid;
     if (kinds[number] != in_tree) {
       others.push_back(number);
       continue;
     }
     numbers.push_back(number);
     boxes.push_back(box_of(by_number[number]));
-    all.add(boxes.back());
-  }
-  if (!numbers.empty()) {
-    const glm::vec3 far = glm::max(glm::abs(all.low), glm::abs(all.high));
-    arrays.extent = std::max({far.x, far.y, far.z});
   }
   RayTree tree = ray_tree(boxes);
   arrays.nodes = std::move(tree.nodes);
@@ -176,6 +216,7 @@ RayArrays ray_arrays(std::span<const RayInstance> instances, std::span<const Ray
   const auto append = [&](uint32_t number) {
     arrays.places[number] = uint32_t(arrays.triangles.size());
     arrays.triangles.push_back(by_number[number]);
+    if (masked) arrays.masks.push_back(masks[number]);
   };
   for (const uint32_t i : tree.order) append(numbers[i]);
   for (const uint32_t number : others) append(number);

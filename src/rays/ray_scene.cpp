@@ -1,11 +1,15 @@
 #include "rays/ray_scene.h"
 
+#include <algorithm>
 #include <array>
+#include <map>
 
 #include "base/error.h"
 #include "cl/buffers.h"
 #include "cl/transfer.h"
 #include "rays/ray_arrays.h"
+#include "rays/ray_refit.h"
+#include "shared/surface_records.h"
 
 namespace lightgrid {
 namespace {
@@ -37,18 +41,65 @@ struct RayScene::State {
   ProgramCache& programs;
   RayOptions options;
   std::vector<RayMeshData> meshes{};
+  std::vector<bool> changed{};  // meshes, since the instances were set
+  std::vector<RayInstance> instances{};
   std::vector<uint32_t> first_triangles{};
   uint32_t triangle_count = 0, invalid = 0;
+  int builds = 0;
   glm::dvec3 origin{0};
   float extent = 0;
-  bool has_instances = false;
-  GrowingBuffer nodes{}, triangles{}, places{};
-  NamedKernel occlusion{};
+  bool has_instances = false, masked = false;
+  RayMasks masks{};
+  GrowingBuffer nodes{}, triangles{}, places{}, mask_records{};
+  std::optional<RayRefit> refit{};                 // of the tree; none: it has to be built
+  std::map<std::string, NamedKernel> occlusion{};  // by defines
 
+  void build(std::span<const RayInstance> instances, const RayBounds& bounds);
+  void check() const;
+  bool has_masks() const { return masked && masks.alphas() != nullptr; }
   bool lanes() const {
     return options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
   }
 };
+
+void RayScene::State::build(std::span<const RayInstance> given, const RayBounds& bounds) {
+  refit.reset();
+  if (!options.origin) origin = glm::dvec3(glm::vec3(bounds.low * 0.5 + bounds.high * 0.5));
+  extent = ray_extent(bounds, origin);
+  const RayArrays arrays = ray_arrays(given, meshes, origin);
+  first_triangles.clear();
+  triangle_count = 0;
+  for (const RayInstance& instance : given) {
+    first_triangles.push_back(triangle_count);
+    triangle_count += meshes[instance.mesh].triangles();
+  }
+  invalid = arrays.invalid;
+  masked = !arrays.masks.empty();
+  upload(device, nodes, arrays.nodes);
+  upload(device, triangles, arrays.triangles);
+  upload(device, places, arrays.places);
+  upload(device, mask_records, arrays.masks);
+  refit.emplace(device, programs, arrays);
+  ++builds;
+}
+
+// Whether the device can look up what it will.
+void RayScene::State::check() const {
+  if (!has_instances)
+    throw input_error(
+        "rays: there are no instances: set_instances has to come first, again after set_meshes");
+  if (!has_masks()) return;
+  size_t vertices = 0, materials = 0;
+  for (const RayMeshData& mesh : meshes) vertices += mesh.positions.size();
+  for (const RayInstance& instance : instances)
+    materials = std::max(materials, size_t(instance.alpha_material + 1));
+  if (bytes_of(masks.vertices) < vertices * sizeof(SurfaceVertex))
+    throw input_error("rays: masks have vertices for {} bytes of {}", bytes_of(masks.vertices),
+                      vertices * sizeof(SurfaceVertex));
+  if (bytes_of(masks.materials) < materials * sizeof(SurfaceMaterial))
+    throw input_error("rays: masks have materials for {} bytes of {}", bytes_of(masks.materials),
+                      materials * sizeof(SurfaceMaterial));
+}
 
 RayScene::RayScene(ClDevice& device, ProgramCache& programs, const RayOptions& options)
     : state_(new State{device, programs, options}) {
@@ -64,34 +115,65 @@ RayScene::RayScene(ClDevice& device, ProgramCache& programs, const RayOptions& o
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 
+// Its tree can be kept if positions alone changed.
 void RayScene::set_meshes(std::span<const RayMesh> meshes) {
-  state_->meshes = ray_meshes(meshes);
-  state_->has_instances = false;
+  State& s = *state_;
+  std::vector<RayMeshData> made = ray_meshes(meshes);
+  const auto same_triangles = [](const RayMeshData& a, const RayMeshData& b) {
+    return a.indices == b.indices && a.positions.size() == b.positions.size();
+  };
+  const bool same = std::ranges::equal(made, s.meshes, same_triangles);
+  s.has_instances = false;
+  s.changed.resize(made.size());
+  if (!same) s.refit.reset();
+  for (size_t m = 0; m < made.size() && same; ++m) {
+    if (made[m].positions == s.meshes[m].positions) continue;
+    s.changed[m] = true;
+    if (s.refit) s.refit->positions_changed();
+  }
+  s.meshes = std::move(made);
+}
+
+void RayScene::set_masks(const RayMasks& masks) {
+  const bool vertices = masks.vertices() != nullptr, materials = masks.materials() != nullptr,
+             alphas = masks.alphas() != nullptr;
+  if (vertices != materials || vertices != alphas) {
+    throw input_error("rays: masks have {}vertices, {}materials and {}alphas: all three or none will do",
+                      vertices ? "" : "no ", materials ? "" : "no ", alphas ? "" : "no ");
+  }
+  state_->masks = masks;
 }
 
 void RayScene::set_instances(std::span<const RayInstance> instances) {
   State& s = *state_;
   check_ray_instances(instances, s.meshes);
-  if (!s.options.origin) s.origin = ray_origin(instances, s.meshes);
-  const RayArrays arrays = ray_arrays(instances, s.meshes, s.origin);
-  s.first_triangles.clear();
-  s.triangle_count = 0;
-  for (const RayInstance& instance : instances) {
-    s.first_triangles.push_back(s.triangle_count);
-    s.triangle_count += s.meshes[instance.mesh].triangles();
+  const auto same_triangles = [](const RayInstance& a, const RayInstance& b) {
+    return a.mesh == b.mesh && a.alpha_material == b.alpha_material && a.casts == b.casts;
+  };
+  const RayBounds bounds = ray_bounds(instances, s.meshes);
+  // A corner that cannot be placed is in no tree, and would have to come back into it.
+  if (!s.refit || s.invalid != 0 || !all_are_valid(bounds, s.origin) ||
+      !std::ranges::equal(instances, s.instances, same_triangles)) {
+    s.build(instances, bounds);
+  } else {
+    std::vector<size_t> moved;
+    for (size_t i = 0; i < instances.size(); ++i) {
+      if (s.changed[instances[i].mesh] || instances[i].world_from_object != s.instances[i].world_from_object)
+        moved.push_back(i);
+    }
+    s.extent = ray_extent(bounds, s.origin);
+    s.refit->refit(moved, instances, s.meshes, s.first_triangles, s.origin, s.nodes.get(), s.triangles.get(),
+                   s.places.get());
   }
-  s.invalid = arrays.invalid;
-  s.extent = arrays.extent;
-  upload(s.device, s.nodes, arrays.nodes);
-  upload(s.device, s.triangles, arrays.triangles);
-  upload(s.device, s.places, arrays.places);
+  s.instances.assign(instances.begin(), instances.end());
+  s.changed.assign(s.meshes.size(), false);
   s.has_instances = true;
 }
 
 std::vector<uint32_t> RayScene::occlusion(std::span<const RayPoint> points, std::span<const RayLight> lights,
                                           std::span<const RayPacket> packets) {
   State& s = *state_;
-  if (!s.has_instances) throw input_error("rays: occlusion() without set_instances()");
+  s.check();
   std::vector<std::array<uint32_t, 4>> records;
   for (size_t i = 0; i < packets.size(); ++i) {
     const RayPacket& p = packets[i];
@@ -113,21 +195,22 @@ std::vector<uint32_t> RayScene::occlusion(std::span<const RayPoint> points, std:
     own[i] = points[i].own;
   }
   const std::string file = s.lanes() ? "rays/cpu/occlusion" : "rays/gpu/occlusion";
-  if (!s.occlusion) s.occlusion = NamedKernel(s.programs, file, defines());
+  NamedKernel& kernel = s.occlusion[defines()];
+  if (!kernel) kernel = NamedKernel(s.programs, file, defines());
   const cl::Buffer on_device[] = {uploaded(s.device, numbers), uploaded(s.device, own),
                                   uploaded(s.device, std::vector(lights.begin(), lights.end())),
                                   uploaded(s.device, records),
                                   device_buffer(s.device, hidden.size() * sizeof(uint32_t))};
   const size_t at_once = s.lanes() ? packets_a_work_item : packets_a_work_item * packets_a_group;
   const size_t items = (packets.size() + at_once - 1) / at_once, group = s.lanes() ? 1 : 16 * packets_a_group;
-  s.occlusion.launch(s.device, "rays_occlusion", cl::NDRange(items * group), cl::NDRange(group),
-                     arguments() + ClArguments{{"points", on_device[0]},
-                                               {"own", on_device[1]},
-                                               {"lights", on_device[2]},
-                                               {"packets", on_device[3]},
-                                               {"count", cl_uint(packets.size())},
-                                               {"a_work_item", cl_uint(packets_a_work_item)},
-                                               {"hidden", on_device[4]}});
+  kernel.launch(s.device, "rays_occlusion", cl::NDRange(items * group), cl::NDRange(group),
+                arguments() + ClArguments{{"points", on_device[0]},
+                                          {"own", on_device[1]},
+                                          {"lights", on_device[2]},
+                                          {"packets", on_device[3]},
+                                          {"count", cl_uint(packets.size())},
+                                          {"a_work_item", cl_uint(packets_a_work_item)},
+                                          {"hidden", on_device[4]}});
   read_buffer(s.device, "rays: occlusion", on_device[4], hidden.data(), hidden.size() * sizeof(uint32_t));
   return hidden;
 }
@@ -137,18 +220,23 @@ uint32_t RayScene::triangles() const { return state_->triangle_count; }
 uint32_t RayScene::first_triangle(size_t instance) const { return state_->first_triangles.at(instance); }
 uint32_t RayScene::invalid_triangles() const { return state_->invalid; }
 
+int RayScene::builds() const { return state_->builds; }
+
 ClArguments RayScene::arguments() const {
   const State& s = *state_;
-  return {{"ray_nodes", s.nodes.get()},
-          {"ray_triangles", s.triangles.get()},
-          {"ray_places", s.places.get()},
-          {"ray_extent", s.extent}};
+  s.check();
+  return {{"ray_nodes", s.nodes.get()},         {"ray_triangles", s.triangles.get()},
+          {"ray_places", s.places.get()},       {"ray_extent", s.extent},
+          {"ray_masks", s.mask_records.get()},  {"ray_vertices", s.masks.vertices},
+          {"ray_materials", s.masks.materials}, {"ray_alphas", s.masks.alphas}};
 }
 
-std::string RayScene::defines() const { return ""; }
+std::string RayScene::defines() const { return state_->has_masks() ? "-DRAYS_MASKS" : ""; }
 
 size_t RayScene::memory_bytes() const {
-  return state_->nodes.bytes() + state_->triangles.bytes() + state_->places.bytes();
+  const State& s = *state_;
+  return s.nodes.bytes() + s.triangles.bytes() + s.places.bytes() + s.mask_records.bytes() +
+         (s.refit ? s.refit->memory_bytes() : 0);
 }
 
 }  // namespace lightgrid

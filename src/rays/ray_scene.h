@@ -38,6 +38,15 @@ struct RayMesh {
   std::span<const uint32_t> indices;
 };
 
+// What lets light through triangles of instances with an alpha material, where its alpha at the point that is
+// met is below the cutoff: bilinear at the base level, or nearest where the map magnifies so. The buffers are
+// kept alive, not copied.
+struct RayMasks {
+  cl::Buffer vertices;   // SurfaceVertex each (shared/surface_records.h), of all meshes one after the other
+  cl::Buffer materials;  // SurfaceMaterial each, by alpha_material
+  cl::Buffer alphas;     // chains of alphas, four a texel
+};
+
 struct RayInstance {
   int mesh = 0;
   glm::dmat4 world_from_object{1};  // affine, finite
@@ -76,16 +85,21 @@ class RayScene {
   ~RayScene();
   RayScene(RayScene&&) noexcept;
 
-  // Throws input: an index out of range, a number of indices that is no multiple of 3. Instances then have to
-  // come again.
+  // Instances then have to come again. Throws input: an index out of range, a number of indices that is no
+  // multiple of 3.
   void set_meshes(std::span<const RayMesh> meshes);
-  // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. Throws
-  // input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^31 triangles or
-  // more.
+  // Null buffers: masked triangles hide light whole. Throws input where some are null and others are not.
+  void set_masks(const RayMasks& masks);
+  // Triangles are numbered from 0 in this order, each instance's in the order of its mesh's indices. The
+  // first call builds the tree on the host. After one with as many instances, of which no more changed than
+  // matrices and the meshes' positions, the device refits what moved, and the origin stays: answers are those
+  // of a tree built anew at this origin. A tree grows worse as triangles move apart: set_meshes({}) discards
+  // it. Throws input: a mesh that does not exist, a matrix that is not finite or not affine; machine: 2^31
+  // triangles or more.
   void set_instances(std::span<const RayInstance> instances);
 
   // A bit for each of the packets' points that is hidden: 16 a packet. Waits for the queue. Throws input: a
-  // packet whose block or light does not exist.
+  // packet whose block or light does not exist, masks with fewer vertices or materials than the scene needs.
   std::vector<uint32_t> occlusion(std::span<const RayPoint> points, std::span<const RayLight> lights,
                                   std::span<const RayPacket> packets);
 
@@ -94,9 +108,10 @@ class RayScene {
   uint32_t first_triangle(size_t instance) const;
   // Left out, since a corner is not finite or further than 1e15 m from the origin.
   uint32_t invalid_triangles() const;
+  int builds() const;  // of the tree, until now
 
   // For kernels that include kernels/rays/rays.h: RAYS_ARGUMENTS, and the -D that it takes. Both may differ
-  // after each set_...
+  // after each set_... Throw input: there are no instances; masks as occlusion() does.
   ClArguments arguments() const;
   std::string defines() const;
   size_t memory_bytes() const;  // on the device

@@ -4,6 +4,7 @@
 #include "shared/language.h"
 
 #define RAY_STACK 64      // entries: no path from the root down is longer
+#define RAY_MASKED 0x80000000u  // in RayTriangle::number: its material's alpha may let light through
 #define RAY_NOTHING (-1)  // the count of a child that is not there
 
 #if !defined(__OPENCL_VERSION__)
@@ -25,6 +26,13 @@ typedef struct RayTriangle {
   float corners[9];
   uint number;
 } RayTriangle;
+
+// An instance that moved, or whose mesh did: columns of world_from_object, the last relative to the origin; its
+// triangles by number, and where its mesh lies in the arrays of all meshes.
+typedef struct RayMoved {
+  double x[3], y[3], z[3], at[3];
+  uint first_triangle, triangles, first_index, first_vertex;
+} RayMoved;
 
 #if !defined(__OPENCL_VERSION__)
 static_assert(sizeof(RayNode) == 64 && sizeof(RayTriangle) == 64);
