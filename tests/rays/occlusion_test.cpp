@@ -91,6 +91,27 @@ TEST_P(RaysInSoups, FarFromTheOriginMirroredAndScaled) {
   EXPECT_EQ(lanes, answers(scene, q, KernelShape::group));
 }
 
+// A scene and its lights 8 km from its origin, where floats are half a millimetre apart and lights lie
+// between.
+TEST_P(RaysInSoups, LightsThatAreNoFloats) {
+  std::vector<Corners> triangles = soup.triangles;
+  for (Corners& c : triangles) {
+    for (glm::vec3& p : c) p += glm::vec3(8192, -8192, 8192);
+  }
+  Queries q = queries_of(triangles, 12, 40, 19);
+  Random random(20);
+  for (RayLight& light : q.lights) {
+    light = RayLight(8192 + random.between(-2, 2), -8192 + random.between(-2, 2), 8192.1, 1);
+  }
+  for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+    RayScene scene = scene_of(placed(triangles), {.shape = shape, .origin = glm::dvec3(0)});
+    const Tally t = against_oracle(triangles, q, scene.occlusion(q.points, q.lights, q.packets));
+    EXPECT_EQ(t.leaked, 0u);
+    EXPECT_EQ(t.acned, 0u);
+    EXPECT_GT(t.seen, 1000u);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Soups, RaysInSoups, testing::Range(0, 6),
                          [](const auto& info) { return hard_soups()[info.param].name; });
 

@@ -97,13 +97,17 @@ struct Queries {
   std::vector<RayPacket> packets;
 };
 
+// Sometimes on an edge, at a corner, or a little past one.
 inline glm::dvec3 on_triangle(Random& random, const Corners& c) {
   double u = random.unit(), v = random.unit();
   if (u + v > 1) u = 1 - u, v = 1 - v;
-  const int edge = random.below(8);  // sometimes on an edge, or a corner
-  if (edge < 2) u = 0;
+  const int edge = random.below(8);
+  if (edge < 3) u = 0;
   if (edge == 1) v = random.below(2);
-  return glm::dvec3(c[0]) * (1 - u - v) + glm::dvec3(c[1]) * u + glm::dvec3(c[2]) * v;
+  if (edge == 2) v = -std::pow(10.0, random.between(-7, -1));
+  const int first = random.below(3);
+  return glm::dvec3(c[first]) * (1 - u - v) + glm::dvec3(c[(first + 1) % 3]) * u +
+         glm::dvec3(c[(first + 2) % 3]) * v;
 }
 
 // Every fourth light is a direction; points lie on triangles, or anywhere, or in every other block behind a
