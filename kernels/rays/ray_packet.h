@@ -25,8 +25,10 @@
 
 #if LANES == 1
 #define lane_bits(m) ((m) != 0 ? 1u : 0u)
+#define lanes_of(bits) ((int)(bits))
 #else
 #define lane_bits mask_bits
+#define lanes_of(bits) (((int16)((int)(bits)) >> LANE_INDEX & 1) != 0)
 #endif
 
 // w 1: a point, relative to the scene's origin; w 0: a unit direction to the light.
@@ -38,9 +40,11 @@ typedef struct RayPacket {
   RaySource light;
   real x, y, z;
   real end;  // below 0: this lane has no segment, or has its answer
-  // A box's side at `low` is crossed at the share low * inverse_x + from_x of a segment.
-  real inverse_x, inverse_y, inverse_z, from_x, from_y, from_z;
-  float low_x, low_y, low_z, high_x, high_y, high_z;  // what is taken from a box's lower and upper sides
+  // Segments of a packet that is traced go the same way along each axis. A box's plane at p is crossed at the
+  // share inverse * p + enter of a segment where they come in, inverse * p + leave where they go out.
+  real inverse_x, inverse_y, inverse_z;
+  real enter_x, enter_y, enter_z, leave_x, leave_y, leave_z;
+  uint down;  // 1, 2, 4: they go down x, y, z
 } RayPacket;
 
 static inline real inverse_step(real x) { return 1.0f / (fabs(x) < LEAST_STEP ? REAL(LEAST_STEP) : x); }
@@ -51,51 +55,52 @@ static inline real from_double(real to, double from) {
   return (to - near) - (float)(from - near);
 }
 
-// `extent`: the greatest coordinate of the scene's triangles.
-static inline RayPacket ray_packet(RaySource light, Real3 to, real gap, mask_t active, float extent) {
-  RayPacket p;
-  p.light = light;
-  if (light.w != 0) {
-    p.x = from_double(to.x, light.x), p.y = from_double(to.y, light.y), p.z = from_double(to.z, light.z);
-    p.end = 1.0f - gap / sqrt(fma(p.z, p.z, fma(p.y, p.y, p.x * p.x)));
-    p.inverse_x = inverse_step(p.x), p.inverse_y = inverse_step(p.y), p.inverse_z = inverse_step(p.z);
-    p.from_x = p.from_y = p.from_z = 0.0f;
-    const float x = (float)light.x, y = (float)light.y, z = (float)light.z;
-    const float reach = 0x1p-22f * (fabs(x) + fabs(y) + fabs(z));
-    p.low_x = x + reach, p.low_y = y + reach, p.low_z = z + reach;
-    p.high_x = x - reach, p.high_y = y - reach, p.high_z = z - reach;
-  } else {
-    const float x = (float)light.x, y = (float)light.y, z = (float)light.z;
-    p.x = fma(gap, REAL(x), to.x), p.y = fma(gap, REAL(y), to.y), p.z = fma(gap, REAL(z), to.z);
-    p.end = 1.0f;
-    p.inverse_x = inverse_step(REAL(x * FAR_AWAY)), p.inverse_y = inverse_step(REAL(y * FAR_AWAY));
-    p.inverse_z = inverse_step(REAL(z * FAR_AWAY));
-    p.from_x = -p.x * p.inverse_x, p.from_y = -p.y * p.inverse_y, p.from_z = -p.z * p.inverse_z;
-    p.low_x = p.low_y = p.low_z = 0x1p-20f * extent;
-    p.high_x = p.high_y = p.high_z = -0x1p-20f * extent;
+// Where planes are crossed, for segments that begin at `from` or, along `to`, up to `reach` beside it.
+#define CROSSINGS(axis, from)                                                                \
+  {                                                                                          \
+    const real i = p->inverse_##axis, low = -i * (from - reach), high = -i * (from + reach); \
+    p->enter_##axis = lane_min(low, high), p->leave_##axis = lane_max(low, high);            \
   }
-  p.end = active ? p.end : REAL(-1.0f);
-  return p;
+
+// `extent`: no coordinate of the scene's triangles is greater.
+static inline void set_packet(RayPacket* p, RaySource light, Real3 to, real gap, float extent) {
+  const float x = (float)light.x, y = (float)light.y, z = (float)light.z;
+  p->light = light;
+  if (light.w != 0) {
+    p->x = from_double(to.x, light.x), p->y = from_double(to.y, light.y), p->z = from_double(to.z, light.z);
+    p->end = 1.0f - gap / sqrt(fma(p->z, p->z, fma(p->y, p->y, p->x * p->x)));
+    p->inverse_x = inverse_step(p->x), p->inverse_y = inverse_step(p->y), p->inverse_z = inverse_step(p->z);
+    const float reach = 0x1p-22f * (fabs(x) + fabs(y) + fabs(z));
+    CROSSINGS(x, x)
+    CROSSINGS(y, y)
+    CROSSINGS(z, z)
+  } else {
+    const float reach = 0x1p-20f * extent;
+    p->x = fma(gap, REAL(x), to.x), p->y = fma(gap, REAL(y), to.y), p->z = fma(gap, REAL(z), to.z);
+    p->end = 1.0f;
+    p->inverse_x = inverse_step(REAL(x * FAR_AWAY)), p->inverse_y = inverse_step(REAL(y * FAR_AWAY));
+    p->inverse_z = inverse_step(REAL(z * FAR_AWAY));
+    CROSSINGS(x, p->x)
+    CROSSINGS(y, p->y)
+    CROSSINGS(z, p->z)
+  }
 }
 
-// At the plane's side, `offset` added: x a + y b + z c.
-static inline real ray_side(const RayPacket* p, float a, float b, float c, float offset) {
-  return fma(p->z, REAL(c), fma(p->y, REAL(b), fma(p->x, REAL(a), REAL(offset))));
-}
-
-static inline mask_t meets_box(const RayPacket* p, float low_x, float low_y, float low_z, float high_x,
-                               float high_y, float high_z) {
-  const real x0 = fma(p->inverse_x, REAL(low_x - p->low_x), p->from_x),
-             x1 = fma(p->inverse_x, REAL(high_x - p->high_x), p->from_x),
-             y0 = fma(p->inverse_y, REAL(low_y - p->low_y), p->from_y),
-             y1 = fma(p->inverse_y, REAL(high_y - p->high_y), p->from_y),
-             z0 = fma(p->inverse_z, REAL(low_z - p->low_z), p->from_z),
-             z1 = fma(p->inverse_z, REAL(high_z - p->high_z), p->from_z);
+// Planes where segments of this packet come into a box and where they go out.
+static inline mask_t meets_box(const RayPacket* p, float in_x, float in_y, float in_z, float out_x,
+                               float out_y, float out_z) {
   const real enter =
-      lane_max(lane_max(lane_min(x0, x1), lane_min(y0, y1)), lane_max(lane_min(z0, z1), REAL(0.0f)));
-  const real leave =
-      lane_min(lane_min(lane_max(x0, x1), lane_max(y0, y1)), lane_min(lane_max(z0, z1), p->end));
+      lane_max(lane_max(fma(p->inverse_x, REAL(in_x), p->enter_x), fma(p->inverse_y, REAL(in_y), p->enter_y)),
+               lane_max(fma(p->inverse_z, REAL(in_z), p->enter_z), REAL(0.0f)));
+  const real leave = lane_min(
+      lane_min(fma(p->inverse_x, REAL(out_x), p->leave_x), fma(p->inverse_y, REAL(out_y), p->leave_y)),
+      lane_min(fma(p->inverse_z, REAL(out_z), p->leave_z), p->end));
   return enter <= leave * SLACK;
+}
+
+// x a + y b + z c + offset.
+static inline real ray_side(Real3 at, float a, float b, float c, float offset) {
+  return fma(at.z, REAL(c), fma(at.y, REAL(b), fma(at.x, REAL(a), REAL(offset))));
 }
 
 typedef struct RayPlane {
@@ -103,10 +108,10 @@ typedef struct RayPlane {
 } RayPlane;
 
 // Through the light and two corners, which are relative to a light at a point.
-static inline RayPlane edge_plane(RaySource light, double bx, double by, double bz, double cx, double cy,
-                                  double cz) {
+static inline RayPlane edge_plane(RaySource light, bool point, double bx, double by, double bz, double cx,
+                                  double cy, double cz) {
   const double x = by * cz - bz * cy, y = bz * cx - bx * cz, z = bx * cy - by * cx;
-  if (light.w != 0) {
+  if (point) {
     const RayPlane p = {x, y, z, 0};
     return p;
   }
@@ -116,21 +121,17 @@ static inline RayPlane edge_plane(RaySource light, double bx, double by, double 
   return p;
 }
 
-static inline real plane_side(const RayPacket* p, RayPlane plane, double turn) {
-  return ray_side(p, (float)(plane.x * turn), (float)(plane.y * turn), (float)(plane.z * turn),
+static inline real plane_side(Real3 at, RayPlane plane, double turn) {
+  return ray_side(at, (float)(plane.x * turn), (float)(plane.y * turn), (float)(plane.z * turn),
                   (float)(plane.offset * turn));
 }
 
-// Of the corners, where a segment crosses; they add up to anything.
-typedef struct RayWeights {
-  real first, second, third;
-} RayWeights;
-
-// Lanes whose segments cross the triangle. A light in its plane sees nothing of it. Edges are computed only if
-// a segment reaches the plane.
-static inline mask_t meets_triangle(const RayPacket* p, global const RayTriangle* t, RayWeights* weights) {
-  const RaySource l = p->light;
-  const bool point = l.w != 0;
+// Lanes whose segments cross the triangle. A light in its plane sees nothing of it. Edges are computed only
+// if a segment reaches the plane. `weights`, unless it is null: of the corners, where the segments cross;
+// they add up to anything.
+static inline __attribute__((always_inline)) mask_t meets_triangle(RaySource l, const bool point,
+                                                                   global const RayTriangle* t, Real3 at,
+                                                                   real end, Real3* weights) {
   const double lx = point ? l.x : 0, ly = point ? l.y : 0, lz = point ? l.z : 0;
   const double nx = t->normal[0], ny = t->normal[1], nz = t->normal[2];
   const double ax = t->corners[0] - lx, ay = t->corners[1] - ly, az = t->corners[2] - lz;
@@ -138,23 +139,51 @@ static inline mask_t meets_triangle(const RayPacket* p, global const RayTriangle
                facing = point ? distance : -(nx * l.x + ny * l.y + nz * l.z);
   if (!(facing > 0 || facing < 0)) return (mask_t)(0);
   const double turn = facing < 0 ? -1 : 1;
-  const real past = fma(p->end, ray_side(p, (float)(nx * turn), (float)(ny * turn), (float)(nz * turn), 0.0f),
+  const real past = fma(end, ray_side(at, (float)(nx * turn), (float)(ny * turn), (float)(nz * turn), 0.0f),
                         REAL((float)(-distance * turn)));
-  const real live = lane_min(past, p->end);
+  const real live = lane_min(past, end);
   if (!any_lane(live >= 0.0f)) return (mask_t)(0);
   const double bx = t->corners[3] - lx, by = t->corners[4] - ly, bz = t->corners[5] - lz;
   const double cx = t->corners[6] - lx, cy = t->corners[7] - ly, cz = t->corners[8] - lz;
-  weights->first = plane_side(p, edge_plane(l, bx, by, bz, cx, cy, cz), turn);
-  weights->second = plane_side(p, edge_plane(l, cx, cy, cz, ax, ay, az), turn);
-  weights->third = plane_side(p, edge_plane(l, ax, ay, az, bx, by, bz), turn);
-  return lane_min(lane_min(weights->first, weights->second), lane_min(weights->third, live)) >= 0.0f;
+  const real u = plane_side(at, edge_plane(l, point, bx, by, bz, cx, cy, cz), turn),
+             v = plane_side(at, edge_plane(l, point, cx, cy, cz, ax, ay, az), turn),
+             w = plane_side(at, edge_plane(l, point, ax, ay, az, bx, by, bz), turn);
+  if (weights) *weights = real3(u, v, w);
+  return lane_min(lane_min(u, v), lane_min(w, live)) >= 0.0f;
 }
 
-static inline float least_of_3(float a, float b, float c) { return fmin(fmin(a, b), c); }
-static inline float greatest_of_3(float a, float b, float c) { return fmax(fmax(a, b), c); }
+// On CPUs a call: inlined, its registers displace those of the walk through the tree.
+#if LANES == 16
+#define RAYS_CALL static __attribute__((noinline))
+#else
+#define RAYS_CALL static inline
+#endif
+RAYS_CALL mask_t meets_from_point(double x, double y, double z, global const RayTriangle* t, Real3 at,
+                                  real end) {
+  const RaySource light = {x, y, z, 1};
+  return meets_triangle(light, true, t, at, end, 0);
+}
+RAYS_CALL mask_t meets_from_direction(double x, double y, double z, global const RayTriangle* t, Real3 at,
+                                      real end) {
+  const RaySource light = {x, y, z, 0};
+  return meets_triangle(light, false, t, at, end, 0);
+}
+
+static inline float least_of_3(float a, float b, float c) {
+  const float d = a < b ? a : b;
+  return d < c ? d : c;
+}
+static inline float greatest_of_3(float a, float b, float c) {
+  const float d = a > b ? a : b;
+  return d > c ? d : c;
+}
 
 static inline mask_t meets_own_box(const RayPacket* p, global const float* c) {
-  return meets_box(p, least_of_3(c[0], c[3], c[6]), least_of_3(c[1], c[4], c[7]),
-                   least_of_3(c[2], c[5], c[8]), greatest_of_3(c[0], c[3], c[6]),
-                   greatest_of_3(c[1], c[4], c[7]), greatest_of_3(c[2], c[5], c[8]));
+  float in[3], out[3];
+  for (int k = 0; k < 3; ++k) {
+    const float low = least_of_3(c[k], c[3 + k], c[6 + k]), high = greatest_of_3(c[k], c[3 + k], c[6 + k]);
+    const bool down = p->down >> k & 1;
+    in[k] = down ? high : low, out[k] = down ? low : high;
+  }
+  return meets_box(p, in[0], in[1], in[2], out[0], out[1], out[2]);
 }
